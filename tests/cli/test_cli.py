@@ -38,7 +38,8 @@ METRICS = [
     "findings",
     "failure",
 ]
-OURS = {"mission.toml", "flight.npz", "metrics.json", "findings.json", "figures", "report.html"}
+OURS = {"mission.toml", "flight.npz", "findings.json", "figures", "report.html"}
+OURS |= {f"metrics.{kind}" for kind in ("json", "csv", "tex")}
 ALWAYS = ("reference", "path", "tracking", "inputs", "interaction", "joints")
 DRAWN = {f"{name}.{kind}" for name in ALWAYS for kind in ("png", "pdf")}
 SHORT = ("--no-figures", "--set", "mission.duration=0.5")

@@ -2,8 +2,10 @@
 
 import json
 import os
+import re
 import socket
 import subprocess
+import sys
 import tomllib
 from pathlib import Path
 from typing import NamedTuple
@@ -11,8 +13,8 @@ from xmlrpc.client import ServerProxy
 
 import numpy as np
 import pytest
-from patience import completed, ended
-from repository import SUPPORT
+from patience import completed, ended, until
+from repository import ROOT, SUPPORT
 from ros_processes import node, started
 
 import tandemlift as tl
@@ -147,3 +149,25 @@ def test_the_bag_that_rosbag_recorded_becomes_a_flight_with_its_report(tried, tm
     assert not end.value.code
     assert (tmp_path / "out/figures/tracking.png").stat().st_size > 10_000
     assert "From the samples of a bag" in (tmp_path / "out/report.html").read_text("utf-8")
+
+
+def test_the_pilot_in_a_node_of_one_s_own_holds_the_vehicle(surroundings, program, tmp_path):
+    """As docs/how-to/own-pilot-in-ros.md shows it, with the odometry and the push of the node that flies."""
+    page, tool = (ROOT / "docs/how-to/own-pilot-in-ros.md").read_text("utf-8"), program("rostopic")
+    (code,) = re.findall(r"```python\n(import numpy.*?)```", page, re.DOTALL)
+    environment, _ = surroundings
+    ours = environment | {"PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
+    command = [tool, "echo", "-n", "1", "/pilot/thrusts/effort"]
+    flying, pilot = node(tmp_path / "node.log", environment=environment), None
+
+    def thrusts():
+        said = completed(command, stdout=subprocess.PIPE, check=True, text=True, env=environment).stdout
+        return np.array(json.loads(said.partition("---")[0]))
+
+    try:
+        pilot = started(sys.executable, "-c", code, log=tmp_path / "pilot.log", env=ours)
+        until(lambda: np.abs(thrusts() - 4.2919).max() < 1e-3, "hover")  # N: an eighth of the weight of 3.5 kg
+    finally:
+        ended(flying)
+        if pilot:
+            ended(pilot)

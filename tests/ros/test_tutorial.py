@@ -1,6 +1,7 @@
 """The tutorial of ROS: its commands fly, show, record, push and ask, with ROS 1's own tools and RViz."""
 
 import os
+import re
 import socket
 
 import numpy as np
@@ -13,6 +14,7 @@ import tandemlift as tl
 
 pytestmark = pytest.mark.ros
 ENOUGH = 300  # pixels
+SPEED = "rostopic echo -p /tandemlift/odometry/twist/twist/linear/x"
 
 
 def orange(picture):
@@ -36,6 +38,13 @@ def surroundings(tmp_path, program):
     screen.close()
 
 
+def pushed(page, name, speeds, speed):
+    """Push by a command of the page until the vehicle has that speed along x [m/s], of the same sign."""
+    pushing = page.start(name)
+    until(lambda: float(re.findall(r",(.*)\n", speeds.printed())[-1]) / speed > 1.0, f"a speed of {speed} m/s")
+    pushing.interrupt()
+
+
 def test_the_tutorial_is_flown_in_ros(surroundings, tmp_path, program):
     screen, port, environment = surroundings
     page = Tutorial("ros", tmp_path, environment, {"roscore": f"{program('roscore')} -p {port}"})
@@ -47,8 +56,11 @@ def test_the_tutorial_is_flown_in_ros(surroundings, tmp_path, program):
         until(lambda: orange(screen.picture()) >= ENOUGH, "a beam in RViz")
         recorder = page.start("record")
         until((page.folder / "push.bag.active").exists, "a bag")
-        page.run("push")
+        speeds = page.watch(SPEED)
+        speeds.says(r"\n.*,.*\n")
+        pushed(page, "push", speeds, 0.37)
         page.run("heavier")
+        pushed(page, "back", speeds, -0.17)
         page.run("land")
         node.says(r"(?s): idle\n.*: idle\n")  # before the lift, and on the ground again
         assert recorder.interrupt() == 0, recorder.printed()

@@ -75,7 +75,7 @@ class Tutorial:
             script.write_text(f'#!/bin/sh\nexec {command} "$@"\n', "utf-8")
             script.chmod(0o755)
         path = os.pathsep.join([str(self._programs), environment["PATH"]])
-        self._options = {"cwd": self.folder, "env": environment | {"PATH": path}}
+        self._options = {"cwd": self.folder, "env": environment | {"PATH": path, "PYTHONUNBUFFERED": "1"}}
 
     def _next(self, name):
         command = self._commands.pop(0)
@@ -100,6 +100,11 @@ class Tutorial:
         """Run the page's next commands in a terminal of their own."""
         command = self._next(name)
         self._terminals.append(Terminal(command, self._programs / f"{name}.log", **self._options))
+        return self._terminals[-1]
+
+    def watch(self, line):
+        """Run a line that the page does not have in a terminal of its own."""
+        self._terminals.append(Terminal(Command("watch", line, ""), self._programs / "watch.log", **self._options))
         return self._terminals[-1]
 
     def paste(self, line):

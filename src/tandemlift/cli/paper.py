@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.terminal.console import echo, progress_bar
-from tandemlift.cli.terminal.mission_options import style_option
+from tandemlift.cli.terminal.mission_options import kept_style_option
 from tandemlift.cli.terminal.results import results_folder
 from tandemlift.common.errors import InputError
 
@@ -20,7 +20,7 @@ OUT = "out/paper.pdf"
 
 @click.command()
 @click.option("--out", metavar="FILE", default=OUT, show_default=True, help="FILE.pdf.")
-@style_option
+@kept_style_option
 @click.option("--no-pdf", is_flag=True, help="Write figures, tables and source only.")
 def paper(out: str, style: str | None, no_pdf: bool) -> None:
     """Put the figures and tables of the paper beside ours, in one PDF.
@@ -46,11 +46,10 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
       0   all was written
       2   bad input, or no typst: one message
     """
-    from tandemlift.figures.drawing.figure_style import figure_style
     from tandemlift.report.paper.files import typeset, write_paper_files
 
     path = _pdf_path(out)
-    with results_folder(str(path.parent), path.parent, (path.name,)), figure_style(style):
+    with results_folder(str(path.parent), path.parent, (path.name,)):
         flights = fly_paper()
         folder = path.with_name(f"{path.stem}-files")
         with progress_bar("Drawing", 1) as progress:

@@ -18,6 +18,7 @@ from tandemlift.common.outcomes import FAILURES
 from tandemlift.common.phases import CONTACT as PHASE_CONTACT
 from tandemlift.common.phases import IDLE, PHASE_NAMES
 from tandemlift.common.types import Array
+from tandemlift.common.version import __version__
 from tandemlift.flight.record import Flight
 from tandemlift.kernels import leaf_offset
 from tandemlift.laws.guidance.supervision import ALARM, CONTACT, PHASE, SupervisionState
@@ -155,8 +156,8 @@ def _detection_metrics(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
 @cache
 def versions(engine: str) -> Mapping[str, str]:
     """Versions of the packages that a flight in an engine uses."""
-    packages = ("tandemlift", "llvmlite", "numpy", *(["mujoco"] if engine == "mujoco" else []))
-    return {name: metadata.version(name) for name in packages}
+    packages = ("llvmlite", "numpy", *(["mujoco"] if engine == "mujoco" else []))
+    return {"tandemlift": __version__, **{name: metadata.version(name) for name in packages}}
 
 
 def channels_of(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
