@@ -9,19 +9,19 @@ import os
 import shutil
 import subprocess
 import zipfile
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from tandemlift.common.version import __version__
 from tandemlift.live.offline.page_modules import FORMAT, PackedFlight
 from tandemlift.live.page_files import PAGE_FOLDER
 from tandemlift.live.wire.frames import read_frames
 
 HERE = Path(__file__).parent
-INDEX = {"format": FORMAT, "version": metadata.version("tandemlift"), "broken": "broken", "other_version": "other"}
+INDEX = {"format": FORMAT, "version": __version__, "broken": "broken", "other_version": "other"}
 
 if not os.environ.get("TANDEMLIFT_REQUIRE_ALL") and shutil.which("node") is None:
     pytest.skip("Node.js is not installed", allow_module_level=True)
