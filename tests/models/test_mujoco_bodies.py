@@ -296,5 +296,5 @@ def test_without_mujoco_one_sentence_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
     for name in ("bodies", "contact", "import"):
         monkeypatch.delitem(sys.modules, f"tandemlift.models.mujoco_{name}")
-    with pytest.raises(tl.InputError, match=r"^engine 'mujoco' needs the package mujoco: pip install 'tandemlift\["):
+    with pytest.raises(tl.InputError, match=r"^engine 'mujoco' needs mujoco: pip install 'tandemlift\["):
         importlib.import_module("tandemlift.models.mujoco_bodies")

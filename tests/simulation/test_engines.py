@@ -129,5 +129,5 @@ def test_without_the_package_the_error_says_how_to_get_it(monkeypatch):
     models = [f"tandemlift.models.mujoco_{part}" for part in ("bodies", "contact", "import")]
     for name in ("tandemlift.engines.mujoco", *models):
         monkeypatch.delitem(sys.modules, name, raising=False)
-    with pytest.raises(tl.InputError, match=r"^engine 'mujoco' needs the package mujoco: pip install 'tandemlift\["):
+    with pytest.raises(tl.InputError, match=r"^engine 'mujoco' needs mujoco: pip install 'tandemlift\["):
         tl.fly(tl.load_mission("hover", {"mission.duration": 1.0}), engine="mujoco")
