@@ -10,6 +10,7 @@ from reference_tables.markdown import table
 from tandemlift import settings
 from tandemlift.controllers import CascadeTable
 from tandemlift.missions.bounds import allowed
+from tandemlift.missions.values import shown
 
 
 def value_types() -> str:
@@ -24,7 +25,7 @@ def cascade_keys() -> str:
     for name, field in CascadeTable.model_fields.items():
         if name != "name":
             said = settings.description_of(field)
-            rows.append((f"`{name}`", said.unit or "", f"`{field.default}`", said.meaning))
+            rows.append((f"`{name}`", said.unit or "", f"`{shown(field.default)}`", said.meaning))
     return table(("key", "unit", "default", "meaning"), rows)
 
 

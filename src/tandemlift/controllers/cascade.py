@@ -98,7 +98,7 @@ def command_from(
     """The command for a force [N, world axes], an angular acceleration [rad/s²], and the angles φ, θ, ψ [rad] tracked.
 
     The angular acceleration is that of the body, in body axes. The accelerations of φ, θ, ψ differ from it by products
-    of the tilt, the rates and themselves.
+    of tilt, rates and accelerations, which are small near hover.
     """
     return Command(Wrench(total_thrust(e, u), wanted_moment(b, angular_acceleration, measured)), angles)
 
