@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from tandemlift.missions.flight_checks.result import FAILS, CheckResult, noted
+from tandemlift.missions.flight_checks.result import FAILS, CheckResult
 from tandemlift.settings import Mission
 
 
@@ -27,4 +27,4 @@ def push_checks(m: Mission) -> Iterator[CheckResult]:
                 f"pushes.{i} has {abs(push.force[axis]):g} N along {'xyz'[axis]}, and admittance.threshold is "
                 f"{a.threshold[axis]:g} N there: it is ignored; raise pushes.{i}.force, or lower the threshold"
             )
-            yield noted("push", text, verdict=FAILS, subject=f"pushes.{i}")
+            yield CheckResult("push", f"pushes.{i}", a.threshold[axis], most[axis], "N", FAILS, text)
