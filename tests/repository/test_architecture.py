@@ -13,7 +13,8 @@ PACKAGE = ROOT / "src" / "tandemlift"
 ROOMS = sorted(p.stem for p in PACKAGE.iterdir() if p.is_dir() or p.suffix == ".py")
 DOTTED = sorted(set(re.findall(rf"`((?:{'|'.join(ROOMS)})(?:\.\w+)+)`", TEXT)))
 PATHS = sorted(set(re.findall(r"`(\w+/(?:\w+/)*\w+\.py)`", TEXT)))
-WALK = re.findall(r"^\d+\. .*: (`.*) → (.*)$", TEXT, flags=re.M)
+JOINED = re.sub(r"\n {3,}", " ", TEXT)  # an item of a list in one line
+WALK = re.findall(r"^\d+\. .*: (`.*) → (.*)$", JOINED, flags=re.M)
 
 
 def found(name):
