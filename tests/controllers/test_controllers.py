@@ -101,12 +101,20 @@ def test_the_integral_of_the_guide_removes_the_offset_of_a_constant_wind(law):
 
 def test_the_python_of_the_guide_runs(folder, monkeypatch):
     monkeypatch.chdir(folder)
-    blocks = re.findall(r"```python\n(import tandemlift.*?)```", GUIDE, re.DOTALL)
-    assert len(blocks) == 1
+    flown, unit_test = re.findall(r"```python\n(import tandemlift.*?)```", GUIDE, re.DOTALL)
     names: dict = {}
-    exec(compile(blocks[0], "controllers.md", "exec"), names)
+    exec(compile(unit_test, "controllers.md", "exec"), {})
+    exec(compile(flown, "controllers.md", "exec"), names)
     assert tl.Flight.load(folder / "hover.npz") == names["flight"]
     assert names["mission"].controller.stiffness == (9.0, 9.0, 9.0)
+
+
+def test_the_variants_of_the_guide_are_chosen_by_the_type_of_a_gain():
+    names: dict = {}
+    exec("from typing import NamedTuple\nfrom tandemlift.algebra import Number, choice, tanh, where", names)
+    exec(re.findall(r"```python\n(class Soft.*?)```", GUIDE, re.DOTALL)[0], names)
+    assert names["switching"](names["Soft"](0.1), 0.05) == pytest.approx(np.tanh(0.5))
+    assert names["switching"](names["Hard"](), 0.05) == 1.0
 
 
 def test_the_mission_file_of_the_guide_keeps_its_settings(law, folder):

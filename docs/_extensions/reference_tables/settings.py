@@ -8,6 +8,7 @@ from pydantic import BaseModel
 
 from reference_tables.markdown import table
 from tandemlift import settings
+from tandemlift.controllers import CascadeTable
 from tandemlift.missions.bounds import allowed
 
 
@@ -15,6 +16,16 @@ def value_types() -> str:
     """Every type of a value, and what a key of it may be."""
     rows = [(f"`{name}`", allowed(kind)) for name in settings.__all__ if get_origin(kind := getattr(settings, name))]
     return table(("type", "a key may be"), rows)
+
+
+def cascade_keys() -> str:
+    """The keys that a controller derived from `CascadeTable` has, with their defaults."""
+    rows = []
+    for name, field in CascadeTable.model_fields.items():
+        if name != "name":
+            said = settings.description_of(field)
+            rows.append((f"`{name}`", said.unit or "", f"`{field.default}`", said.meaning))
+    return table(("key", "unit", "default", "meaning"), rows)
 
 
 def tables() -> str:

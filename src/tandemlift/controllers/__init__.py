@@ -11,6 +11,7 @@ function will do, at a few microseconds a step.
 A controller of one's own imports what it needs from here, from `tandemlift.algebra` and from `tandemlift.settings`.
 """
 
+from tandemlift.controllers.attitude_reference import AttitudeReference, CommandFilterState
 from tandemlift.controllers.cascade import (
     LEVEL,
     CascadeTable,
@@ -26,9 +27,17 @@ from tandemlift.controllers.trial_run import error_text
 from tandemlift.controllers.user_controller import load_controller
 from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
 from tandemlift.laws.mechanics.rigid_body import UP, State, Wrench
-from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, wrap_angle
-from tandemlift.laws.mechanics.tilt import TiltZXY, desired_orientation, limit_tilt, total_thrust
-from tandemlift.laws.signals.trajectories import Reference
+from tandemlift.laws.mechanics.rotation import (
+    Euler,
+    euler_from_quaternion,
+    euler_rates_from_rates,
+    quaternion_from_euler,
+    rates_from_euler_rates,
+    rotation_from_euler,
+    wrap_angle,
+)
+from tandemlift.laws.mechanics.tilt import TiltLimit, TiltZXY, desired_orientation, limit_tilt, total_thrust
+from tandemlift.laws.signals.trajectories import Reference, Trajectory
 
 # isort: split
 from tandemlift.controllers import geometric, lqr, nftsmc, pid, smc, super_twisting  # register themselves
@@ -38,16 +47,21 @@ __all__ = [
     "LEVEL",
     "NO_DISTURBANCE",
     "UP",
+    "AttitudeReference",
     "CascadeTable",
     "Command",
+    "CommandFilterState",
     "Controller",
     "ControllerModel",
     "Disturbance",
+    "Euler",
     "Measured",
     "NoMemory",
     "Reference",
     "State",
+    "TiltLimit",
     "TiltZXY",
+    "Trajectory",
     "Wrench",
     "apply_inertia",
     "command_from",
@@ -67,7 +81,10 @@ __all__ = [
     "lqr",
     "nftsmc",
     "pid",
+    "quaternion_from_euler",
+    "rates_from_euler_rates",
     "register",
+    "rotation_from_euler",
     "smc",
     "super_twisting",
     "total_thrust",

@@ -64,7 +64,11 @@ class ControllerModel(NamedTuple):
 
 @law
 def wanted_force(b: ControllerModel, acceleration: Vec3, measured: Measured, reference: Reference) -> Vec3:
-    """The force (u_x, u_y, u_z) [N, world axes] for an acceleration [m/s²] beyond the reference's; no limit yet."""
+    """The force (u_x, u_y, u_z) [N] for an acceleration [m/s²] beyond the reference's, world axes; no limit yet.
+
+    m (acceleration + reference's acceleration + its lead + g e_z) + drag · velocity − push − estimated disturbance,
+    where the push counts with `human_force_feedforward` only.
+    """
     ahead = reference.trajectory.acceleration + reference.lead
     force = (ahead + acceleration + UP * GRAVITY) * b.mass + b.drag_force * measured.state.velocity
     return force - measured.push * b.feedforward - measured.disturbance.force
@@ -81,7 +85,7 @@ def tracked_attitude(
 
 @law
 def wanted_moment(b: ControllerModel, angular_acceleration: Vec3, measured: Measured) -> Vec3:
-    """The moments (U₂, U₃, U₄) [N·m, body axes] for an angular acceleration [rad/s²]."""
+    """The moments (U₂, U₃, U₄) [N·m, body axes] for an angular acceleration [rad/s², body axes]."""
     rates = measured.state.rates
     moment = apply_inertia(b.inertia, angular_acceleration) - gyroscopic(b.inertia, rates) + b.drag_moment * rates
     return moment - measured.disturbance.moment
@@ -91,7 +95,11 @@ def wanted_moment(b: ControllerModel, angular_acceleration: Vec3, measured: Meas
 def command_from(
     b: ControllerModel, e: Euler, u: Vec3, angular_acceleration: Vec3, angles: Vec3, measured: Measured
 ) -> Command:
-    """The command for a force [N, world axes], an angular acceleration [rad/s²], and the angles [rad] tracked."""
+    """The command for a force [N, world axes], an angular acceleration [rad/s²], and the angles φ, θ, ψ [rad] tracked.
+
+    The angular acceleration is that of the body, in body axes. The accelerations of φ, θ, ψ differ from it by products
+    of the tilt, the rates and themselves.
+    """
     return Command(Wrench(total_thrust(e, u), wanted_moment(b, angular_acceleration, measured)), angles)
 
 

@@ -8,7 +8,7 @@ TEMPLATE = """\
 [study]
 name = "gusts"                  # its folder is out/NAME
 missions = ["iris"]             # built-in names, or paths from the folder of this file
-controllers = []                # names or .py files; empty: each mission's own
+controllers = []                # names, or .py files from the folder of this file; empty: each mission's own
 engines = ["compiled"]          # see `tandemlift engines`
 draws = 40                      # points of [draw]; the same for each grid point, case, controller and mission
 sampling = "random"             # random, sobol, latin-hypercube, or saltelli for Sobol' indices of sensitivity
