@@ -156,6 +156,15 @@ def test_every_built_in_mission_is_listed(run):
     assert [line.split()[0] for line in run("missions")[1].splitlines()] == list(built_in())
 
 
+def test_compile_takes_a_controller_as_run_does(run, tmp_path):
+    module = ("compile", "hover", "--target", "wasm32")
+    assert run(*module, "--controller", "pid")[0] == 0
+    numbers = json.loads((tmp_path / "out" / "hover-wasm32" / "hover.json").read_text("utf-8"))["numbers"]
+    assert "controller.velocity_i" in str(numbers)
+    message = check_refused(run(*module, "--controller", "nftmsc"))
+    assert "Did you mean 'nftsmc'?" in message
+
+
 def test_a_run_writes_its_results_to_out_name(run, tmp_path):
     code, out, _ = run("run", "hover", "--set", "mission.duration=1", "--set", "mission.name=mine")
     folder = tmp_path / "out" / "mine"

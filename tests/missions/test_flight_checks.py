@@ -63,6 +63,10 @@ TOLD = {  # of iris, and what its warnings must say: quantity, limit, key
     "a push that carries away": (push(force=[15.0, 0.0, 0.0]), ["15 N across", "controller.max_tilt"]),
     "a push in the lift": (push(force=[3.0, 0.0, 0.0], time=5.0), ["pushes.0 has its peak at 5 s", "12 s"]),
     "a landing too late": ({"phases.land_start": 85.0}, ["takes until 97 s", "mission.duration is 90 s"]),
+    "a push below the threshold": (
+        push(force=[0.2, 0.0, 0.1]),
+        ["pushes.0 has 0.2 N along x", "admittance.threshold is 0.3 N", "it is ignored"],
+    ),
     "noise above the threshold": ({"sensors.joints.force_noise": 1.0}, ["noise is followed as a push"]),
     "a supervision that refuses": (
         {"supervision.model": "watch", "supervision.checks.thrust_fraction": 0.6},
@@ -94,6 +98,30 @@ def test_a_start_that_asks_for_more_than_the_rotors_have_is_warned_of():
     assert told("flight-ready", real) == ""
     assert "rad of tilt along x" in told("flight-ready", {**real, "initial.velocity": [-2.9, 0.0, 0.0]})
     assert "N m in yaw; the rotors give" in told("flight-ready", {**real, "initial.rates": [0.0, 0.0, -1.8]})
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        push(force=[0.31, 0.2, 0.0]),
+        push(force=[0.0, 0.0, 0.0]),
+        {"pushes": [{"time": time, "sigma": 0.6, "force": [0.2, 0.0, 0.0]} for time in (15.0, 15.2)]},
+        push(force=[0.2, 0.0, 0.0]) | {"admittance.threshold": 0.19},
+        push(force=[0.2, 0.0, 0.0], point=[0.0, 0.9, 0.0]) | {"compliance.yaw.model": "yielding"},
+        push(force=[0.2, 0.0, 0.0]) | {"changes": [{"time": 13.0, "key": "admittance.threshold", "value": 0.1}]},
+    ],
+    ids=["above", "none", "two together", "a low threshold", "turns", "a threshold that changes"],
+)
+def test_a_push_that_moves_the_reference_is_not_called_ignored(changes):
+    assert "it is ignored" not in told("iris", changes)
+
+
+def test_a_push_that_is_called_ignored_is_ignored():
+    ignored = push(force=[0.29, 0.0, 0.0]) | {"mission.duration": 18.0, "phases.land_start": 60.0}
+    flight = tl.fly(load_mission("iris", ignored))
+    assert "it is ignored" in told("iris", ignored)
+    moved = np.ptp(flight["reference_position"][flight.time > 13.0], axis=0)
+    assert moved.max() < 1e-4  # m: of noise that exceeds the last 0.01 N of the threshold
 
 
 def test_a_corridor_is_held_against_the_way_the_vehicle_is_led():

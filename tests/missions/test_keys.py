@@ -107,6 +107,14 @@ def test_explain_knows_the_keys_of_a_controller_of_one_s_own():
     assert said.output.startswith("controller.damping")
 
 
+def test_explain_of_the_table_of_a_controller_of_one_s_own_leaves_out_those_of_others():
+    said = CliRunner().invoke(cli, ["explain", "controller", "--controller", str(LISTINGS / "my_pd.py")])
+    assert [line for line in said.output.splitlines() if line.startswith("[")] == [
+        "[controller]: the controller and its settings; each controller adds its own keys",
+        "[controller] of my-pd: one number for all axes, or one each",
+    ]
+
+
 def test_every_row_of_the_page_has_four_cells():
     rows = [line for line in key_tables().splitlines() if line.startswith("|")]
     assert len(rows) > 300

@@ -104,6 +104,10 @@ def test_a_controller_that_diverges_is_a_row_that_says_when_and_why(run, tmp_pat
         (("hover", "--engine", "compild"), ["unknown engine 'compild'"]),
         (("hover", "--set", "mission.step=0.5"), ["mission.step = 0.5"]),
         (("hover", "--set", "controller.nothing=1"), ["controller.nothing = 1: unknown key"]),
+        (
+            ("hover", "--controllers", "pid,nftsmc", "--set", "controller.velocity_i=1"),
+            ["controller.velocity_i = 1: unknown key", "gives keys to nftsmc only, the controller of mission hover"],
+        ),
     ],
     ids=" ".join,
 )

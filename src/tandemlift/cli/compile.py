@@ -8,7 +8,7 @@ import click
 
 from tandemlift.cli.terminal.completion import MISSIONS, names
 from tandemlift.cli.terminal.console import echo
-from tandemlift.cli.terminal.mission_options import load, set_option
+from tandemlift.cli.terminal.mission_options import chosen_controller, controller_option, load, set_option
 
 
 @click.command()
@@ -23,7 +23,10 @@ from tandemlift.cli.terminal.mission_options import load, set_option
 @click.option("--out", metavar="DIR", help="Folder for the files; by default out/NAME-TARGET.")
 @click.option("--single", is_flag=True, help="For C: compute in single precision.")
 @set_option
-def compile(mission: str, target: str, out: str | None, single: bool, settings: tuple[str, ...]) -> None:
+@controller_option
+def compile(
+    mission: str, target: str, out: str | None, single: bool, settings: tuple[str, ...], controller: str | None
+) -> None:
     """Compile a mission for another machine: pilot, body and loop, with the same bits everywhere.
 
     \b
@@ -40,10 +43,12 @@ def compile(mission: str, target: str, out: str | None, single: bool, settings: 
       tandemlift compile iris --target wasm32
       tandemlift compile iris --target c --single --out pilot
       tandemlift compile zigzag --target aarch64 --set vehicle.payload.mass=0.6
+      tandemlift compile hover --target c --controller my_pd.py
     """
     from tandemlift.targets.compiling import compile_mission
 
-    what = load(mission, settings)
+    chosen = None if controller is None else chosen_controller(controller)
+    what = load(mission, settings, chosen)
     folder = Path(out) if out else Path("out") / f"{what.mission.name}-{target}"
     for path in compile_mission(what, target, folder, single=single):
         echo(f"{path} ({path.stat().st_size / 1e3:.0f} kB)")

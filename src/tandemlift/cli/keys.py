@@ -44,16 +44,16 @@ def explain(key: str | None, controller: str | None, markdown: bool) -> None:
       tandemlift explain pushes.0.force
       tandemlift explain supervision.watchdog
       tandemlift explain controller.stiffness --controller my_pd.py
+      tandemlift explain controller --controller my_pd.py
     """
     from tandemlift.missions.key_reference.explaining import explained, index
     from tandemlift.missions.key_reference.markdown import key_tables
 
-    if controller is not None:
-        chosen_controller(controller)
+    own = "" if controller is None else chosen_controller(controller).name
     if markdown:
         echo(key_tables(), nl=False)
     else:
-        echo(index() if key is None else explained(key))
+        echo(index() if key is None else explained(key, own))
 
 
 @click.command()

@@ -12,7 +12,14 @@ import click
 
 from tandemlift.cli.terminal.completion import CONTROLLERS, MISSIONS
 from tandemlift.cli.terminal.console import echo
-from tandemlift.cli.terminal.mission_options import FAILED, chosen_controller, load, set_option, style_option
+from tandemlift.cli.terminal.mission_options import (
+    FAILED,
+    chosen_controller,
+    controller_option,
+    load,
+    set_option,
+    style_option,
+)
 from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.common.files import atomic_write
 
@@ -38,12 +45,7 @@ DRAWN = {"loop": ("push_force", "position"), "body": ("disturbance_force", "posi
 @click.option("--figure", metavar="FILE", help="Draw modes and frequency response into FILE.png, .pdf or .svg.")
 @style_option
 @set_option
-@click.option(
-    "--controller",
-    metavar="NAME|FILE",
-    shell_complete=CONTROLLERS,
-    help="Controller to fly: a registered one, or your own .py file.",
-)
+@controller_option
 def linearize(
     mission: str,
     at: float | None,

@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.terminal.completion import CONTROLLERS, MISSIONS, names
+from tandemlift.cli.terminal.completion import MISSIONS, names
 from tandemlift.cli.terminal.console import echo, progress_bar
 from tandemlift.cli.terminal.findings import exit_if_found, print_findings, strict_option
 from tandemlift.cli.terminal.mission_options import (
     FAILED,
     after_crash_option,
     chosen_controller,
+    controller_option,
     load,
     parse_setting,
     set_option,
@@ -44,12 +45,7 @@ NOT_KNOWN = "   not known"
 )
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
 @set_option
-@click.option(
-    "--controller",
-    metavar="NAME|FILE",
-    shell_complete=CONTROLLERS,
-    help="Controller to fly: a registered one, or your own .py file.",
-)
+@controller_option
 @after_crash_option
 @click.option("--no-figures", is_flag=True, help="Draw no figures.")
 @style_option

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import traceback
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
@@ -15,6 +16,7 @@ from tandemlift.common.types import Progress
 from tandemlift.controllers import CONTROLLERS, Controller, controller, error_text, file_of
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
+from tandemlift.missions.loading import MissionTemplate
 from tandemlift.simulation.many import fly_each
 
 Mask = NDArray[np.bool_]
@@ -70,8 +72,8 @@ def entrants(name: str, changes: Mapping[str, Any], chosen: Sequence[Controller]
     Raises:
         InputError: the mission cannot be loaded, or a chosen controller cannot fly it.
     """
-    own = load_mission(name, changes)
     others = {key: value for key, value in changes.items() if key.partition(".")[0] != "controller"}
+    own = _own_mission(name, changes, others)
 
     def enter(entrant: Controller) -> Mission:
         return own if entrant.name == own.controller.name else load_mission(name, others, controller=entrant)
@@ -85,6 +87,26 @@ def entrants(name: str, changes: Mapping[str, Any], chosen: Sequence[Controller]
         except InputError as error:
             entered.append(Entrant(other, None, str(error)))
     return entered
+
+
+def _own_mission(name: str, changes: Mapping[str, Any], others: Mapping[str, Any]) -> Mission:
+    """The mission with its own controller; a key of another one is refused with where to give it.
+
+    Args:
+        name: of the mission.
+        changes: values by dotted key.
+        others: those that are not of `controller`.
+    """
+    try:
+        return load_mission(name, changes)
+    except InputError as error:
+        if "controller.name" in changes or not re.search(r"\bcontroller\.[^\n]*: unknown key", str(error)):
+            raise
+        own = MissionTemplate.read(name, others, quiet=True).mission({})
+        raise InputError(
+            f"{error}\n--set gives keys to {own.controller.name} only, the controller of mission {own.mission.name}. "
+            "Give those of another one by a mission file that has its [controller]."
+        ) from None
 
 
 def compare(entered: Sequence[Entrant], engine: str = "compiled", progress: Progress | None = None) -> list[Entry]:

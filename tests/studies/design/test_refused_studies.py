@@ -46,7 +46,7 @@ REFUSED = {  # a study: pieces of its message
     "a path as name": (study(name="../../etc"), ['study.name = "../../etc"', "letters, digits"]),
     "no mission": (study(missions=[]), ["study.missions = []", "at least one"]),
     "an unknown mission": (study(missions=["one-pusch"]), ["one-pusch", "one-push"]),
-    "an unknown controller": (study(controllers=["pdi"]), ["pdi", "pid"]),
+    "an unknown controller": (study(controllers=["pdi"]), ["pdi", "pid", "study.controllers", "name its file"]),
     "an unknown engine": (study(engines=["mujoko"]), ["mujoko", "mujoco"]),
     "a mission twice": (study(missions=["hover", "hover"]), ["study.missions", "without repetition"]),
     "an unknown key": (study(drawz=3), ["study.drawz = 3", "unknown", "draws"]),
@@ -159,6 +159,14 @@ REFUSED = {  # a study: pieces of its message
         {"set": {"plant.mas_scale": 1.0}},
         ["only row", "plant.mas_scale = 1.0", "mass_scale"],
     ),
+    "a key of one controller of two": (
+        {**study(controllers=["nftsmc", "pid"]), **grid([0.5, 0.7], "controller.boundary_layer")},
+        [
+            "controller pid: each of the first 2 rows is refused",
+            "controller.boundary_layer = 0.5: unknown key",
+            "A key of [controller] must be one of every controller of the study.",
+        ],
+    ),
     "draws that no vehicle can have": (
         {**study(draws=20), **drawn(low=-2.0, high=-1.0)},
         ["each of the first 8 rows is refused", "plant.mass_scale = -"],
@@ -174,6 +182,15 @@ def test_it_is_refused_with_key_value_and_what_is_allowed(what):
     assert said.startswith("study: ")
     assert "Traceback" not in said
     assert max(map(len, said.splitlines())) < 400
+
+
+def test_a_mission_whose_controller_is_not_loaded_is_refused_with_the_key_that_loads_it(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text('extends = "hover"\n[controller]\nname = "nobody-s"\n', "utf-8")
+    said = message_of(study(missions=[str(path)]))
+    assert "controller.name: unknown controller 'nobody-s'" in said
+    assert "name its file in study.controllers" in said
+    assert "--controller" not in said
 
 
 def test_one_impossible_draw_among_others_is_no_refusal_of_the_study():

@@ -7,9 +7,11 @@ from pathlib import Path
 
 import pyarrow.parquet as pq
 import pytest
+from listings import LAW
 from study_runs import TWELVE, assert_same_rows, files_of, fly, started
 
 from tandemlift.common.errors import InputError
+from tandemlift.controllers import CONTROLLERS
 from tandemlift.studies.design.study_files import load_plan
 from tandemlift.studies.units.files import LEFT_OVER
 from tandemlift.studies.units.store import open_folder
@@ -82,6 +84,18 @@ def test_the_folder_of_another_study_is_refused_and_stays(twelve, changed, said)
     with pytest.raises(InputError, match=f"holds another study: {said}; choose another --out"):
         fly(TWELVE | changed, twelve)
     assert stamps(twelve) == before
+
+
+def test_a_controller_s_file_that_changed_since_is_named(tmp_path):
+    path = tmp_path / "changing.py"
+    path.write_text(LAW.replace("my-pd", "changing"), "utf-8")
+    tables = {"study": {"name": "mine", "missions": ["hover"], "controllers": [str(path)]}}
+    open_folder(load_plan(tables), tmp_path / "out")
+    path.write_text(path.read_text("utf-8") + "\n# edited\n", "utf-8")
+    del CONTROLLERS["changing"]  # as in a new process
+    with pytest.raises(InputError, match=r"flown with another version of changing\.py: choose another --out"):
+        open_folder(load_plan(tables), tmp_path / "out")
+    del CONTROLLERS["changing"]
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.cli.terminal.completion import names, settings
+from tandemlift.cli.terminal.completion import CONTROLLERS, names, settings
 from tandemlift.common.errors import InputError
 from tandemlift.figures.drawing.figure_style import STYLES, figure_style
 
@@ -33,6 +33,12 @@ set_option = click.option(
     metavar="KEY=VALUE",
     shell_complete=settings,
     help="Set one key of the mission: a dotted key, and a TOML value or a word. Can be repeated.",
+)
+controller_option = click.option(
+    "--controller",
+    metavar="NAME|FILE",
+    shell_complete=CONTROLLERS,
+    help="Controller to fly: a registered one, or your own .py file.",
 )
 after_crash_option = click.option(
     "--after-crash",

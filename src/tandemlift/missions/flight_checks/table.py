@@ -10,6 +10,7 @@ import numpy as np
 from tandemlift.missions.flight_checks.authority import authority_checks
 from tandemlift.missions.flight_checks.loops import loop_checks
 from tandemlift.missions.flight_checks.passage import passage_checks
+from tandemlift.missions.flight_checks.pushes import push_checks
 from tandemlift.missions.flight_checks.result import CLOSE, FAILS, CheckResult, noted
 from tandemlift.missions.flight_checks.schedule import schedule_checks
 from tandemlift.missions.flight_checks.sensing import sensing_checks
@@ -112,6 +113,14 @@ CHECKS = (
         "`mission.duration`, `phases`, `pushes.*.time`, `person.speed`",
     ),
     FlightCheck(
+        "push",
+        "`admittance.threshold`",
+        "force of a push, with others at the same time, along one axis or more",
+        "N",
+        "a push of the mission",
+        "`pushes.*.force`, `admittance.threshold`",
+    ),
+    FlightCheck(
         "passage",
         "radius of a quadrotor's guard",
         "its distance from the nearest wall on the person's way, with the heading kept, turned or trailing",
@@ -127,6 +136,7 @@ PARTS: tuple[Callable[[Mission], Iterator[CheckResult]], ...] = (
     loop_checks,
     sensing_checks,
     schedule_checks,
+    push_checks,
     passage_checks,
 )
 

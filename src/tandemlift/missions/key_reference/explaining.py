@@ -13,8 +13,12 @@ from tandemlift.missions.values import shown
 NEAREST = 3
 
 
-def explained(name: str) -> str:
+def explained(name: str, controller: str = "") -> str:
     """What there is to say of a key or a table: of a key in one to three lines, of a table with a line for each key.
+
+    Args:
+        name: a dotted key or a table.
+        controller: of its tables alone, where several controllers have one of that name; "" for those of all.
 
     Raises:
         InputError: there is none of that name; the message names the three nearest.
@@ -28,6 +32,8 @@ def explained(name: str) -> str:
     if found:
         return "\n".join(_keys(found))
     tables = [section for section in sections() if section.name == plain]
+    if controller in [section.controller for section in tables]:
+        tables = [section for section in tables if section.controller in ("", controller)]
     if tables:
         return "\n\n".join(_table(section) for section in tables)
     raise _unknown(name, plain)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -223,8 +224,20 @@ class StudyPlan:
                 except InputError as error:
                     refusals.append(str(error))
             else:
-                many = "the only row" if per_variant == 1 else f"each of the first {len(refusals)} rows"
-                raise InputError(f"{many} is refused: {refusals[0]}")
+                raise InputError(self._refused(variant, per_variant == 1, refusals))
+
+    def _refused(self, variant: int, alone: bool, refusals: Sequence[str]) -> str:
+        """That rows of a variant are refused, and why the first one is."""
+        many = "the only row" if alone else f"each of the first {len(refusals)} rows"
+        if len({each.controller for each in self.variants}) == 1:
+            return f"{many} is refused: {refusals[0]}"
+        hint = ""
+        if re.search(r"\bcontroller\.[^\n]*: unknown key", refusals[0]):
+            hint = (
+                "\nA key of [controller] must be one of every controller of the study. Give the settings of one "
+                "controller by a mission file, or fly it in a study of its own."
+            )
+        return f"controller {self.variants[variant].controller}: {many} is refused: {refusals[0]}{hint}"
 
 
 def _times(own: Any, factor: Any, key: str, mission: str) -> Any:

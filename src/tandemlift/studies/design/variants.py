@@ -15,9 +15,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tandemlift.common.errors import FlightWarning, InputError
+from tandemlift.common.errors import FlightWarning, InputError, unknown
 from tandemlift.common.files import atomic_write
-from tandemlift.controllers import controller, file_of, load_controller
+from tandemlift.controllers import CONTROLLERS, controller, file_of, load_controller
 from tandemlift.engines.registry import engine_named
 from tandemlift.missions import check
 from tandemlift.missions.files import Layer
@@ -111,6 +111,7 @@ def _variant(mission: str, chosen: str | None, folder: Path) -> Variant:
         raise InputError(f"study.missions: {mission}: {error.strerror or error}") from None
     except RecursionError:
         raise InputError(f"study.missions: {mission} is not a mission: nested too deeply") from None
+    _check_known(value_at(tables, ("controller", "name")), f"study.missions: {mission}: controller.name")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", FlightWarning)
         loaded = check(tables, layers[-1].source, layers)
@@ -120,7 +121,17 @@ def _variant(mission: str, chosen: str | None, folder: Path) -> Variant:
 
 
 def _controller(chosen: str, folder: Path) -> Any:
-    return load_controller(folder / chosen) if chosen.endswith(".py") or "/" in chosen else controller(chosen)
+    if chosen.endswith(".py") or "/" in chosen:
+        return load_controller(folder / chosen)
+    _check_known(chosen, "study.controllers")
+    return controller(chosen)
+
+
+def _check_known(name: Any, key: str) -> None:
+    """Refuse the name of a controller that is not registered, and say how a study loads one."""
+    if isinstance(name, str) and name not in CONTROLLERS:
+        error = unknown("controller", name, sorted(CONTROLLERS))
+        raise InputError(f"{key}: {error} For one of your own, name its file in study.controllers.")
 
 
 def _is_ours(name: str) -> bool:

@@ -70,6 +70,9 @@ def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
     if (path / PLAN).exists():
         folder = StudyFolder(path)
         if folder.digest != digest:
+            if name := _changed_file(folder, plan):
+                said = f"{path} was flown with another version of {name}"
+                raise InputError(f"{said}: choose another --out, or remove the folder to fly it anew")
             raise InputError(f"{path} holds another study: {_difference(folder, plan)}; choose another --out")
         folder.files.clean()
         return folder
@@ -111,6 +114,19 @@ def _plan_in(path: Path) -> dict[str, Any]:
         raise InputError(f"{path / PLAN}: {error.strerror or error}") from None
     except (ValueError, KeyError, TypeError):
         raise InputError(f"{path / PLAN} is not the plan of a study") from None
+
+
+def _changed_file(folder: StudyFolder, plan: StudyPlan) -> str:
+    """The controller's file or recording that alone has changed since a study was flown; "" if there is none."""
+    there = [variant_from(said) for said in folder._said["variants"]]
+    settings = plan.settings.model_dump(mode="json", exclude_none=True)
+    if (folder._said["settings"], folder.sources, len(there)) != (settings, sources_digest(), len(plan.variants)):
+        return ""
+    for flown, here in zip(there, plan.variants, strict=True):
+        for old, new in ((flown.controller_file, here.controller_file), (flown.recording, here.recording)):
+            if old != new and old[:1] == new[:1]:
+                return str(new[0])
+    return ""
 
 
 def _difference(folder: StudyFolder, plan: StudyPlan) -> str:

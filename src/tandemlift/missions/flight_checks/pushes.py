@@ -1,0 +1,30 @@
+"""Pushes that are too weak to be followed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from tandemlift.missions.flight_checks.result import FAILS, CheckResult
+from tandemlift.settings import Mission
+
+
+def push_checks(m: Mission) -> Iterator[CheckResult]:
+    """Pushes of which no axis exceeds its threshold: they are ignored, alone or with the pushes at the same time."""
+    a = m.admittance
+    windy = m.wind.model == "air" and m.pilot.push != "truth"  # wind on the payload counts as a push
+    if windy or m.person.model != "none" or any(change.key.startswith("admittance") for change in m.changes):
+        return
+    turns = m.pilot.guidance == "hand" and m.compliance.yaw.model == "yielding"
+    for i, push in enumerate(m.pushes):
+        if not any(push.force) or (turns and any(push.point[:2])):
+            continue
+        near = [(q, math.exp(-0.5 * ((push.time - q.time) / q.sigma) ** 2)) for q in m.pushes]
+        most = [sum(share * abs(q.force[axis]) for q, share in near) for axis in range(3)]
+        if all(force <= threshold for force, threshold in zip(most, a.threshold, strict=True)):
+            axis = max(range(3), key=lambda j: abs(push.force[j]))
+            text = (
+                f"pushes.{i} has {abs(push.force[axis]):g} N along {'xyz'[axis]}, and admittance.threshold is "
+                f"{a.threshold[axis]:g} N there: it is ignored; raise pushes.{i}.force, or lower the threshold"
+            )
+            yield CheckResult("push", f"pushes.{i}", a.threshold[axis], most[axis], "N", FAILS, text)
