@@ -142,15 +142,21 @@ def _bytes(size: float) -> str:
 def _print_outcomes(folder: Path, metrics: tuple[str, ...], *, report: bool) -> None:
     """Print how the flights ended, and where the table is; write the report of a whole study."""
     from tandemlift.report.study.study_report import write_study_report
+    from tandemlift.studies.design.settings import REFUSED
     from tandemlift.studies.reading.statistics import share
     from tandemlift.studies.reading.table import load_study
 
     study = load_study(folder)
-    counts = Counter(study.read(["outcome"])["outcome"].to_pylist())
+    read = study.read(["row", "outcome", "reason"])
+    outcomes = read["outcome"].to_pylist()
+    counts = Counter(outcomes)
     echo(f"  {'outcome':12}{'rows':>10}   share, and its 95 % interval")
     for outcome, count in counts.most_common():
         s = share(count, len(study))
         echo(f"  {outcome:12}{count:>10,}   {100 * s.value:.4g} % ({100 * s.low:.3g} to {100 * s.high:.3g} %)")
+    if REFUSED in counts:
+        first = outcomes.index(REFUSED)
+        echo(f"  row {read['row'][first]} is refused: {read['reason'][first]}")
     if study.missing:
         echo(f"  {study.missing:,} of {study.plan.count:,} rows are still to be flown")
     elif report:

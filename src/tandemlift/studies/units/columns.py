@@ -59,7 +59,8 @@ def _row(unit: StudyUnit, row: StudyRow, metrics: Mapping[str, Any] | None, refu
     for key, value in row.varied.items():
         found |= columns_of(key, value)
     if metrics is None:
-        return {**found, "outcome": REFUSED, "reason": refusal}
+        none = {"findings": "[]", "finding_kinds": "", "events": "[]"}  # every file has these columns
+        return {**found, "outcome": REFUSED, "reason": refusal, **none}
     findings = metrics["findings"]
     found |= {
         "outcome": metrics["outcome"],
