@@ -29,6 +29,7 @@ name = "weights"
 missions = ["hover"]
 controllers = ["with_a_file.py", "lqr"]
 draws = 3
+rows_per_unit = 3
 
 [set]
 "mission.duration" = 0.2

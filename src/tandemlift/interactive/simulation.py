@@ -174,17 +174,17 @@ class Simulation:
 
     @property
     def lost(self) -> bool:
-        """Whether the flight has diverged."""
+        """Whether the flight has crashed or diverged."""
         return self._stepper.lost
 
     @property
     def over(self) -> bool:
-        """Whether no further step can be taken: the mission's duration is over, or the flight has diverged."""
+        """Whether no further step can be taken: the duration is over, or it has crashed or diverged."""
         return self.k >= self._p.steps or self._stepper.lost
 
     @property
     def ending(self) -> Ending | None:
-        """Why the flight has diverged: quantity, time, value and limit; None if it has not."""
+        """Why the flight has crashed or diverged: quantity, time, value and limit; None if it has not."""
         return ending_of(self._p, self._result(np.empty((0, 0)), np.empty(0)).flight_state, self.k)
 
     @property
