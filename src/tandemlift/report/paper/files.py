@@ -79,6 +79,6 @@ def typeset(folder: Path, path: Path) -> None:
     try:
         pdf = typst.compile(folder / SOURCE, ignore_system_fonts=True, timestamp=0)
     except typst.TypstError as error:
-        raise InputError(f"{folder / SOURCE} cannot be set: {error.message}; pip install 'typst>=0.14'") from error
+        raise InputError(f"{folder / SOURCE} cannot be set by typst, 0.14 or newer: {error.message}") from error
     with atomic_write(path) as partial:
         partial.write_bytes(pdf)
