@@ -9,19 +9,30 @@ from typing import Any
 import numpy as np
 
 from tandemlift.algebra.arrays import array
+from tandemlift.algebra.ops import maximum, minimum, where
 from tandemlift.algebra.types import number
-from tandemlift.algebra.vector import Nothing, vec3
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.assembly.contacts import start_contacts
 from tandemlift.common.sensors import additional_sensor
 from tandemlift.common.types import Array
 from tandemlift.laws.estimation.navigation import navigator, start_navigation
+from tandemlift.laws.estimation.push_confirmation import (
+    BANDWIDTH,
+    ConfirmationState,
+    PushConfirmation,
+    RotorModel,
+    Zero,
+)
 from tandemlift.laws.estimation.push_estimate import push_estimator, start_push
 from tandemlift.laws.estimation.wind_compensation import PayloadDrag
+from tandemlift.laws.mechanics.inertia import inertia_value
 from tandemlift.laws.mechanics.rigid_body import State
+from tandemlift.laws.rotors.allocation import mixer_from
+from tandemlift.laws.rotors.rotor_lag import lag
 from tandemlift.laws.sensors.noise_bias_drift import SensorGrade, scalar_sensor_model, sensor_model
 from tandemlift.laws.sensors.readings import AdditionalChannels, by_name, sensors, zero_noise
 from tandemlift.laws.sensors.sensor_registry import PARAMETERS
-from tandemlift.laws.signals.low_pass import low_pass
+from tandemlift.laws.signals.low_pass import LowPassState, low_pass
 from tandemlift.loop.perception import Estimators, EstimatorState, NominalVehicle, TareAtTime, TareInHover
 from tandemlift.settings import AdditionalSensorTable, InertialSensor, JointSensors, Mission
 from tandemlift.vehicle import Vehicle
@@ -94,6 +105,50 @@ def payload_drag_from(vehicle: Vehicle, bandwidth: float, step: float) -> Payloa
     return PayloadDrag(number(beam[0] / quadrotors[0]), number(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
 
 
+TOLERANCE = 0.5  # of the threshold of a push: also after a bias of the other sign, what is left stays below it
+MARGIN = 1.2  # on ratios of drag areas, which are not known better
+TINY_AREA = 1e-6  # m²: quadrotors with less tell nothing of the wind
+
+
+def _rotor_model(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
+    """The rotors as the pilot knows them, and their speeds at rest; `Nothing` where they have no limits."""
+    if mission.allocation.method != "constrained":
+        return Nothing(), Nothing()
+    rotors, fleet = each(vehicle.rotor_count), [q for q in vehicle.quadrotors for _ in range(4)]
+    up, down = (lag([getattr(q, name) for q in fleet], mission.mission.step) for name in ("lag_up", "lag_down"))
+    constants = [q.thrust_constant for q in fleet]
+    model = RotorModel(mixer_from(vehicle.effect), rotors(*constants), rotors(*[1.0 / k for k in constants]), up, down)
+    return model, rotors(*[0.0] * vehicle.rotor_count)
+
+
+def _wind_ratios(vehicle: Vehicle) -> list[Any]:
+    """Drag of the payload over that of the quadrotors along each body axis; 0 where the quadrotors have none."""
+    beam = array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
+    fleet = np.sum([array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
+    return [where(b < TINY_AREA, 0.0, a / maximum(b, TINY_AREA)) for a, b in zip(beam, fleet, strict=True)]
+
+
+def start_confirmation(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
+    """The confirmation of pushes by the nominal vehicle, and its memory; or `Nothing`."""
+    e, (x, y, z) = mission.estimator, mission.admittance.threshold
+    if e.confirmation == "none":
+        return Nothing(), Nothing()
+    side = minimum(x, y) * TOLERANCE  # body axes turn with the heading
+    heavier = vehicle.payload.mass / (vehicle.mass - vehicle.payload.mass)
+    margin = MARGIN if e.wind_compensation == "none" else 0.0
+    rotors, speeds = _rotor_model(mission, vehicle)
+    confirmation = PushConfirmation(
+        rotors=rotors,
+        tolerance=Vec3(side, side, z * TOLERANCE),
+        moment_tolerance=mission.compliance.yaw.threshold * TOLERANCE,
+        ratio=vec3([maximum(ratio * margin, heavier) for ratio in _wind_ratios(vehicle)]),
+        inertia=inertia_value(vehicle.inertia),
+        low_pass=low_pass(BANDWIDTH, mission.mission.step),
+    )
+    force, turning = LowPassState(ZERO, ZERO), LowPassState(0.0, 0.0)
+    return confirmation, ConfirmationState(speeds, force, turning, Zero(ZERO, ZERO), Zero(0.0, 0.0))
+
+
 def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings: Any) -> tuple[Any, Any]:
     """The estimators of a mission and their memory at t = 0, for the nominal vehicle; or `Nothing`."""
     if isinstance(readings, Nothing):
@@ -132,5 +187,8 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
     believed = NominalVehicle(vec3(-vehicle.center_of_mass), vec3(drag.force), vec3(drag.moment))
     tare = TareInHover() if e.tare == "hover" else TareAtTime()
     contact, no_contact = start_contacts(mission, vehicle)
-    known = Estimators(push, observer, believed, tare, contact)
-    return known, EstimatorState(start_push(push, readings.imu), start_navigation(observer, state), no_contact)
+    confirmation, unconfirmed = start_confirmation(mission, vehicle)
+    known = Estimators(push, observer, believed, tare, contact, confirmation)
+    return known, EstimatorState(
+        start_push(push, readings.imu), start_navigation(observer, state), no_contact, unconfirmed
+    )

@@ -125,6 +125,11 @@ GROUPS: tuple[ChannelGroup, ...] = (
             "payload_mass_estimate": Channel("kg", "", "payload mass; the tare identifies it where asked to", 1),
             "sensor_disagreement": Channel("N", "body", "error of one joint sensor that would explain the readings", 1),
             "push_usable": Channel("1", "", "1 while the push is estimated and the joint sensors agree, else 0", 1),
+            "push_withheld": Channel(
+                "N",
+                "world",
+                "part of the measured push that the motion refutes or wind explains, so it is not followed",
+            ),
         },
         "A measured value is the one that the pilot has at that time, taken a step before or earlier; estimates come "
         "from such values.",

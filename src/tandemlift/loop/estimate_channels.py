@@ -39,6 +39,7 @@ class EstimatedChannels(NamedTuple):
     payload_mass_estimate: Number
     sensor_disagreement: Number
     push_usable: Number
+    push_withheld: Vec3
     contact_estimate: Any
 
 
@@ -118,5 +119,6 @@ def _estimates(known: Estimates) -> Any:
         payload_mass_estimate=p.payload_mass,
         sensor_disagreement=p.disagreement,
         push_usable=p.trusted * p.armed,
+        push_withheld=p.withheld,
         contact_estimate=contact_channels(known.contact),
     )

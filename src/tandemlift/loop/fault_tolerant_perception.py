@@ -10,6 +10,7 @@ from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import Quat, Vec3
 from tandemlift.laws.estimation.contact_detection import shaken
 from tandemlift.laws.estimation.navigation import centre_of_mass
+from tandemlift.laws.estimation.push_confirmation import refuted_push
 from tandemlift.laws.estimation.push_estimate import PushEstimate
 from tandemlift.laws.guidance.preflight_checks import SensorStatus, sensor_status
 from tandemlift.laws.mechanics.rigid_body import State
@@ -118,11 +119,11 @@ def _tare_watched(estimators: WatchedEstimators, guidance: Any, t: Any) -> Any:
 
 
 @estimate_all.register(WatchedEstimators)
-def _watched(k: WatchedEstimators, m: Any, readings: Any, around: Any, t: Any, dt: Any) -> Any:
+def _watched(k: WatchedEstimators, m: Any, readings: Any, around: Any, commands: Any, t: Any, dt: Any) -> Any:
     usable_readings, report, watchdog = watchdog_step(
         k.watchdog, m.watchdog, readings, predicted(k.estimators, m.estimators), dt
     )
-    known, estimators = estimate_all(k.estimators, m.estimators, usable_readings, around, t, dt)
+    known, estimators = estimate_all(k.estimators, m.estimators, usable_readings, around, commands, t, dt)
     report = without_blow(report, shaken(estimators.contact))
     push, state = trusted_push(known.push, report), best_state(known.state, usable_readings, report, watchdog.rates)
     checked = CheckedEstimates(push, state, known.vehicle, known.contact, usable_readings, report)
@@ -154,6 +155,11 @@ def _reported(known: CheckedEstimates) -> Any:
     p, r = known.push, known.report
     inconsistent = where(r.joints + r.accelerometer + r.imu > 0.0, 0.0, 1.0 - p.trusted)
     return SensorStatus(r, inconsistent, p.armed, p.payload_mass)
+
+
+@refuted_push.register(CheckedEstimates)
+def _refuted(known: CheckedEstimates) -> Vec3:
+    return known.push.withheld * known.push.refuted
 
 
 @sensor_status.register(PerceptionData)

@@ -11,9 +11,11 @@ from tandemlift.laws.estimation.contact_detection import (
     Around,
     contact_step,
     explained_push,
+    shaken,
 )
 from tandemlift.laws.estimation.contact_evidence import ContactDetector, PushReading
 from tandemlift.laws.estimation.navigation import Navigator, navigate
+from tandemlift.laws.estimation.push_confirmation import SampledPush, confirm, refuted_push
 from tandemlift.laws.estimation.push_estimate import PushEstimate, PushEstimator, estimate
 from tandemlift.laws.guidance.contact_hold import contact_of
 from tandemlift.laws.guidance.phases import in_the_air, is_in
@@ -76,13 +78,17 @@ class NominalVehicle(NamedTuple):
 
 
 class Estimators(NamedTuple):
-    """The estimators of push and state, the nominal vehicle, when the tare begins, and the detector of contacts."""
+    """The estimators of push and state, the nominal vehicle, when the tare begins, and what checks the push.
+
+    That is the detector of contacts, and the confirmation by what else acts on the vehicle.
+    """
 
     push: PushEstimator
     state: Navigator
     vehicle: NominalVehicle
     tare: Any
     contact: Any
+    confirmation: Any
 
 
 class TareAtTime(NamedTuple):
@@ -99,6 +105,7 @@ class EstimatorState(NamedTuple):
     push: Any
     state: Any
     contact: Any
+    confirmation: Any
 
 
 class Estimates(NamedTuple):
@@ -146,18 +153,33 @@ def _tare(estimators: Estimators, guidance: Any, t: Any) -> Any:
 
 
 @choice(absent=("estimators", "memory"))
-def estimate_all(estimators: Any, memory: Any, readings: Any, around: Around, t: Any, dt: Any) -> Any:
-    """(the estimates from readings, the estimators' memory) at time t [s]; `around`: what is known of obstacles."""
+def estimate_all(estimators: Any, memory: Any, readings: Any, around: Around, commands: Any, t: Any, dt: Any) -> Any:
+    """(the estimates from readings, the estimators' memory) at time t [s].
+
+    `around`: what is known of obstacles; `commands`: the last thrusts of all rotors [N].
+    """
 
 
 @estimate_all.register(Estimators)
-def _estimated(estimators: Estimators, memory: Any, readings: Any, around: Around, t: Any, dt: Any) -> Any:
+def _estimated(
+    estimators: Estimators, memory: Any, readings: Any, around: Around, commands: Any, t: Any, dt: Any
+) -> Any:
     push, push_memory = estimate(estimators.push, memory.push, readings.imu, t)
     state, state_memory = navigate(estimators.state, memory.state, readings)
     seen = PushReading(readings.imu, push_memory.angular, push)
     contact, contact_memory = contact_step(estimators.contact, memory.contact, estimators.push, seen, state, around, dt)
-    estimates = Estimates(explained_push(contact_memory, push), state, estimators.vehicle, contact)
-    return estimates, EstimatorState(push_memory, state_memory, contact_memory)
+    sampled, explained = SampledPush(readings.imu, estimators.push, push_memory), shaken(contact_memory)
+    push, confirmation = confirm(
+        estimators.confirmation,
+        memory.confirmation,
+        explained_push(contact_memory, push),
+        sampled,
+        commands,
+        explained,
+        dt,
+    )
+    estimates = Estimates(push, state, estimators.vehicle, contact)
+    return estimates, EstimatorState(push_memory, state_memory, contact_memory, confirmation)
 
 
 @choice(absent=NOTHING_AROUND)
@@ -253,6 +275,11 @@ def push_without_drag(vehicle: NominalVehicle, state: State, force: Vec3, moment
     push = force + vehicle.drag_force * state.velocity
     arm = cross(vehicle.payload, apply_transposed(rotation_from_quaternion(state.attitude), push))
     return PushWrench(push * usable, (moment + vehicle.drag_moment * state.rates + arm) * usable)
+
+
+@refuted_push.register(Estimates)
+def _refuted(known: Estimates) -> Vec3:
+    return known.push.withheld * known.push.refuted
 
 
 @contact_of.register(PerceptionData)

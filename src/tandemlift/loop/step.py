@@ -38,7 +38,15 @@ from tandemlift.loop.perception import (
 )
 from tandemlift.loop.running_metrics import RunningMetrics, count
 from tandemlift.loop.wind_loads import WindOutput, wind_loads
-from tandemlift.pilot.pilot import Decision, PilotInput, PilotMemory, PilotParameters, decide, with_thrusts
+from tandemlift.pilot.pilot import (
+    Decision,
+    PilotInput,
+    PilotMemory,
+    PilotParameters,
+    decide,
+    last_thrusts,
+    with_thrusts,
+)
 
 
 class FlightState(NamedTuple):
@@ -135,9 +143,9 @@ def with_person(model: FlightModel, inputs: StepInputs, t: Any, dt: Any) -> Step
 def perceive(model: FlightModel, push: Push, t: Any, dt: Any) -> Any:
     """(estimates, the pilot's input, the estimators' memory) at time t [s]; `push` is the true one."""
     before, sources = model.flight_state, model.sources
-    since = tare_time(model.estimator, before.memory.guidance, t)
+    since, commands = tare_time(model.estimator, before.memory.guidance, t), last_thrusts(before.memory.allocation)
     around = surroundings_of(model.estimator, sources, before.near, before.memory.guidance)
-    estimates, memory = estimate_all(model.estimator, before.estimator, before.readings, around, since, dt)
+    estimates, memory = estimate_all(model.estimator, before.estimator, before.readings, around, commands, since, dt)
     readings = usable(estimates, before.readings)
     state = read_state(sources.state, before.state, readings, estimates)
     wrench = read_push(sources.push, push, state, estimates)

@@ -206,6 +206,16 @@ class EstimatorTable(Table):
     attitude_bandwidth: Bandwidth = key(
         4.0, "rad/s", "bandwidth with which the motion measurement corrects the attitude", source="chosen"
     )
+    confirmation: Literal["none", "motion"] = key(
+        "motion",
+        None,
+        "what a push must agree with to be followed",
+        choices={
+            "none": "nothing",
+            "motion": "how the vehicle moves under the thrust that the pilot knows: of a push that the motion "
+            "contradicts, or that came with wind on the quadrotors, less than the threshold is left",
+        },
+    )
     wind_compensation: Literal["none", "quadrotors"] = key(
         "none",
         None,

@@ -88,7 +88,8 @@ class PushEstimate(NamedTuple):
     sample less the tare; `force` and `moment`, likewise: low-passed, zero until the tare is over; `point` [m]: where on
     body y the force acts, 0 if it is too small; `payload_mass` [kg]; `disagreement` [N]: the horizontal force by which
     one joint sensor alone would have to be wrong; `trusted` is 1 while that is below its limit, `armed` once the tare
-    is over, else 0; `usable`: `force` where trusted, else zero.
+    is over, else 0; `usable`: `force` where trusted, else zero. `withheld` [N, world axes]: what is not confirmed
+    of the push (`push_confirmation`), and is not in the fields above; `refuted`: 1 while the motion refutes it, else 0.
     """
 
     measured: Vec3
@@ -101,6 +102,8 @@ class PushEstimate(NamedTuple):
     trusted: Any
     armed: Any
     usable: Vec3
+    withheld: Vec3 = ZERO
+    refuted: Any = 0.0
 
 
 @law

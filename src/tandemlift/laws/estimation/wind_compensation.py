@@ -79,6 +79,16 @@ def _scaled(
     return after.value, PayloadDragState(summed.sum, summed.count, after)
 
 
+@choice(absent=ZERO)
+def subtracted_wind(memory: PayloadDragState | Nothing) -> Any:
+    """What was subtracted from the push at the last sample [N, body axes], from this memory."""
+
+
+@subtracted_wind.register(PayloadDragState)
+def _subtracted(memory: PayloadDragState) -> Vec3:
+    return memory.force.value
+
+
 def start_payload_drag(windage: PayloadDrag | Nothing) -> PayloadDragState | Nothing:
     """The memory before the first step."""
     return windage if isinstance(windage, Nothing) else PayloadDragState(ZERO, 0.0, LowPassState(ZERO, ZERO))
