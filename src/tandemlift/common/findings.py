@@ -14,6 +14,8 @@ FindingName = Literal[
     "oscillating",
     "saturated",
     "push-unanswered",
+    "response-without-push",
+    "push-refuted",
     "off-track",
     "out-of-reach",
     "cannot-follow",
@@ -64,6 +66,18 @@ KINDS = (
         "see that rotors have thrust left beside the weight (`compliance.thrust_fraction`), and that nothing is in the "
         "way",
         ("findings.push_time", "findings.push_response"),
+    ),
+    FindingKind(
+        "response-without-push",
+        "the reference moved although nobody pushed: it followed an error of the sensors, or wind",
+        "see that `estimator.confirmation` is on, raise `admittance.threshold`, or repair the sensor",
+        ("findings.unpushed_distance",),
+    ),
+    FindingKind(
+        "push-refuted",
+        "the joint sensors measured a push along which the vehicle did not move, so that it was not followed",
+        "repair or tare the joint sensors; see channel `push_withheld`",
+        ("findings.refuted_time",),
     ),
     FindingKind(
         "off-track",

@@ -12,11 +12,10 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, elementwise, law
-from tandemlift.algebra.ops import absolute, clip, maximum, sqrt, where
-from tandemlift.algebra.selection import chosen
+from tandemlift.algebra.ops import absolute, maximum, where
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Vec3, dot, total
-from tandemlift.laws.compliance.admittance import soft
+from tandemlift.laws.estimation.push_confirmation import refuted_push
 from tandemlift.laws.estimation.rotor_loss_detection import left_of
 from tandemlift.laws.guidance.guidance import thrust_fraction
 from tandemlift.laws.mechanics.rotation import body_z_axis, wrap_angle
@@ -25,23 +24,16 @@ from tandemlift.laws.rotors.rotors import IdealRotors, Rotors
 from tandemlift.loop.excess import NO_EXCESS, Excess, exceed
 from tandemlift.loop.log_sample import Sample, at_limit
 from tandemlift.loop.oscillation import NO_OSCILLATION, Oscillation, OscillationLimits, Swings, oscillation_step
-
-
-class PushLimits(NamedTuple):
-    """What a push should do.
-
-    `threshold` [N] beyond which a true push should be heard, or `Nothing` where the pilot is given every push. The
-    square of the `least` force that counts [N²]. 1/C of the axes that yield without a spring [m/(N s)], and the largest
-    `speed` [m/s]. After a `time` [s], the work of a push must be a `response` of that at the speed that the admittance
-    ends with.
-    """
-
-    threshold: Any
-    least: Any
-    inverse_damping: Vec3
-    speed: Vec3
-    time: Any
-    response: Any
+from tandemlift.loop.push_detectors import (
+    NO_RESPONSE,
+    UNMOVED,
+    PushLimits,
+    PushResponse,
+    UnpushedMotion,
+    push_step,
+    push_to_answer,
+    unpushed_step,
+)
 
 
 class FindingLimits(NamedTuple):
@@ -49,7 +41,7 @@ class FindingLimits(NamedTuple):
 
     `settled` [s]: from when on the promise holds. Squares of the promised distance [m²], and the heading [rad]; the
     smallest cosine of the tilt. `mass` [kg]; the square of the largest `thrust` [N²]. `rate` [(rad/s)²] below whose
-    square no body rate oscillates.
+    square no body rate oscillates. `unpushed` [m]: how far the reference may move while nobody pushes.
     """
 
     settled: Any
@@ -60,21 +52,8 @@ class FindingLimits(NamedTuple):
     thrust: Any
     rate: Any
     push: PushLimits
+    unpushed: Any
     oscillation: OscillationLimits
-
-
-class PushResponse(NamedTuple):
-    """Memory: 1 while there is a push, else 0, and its start [s].
-
-    The work that it should do and that it does [J], with what it does not reach. With `now` 0 before and after a step,
-    nothing changes.
-    """
-
-    now: Any
-    since: Any
-    expected: Any
-    done: Any
-    unanswered: Excess
 
 
 class Detectors(NamedTuple):
@@ -94,13 +73,16 @@ class Detectors(NamedTuple):
     saturation: Any
     reach: Any
     push: PushResponse
+    unpushed: UnpushedMotion
+    refuted: Excess
 
 
 class Watched(NamedTuple):
     """What the detectors look at in a step: each as its limit has it, see `FindingLimits`.
 
     `swings`: what may oscillate. `limited`: rotors at a limit. `needed`: square of the thrust that the reference asks
-    for [N²]. `push` [N] that should move the vehicle.
+    for [N²]. `push` [N] that should move the vehicle. `pushed`: 1 while there is a true push, `followed`: 1 while
+    one is followed, else 0. `refuted` [N]: what of a push the motion refutes.
     """
 
     swings: Swings
@@ -110,9 +92,11 @@ class Watched(NamedTuple):
     limited: Any
     needed: Any
     push: Vec3
+    pushed: Any
+    followed: Any
+    refuted: Vec3
 
 
-NO_RESPONSE = PushResponse(0.0, 0.0, 0.0, 0.0, NO_EXCESS)
 ASLEEP = Detectors(
     awake=0.0,
     steps=0.0,
@@ -124,6 +108,8 @@ ASLEEP = Detectors(
     saturation=NO_EXCESS,
     reach=NO_EXCESS,
     push=NO_RESPONSE,
+    unpushed=UNMOVED,
+    refuted=NO_EXCESS,
 )
 
 
@@ -174,37 +160,12 @@ def _needed(reach: Excess, mass: Any, a: Vec3) -> Number:
     return (a.x * a.x + a.y * a.y + up * up) * (mass * mass)
 
 
-@choice(absent="gated")
-def push_to_answer(threshold: Any, least: Any, gated: Vec3, true: Vec3) -> Any:
-    """The push that should move the vehicle [N]: that after the gate, else a true one that should have been heard."""
-
-
-@push_to_answer.register(Vec3)
-def _heard_or_true(threshold: Vec3, least: Any, gated: Vec3, true: Vec3) -> Vec3:
-    return chosen(where(dot(gated, gated) > least, 1.0, 0.0), gated, soft(true, threshold))
-
-
-@law
-def push_step(k: PushLimits, m: PushResponse, push: Vec3, x: Sample, active: Any, t: Any, dt: Any) -> PushResponse:
-    """The memory of the response after a step under a push [N]; `active` is 1 while pushes should be answered."""
-    now = where(dot(push, push) > k.least, active, 0.0)
-    goes_on = where(now > m.now, 0.0, 1.0)
-    since = where(now > m.now, t, m.since)
-    speed = clip(push * k.inverse_damping, -k.speed, k.speed)
-    along = Vec3(*[where(c > 0.0, v, 0.0) for c, v in zip(k.inverse_damping, x.velocity, strict=True)])
-    expected = m.expected * goes_on + dot(push, speed) * (now * dt)
-    done = m.done * goes_on + dot(push, along) * (now * dt)
-    missing = now * where(t - since < k.time, 0.0, where(done < k.response * expected, 1.0, 0.0))
-    size = sqrt(maximum(dot(push, push), 1e-24))
-    return PushResponse(now, since, expected, done, exceed(m.unanswered, missing, size, x.position, t, dt))
-
-
 @law
 def watched(model: Any, output: Any, x: Sample, flying: Any, t: Any) -> Watched:
     """What the detectors look at in a step; `flying` is 1 in flight, else 0."""
     k, flight_state, decision = model.finding_limits, model.flight_state, output.decision
     left = left_of(model.pilot.detection, flight_state.memory.detection)
-    error = x.reference_position - x.position
+    error, gated, true = x.reference_position - x.position, decision.guidance.force, x.push_force
     return Watched(
         swings=Swings(x.rates.x, x.rates.y, x.rates.z, x.reference_velocity.z - x.velocity.z),
         distance=dot(error, error),
@@ -213,7 +174,10 @@ def watched(model: Any, output: Any, x: Sample, flying: Any, t: Any) -> Watched:
         limited=rotors_at_limit(model.rotors, decision.thrusts, usable_rotors(model.pilot.allocation, left, t))
         * flying,
         needed=thrust_needed(flight_state.detectors.reach, k.mass, x.reference_acceleration),
-        push=push_to_answer(k.push.threshold, k.push.least, decision.guidance.force, x.push_force),
+        push=push_to_answer(k.push.threshold, k.push.least, gated, true),
+        pushed=where(dot(true, true) <= k.push.least, 0.0, 1.0),  # 1 too where a simulator does not tell the push
+        followed=where(dot(gated, gated) > k.push.least, 1.0, 0.0),
+        refuted=refuted_push(output.estimates),
     )
 
 
@@ -222,6 +186,7 @@ def may_be_found(k: FindingLimits, w: Watched) -> Any:
     """1 if any detector may have something to remember, else 0: quick to tell, and never 0 where one has."""
     s = w.swings
     found = where(dot(w.push, w.push) > k.push.least, 1.0, where(w.limited > 0.0, 1.0, 0.0))
+    found = maximum(found, maximum(maximum(w.pushed, w.followed), where(dot(w.refuted, w.refuted) > 0.0, 1.0, 0.0)))
     found = where(w.needed > k.thrust, 1.0, where(w.upright < k.upright, 1.0, found))
     found = where(w.heading > k.heading, 1.0, where(w.distance > k.distance, 1.0, found))
     found = where(absolute(s.vertical) < k.oscillation.levels.vertical, found, 1.0)
@@ -235,6 +200,7 @@ def detect(model: Any, output: Any, x: Sample, t: Any, dt: Any) -> Detectors:
     flying = guidance.flying * thrust_fraction(guidance.running)
     w, place = watched(model, output, x, flying, t), x.position
     settled = flying * where(t < k.settled, 0.0, 1.0)
+    refuted = dot(w.refuted, w.refuted)
     return Detectors(
         awake=may_be_found(k, w),
         steps=m.steps + settled,
@@ -246,4 +212,8 @@ def detect(model: Any, output: Any, x: Sample, t: Any, dt: Any) -> Detectors:
         saturation=exceed(m.saturation, where(w.limited > 0.0, flying, 0.0), w.limited, place, t, dt),
         reach=exceed(m.reach, where(w.needed > k.thrust, flying, 0.0), w.needed, place, t, dt),
         push=push_step(k.push, m.push, w.push, x, settled, t, dt),
+        unpushed=unpushed_step(
+            k.unpushed, m.unpushed, (w.pushed, w.followed * flying), guidance.admittance.position, place, t, dt
+        ),
+        refuted=exceed(m.refuted, where(refuted > 0.0, flying, 0.0), refuted, place, t, dt),
     )

@@ -193,6 +193,15 @@ class FindingsTable(Table):
         "smallest work that a push must do, as a fraction of that at the speed that the admittance ends with",
         source="chosen: built-in missions reach 0.5",
     )
+    unpushed_distance: Positive = key(
+        0.1,
+        "m",
+        "largest distance by which the reference may move while nobody pushes",
+        source="chosen: built-in missions keep 0.02 m where there is no wind",
+    )
+    refuted_time: NonNegative = key(
+        0.5, "s", "time for which the motion may refute a measured push", source="chosen: longer than a blow"
+    )
     reach_time: NonNegative = key(
         0.1, "s", "time for which the reference may ask for more thrust than there is", source="chosen"
     )

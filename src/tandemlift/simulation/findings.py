@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 from tandemlift.algebra.vector import Nothing, dot, total
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS
-from tandemlift.common.findings import Finding, FindingName
+from tandemlift.common.findings import Finding
 from tandemlift.common.phases import IDLE, LAND, LIFT, REASONS, STOPPED
 from tandemlift.laws.compliance.following import FollowingState
 from tandemlift.laws.guidance.supervision import ALARM, PHASE, SupervisionState
-from tandemlift.loop.excess import Excess
 from tandemlift.loop.oscillation import HalfPeriods
 from tandemlift.loop.step import FlightState
 from tandemlift.settings import Mission
 from tandemlift.settings.outcomes import Promise, promise_of
+from tandemlift.simulation.excess_findings import excess_finding, finding, refuted, unanswered, unpushed
 from tandemlift.simulation.outcome import landing_time
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.touches import touches_of
@@ -45,7 +45,9 @@ def findings_of(p: FlightPlan, flight_state: FlightState, steps: int, outcome: s
         *_deviations(d, promise, mission, p.dt),
         *_saturations(d.saturation, steps, mission, p.dt),
         *_out_of_reach(d.reach, p),
-        *_unanswered(d.push.unanswered, p.dt),
+        *unanswered(d.push.unanswered, p.dt),
+        *unpushed(d.unpushed.excess, mission.findings.unpushed_distance, p.dt),
+        *refuted(d.refuted, mission.findings.refuted_time, p.dt),
         *_cannot_follow(flight_state, mission),
         *_touches(flight_state),
         *_by_events(flight_state, mission),
@@ -53,33 +55,6 @@ def findings_of(p: FlightPlan, flight_state: FlightState, steps: int, outcome: s
         *_not_landed(p, flight_state, outcome, steps * p.dt),
     ]
     return tuple(sorted((f for f in found if f.kind not in mission.findings.ignore), key=lambda f: f.time))
-
-
-def finding(
-    kind: FindingName,
-    text: str,
-    *,
-    time: float,
-    duration: float = 0.0,
-    place: Iterable[float] | None = None,
-    quantity: str = "",
-    value: float | None = None,
-    unit: str = "",
-    limit: float | None = None,
-) -> Finding:
-    """A finding with plain numbers; one that is not finite, of a flight that diverged, is left out."""
-    at = None if place is None else tuple(map(float, place))
-    return Finding(
-        kind=kind,
-        time=round(float(time), 9),
-        duration=round(float(duration), 9),
-        place=at if at and all(map(math.isfinite, at)) else None,  # type: ignore[arg-type]
-        quantity=quantity,
-        value=value if value is not None and math.isfinite(value) else None,
-        unit=unit,
-        limit=limit,
-        text=text,
-    )
 
 
 def _oscillations(swings: Any, mission: Mission) -> Iterator[Finding]:
@@ -110,10 +85,12 @@ def _deviations(d: Any, promise: Promise, mission: Mission, dt: float) -> Iterat
     far, reach = math.sqrt(d.distance.worst), mission.findings.reach_distance
     if d.distance.steps and far > reach:
         text = f"the reference is {far:.3g} m from the vehicle, which it has left behind"
-        yield _excess("out-of-reach", text, d.distance, dt, "distance from the reference", far, "m", reach)
+        yield excess_finding("out-of-reach", text, d.distance, dt, "distance from the reference", far, "m", reach)
     elif d.distance.steps:
         text = f"{far:.3g} m from its reference (promised: {promise.distance:g} m)"
-        yield _excess("off-track", text, d.distance, dt, "distance from the reference", far, "m", promise.distance)
+        yield excess_finding(
+            "off-track", text, d.distance, dt, "distance from the reference", far, "m", promise.distance
+        )
     rms = math.sqrt(d.squares / d.steps) if d.steps else 0.0
     promised = promise.rms_promised(mission.pilot.guidance)
     if rms > promised:
@@ -130,32 +107,14 @@ def _deviations(d: Any, promise: Promise, mission: Mission, dt: float) -> Iterat
         )
     if d.heading.steps:
         text = f"{_degrees(d.heading.worst)} from its reference heading (promised: {_degrees(promise.heading)})"
-        yield _excess(
+        yield excess_finding(
             "off-track", text, d.heading, dt, "difference from the reference heading", d.heading.worst, "rad",
             promise.heading,
         )  # fmt: skip
     if d.tilt.steps:
         angle = math.acos(max(-1.0, min(1.0, 1.0 - d.tilt.worst)))
         text = f"tilted by {_degrees(angle)} (promised: {_degrees(promise.tilt)})"
-        yield _excess("off-track", text, d.tilt, dt, "tilt", angle, "rad", promise.tilt)
-
-
-def _excess(
-    kind: FindingName, text: str, m: Excess, dt: float, quantity: str, value: float, unit: str, limit: float
-) -> Finding:
-    """A finding of a limit that was exceeded."""
-    lasted = m.steps * dt
-    return finding(
-        kind,
-        f"{text}, worst at {m.at:.5g} s; beyond it for {lasted:.3g} s",
-        time=m.start,
-        duration=lasted,
-        place=m.place,
-        quantity=quantity,
-        value=value,
-        unit=unit,
-        limit=limit,
-    )
+        yield excess_finding("off-track", text, d.tilt, dt, "tilt", angle, "rad", promise.tilt)
 
 
 def _degrees(angle: float) -> str:
@@ -188,22 +147,7 @@ def _out_of_reach(m: Any, p: FlightPlan) -> Iterator[Finding]:
         return
     needed, most = math.sqrt(m.worst), math.sqrt(p.model.finding_limits.thrust)
     text = f"the reference asks for {needed:.4g} N of thrust, the rotors have {most:.4g} N"
-    yield _excess("out-of-reach", text, m, p.dt, "thrust that the reference needs", needed, "N", most)
-
-
-def _unanswered(m: Excess, dt: float) -> Iterator[Finding]:
-    if m.steps:
-        text = f"a push of up to {m.worst:.3g} N moves nothing"
-        yield finding(
-            "push-unanswered",
-            f"{text} for {m.steps * dt:.3g} s",
-            time=m.start,
-            duration=m.steps * dt,
-            place=m.place,
-            quantity="push",
-            value=m.worst,
-            unit="N",
-        )
+    yield excess_finding("out-of-reach", text, m, p.dt, "thrust that the reference needs", needed, "N", most)
 
 
 def _cannot_follow(flight_state: FlightState, mission: Mission) -> Iterator[Finding]:
