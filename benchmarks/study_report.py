@@ -11,12 +11,12 @@ from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.parquet as pq
 
 import tandemlift as tl
 from tandemlift.report.study.study_report import write_study_report
 from tandemlift.studies.design.study_files import load_plan
 from tandemlift.studies.reading.table import Study
+from tandemlift.studies.units.checked_file import write_checked
 from tandemlift.studies.units.store import open_folder
 
 KEYS = ("plant.mass_scale", "admittance.damping", "admittance.mass", "admittance.threshold", "wind.turbulence")
@@ -49,7 +49,7 @@ def write_rows(folder, numbers):
         measured = dict(zip(SHOWN, noise * (1.0 + u[0] + 2.0 * u[1] ** 2), strict=False))
         others = {f"other_{k}_m": noise[k + len(SHOWN)] for k in range(METRICS)}
         table = {**about, **varied, **said, "events": ["[]"] * count, **measured, **others, "steps": row * 0 + 12_000}
-        pq.write_table(pa.table(table), store.files.file(name), compression="zstd")
+        write_checked(pa.table(table), store.files.file(name))
 
 
 def main():

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from tandemlift.common.errors import InputError, unknown
 from tandemlift.common.extras import extra
+from tandemlift.studies.units.checked_file import CheckedFile, DamagedFile
 
 if TYPE_CHECKING:
     import pyarrow
@@ -43,54 +44,39 @@ def check_whole(path: Path) -> None:
     except OSError as error:
         raise InputError(f"{path}: {error.strerror or error}") from None
     if (begin, end) != (MARK, MARK):
-        raise _damaged(path, "it is cut short, or no Parquet file")
+        raise DamagedFile(path, "it is cut short, or no Parquet file")
 
 
-def _damaged(path: Path, why: object) -> InputError:
-    return InputError(f"{path} is damaged: {why}. Run the study again: it makes this file anew, and keeps the others")
-
-
-def _opened(file: UnitFile, coded: Collection[str] = ()) -> Any:
-    """A file as PyArrow opens it, with some columns as codes of their texts."""
-    with extra("study", "load_study"):
-        import pyarrow
-        from pyarrow import parquet
+def _opened(file: UnitFile, coded: Collection[str] = ()) -> CheckedFile:
+    """A file, with some columns as codes of their texts."""
     try:
-        return parquet.ParquetFile(file.path, read_dictionary=list(coded))
-    except (OSError, pyarrow.ArrowInvalid) as error:
-        raise _damaged(file.path, error) from None
+        return CheckedFile(file.path, coded)
+    except OSError as error:
+        raise DamagedFile(file.path, error) from None
 
 
 def columns_in(files: Iterable[UnitFile]) -> tuple[str, ...]:
     """The columns of all files together, in the order in which they first come."""
     with ThreadPoolExecutor(THREADS) as pool:
-        names = pool.map(lambda file: _opened(file).schema_arrow.names, files)
+        names = pool.map(lambda file: _opened(file).names, files)
         return tuple(dict.fromkeys(itertools.chain.from_iterable(names)))
 
 
 def about(file: UnitFile) -> dict[str, str]:
     """What a file says of itself: study, unit, sources and version of tandemlift."""
-    said = _opened(file).schema_arrow.metadata or {}
-    return {
-        key.decode().removeprefix(ABOUT): value.decode()
-        for key, value in said.items()
-        if key.decode().startswith(ABOUT)
-    }
+    said = {key.decode(): value.decode() for key, value in _opened(file).about.items()}
+    return {key.removeprefix(ABOUT): value for key, value in said.items() if key.startswith(ABOUT)}
 
 
 def _read_file(file: UnitFile, names: Sequence[str], coded: Collection[str]) -> pyarrow.Table:
     """Chosen columns of a file, of those that it has."""
-    with extra("study", "load_study"):
-        import pyarrow
     opened = _opened(file, coded)
-    known = set(opened.schema_arrow.names)
-    here = [name for name in names if name in known]
     try:
-        table = opened.read(columns=here, use_threads=False)
-    except (OSError, pyarrow.ArrowInvalid) as error:
-        raise _damaged(file.path, error) from None
-    if opened.metadata.num_rows != file.last - file.first:
-        raise _damaged(file.path, f"it has {opened.metadata.num_rows} rows in place of {file.last - file.first}")
+        table: pyarrow.Table = opened.read(names)
+    except OSError as error:
+        raise DamagedFile(file.path, error) from None
+    if opened.rows != file.last - file.first:
+        raise DamagedFile(file.path, f"it has {opened.rows} rows in place of {file.last - file.first}")
     return table
 
 

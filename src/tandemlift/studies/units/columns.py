@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from tandemlift.common.errors import InputError
 from tandemlift.common.extras import extra
-from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Array
 from tandemlift.flight.channels import DERIVED
 from tandemlift.flight.record import Flight
 from tandemlift.studies.design.keys import columns_of
 from tandemlift.studies.design.plan import SEED, StudyRow
 from tandemlift.studies.design.settings import REFUSED
+from tandemlift.studies.units.checked_file import write_checked
 from tandemlift.studies.units.unit import StudyUnit
 
 Columns = dict[str, list[Any]]
@@ -89,11 +87,11 @@ def _channels(flight: Flight, names: Sequence[str]) -> dict[str, Array]:
 
 
 def write_columns(columns: Columns, path: Path, about: Mapping[str, str]) -> None:
-    """Write a table as a Parquet file, whole or not at all.
+    """Write a table as a Parquet file with checksums, whole or not at all.
 
     Args:
         columns: from `columns_of_rows`.
-        path: of the file.
+        path: of the file, called by the name of its unit.
         about: what the file says of itself.
 
     Raises:
@@ -101,23 +99,10 @@ def write_columns(columns: Columns, path: Path, about: Mapping[str, str]) -> Non
     """
     with extra("study", "a study"):
         import pyarrow as pa
-        from pyarrow import parquet
 
     arrays = {name: _array(pa, name, values) for name, values in columns.items()}
     table = pa.table(arrays).replace_schema_metadata({f"tandemlift.{key}": value for key, value in about.items()})
-    try:
-        with atomic_write(path) as partial:
-            parquet.write_table(table, partial, compression="zstd")
-            _sync(partial)
-    except OSError as error:
-        why = os.strerror(error.errno) if error.errno else error
-        raise InputError(f"{path}: cannot be written: {why}; what is done so far stays") from None
-
-
-def _sync(path: Path) -> None:
-    """Wait until the disk has a file: else a power failure may leave its name without all of its content."""
-    with path.open("rb+") as file:
-        os.fsync(file.fileno())
+    write_checked(table, path)
 
 
 def _array(pa: Any, name: str, values: list[Any]) -> Any:

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from tandemlift.common.errors import InputError
-from tandemlift.common.extras import extra
 from tandemlift.common.version import __version__
+from tandemlift.studies.units.checked_file import CheckedFile, DamagedFile
 from tandemlift.studies.units.columns import Columns, write_columns
 
 LEFT_OVER = 3600.0  # s, after which a half-written file, or a claim, is nobody's
@@ -31,7 +31,7 @@ class UnitFiles:
         return self.path / f"{name}.parquet"
 
     def is_flown(self, name: str) -> bool:
-        """Whether a unit's file is there, and whole; one that was cut short is written anew when the unit is flown.
+        """Whether a unit's file is there, as it was written; a damaged one is written anew when the unit is flown.
 
         Raises:
             InputError: there is a file that this process cannot read.
@@ -39,16 +39,12 @@ class UnitFiles:
         path = self.file(name)
         if not path.exists():
             return False
-        with extra("study", "a study"):
-            from pyarrow import parquet
         try:
-            parquet.read_metadata(path)
-        except FileNotFoundError:
+            CheckedFile(path).check()
+        except (FileNotFoundError, DamagedFile):
             return False
-        except (OSError, ValueError) as error:  # one without a number says that it is no Parquet file
-            if getattr(error, "errno", None) is not None:
-                raise InputError(f"{path}: cannot be read: {getattr(error, 'strerror', error)}") from None
-            return False
+        except OSError as error:
+            raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
         return True
 
     def claim(self, name: str) -> bool:
