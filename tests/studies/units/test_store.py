@@ -1,6 +1,8 @@
 """The folder of a study when something is wrong with it: files cut short, no space, no rights, another study."""
 
+import json
 import os
+import random
 import shutil
 import tempfile
 from pathlib import Path
@@ -13,6 +15,8 @@ from study_runs import TWELVE, assert_same_rows, files_of, fly, started
 from tandemlift.common.errors import InputError
 from tandemlift.controllers import CONTROLLERS
 from tandemlift.studies.design.study_files import load_plan
+from tandemlift.studies.reading.table import load_study
+from tandemlift.studies.study import mission_of_row
 from tandemlift.studies.units.files import LEFT_OVER
 from tandemlift.studies.units.store import open_folder
 
@@ -96,6 +100,48 @@ def test_a_controller_s_file_that_changed_since_is_named(tmp_path):
     with pytest.raises(InputError, match=r"flown with another version of changing\.py: choose another --out"):
         open_folder(load_plan(tables), tmp_path / "out")
     del CONTROLLERS["changing"]
+
+
+EDITS = {
+    "a setting": lambda said: said["settings"]["set"].update({"mission.duration": 0.4}),
+    "a mission": lambda said: said["variants"][0]["tables"].update(plant={"mass_scale": 1.1}),
+    "a controller": lambda said: said["variants"][0].update(controller_file=["mine.py", "raise SystemExit('ran')"]),
+    "the rows": lambda said: said.update(rows=44),
+    "the columns": lambda said: said.update(varied=[]),
+    "the sources": lambda said: said.update(sources="0" * 16),
+    "the digest": lambda said: said.update(digest=said["digest"][::-1]),
+    "a key of its own": lambda said: said.update(more=1),
+}
+
+
+@pytest.mark.parametrize("edit", EDITS.values(), ids=EDITS)
+def test_a_plan_that_was_edited_is_refused_before_anything_of_it_is_used(twelve, edit):
+    path = twelve / "study.json"
+    said = json.loads(path.read_text("utf-8"))
+    edit(said)
+    path.write_text(json.dumps(said), "utf-8")
+    for use in (load_study, lambda folder: mission_of_row(folder, 0), lambda folder: fly(TWELVE, folder)):
+        with pytest.raises(InputError, match=r"study\.json is damaged, or was edited: .* Remove this file and start"):
+            use(twelve)
+    path.unlink()
+    assert fly(TWELVE, twelve) == 0
+
+
+def test_a_plan_of_which_a_bit_changed_is_refused(twelve):
+    path = twelve / "study.json"
+    content, drawn = path.read_bytes(), random.Random(25)
+    for _ in range(200):
+        bit = drawn.randrange(8 * len(content.rstrip()))
+        path.write_bytes(bytes(byte ^ (1 << bit % 8) * (i == bit // 8) for i, byte in enumerate(content)))
+        with pytest.raises(InputError, match=r"study\.json|made by another version"):
+            load_study(twelve)
+
+
+def test_a_folder_of_another_format_is_said_to_be_of_another_version(twelve):
+    path = twelve / "study.json"
+    path.write_text(path.read_text("utf-8").replace('"format": ', '"format": 99'), "utf-8")
+    with pytest.raises(InputError, match="made by another version of tandemlift; fly it again"):
+        load_study(twelve)
 
 
 @pytest.fixture

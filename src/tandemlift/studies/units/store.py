@@ -20,7 +20,7 @@ from tandemlift.studies.units.kept import check_kept
 from tandemlift.studies.units.unit import sources_digest, study_digest, unit_names
 
 STUDY, PLAN, UNITS = "study.toml", "study.json", "units"
-FORMAT = 1
+FORMAT = 2
 
 
 class StudyFolder:
@@ -66,38 +66,41 @@ def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
     with extra("study", "a study"):  # before anything flies
         import pyarrow  # noqa: F401
     check_kept(plan)
-    digest = study_digest(plan)
+    contents = _contents(plan)
     if (path / PLAN).exists():
         folder = StudyFolder(path)
-        if folder.digest != digest:
+        if folder.digest != contents["digest"]:
             if name := _changed_file(folder, plan):
                 said = f"{path} was flown with another version of {name}"
                 raise InputError(f"{said}: choose another --out, or remove the folder to fly it anew")
             raise InputError(f"{path} holds another study: {_difference(folder, plan)}; choose another --out")
         folder.files.clean()
         return folder
-    _make(path, plan, digest)
+    _make(path, contents)
     return StudyFolder(path)
 
 
-def _make(path: Path, plan: StudyPlan, digest: str) -> None:
-    settings = plan.settings.model_dump(mode="json", exclude_none=True)
-    said = {
+def _contents(plan: StudyPlan) -> dict[str, Any]:
+    """What the file of a plan says; the digest of all else in it is that of the study."""
+    contents = {
         "format": FORMAT,
-        "digest": digest,
         "sources": sources_digest(),
         "rows": plan.count,
         "rows_per_unit": plan.rows_per_unit,
         "varied": plan.varied,
-        "settings": settings,
+        "settings": plan.settings.model_dump(mode="json", exclude_none=True),
         "variants": [variant._asdict() for variant in plan.variants],
     }
+    return {**contents, "digest": study_digest(contents)}
+
+
+def _make(path: Path, contents: dict[str, Any]) -> None:
     try:
         (path / UNITS).mkdir(parents=True, exist_ok=True)
         with atomic_write(path / STUDY) as partial:
-            partial.write_text(format_toml(settings), "utf-8")
+            partial.write_text(format_toml(contents["settings"]), "utf-8")
         with atomic_write(path / PLAN) as partial:  # last: with it, the folder is a study's
-            partial.write_text(json.dumps(said) + "\n", "utf-8")
+            partial.write_text(json.dumps(contents) + "\n", "utf-8")
     except OSError as error:
         raise InputError(f"--out {path}: cannot be made or written to: {error.strerror or error}") from None
 
@@ -105,15 +108,19 @@ def _make(path: Path, plan: StudyPlan, digest: str) -> None:
 def _plan_in(path: Path) -> dict[str, Any]:
     try:
         said: dict[str, Any] = json.loads((path / PLAN).read_text("utf-8"))
-        if said["format"] != FORMAT:
-            raise InputError(f"{path}: the study was made by another version of tandemlift; fly it again")
-        return said
+        made_by, digest = said["format"], said["digest"]
     except FileNotFoundError:
         raise InputError(f"{path} is not the folder of a study: it has no {PLAN}") from None
     except OSError as error:
         raise InputError(f"{path / PLAN}: {error.strerror or error}") from None
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, RecursionError):
         raise InputError(f"{path / PLAN} is not the plan of a study") from None
+    if made_by != FORMAT:
+        raise InputError(f"{path}: the study was made by another version of tandemlift; fly it again")
+    if digest != study_digest(said):
+        again = "Remove this file and start the study again: what is flown stays"
+        raise InputError(f"{path / PLAN} is damaged, or was edited: it does not fit its digest. {again}")
+    return said
 
 
 def _changed_file(folder: StudyFolder, plan: StudyPlan) -> str:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import functools
 import hashlib
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from tandemlift.studies.design.plan import StudyPlan, StudyRow
 from tandemlift.studies.design.settings import KeepTable
@@ -57,10 +57,9 @@ def _decides(name: str) -> bool:
     return name.startswith(ROWS) if room == "studies" else room not in SHOWING
 
 
-def study_digest(plan: StudyPlan) -> str:
-    """Digest of all that decides the rows of a study: its settings, its missions and the sources."""
-    settings = plan.settings.model_dump(mode="json")
-    said = [settings, [variant._asdict() for variant in plan.variants], plan.rows_per_unit, sources_digest()]
+def study_digest(contents: Mapping[str, Any]) -> str:
+    """Digest of all that the file of a study's plan says, but the digest: settings, missions, sources and the rest."""
+    said = {key: value for key, value in contents.items() if key != "digest"}
     return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
 
 
