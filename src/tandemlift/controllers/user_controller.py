@@ -13,16 +13,14 @@ from types import FunctionType, ModuleType
 from tandemlift.algebra.law import LAWS
 from tandemlift.algebra.vector import dot
 from tandemlift.common.errors import InputError
-from tandemlift.controllers.registry import CONTROLLERS, Controller
+from tandemlift.controllers.registry import CONTROLLERS, Controller, file_of
 from tandemlift.controllers.trial_run import error_text
 
-_loaded: dict[Path, tuple[bytes, Controller]] = {}
+_loaded: dict[str, Controller] = {}  # by their modules
 
 
 def load_controller(path: str | Path) -> Controller:
     """Run a Python file that registers one controller, and return it. An unchanged file runs only once.
-
-    The file becomes a module named by its content, so that its compiled loop is found again on disk, wherever it lies.
 
     Raises:
         InputError: the file is missing, fails, or registers no controller.
@@ -30,19 +28,38 @@ def load_controller(path: str | Path) -> Controller:
     path = Path(path).resolve()
     if not path.is_file():
         raise InputError(f"controller file {path} does not exist")
-    source = path.read_bytes()
-    held = _loaded.get(path)
-    if held and held[0] == source and CONTROLLERS.get(held[1].name) is held[1]:
-        return held[1]
-    digest = hashlib.sha256(source).hexdigest()[:12]
+    try:
+        text = decode_source(path.read_bytes())
+    except (SyntaxError, UnicodeDecodeError) as error:
+        raise InputError(f"controller file {error_text(error, str(path))}") from error
+    return run_controller(text, path)
+
+
+def controller_text(controller: Controller) -> str:
+    """The text of the file that registered a controller, as it ran."""
+    return "".join(linecache.getlines(file_of(controller)))
+
+
+def run_controller(text: str, path: Path) -> Controller:
+    """Run the text of a file that registers one controller, and return it; nothing is read at `path`, which names it.
+
+    The text becomes a module named by its content, so that its compiled loop is found again on disk, wherever it lies.
+
+    Raises:
+        InputError: the text fails, or registers no controller.
+    """
+    digest = hashlib.sha256(text.encode()).hexdigest()[:12]
     module = ModuleType(f"tandemlift_user_{re.sub(r'[^A-Za-z0-9_]', '_', path.stem)}_{digest}")
+    held = _loaded.get(module.__name__)
+    if held and CONTROLLERS.get(held.name) is held:
+        return held
     module.__file__ = str(path)
     before = dict(CONTROLLERS), sys.modules.get(module.__name__)
     sys.modules[module.__name__] = module  # also while it runs: annotations are looked up there
     try:
-        code = compile(source, str(path), "exec")
-        lines = decode_source(source).splitlines(True)
-        linecache.cache[str(path)] = len(source), None, lines, str(path)  # what is traced, even if the file changes
+        code = compile(text, str(path), "exec")
+        lines = text.splitlines(True)
+        linecache.cache[str(path)] = len(text), None, lines, str(path)  # what is traced, even if the file changes
         exec(code, module.__dict__)
         new = [c for name, c in CONTROLLERS.items() if before[0].get(name) is not c]
         if len(new) != 1:
@@ -55,7 +72,7 @@ def load_controller(path: str | Path) -> Controller:
         if before[1] is not None:
             sys.modules[module.__name__] = before[1]
         raise InputError(f"controller file {error_text(error, str(path))}") from error
-    _loaded[path] = source, new[0]
+    _loaded[module.__name__] = new[0]
     return new[0]
 
 

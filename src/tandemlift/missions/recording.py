@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import atexit
 import functools
+import hashlib
+import io
 import shutil
 import tempfile
 import zipfile
@@ -26,6 +28,7 @@ WIDTH = 14  # numbers of a `VirtualHandInput`
 ENGINE = "compiled"  # the default engine
 MISSION_FILE, HAND_FILE = "recorded.toml", "hand.npz"  # of a saved flight
 MAX_UNPACKED = 200_000_000  # bytes of one of them
+_held: dict[str, bytes] = {}
 
 
 class Recording(NamedTuple):
@@ -42,6 +45,21 @@ def write_recording(path: Path, recording: Recording) -> None:
         np.savez_compressed(file, step=recording.steps, hand=recording.hands, engine=recording.engine)
 
 
+def hold_recording(name: str, content: bytes) -> str:
+    """Hold the content of a recording in this process; returns the path by which `read_recording` finds it.
+
+    So a study flies the recording that it holds without a file, which others could change or which might stay behind.
+    """
+    path = f"<study>/{hashlib.sha256(content).hexdigest()[:16]}/{Path(name).name}"
+    _held[path] = content
+    return path
+
+
+def recording_bytes(path: str) -> bytes:
+    """The content of a recording, held or from its file; an OSError if that cannot be read."""
+    return _held[path] if path in _held else Path(path).read_bytes()
+
+
 def read_recording(path: str) -> Recording:
     """Read a recording.
 
@@ -49,7 +67,7 @@ def read_recording(path: str) -> Recording:
         InputError: the file does not exist, or holds something else; the message says what.
     """
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        with np.load(io.BytesIO(recording_bytes(path)), allow_pickle=False) as archive:
             engine = archive["engine"] if "engine" in archive else np.array(ENGINE)
             recording = Recording(archive["step"], archive["hand"], str(engine))
     except FileNotFoundError:

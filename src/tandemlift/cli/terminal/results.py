@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -13,6 +12,7 @@ from typing import TYPE_CHECKING
 from tandemlift.cli.terminal.console import progress_bar
 from tandemlift.common.errors import InputError
 from tandemlift.common.files import atomic_write
+from tandemlift.missions.recording import recording_bytes
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
@@ -83,9 +83,9 @@ def copy_recording(mission: Mission, folder: Path) -> None:
     """Copy the recording of a mission, if it has one, into the folder, so that the folder can be flown anywhere."""
     if mission.person.recording is None:
         return
-    source = Path(mission.person.recording)
-    with atomic_write(folder / source.name) as partial:
-        shutil.copyfile(source, partial)
+    path = mission.person.recording
+    with atomic_write(folder / Path(path).name) as partial:
+        partial.write_bytes(recording_bytes(path))
 
 
 def flight_file(given: str) -> tuple[Path, Path | None]:

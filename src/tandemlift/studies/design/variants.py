@@ -7,21 +7,20 @@ of a user's controller and the bytes of a recording.
 from __future__ import annotations
 
 import base64
-import functools
 import hashlib
-import tempfile
 import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from tandemlift.common.errors import FlightWarning, InputError, unknown
-from tandemlift.common.files import atomic_write
 from tandemlift.controllers import CONTROLLERS, controller, file_of, load_controller
+from tandemlift.controllers.user_controller import controller_text, run_controller
 from tandemlift.engines.registry import engine_named
 from tandemlift.missions import check
 from tandemlift.missions.files import Layer
 from tandemlift.missions.loading import MissionTemplate, read_tables
+from tandemlift.missions.recording import hold_recording
 from tandemlift.missions.values import Tables, merge, value_at
 from tandemlift.studies.design.settings import StudyTable
 
@@ -64,22 +63,13 @@ class Variant(NamedTuple):
     def _tables(self) -> Tables:
         """The tables on this machine."""
         if self.controller_file:
-            load_controller(_written(*self.controller_file))
+            name, text = self.controller_file
+            digest = hashlib.sha256(text.encode()).hexdigest()[:16]
+            run_controller(text, Path("<study>", digest, Path(name).name))
         if self.recording:
-            name, text = self.recording
-            return merge(self.tables, {"person": {"recording": str(_written(name, text, coded=True))}})
+            name, coded = self.recording
+            return merge(self.tables, {"person": {"recording": hold_recording(name, base64.b64decode(coded))}})
         return self.tables
-
-
-@functools.lru_cache(maxsize=64)
-def _written(name: str, content: str, *, coded: bool = False) -> Path:
-    """A file of that content, the same for the same content; it stays until the machine clears its temporary files."""
-    data = base64.b64decode(content) if coded else content.encode()
-    path = Path(tempfile.gettempdir()) / f"tandemlift-{hashlib.sha256(data).hexdigest()[:16]}" / Path(name).name
-    if not path.exists() or path.read_bytes() != data:
-        with atomic_write(path) as partial:
-            partial.write_bytes(data)
-    return path
 
 
 def variants_of(study: StudyTable, folder: Path) -> list[Variant]:
@@ -116,7 +106,8 @@ def _variant(mission: str, chosen: str | None, folder: Path) -> Variant:
         warnings.simplefilter("ignore", FlightWarning)
         loaded = check(tables, layers[-1].source, layers)
     name = loaded.controller.name
-    file = () if _is_ours(name) else (Path(file_of(controller(name))).name, Path(file_of(controller(name))).read_text())
+    own = controller(name)
+    file = () if _is_ours(name) else (Path(file_of(own)).name, controller_text(own))
     return Variant(loaded.mission.name, name, "compiled", tables, file, _recording(tables))
 
 
