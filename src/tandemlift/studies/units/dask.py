@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
+import logging
 import os
 import time
 from collections.abc import Callable, Iterator
@@ -31,6 +32,7 @@ SETTINGS = {
 COUNTED = 5.0  # s, after which the workers are counted again
 MOST_PROCESSES = 1024
 WITHOUT_INTERRUPT = "import signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\n"  # Ctrl-C is for the study alone
+LOST = "the connection to the Dask scheduler is lost; what is flown stays: start the study again"
 Say = Callable[[str], None]
 
 
@@ -52,20 +54,20 @@ class DaskWorkers:
         if time.monotonic() - self._counted > COUNTED:
             self._counted = time.monotonic()
             self._mend()
-            with contextlib.suppress(OSError):  # the connection is lost: `submit` tells whether it comes back
+            with _connected(self._client), contextlib.suppress(OSError):  # the client itself tries to connect again
                 self._count = max(1, sum(self._client.nthreads().values()))
         return self._count
 
     def submit(self, task: Task) -> Future[Any]:
         """See `Workers`."""
-        return self._workers.submit(task)
+        with _connected(self._client):
+            return self._workers.submit(task)
 
     def columns(self, future: Future[Any]) -> Columns:
         """See `Workers`."""
-        if self._client.status in ("closing", "closed"):
-            raise InputError("the connection to the Dask scheduler is lost; what is flown stays: start the study again")
         try:
-            return self._workers.columns(future)
+            with _connected(self._client):
+                return self._workers.columns(future)
         except ModuleNotFoundError as error:
             raise _without_package("a worker", error) from None
 
@@ -74,6 +76,37 @@ class DaskWorkers:
         from distributed import KilledWorker
 
         return isinstance(error, (KilledWorker, CancelledError))
+
+
+@contextmanager
+def _connected(client: Client) -> Iterator[None]:
+    """Within it, whatever fails because the client has lost its scheduler is told as that."""
+    from distributed.comm import CommClosedError
+
+    try:
+        yield
+    except Exception as error:
+        if client.status in ("closing", "closed") or isinstance(error, CommClosedError):
+            raise InputError(LOST) from None
+        raise
+
+
+@contextmanager
+def _silent() -> Iterator[None]:
+    """Within it, what Dask has to say of a scheduler that it has lost is not logged: that is one line, from here."""
+    from distributed.client import ClosedClientError
+    from distributed.utils import silence_logging_cmgr
+
+    def is_other(record: logging.LogRecord) -> bool:
+        return not (record.exc_info and isinstance(record.exc_info[1], (ClosedClientError, OSError)))
+
+    callbacks = logging.getLogger("concurrent.futures")  # logs that a unit can no longer be cancelled
+    callbacks.addFilter(is_other)
+    try:
+        with silence_logging_cmgr("CRITICAL"):
+            yield
+    finally:
+        callbacks.removeFilter(is_other)
 
 
 def _without_package(worker: str, error: Exception) -> InputError:
@@ -106,12 +139,15 @@ def scheduler_workers(address: str, say: Say) -> Iterator[DaskWorkers]:
         raise InputError(
             f"--scheduler {address}: no Dask scheduler answers there within {PATIENCE:.0f} s: {_line(error)}"
         ) from None
-    try:
-        check_sources(client)
-        say(f"Dask: {_workers_text(client)}; dashboard: {client.dashboard_link}")
-        yield DaskWorkers(client)
-    finally:
-        client.close(timeout=2)
+    with _silent():
+        try:
+            with _connected(client):
+                check_sources(client)
+                said = _workers_text(client)
+            say(f"Dask: {said}; dashboard: {client.dashboard_link}")
+            yield DaskWorkers(client)
+        finally:
+            client.close(timeout=2)
 
 
 def _address_in(file: str) -> str:
