@@ -98,6 +98,17 @@ def test_the_verdict_says_how_many_failed_of_those_that_flew(page, rows):
     assert f"{len(rows) - len(flew)} rows could not be flown and were refused" in head
 
 
+def test_without_a_failure_the_verdict_says_which_of_its_bounds_is_one_sided(tmp_path):
+    def good(rows):
+        return measured(rows) | {"outcome": ["landed"] * len(rows)}
+
+    study = made_up({key: STUDY[key] for key in ("study", "draw")}, tmp_path / "good", good)
+    head = check_page(write_study_report(study, tmp_path / "good.html")).text.partition("</header>")[0]
+    one, two = (percent(1.0 - (1.0 - confidence) ** (1.0 / 400)) for confidence in (0.95, 0.975))
+    assert "None of 400 flights failed" in head
+    assert f"at most {one} do (one-sided bound; the intervals in the tables are two-sided: 0 to {two})" in head
+
+
 def test_quantiles_are_those_of_the_rows_that_went_well(page, rows):
     good = rows[rows["outcome"] == "landed"]
     error = 1e3 * np.sqrt((good[[f"position_rmse_after_10s_m.{i}" for i in range(3)]] ** 2).sum(axis=1))

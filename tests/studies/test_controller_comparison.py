@@ -51,6 +51,8 @@ def test_a_comparison_writes_a_page_and_numbers_and_prints_a_row_each(run, tmp_p
     assert code == 0
     assert {path.name for path in folder.iterdir()} == {f"compare.{kind}" for kind in ("html", "json", "csv", "tex")}
     assert [line.split()[0] for line in out.splitlines()[2:4]] == ["nftsmc", "pid"]
+    assert "wall ns/step" in out.splitlines()[1]
+    assert "Wall time is that of this one flight" in " ".join(check_page(folder / "compare.html").text.split())
     found = json.loads((folder / "compare.json").read_text("utf-8"), parse_constant=pytest.fail)
     assert [row["controller"] for row in found["controllers"]] == ["nftsmc", "pid"]
     flight = tl.fly(tl.load_mission("hover", {"mission.duration": 0.6}, controller="pid"))

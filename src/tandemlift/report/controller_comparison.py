@@ -72,12 +72,13 @@ OF_A_PART = (
 OF_A_FLIGHT = (
     TableColumn("Saturated", "%", "rotor_saturated_share", 1e2),
     TableColumn("Findings", "", "findings"),
-    TableColumn("Time a step", "ns", "step_ns"),
+    TableColumn("Wall time a step", "ns", "step_ns"),
 )
 COLUMNS = (*OF_A_PART, *OF_A_FLIGHT)
 NOTE = """Errors are desired minus actual position in the air, {when}. The effort is the mean norm of the commanded
-moments over the same time. Saturated is the fraction of steps in which a rotor is at a limit. Bold: the least value
-of those that did not diverge, with all that are within 1 µm, 1 mN m or 0.01 % of it; nothing, where all are."""
+moments over the same time. Saturated is the fraction of steps in which a rotor is at a limit. Wall time is that of this
+one flight, with whatever else the machine did: it is no measure of a controller's speed. Bold: the least value of those
+that did not diverge, with all that are within 1 µm, 1 mN m or 0.01 % of it; nothing, where all are."""
 STILL = "<p>{when} every position error is below 1 µm.</p>"
 
 

@@ -67,7 +67,8 @@ def compare(
     """Fly MISSION with several controllers, or in several engines, print a table and write a page.
 
     The mission's own controller flies with the mission's settings, every other one with its defaults. Keys of
-    `controller` given by --set apply to the mission's own controller only.
+    `controller` given by --set apply to the mission's own controller only. Wall times are those of one flight each, and
+    change with what else the machine does.
 
     \b
     Examples:
@@ -157,7 +158,7 @@ def _fly(entered: Sequence[Entrant], engine: str) -> list[Entry]:
 
 
 HEADS = ("RMSE x", "y", "z (mm)", "max (mm)", "effort (N m)")
-FLIGHT_HEADS = ("saturated (%)", "findings", "ns/step")
+FLIGHT_HEADS = ("saturated (%)", "findings", "wall ns/step")
 
 
 def _printed(value: float | None, scale: float, digits: int) -> str:
@@ -265,7 +266,7 @@ def _print_differences(name: str, found: Sequence[dict[str, Any]]) -> None:
     from tandemlift.studies.engine_comparison import QUANTITIES
 
     shown = [q for q in QUANTITIES if q in found[0]["difference"]]
-    heads = [f"{q.replace('_', ' ')} ({QUANTITIES[q]})" for q in shown] + ["steps/s"]
+    heads = [f"{q.replace('_', ' ')} ({QUANTITIES[q]})" for q in shown] + ["wall steps/s"]
     width = max(len(row["engine"]) for row in found) + 2
     echo(f"{name}: largest difference from {found[0]['engine']}")
     echo("  " + " " * width + "  ".join(head.rjust(18) for head in heads))

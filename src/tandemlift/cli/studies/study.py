@@ -150,7 +150,7 @@ def _print_outcomes(folder: Path, metrics: tuple[str, ...], *, report: bool) -> 
     read = study.read(["row", "outcome", "reason"])
     outcomes = read["outcome"].to_pylist()
     counts = Counter(outcomes)
-    echo(f"  {'outcome':12}{'rows':>10}   share, and its 95 % interval")
+    echo(f"  {'outcome':12}{'rows':>10}   share, and its two-sided 95 % interval")
     for outcome, count in counts.most_common():
         s = share(count, len(study))
         echo(f"  {outcome:12}{count:>10,}   {100 * s.value:.4g} % ({100 * s.low:.3g} to {100 * s.high:.3g} %)")

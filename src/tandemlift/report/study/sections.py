@@ -67,8 +67,9 @@ def verdict(rows: StudyRows) -> str:
         said = f"<strong>{count(failed)} of {count(flown)} flights failed</strong>: {percent(part.value)}, with 95 % "
         said += f"confidence between {percent(part.low)} and {percent(part.high)}."
     elif flown:
-        most = percent(upper_bound(0, flown))
-        said = f"<strong>None of {count(flown)} flights failed</strong>: with 95 % confidence at most {most} do."
+        most, high = percent(upper_bound(0, flown)), percent(share(0, flown).high)
+        said = f"<strong>None of {count(flown)} flights failed</strong>: with 95 % confidence at most {most} do "
+        said += f"(one-sided bound; the intervals in the tables are two-sided: 0 to {high})."
     else:
         said = "<strong>No flight</strong>."
     if refused := int(rows.refused.sum()):
