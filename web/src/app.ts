@@ -33,7 +33,6 @@ import type { Replay } from "./wire/replay.ts";
 import type { FlightListener, FlightSource } from "./wire/source.ts";
 
 const REDRAW_AFTER = 100; // ms: overlays may have been switched although nothing moved
-const LET_GO_AFTER = 3; // statuses in which the server knows nothing of the grab
 
 export class App implements FlightListener, ShellPage {
   readonly hand: HandOptions = { at: "point", plane: "facing", force: 3, directions: "view" };
@@ -57,7 +56,6 @@ export class App implements FlightListener, ShellPage {
   private drawn: Frame | null = null;
   private drawnAt = 0;
   private readonly eye = new Matrix4();
-  private unheld = 0;
   private end: SceneEnding | null = null;
 
   constructor(
@@ -68,9 +66,7 @@ export class App implements FlightListener, ShellPage {
     const surface = byId("surface");
     this.stage = new Stage(surface, suitableGraphics());
     const camera = this.stage.camera;
-    const send = (message: PageMessage, since: number): void => {
-      this.send(message, since);
-    };
+    const send = (message: PageMessage, since: number): number | null => this.send(message, since);
     this.grab = new Grab({
       camera,
       surface,
@@ -100,10 +96,11 @@ export class App implements FlightListener, ShellPage {
     this.source.retry?.();
   }
 
-  /** Sends a message; its delay is measured if it began with a person's event at `since` [ms]. */
-  send(message: PageMessage, since?: number): void {
+  /** Sends a message; its number. Its delay is measured if it began with a person's event at `since` [ms]. */
+  send(message: PageMessage, since?: number): number | null {
     const seq = this.source.send(message);
     if (seq !== null && since !== undefined) this.latency.note(seq, since, performance.now());
+    return seq;
   }
 
   get canvas(): HTMLCanvasElement {
@@ -135,7 +132,7 @@ export class App implements FlightListener, ShellPage {
 
   scene(scene: FlightScene): void {
     const first = this.picture === null;
-    this.grab.cancel();
+    this.grab.release();
     this.current = null;
     this.picture?.remove();
     this.picture = new Picture(scene, this.stage, this.labels);
@@ -154,8 +151,7 @@ export class App implements FlightListener, ShellPage {
   }
 
   status(status: StatusMessage): void {
-    this.unheld = this.grab.pulling && status.holder !== "you" ? this.unheld + 1 : 0;
-    if (this.unheld > LET_GO_AFTER) this.grab.cancel(); // the server has let go
+    if (status.holder !== "you") this.grab.cancel(status.last_grab); // the server has let go
     this.remarks.status(status);
     this.end = status.ending;
     this.shell.status(status);
@@ -170,7 +166,8 @@ export class App implements FlightListener, ShellPage {
   refused(what: string, reason: string): void {
     if (["grab", "force"].includes(what)) {
       this.remarks.refuse(reason, this.grab.hand);
-      this.grab.cancel();
+      this.grab.release(); // and says so: the refusal may be of an earlier grab than the server knows by now
+      if (what === "force") this.force.refuse();
       return;
     }
     this.shell.refused(what, reason);

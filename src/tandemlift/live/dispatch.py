@@ -10,6 +10,7 @@ from typing import Protocol
 from tandemlift.common.errors import InputError
 from tandemlift.live.viewers import Viewer, Viewers
 from tandemlift.live.wire.page_messages import (
+    GrabMessage,
     KillMessage,
     MoveMessage,
     PageMessage,
@@ -85,6 +86,8 @@ class Dispatcher:
         """Handle a text of a viewer, or say why it is refused."""
         try:
             message = read_message(text)
+            if isinstance(message, GrabMessage):
+                viewer.last_grab = message.seq
             if isinstance(message, PingMessage):
                 viewer.send(PongMessage(type="pong", t=message.t))
             elif isinstance(message, SLOW):

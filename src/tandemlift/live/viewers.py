@@ -41,11 +41,13 @@ class Viewer:
         dropped: frames that it was too slow for.
         last_message: when its last message came, by the monotonic clock [s].
         last_echo: when its last echo was sent, likewise.
+        last_grab: `seq` of its last grab, 0 before there is one.
     """
 
     def __init__(self, connection: ServerConnection) -> None:
         self.connection = connection
         self.dropped, self.last_message = 0, time.monotonic()
+        self.last_grab = 0
         self._second, self._messages, self._refusals = 0, 0, 0
         self._echoing, self.last_echo = False, 0.0
 
@@ -150,12 +152,14 @@ class Viewers:
             viewer.send(text)
 
     def send_status(self, status: FlightStatus) -> None:
-        """Send the status to all, each with who holds the beam as it sees it."""
+        """Send the status to all, each with who holds the beam as it sees it, and its last grab that this is after."""
         others: Literal["none", "other"] = "none" if self.holder is None else "other"
-        message = StatusMessage(type="status", **status, viewers=len(self), holder=others)
-        text = text_of(message)
         for viewer in self:
-            viewer.send(text_of({**message, "holder": "you"}) if viewer is self.holder else text)
+            holder: Literal["you", "other", "none"] = "you" if viewer is self.holder else others
+            message = StatusMessage(
+                type="status", **status, viewers=len(self), holder=holder, last_grab=viewer.last_grab
+            )
+            viewer.send(message)
 
     def admits(self, viewer: Viewer, message: PageMessage) -> bool:
         """Whether a message may go on to the flight: all of the holder's, of others those that do not touch the beam.

@@ -69,6 +69,21 @@ def test_a_force_holds_until_it_is_zero(live):
         assert not live.flight.held
 
 
+def test_a_status_names_the_last_grab_of_its_page_that_came_before_it_also_a_refused_one(live):
+    with live.viewer() as one, live.viewer() as two:
+        assert one.text("status")["last_grab"] == 0
+        for _ in range(2):
+            one.grab(1.0, 0.0, 0.0)
+            assert one.text("status", last_grab=one.seq)["holder"] == "you"
+            one.say(type="move", target=[0.0, 0.0, 0.0])
+        two.say(type="ping", t=1.0)
+        two.text("pong", t=1.0)
+        assert two.text("status")["last_grab"] == 0
+        two.grab(0.0, 0.0, 0.0)
+        assert two.text("status", last_grab=two.seq)["holder"] == "other"
+        assert one.text("status")["last_grab"] == one.seq - 1
+
+
 def test_a_push_that_ends_while_the_beam_is_pulled_does_not_let_go_of_it(live):
     with live.viewer() as one:
         one.say(type="force", force=[1.0, 0.0, 0.0], point=[0.0, 0.0, 0.0])

@@ -43,6 +43,7 @@ export class Session {
   private parameters!: ParameterControl;
   private start!: Tables;
   private failed = false;
+  private lastGrab = 0;
   private readonly layout: Layout;
 
   constructor(
@@ -118,6 +119,7 @@ export class Session {
       ending,
       viewers: 1,
       holder: this.held ? "you" : "none",
+      last_grab: this.lastGrab,
     };
   }
 
@@ -154,6 +156,7 @@ export class Session {
       case "release":
       case "force":
         this.hand.seq = seq;
+        if (message.type === "grab") this.lastGrab = seq;
         return this.touch(message);
       case "set":
       case "restore":

@@ -28,6 +28,7 @@ const FAILED = {
   ending: null,
   viewers: 1,
   holder: "none",
+  last_grab: 0,
 } as const;
 
 let loop: RealTimeLoop | null = null;

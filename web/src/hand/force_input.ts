@@ -23,16 +23,18 @@ const KEYS: Record<string, Vector> = {
 };
 const DEAD_ZONE = 0.15; // of a stick's travel
 const STILL = 0.02; // N: a smaller change is not sent
+const ASK_AGAIN = 200; // ms after a refusal
 
 export class ForceInput {
   private readonly pressed = new Set<string>();
   private sent: Vector = [0, 0, 0];
   private stamp = 0;
+  private askAgain = 0; // ms
 
   constructor(
     private readonly camera: PerspectiveCamera,
     private readonly options: HandOptions,
-    private readonly send: (message: PageMessage, since: number) => void,
+    private readonly send: (message: PageMessage, since: number) => unknown,
     private readonly listening: boolean,
   ) {
     if (!listening) return;
@@ -51,10 +53,15 @@ export class ForceInput {
     if (!this.listening) return;
     const force = pulling ? ([0, 0, 0] as const) : this.inWorld(this.input());
     const ended = size(force) === 0 && size(this.sent) > 0;
-    if (!ended && size(subtract(force, this.sent)) < STILL) return;
+    if (!ended && (size(subtract(force, this.sent)) < STILL || performance.now() < this.askAgain)) return;
     this.sent = force;
     this.send({ type: "force", force, point: [0, 0, 0] }, this.stamp || performance.now());
     this.stamp = 0;
+  }
+
+  /** The last force was refused; the next one is sent a moment later. */
+  refuse(): void {
+    this.askAgain = performance.now() + ASK_AGAIN;
   }
 
   release = (): void => {

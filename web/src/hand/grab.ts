@@ -36,6 +36,7 @@ interface Held {
   depth: number; // of the plane from the eye [m], if it faces the eye
   height: number | null; // of the plane [m], if it is level
   target: Vector;
+  seq: number; // of the message that began it
 }
 
 /** What a grab needs of the page. */
@@ -45,7 +46,7 @@ export interface GrabContext {
   frame(): Frame | null;
   axis(): Axis | null;
   readonly options: HandOptions;
-  send(message: PageMessage, since: number): void;
+  send(message: PageMessage, since: number): number | null;
 }
 
 export class Grab {
@@ -98,9 +99,9 @@ export class Grab {
     this.page.send({ type: "release" }, performance.now());
   };
 
-  /** Lets go without a message: the server knows already. */
-  cancel(): void {
-    if (!this.held) return;
+  /** Lets go without a message: the server has let go already; only of a grab that it knew of if `known` is given. */
+  cancel(known = Infinity): void {
+    if (!this.held || this.held.seq > known) return;
     const { pointer } = this.held;
     this.held = this.second = this.over = null;
     if (this.page.surface.hasPointerCapture(pointer)) this.page.surface.releasePointerCapture(pointer);
@@ -135,9 +136,9 @@ export class Grab {
     const height = this.page.options.plane === "level" ? world[2] : null;
     const hit = this.hit(depth, height) ?? world;
     const target = add(frame.vector("position"), toWorld(frame.attitude, point));
-    this.held = { pointer: event.pointerId, point, offset: subtract(target, hit), depth, height, target };
+    const seq = this.page.send({ type: "grab", point, target, at: centre ? "centre" : "point" }, event.timeStamp) ?? 0;
+    this.held = { pointer: event.pointerId, point, offset: subtract(target, hit), depth, height, target, seq };
     this.page.surface.classList.add("pulling");
-    this.page.send({ type: "grab", point, target, at: centre ? "centre" : "point" }, event.timeStamp);
   }
 
   private readonly move = (event: PointerEvent): void => {

@@ -213,6 +213,7 @@ export interface StatusMessage extends FlightStatus {
   type: "status";
   viewers: number; // pages that are connected
   holder: "you" | "other" | "none"; // who holds the beam
+  last_grab: number; // `seq` of this page's last `grab` that came before the status; 0 if none did
 }
 
 /** To all: a parameter goes to a value within a duration. */

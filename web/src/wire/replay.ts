@@ -13,6 +13,7 @@ const NOT_LIVE = {
   refusals: { lift: "", land: "", push: "" },
   viewers: 1,
   holder: "none",
+  last_grab: 0,
 } as const;
 
 export class Replay implements FlightSource {

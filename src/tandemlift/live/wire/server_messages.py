@@ -65,6 +65,7 @@ class StatusMessage(FlightStatus):
     type: Literal["status"]
     viewers: Annotated[int, "pages that are connected"]
     holder: Annotated[Literal["you", "other", "none"], "who holds the beam"]
+    last_grab: Annotated[int, "`seq` of this page's last `grab` that came before the status; 0 if none did"]
 
 
 class ChangedMessage(TypedDict):
