@@ -123,6 +123,8 @@ class Dispatcher:
         for answer in answers:
             if answer["type"] in ("changed", "scene"):
                 self._viewers.send(answer)
+            elif answer["type"] == "refused":
+                viewer.refuse(Refusal(answer["what"], answer["reason"]))
             else:
                 viewer.send(answer)
 

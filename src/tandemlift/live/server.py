@@ -28,6 +28,7 @@ from tandemlift.live.wire.server_messages import SceneMessage
 
 STATUS_EVERY = RATE // 4  # frames
 MAX_VIEWERS = 16
+DISMISSED = 5.0  # s, for which a page that was disconnected for flooding keeps its place: coming back is not free
 SEND_BUFFER = 16_384  # bytes that the system may hold back for a page; more would be outdated when it arrives
 
 strangers = logging.getLogger(f"{__name__}.sockets")  # invalid requests; logged only where a handler is attached
@@ -52,7 +53,7 @@ class PageServer:
         self.viewers = Viewers()
         self._dispatcher = Dispatcher(flight, self.viewers) if flight else None
         self._watched = asyncio.Event()  # set once there is a viewer
-        self._generation = 0
+        self._generation = self._dismissed = 0
         self._access: AccessControl
         self._sockets: SocketServer
 
@@ -141,7 +142,7 @@ class PageServer:
         if refusal:
             return connection.respond(*refusal)
         if head.socket and self._flight:
-            full = len(self.viewers) >= MAX_VIEWERS
+            full = len(self.viewers) + self._dismissed >= MAX_VIEWERS
             return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, "too many viewers\n") if full else None
         if head.path not in self._files:
             return connection.respond(HTTPStatus.NOT_FOUND, "not found\n")
@@ -167,16 +168,23 @@ class PageServer:
         flooding = False
         try:
             async for text in connection:
-                self._dispatcher.receive(viewer, text)
+                with viewer.working():
+                    self._dispatcher.receive(viewer, text)
                 if flooding := viewer.is_flooding():
                     break
+                await asyncio.sleep(viewer.rest())  # also when 0: messages that wait do not delay other pages
         except ConnectionClosed:
             pass
         finally:
             if self.viewers.leave(viewer):
                 self._let_go()
         if flooding:
+            self._dismissed += 1
+            asyncio.get_running_loop().call_later(DISMISSED, self._forget_dismissed)
             await dismiss(connection)
+
+    def _forget_dismissed(self) -> None:
+        self._dismissed -= 1
 
 
 async def serve_until_stopped(server: PageServer, opened: Callable[[str], None]) -> None:

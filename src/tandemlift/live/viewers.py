@@ -5,6 +5,8 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from time import thread_time
 from typing import Any, Literal
 
 from pydantic_core import to_json
@@ -26,7 +28,9 @@ BEHIND = 4_096  # bytes not yet taken by the network, beyond which a viewer is b
 LOST = 1_000_000  # bytes, beyond which it is cut off: it reads nothing at all
 MAX_MESSAGES = 2_000  # a second; a page sends about a hundred
 FAREWELL = 1.0  # s, for pages to close their connections
-MAX_REFUSALS = 20  # a second
+MAX_REFUSALS = 20  # that are told in a second
+REFUSED = 10  # messages that a refused one counts as: a page is refused at the rate of its pictures, at most
+MAX_WORK = 0.05  # s of the processor in a second; the messages of a page take a hundredth of a second
 
 
 def text_of(what: Mapping[str, Any]) -> str:
@@ -48,7 +52,7 @@ class Viewer:
         self.connection = connection
         self.dropped, self.last_message = 0, time.monotonic()
         self.last_grab = 0
-        self._second, self._messages, self._refusals = 0, 0, 0
+        self._second, self._messages, self._refusals, self._work = 0, 0, 0, 0.0
         self._echoing, self.last_echo = False, 0.0
 
     @property
@@ -83,8 +87,9 @@ class Viewer:
     def refuse(self, refusal: Refusal) -> None:
         """Say why a message is refused; a few times a second at most."""
         self._begin_second()
+        self._messages += REFUSED - 1
         self._refusals += 1
-        if self._refusals <= MAX_REFUSALS and not self.behind:
+        if self._refusals <= MAX_REFUSALS:
             self.send(RefusedMessage(type="refused", what=refusal.what, reason=str(refusal)))
 
     def is_flooding(self) -> bool:
@@ -94,10 +99,24 @@ class Viewer:
         self._messages += 1
         return self._messages > MAX_MESSAGES
 
+    @contextmanager
+    def working(self) -> Iterator[None]:
+        """Count the processor's time that a message takes; waiting for the flight is none."""
+        began = thread_time()
+        try:
+            yield
+        finally:
+            self._begin_second()
+            self._work += thread_time() - began
+
+    def rest(self) -> float:
+        """How long to wait until its next message is read [s], so that one page leaves time for the others."""
+        return 0.0 if self._work < MAX_WORK else 1.0 - time.monotonic() % 1.0
+
     def _begin_second(self) -> None:
         now = int(time.monotonic())
         if now != self._second:
-            self._second, self._messages, self._refusals = now, 0, 0
+            self._second, self._messages, self._refusals, self._work = now, 0, 0, 0.0
 
 
 class Viewers:
@@ -190,6 +209,6 @@ async def dismiss(connection: ServerConnection) -> None:
     """Close the connection of a page that sends too much, which may not even read why."""
     try:
         async with asyncio.timeout(FAREWELL):
-            await connection.close(1008, "too many messages")
+            await connection.close(1008, "too many messages, or too many that are refused")
     except TimeoutError:
         connection.transport.abort()

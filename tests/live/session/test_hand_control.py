@@ -85,6 +85,14 @@ def test_while_it_may_not_listen_it_holds_its_place(session):
     assert seen(session)["reference"][0] - at[0] > 0.3
 
 
+def test_where_it_may_not_be_grabbed_nothing_else_of_the_flight_is_looked_at(session, monkeypatch):
+    fly(session, 1.0)
+    monkeypatch.setattr(session, "_values", lambda: pytest.fail("the values of a frame, for a grab beside the vehicle"))
+    for at in ("point", "centre"):
+        with pytest.raises(tl.InputError, match="must be on the vehicle"):
+            say(session, "grab", point=(0.0, 9.0, 0.0), target=(0.0, 0.0, 1.0), at=at)
+
+
 def test_a_mission_that_is_guided_by_the_clock_says_that_it_asks_nobody(session):
     session._mission = tl.load_mission("paper")
     for request in ({"kind": "ask", "what": "stop"}, {"kind": "enable", "on": False}):

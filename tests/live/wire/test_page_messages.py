@@ -9,8 +9,9 @@ import pytest
 from hostile import GOOD, hostile
 from hypothesis import given
 
+from tandemlift.live.wire import reading
 from tandemlift.live.wire.page_messages import PAGE_MESSAGES
-from tandemlift.live.wire.reading import MAX_LENGTH, Refusal, read_message, subject_of
+from tandemlift.live.wire.reading import MAX_LENGTH, MAX_PARTS, Refusal, read_message, subject_of
 
 MANY = 50_000
 
@@ -69,13 +70,26 @@ def test_no_key_of_any_message_takes_what_is_not_finite_or_of_another_kind(messa
         ('{"type":"set","seq":1,"key":"a b","value":1}', "set", 'set.key = "a b": must be a dotted key of 100'),
         (b"{}", "message", "binary data: must be text"),
         (" " * (MAX_LENGTH + 1), "message", f"{MAX_LENGTH + 1} characters: must be {MAX_LENGTH} at most"),
-        ("[" * 4000, "message", "no JSON: recursion limit exceeded"),
+        ("[" * 4000, "message", f"4000 parts: must be {MAX_PARTS} at most"),
+        ('{"type":"set","value":[' + "1," * 999 + "1]}", "message", f"1002 parts: must be {MAX_PARTS} at most"),
     ],
 )
 def test_a_refusal_names_the_key_the_value_and_what_is_allowed(text, what, reason):
     refusal = refused(text)
     assert refusal.what == what
     assert re.search(reason if "\\" in reason or "|" in reason else re.escape(reason), str(refusal)), str(refusal)
+
+
+@pytest.mark.parametrize("long", [" " * (MAX_LENGTH + 1), '{"x":' * (MAX_PARTS + 1), "0," * (MAX_PARTS + 1)])
+def test_what_is_too_long_or_has_too_many_parts_is_refused_before_it_is_parsed(long, monkeypatch):
+    monkeypatch.setattr(reading, "_ANY", None)
+    monkeypatch.setattr(reading, "from_json", None)
+    assert "must be" in str(refused(long))
+
+
+def test_the_longest_message_has_fewer_parts_and_characters_than_are_read():
+    longest = {"type": "set", "seq": 10**15, "key": "x" * 100, "value": [-1.2345678901234567e-300] * 64}
+    assert read_message(json.dumps(longest)).value == tuple(longest["value"])
 
 
 @pytest.mark.parametrize("name", ["../x", "/x", ".x", "-x", "a/b", "a\\b", "a b", "", "a" * 65, "a\n", "ä", "a\0"])

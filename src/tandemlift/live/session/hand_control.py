@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply
@@ -35,15 +36,15 @@ class HandControl:
         self._offset = ZERO  # m, added to targets
         self._requests: dict[str, int] = {}  # until which step each is held
 
-    def grab(self, m: GrabMessage, attitude: Quat) -> None:
-        """Take hold of the beam at a point, or at the centre of mass.
+    def grab(self, m: GrabMessage, attitude: Callable[[], Quat]) -> None:
+        """Take hold of the beam at a point, or at the centre of mass; `attitude`: of the vehicle, if it is needed.
 
         Raises:
             InputError: the vehicle may not be touched now, or not there.
         """
         check_touch(self._flight, self._vehicle, m.point)
         point, centre = Vec3(*m.point), m.at == "centre"
-        self._offset = grip_offset(attitude, point) if centre else ZERO
+        self._offset = grip_offset(attitude(), point) if centre else ZERO
         target = Vec3(*m.target) + self._offset
         self._change(held=1.0, grip=ZERO if centre else point, target=target)
 

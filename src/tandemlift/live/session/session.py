@@ -196,7 +196,7 @@ class Session:
     @_handle.register
     def _grab(self, m: page.GrabMessage) -> None:
         with self._lock:
-            self._hand.grab(m, Quat(*self._values()["attitude"]))
+            self._hand.grab(m, lambda: Quat(*self._values()["attitude"]))
 
     @_handle.register
     def _move(self, m: page.MoveMessage) -> None:

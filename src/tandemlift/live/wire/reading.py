@@ -15,6 +15,7 @@ from tandemlift.missions.values import shown
 MAX_SIZE = 65_536  # bytes; a page that sends more is cut off
 MAX_LENGTH = 4_096  # characters that are read: twice what the longest message has
 MAX_KEYS = 12
+MAX_PARTS = 128  # values and tables that are read: more than any message has
 
 _ANY: TypeAdapter[Any] = TypeAdapter(Annotated[PageMessage, Field(discriminator="type")])
 
@@ -32,11 +33,15 @@ def read_message(text: str | bytes) -> PageMessage:
 
     Raises:
         Refusal: it is too long, no JSON, or breaks the schema; the reason names the key, the value and what is allowed.
+            Length and parts are counted before anything is parsed, so that no text takes long.
     """
     if isinstance(text, bytes):
         raise Refusal("message", "binary data: must be text, a JSON object")
     if len(text) > MAX_LENGTH:
         raise Refusal("message", f"{len(text)} characters: must be {MAX_LENGTH} at most")
+    parts = sum(map(text.count, ",[{"))
+    if parts > MAX_PARTS:
+        raise Refusal("message", f"{parts} parts: must be {MAX_PARTS} at most")
     try:
         message: PageMessage = _ANY.validate_json(text)
     except ValidationError:
