@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bombs import memory_below, zeros_archive
 from patience import completed
 
 import tandemlift as tl
@@ -65,6 +66,14 @@ def test_numpy_alone_reads_the_file(short, tmp_path):
         assert np.array_equal(file["position"], short["position"])
     assert header["format"] == FORMAT
     assert header["channels"]["position"] == {"unit": "m", "frame": "world", "meaning": CHANNELS["position"].meaning}
+
+
+def test_a_file_that_unpacks_to_more_than_it_holds_is_refused_unread(short, tmp_path):
+    header = np.load(short.save(tmp_path / "flight.npz"))["header"]
+    small = zeros_archive(tmp_path / "small.npz", {"time": (10**7,), "position": (10**7, 3)}, {"header": header})
+    assert small.stat().st_size < 1_000_000
+    with memory_below(20_000_000), pytest.raises(tl.InputError, match=r"small\.npz: .* bytes that unpack to 320"):
+        Flight.load(small)
 
 
 def test_a_file_cut_anywhere_is_refused(short, tmp_path):

@@ -1,8 +1,9 @@
-"""Writing files so that they appear whole or not at all."""
+"""Writing files so that they appear whole or not at all; the size of what an archive holds."""
 
 from __future__ import annotations
 
 import secrets
+import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -21,3 +22,8 @@ def atomic_write(path: Path) -> Iterator[Path]:
         partial.replace(path)
     finally:
         partial.unlink(missing_ok=True)
+
+
+def unpacked_size(archive: zipfile.ZipFile) -> int:
+    """Bytes that all files of an archive unpack to, by its directory: no more than that is ever read of them."""
+    return sum(file.file_size for file in archive.infolist())

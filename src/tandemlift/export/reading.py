@@ -7,7 +7,6 @@ the same stamp, or else, if that was lost, the last one before it.
 from __future__ import annotations
 
 import os
-import tomllib
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,6 +16,7 @@ import numpy as np
 
 from tandemlift.common.errors import InputError
 from tandemlift.common.extras import extra
+from tandemlift.common.toml import toml_tables
 from tandemlift.common.types import Array
 from tandemlift.export.coordinate_frames import eulers
 from tandemlift.export.messages import NUMBERS, SECOND
@@ -86,8 +86,8 @@ def _mission(path: Path, said: Stamped) -> dict[str, Any]:
     if not said:
         raise InputError(f"{path}: has no {MISSION.name}, the mission that was flown")
     try:
-        tables, notices = renamed_tables(tomllib.loads(said[max(said)].data))
-    except ValueError as error:
+        tables, notices = renamed_tables(toml_tables(said[max(said)].data))
+    except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: {MISSION.name} is no mission: {error}") from error
     warn_of_old_names(str(path), notices)
     return tables

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from tandemlift.common.errors import FlightWarning, InputError
+from tandemlift.common.toml import MAX_PARTS, too_deep
 
 KEYS: dict[str, str] = {
     "compliance.hearing": "compliance.input_bandwidth",
@@ -125,7 +126,13 @@ def _at(key: str) -> _At:
 
 @functools.lru_cache(maxsize=1024)
 def renamed_key(key: str) -> str:
-    """A dotted key of a mission by its new name; numbers in it, which pick entries of lists, stay."""
+    """A dotted key of a mission by its new name; numbers in it, which pick entries of lists, stay.
+
+    Raises:
+        InputError: it has more parts than any key.
+    """
+    if key.count(".") >= MAX_PARTS:
+        raise too_deep(key)
     names = iter(_at(key).now)
     return ".".join(part if part.isdigit() else next(names) for part in key.split("."))
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 import numpy as np
 
 from tandemlift.common.errors import InputError, suggestion
-from tandemlift.common.files import atomic_write
+from tandemlift.common.files import atomic_write, unpacked_size
 from tandemlift.common.findings import Finding, finding_from
 from tandemlift.common.outcomes import FAILURES
 from tandemlift.common.types import Array
@@ -207,13 +207,16 @@ def _read(file: BinaryIO) -> tuple[dict[str, Any], dict[str, Array]]:
         raise InputError("no flight that tandemlift saved, or only a part of one")
     file.seek(0)
     with np.load(file, allow_pickle=False) as content:
+        packed, unpacked = os.fstat(file.fileno()).st_size, unpacked_size(content.zip)
+        if unpacked > packed:
+            raise InputError(f"no flight that tandemlift saved: {packed} bytes that unpack to {unpacked}")
         if "header" not in content.files:
             raise InputError("no flight that tandemlift saved: it has no header")
         header = json.loads(str(content["header"]))
         number = header["format"]
         if number > FORMAT:
             raise InputError(f"written by a newer tandemlift: its format is {number}, this one reads up to {FORMAT}")
-        return header, {name: content[name] for name in ("time", *header["channels"])}
+        return header, {name: content[name] for name in dict.fromkeys(("time", *header["channels"]))}
 
 
 def _by_new_names(flight: Flight, source: str) -> Flight:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import functools
 import os
 import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
 from tandemlift.common.errors import InputError, suggestion, unknown
+from tandemlift.common.toml import toml_tables
 from tandemlift.flight.old_names import renamed_tables, warn_of_old_names
 from tandemlift.missions.recording import unpacked_recording
 from tandemlift.missions.values import MISSING, Tables, merge, shown, value_at
@@ -53,7 +53,7 @@ def _parsed(text: str) -> tuple[Tables, list[str]]:
 
     They are cached for sweeps that load one mission many times, and must not be modified.
     """
-    return renamed_tables(tomllib.loads(text))
+    return renamed_tables(toml_tables(text))
 
 
 def _read(path: Path) -> Tables:

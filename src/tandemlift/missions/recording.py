@@ -21,13 +21,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.common.errors import InputError
-from tandemlift.common.files import atomic_write
+from tandemlift.common.files import atomic_write, unpacked_size
 from tandemlift.settings import Mission
 
 WIDTH = 14  # numbers of a `VirtualHandInput`
 ENGINE = "compiled"  # the default engine
 MISSION_FILE, HAND_FILE = "recorded.toml", "hand.npz"  # of a saved flight
-MAX_UNPACKED = 200_000_000  # bytes of one of them
+MAX_UNPACKED = 200_000_000  # bytes of one of them, and of what a recording unpacks to: an hour has some 60 million
 _held: dict[str, bytes] = {}
 
 
@@ -68,11 +68,13 @@ def read_recording(path: str) -> Recording:
     """
     try:
         with np.load(io.BytesIO(recording_bytes(path)), allow_pickle=False) as archive:
+            if (size := unpacked_size(archive.zip)) > MAX_UNPACKED:
+                raise InputError(f"it unpacks to {size} bytes, more than {MAX_UNPACKED}")
             engine = archive["engine"] if "engine" in archive else np.array(ENGINE)
             recording = Recording(archive["step"], archive["hand"], str(engine))
     except FileNotFoundError:
         raise InputError(f"person.recording = {path!r}: there is no such file") from None
-    except (OSError, ValueError, KeyError, TypeError, zipfile.BadZipFile) as error:
+    except Exception as error:  # whatever a file of any content can do to the readers of ZIP and NPY
         raise InputError(f"person.recording = {path!r}: not a recording: {error}") from None
     _check(path, recording)
     return recording

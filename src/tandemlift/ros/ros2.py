@@ -10,12 +10,12 @@ import logging
 import os
 import threading
 import time
-import tomllib
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from tandemlift.common.errors import InputError, unknown
+from tandemlift.common.toml import toml_tables
 from tandemlift.export.messages import MessageTypes
 from tandemlift.export.topics import ROOT, OtherTopic
 from tandemlift.ros.dds_types import DdsTypes, check_installed
@@ -189,6 +189,6 @@ def _domain() -> int:
 def _value(text: str) -> Any:
     """A value as TOML writes it, or a word."""
     try:
-        return tomllib.loads(f"value = {text}")["value"]
-    except ValueError:
+        return toml_tables(f"value = {text}")["value"]
+    except (ValueError, RecursionError):
         return text

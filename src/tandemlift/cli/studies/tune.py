@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import sys
-import tomllib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,6 +16,7 @@ from tandemlift.cli.terminal.console import compile_notices, echo
 from tandemlift.cli.terminal.mission_options import chosen_controller, parse_setting, set_option
 from tandemlift.cli.terminal.results import results_folder
 from tandemlift.common.errors import InputError
+from tandemlift.common.toml import toml_tables
 
 if TYPE_CHECKING:
     from tandemlift.studies.tuning.candidates import Cost
@@ -142,7 +142,7 @@ def _range_of(text: str) -> tuple[str, Any]:
 
 def _literal(where: str, literal: str) -> Any:
     try:
-        return tomllib.loads(f"value = {literal}")["value"]
+        return toml_tables(f"value = {literal}")["value"]
     except (ValueError, KeyError, RecursionError):
         raise InputError(f"{where}: must be a TOML value, such as 0.01 or [0.01, 0.01, 0.005]") from None
 

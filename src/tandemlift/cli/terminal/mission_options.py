@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from tandemlift.cli.terminal.completion import CONTROLLERS, names, settings
 from tandemlift.common.errors import InputError
+from tandemlift.common.toml import toml_tables
 from tandemlift.figures.drawing.figure_style import STYLES, figure_style
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ def parse_setting(text: str) -> tuple[str, Any]:
     if not equals or not re.fullmatch(r"[A-Za-z0-9_]+(\.[A-Za-z0-9_]+)*", key):
         raise InputError(f"--set {text}: must be KEY=VALUE with a dotted key, such as mission.duration=5.0")
     try:
-        parsed = tomllib.loads(f"value = {literal}")
+        parsed = toml_tables(f"value = {literal}")
     except (ValueError, RecursionError):
         if re.fullmatch(WORD, literal):
             return key, literal

@@ -99,7 +99,9 @@ def _in_short(key: Key) -> str:
 
 
 def _unknown(name: str, plain: str) -> InputError:
-    near = nearest_three(plain, {plain_name(key.name): key.name for section in sections() for key in section.keys})
+    near = nearest_three(
+        plain[:100], {plain_name(key.name): key.name for section in sections() for key in section.keys}
+    )
     return InputError(f"there is no key {shown(name)}; the nearest are {', '.join(near)}")
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -11,6 +10,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.toml import toml_tables
 from tandemlift.missions.changes import changed_tables
 from tandemlift.missions.files import MAX_FILE
 from tandemlift.missions.refusals import problems_in
@@ -64,12 +64,14 @@ def _read(path: Path) -> dict[str, Any]:
         with path.open("rb") as file:
             content = file.read(MAX_FILE + 1)
         if len(content) > MAX_FILE:
-            raise InputError(f"{path} is larger than {MAX_FILE} bytes, the most that a study file may have")
-        return tomllib.loads(content.decode("utf-8-sig").replace("\r\n", "\n"))
+            raise InputError(f"larger than {MAX_FILE} bytes, the most that a study file may have")
+        return toml_tables(content.decode("utf-8-sig").replace("\r\n", "\n"))
     except FileNotFoundError:
         raise InputError(f"study file {path} does not exist; `tandemlift study --template` prints one") from None
     except OSError as error:
         raise InputError(f"study file {path}: {error.strerror or error}") from None
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
     except RecursionError:
         raise InputError(f"{path} is not a study: nested too deeply") from None
     except ValueError as error:

@@ -1,0 +1,66 @@
+"""Small files and short keys that would take much memory to read are refused before they do."""
+
+import zipfile
+
+import numpy as np
+import pytest
+import tomli_w
+from bombs import memory_below, zeros_archive
+
+import tandemlift as tl
+from tandemlift.common.toml import MAX_PARTS
+from tandemlift.missions.recording import MAX_UNPACKED, WIDTH, Recording, read_recording, write_recording
+
+LONG = ".".join("a" * 5_000)
+MOST = 20_000_000  # bytes
+
+
+@pytest.fixture
+def write(tmp_path, monkeypatch):
+    tl.load_mission("hover")  # what is loaded once is not counted
+    monkeypatch.chdir(tmp_path)
+    return lambda text: (tmp_path / "mine.toml").write_text(f'extends = "hover"\n{text}\n', "utf-8")
+
+
+@pytest.mark.parametrize(
+    "text", [f"{LONG} = 1", f"[{LONG}]", f"x = {{ {LONG} = 1 }}", tomli_w.dumps({"changes": [{"key": LONG}]})]
+)
+def test_a_mission_with_a_key_of_thousands_of_parts_is_refused_in_little_memory(write, text):
+    write(text)
+    with memory_below(MOST), pytest.raises(tl.InputError, match=f"mine.toml: a.a.*at most {MAX_PARTS} parts"):
+        tl.load_mission("mine.toml")
+
+
+def test_a_change_of_a_key_of_thousands_of_parts_is_refused_in_little_memory(write):
+    with memory_below(MOST), pytest.raises(tl.InputError, match=f"a.a.*at most {MAX_PARTS} parts"):
+        tl.load_mission("hover", {LONG: 1})
+
+
+def test_a_recording_that_unpacks_to_more_than_any_flight_has_is_refused_unread(tmp_path):
+    count = MAX_UNPACKED // (8 * WIDTH) + 1
+    path = zeros_archive(tmp_path / "hand.npz", {"hand": (count, WIDTH)}, {"step": np.arange(1)})
+    assert path.stat().st_size < MAX_UNPACKED / 500
+    with memory_below(MOST), pytest.raises(tl.InputError, match=rf"unpacks to \d+ bytes, more than {MAX_UNPACKED}"):
+        read_recording(str(path))
+
+
+def test_a_recording_whose_array_claims_more_than_the_file_holds_is_refused(tmp_path):
+    for rows in (10**9, 10**16):
+        path = zeros_archive(tmp_path / "hand.npz", {}, {"step": np.arange(1)})
+        with_claim(path, rows)
+        with pytest.raises(tl.InputError, match="not a recording"):
+            read_recording(str(path))
+
+
+def with_claim(path, rows):
+    """Add an array that has nothing but its header."""
+    with zipfile.ZipFile(path, "a") as archive, archive.open("hand.npy", "w") as file:
+        header = {"descr": "<f8", "fortran_order": False, "shape": (rows, WIDTH)}
+        np.lib.format.write_array_header_1_0(file, header)
+
+
+def test_an_hour_of_a_hand_that_moves_without_rest_is_read_again(tmp_path):
+    steps = np.arange(0, 3_600_000, 7)  # of a millisecond: a page sends a move every 7 ms at most
+    hands = np.zeros((len(steps), WIDTH))
+    write_recording(tmp_path / "hand.npz", Recording(steps, hands))
+    assert np.array_equal(read_recording(str(tmp_path / "hand.npz")).steps, steps)
