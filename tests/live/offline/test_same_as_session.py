@@ -98,7 +98,15 @@ def frames_flown(session, seconds):
     return frames, statuses
 
 
-CLOCKED = {"findings", "factor", "behind_ms", "viewers", "holder", "type"}  # what clock and server make of it
+CLOCKED = {
+    "findings",
+    "factor",
+    "behind_ms",
+    "viewers",
+    "holder",
+    "last_grab",
+    "type",
+}  # what clock and server make of it
 
 
 def untimed(status):
