@@ -34,7 +34,7 @@ DRAWN = {"loop": ("push_force", "position"), "body": ("disturbance_force", "posi
 
 @click.command()
 @click.argument("mission", shell_complete=MISSIONS)
-@click.option("--at", type=float, metavar="S", help="Time of the point.  [default: the first calm after the lift]")
+@click.option("--at", type=float, metavar="S", help="Time of the point.  [default: the first calm after lift and tare]")
 @click.option(
     "--of", type=click.Choice(["loop", "body"]), default="loop", show_default=True, help="Pilot and body, or the body."
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,11 +14,19 @@ from tandemlift.common.errors import InputError, unknown
 from tandemlift.common.types import Array
 from tandemlift.interactive.simulation import Simulation
 from tandemlift.laws.mechanics.push import push_moment
+from tandemlift.laws.rotors.rotor_lag import by_direction
 from tandemlift.linearization.delay_lines import delayed_numbers
-from tandemlift.linearization.kinks import kinks_near, law_name
+from tandemlift.linearization.kinks import Kink, kinks_near, law_name
 from tandemlift.linearization.linear_model import LinearizationPoint, LinearModel
 from tandemlift.linearization.model_inputs import given_at, input_columns, operating_values, push_sum
-from tandemlift.linearization.operating_point import OperatingPoint, as_it_stands, flown_to
+from tandemlift.linearization.operating_point import (
+    OperatingPoint,
+    as_it_stands,
+    averaged_lags,
+    flown_to,
+    tare_left,
+    with_mean_lag,
+)
 from tandemlift.linearization.period import LinearizationPlan, PeriodDerivative, differentiate
 from tandemlift.linearization.step_graph import step_graph
 from tandemlift.linearization.variables import Outputs, outputs_from, state_variable
@@ -51,7 +59,8 @@ def linearize(
     Args:
         flight: a mission, which is flown to the time `at` with the compiled body; or a simulation as it stands.
         at: time of the point [s]. By default the end of the first calm after the lift: just before the first push,
-            fault or landing, or before a person begins, else the mission's end. None for a simulation.
+            fault or landing, or before a person begins, else the mission's end; and 0.5 s after the tare, if that
+            takes longer, as no push is heard before. None for a simulation.
         of: "loop" for pilot and body together; "body" for the body alone, whose inputs are the rotor thrusts.
         inputs: names of inputs: `push_force` [N, world axes, at the centre of mass], `push_moment` [N m, body axes],
             `disturbance_force` [N, world axes], `disturbance_moment` [N m, body axes], `wind_velocity` [m/s, world
@@ -74,10 +83,28 @@ def linearize(
         raise InputError(f"at = {shown(at)}: a simulation is linearized at its own time; step it there")
     point = as_it_stands(flight) if isinstance(flight, Simulation) else flown_to(flight, at)
     recipe, chosen = linearization_plan(point, of, inputs, outputs, steps)
-    made = differentiate(recipe)
+    here = made = differentiate(recipe)
+    averaged = with_mean_lag(point) if of == "loop" else point
+    if averaged is not point:
+        recipe = recipe._replace(point=averaged)
+        made = differentiate(recipe)
     _check_finite(recipe, made)
-    kinks = kinks_near(recipe, made, kink_tolerance)
-    return _model(recipe, made, chosen, of, kinks)
+    kinks = [*kinks_near(recipe, made, kink_tolerance), *(_known_kinks(point) if of == "loop" else ())]
+    return _model(recipe, made._replace(x0=here.x0, x1=here.x1, y0=here.y0), chosen, of, kinks)
+
+
+def _known_kinks(point: OperatingPoint) -> Iterator[Kink]:
+    """What the model leaves out that is no edge in the step: the rotors' lag by direction, the push during the tare."""
+    lags, left = averaged_lags(point.plan.mission), tare_left(point.plan, point.numbers, point.k * point.plan.dt)
+    if lags:
+        name, file = law_name(by_direction.scalar)
+        yield Kink(
+            name, file, 0.0, f"{name} in {file}: noise drives rotors up and down, with lags of {shown_lags(lags)}"
+        )
+    if left > 0.0:
+        file = "laws/estimation/push_estimate.py"
+        text = f"estimate in {file}: the push is heard once the tare is over, in {left:.3g} s, not before"
+        yield Kink("estimate", file, left, text)
 
 
 def linearization_plan(
@@ -169,6 +196,11 @@ def _model(r: LinearizationPlan, made: PeriodDerivative, chosen: Outputs, of: st
     )
 
 
+def shown_lags(lags: list[tuple[float, float]]) -> str:
+    """The lags of rotors up and down in words."""
+    return " or ".join(f"{1e3 * up:g} and {1e3 * down:g} ms" for up, down in dict.fromkeys(lags))
+
+
 def _inputs_at(r: LinearizationPlan, made: PeriodDerivative) -> Array:
     plan, t = r.point.plan, r.point.k * r.point.plan.dt
     attitude = _flight_state(r.point).state.attitude
@@ -189,6 +221,13 @@ def assumptions(r: LinearizationPlan, made: PeriodDerivative, of: str) -> list[s
         said.append("Noise is 0 from the point on; the flight to the point has it.")
     if not isinstance(plan.model.sensors, Nothing):
         said.append("The resolution of sensors is taken as a straight line.")
+    lags, left = averaged_lags(plan.mission), tare_left(plan, r.point.numbers, r.point.k * plan.dt)
+    if of == "loop" and lags:
+        said.append(f"The rotors' lag is the mean of up and down, {shown_lags(lags)}: noise drives them both ways.")
+    if of == "loop" and left > -math.inf:
+        said.append(
+            f"Tare: {'over, the push is heard' if left <= 0.0 else f'not over for {left:.3g} s, no push is heard'}."
+        )
     if r.steps > 1:
         t = r.point.k * plan.dt
         said.append(f"Sensors: the sample time is their common period, {r.steps} steps from {t:g} s on.")
