@@ -31,10 +31,11 @@ from tandemlift.vehicle import Vehicle
 AXES = ("z", "roll", "pitch", "yaw")
 LOWEST, HIGHEST, POINTS = 0.1, 3000.0, 240  # rad/s
 LIFT, SETTLED = 4.0, 2.0  # s, of the calm flight's lift, and after it and after the tare
+WAITS = (0.0, 20.0)  # s, beyond that, for a vehicle that calms down slowly
 NO_KINK = -1.0  # a distance: none is looked for
 ON_CIRCLE = 1e-6  # beyond 1, of an eigenvalue that does not grow
 FASTER = 10.0  # times the largest speed of the rotors, so that no thrust is limited
-RESTING = 0.01  # m/s and rad/s, of a calm hover
+RESTING = 0.02  # m/s and rad/s, of a calm hover
 FIRST, MOST = 1e-4, 100.0  # s, the shortest and the longest delay and lag that are tried
 RELATIVE = 1e-4  # accuracy of what is found
 
@@ -58,23 +59,31 @@ class AxisMargins(NamedTuple):
 
     Attributes:
         axis: "z", "roll", "pitch" or "yaw".
-        gain: by which the loop's gain may grow, a factor; infinite if it never matters.
+        gain: by which the loop's gain may grow, a factor above 1; infinite if it never matters.
+        least_gain: to which it may fall, a factor below 1; 0 if it never matters.
         phase: the least that is left at a crossing of |L| = 1 [deg]; NaN without a crossing.
         crossover: of that crossing [rad/s].
     """
 
     axis: str
     gain: float
+    least_gain: float
     phase: float
     crossover: float
 
+    @property
+    def nearest_gain(self) -> float:
+        """That of both limits of the gain which the smaller change reaches, a factor."""
+        return self.least_gain if 1.0 / self.gain <= self.least_gain else self.gain
 
-def calm_tables(mission: Mission, *, lag: float | None) -> tuple[dict[str, Any], float]:
+
+def calm_tables(mission: Mission, *, lag: float | None, wait: float) -> tuple[dict[str, Any], float]:
     """(The tables of a mission that hovers calmly, the time at which it does [s]).
 
     Args:
         mission: what is to be made calm.
         lag: of all rotors [s], with the mission's delay; None for rotors without delay and lag.
+        wait: for how much longer it hovers until then [s].
     """
     t = tables_of(mission)
     for name in ("pushes", "requests", "changes", "faults", "sensor_faults", "walls"):
@@ -98,8 +107,8 @@ def calm_tables(mission: Mission, *, lag: float | None) -> tuple[dict[str, Any],
         if mission.estimator.tare == "clock":
             e["tare_start"] = at
         at += SETTLED + mission.estimator.tare_duration + (SETTLED if mission.estimator.tare == "hover" else 0.0)
-    t["mission"]["duration"] = at + 1.0
-    return t, at
+    t["mission"]["duration"] = at + wait + 1.0
+    return t, at + wait
 
 
 def _without_errors(sensors: dict[str, Any]) -> dict[str, Any]:
@@ -115,11 +124,11 @@ def _without_errors(sensors: dict[str, Any]) -> dict[str, Any]:
     return {k: v for k, v in kept.items() if k != "additional"}
 
 
-def calm_mission(mission: Mission, *, lag: float | None = None) -> tuple[Mission, float]:
+def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.0) -> tuple[Mission, float]:
     """(A mission that hovers calmly, when); arguments as for `calm_tables`."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", FlightWarning)
-        tables, at = calm_tables(mission, lag=lag)
+        tables, at = calm_tables(mission, lag=lag, wait=wait)
         return check(tables, mission.mission.name), at
 
 
@@ -129,8 +138,11 @@ def open_loop(mission: Mission) -> OpenLoop:
     Raises:
         InputError: the controller is plain Python, or the calm flight is lost.
     """
-    calm, at = calm_mission(mission)
-    model = linearize(calm, at, inputs=["thrust_offsets"], outputs=["rotor_thrusts"], kink_tolerance=NO_KINK)
+    for wait in WAITS:
+        calm, at = calm_mission(mission, wait=wait)
+        model = linearize(calm, at, inputs=["thrust_offsets"], outputs=["rotor_thrusts"], kink_tolerance=NO_KINK)
+        if is_calm(model):
+            break
     vehicle, few = Vehicle.from_settings(calm.vehicle), model.connected()
     radius = float(np.abs(np.linalg.eigvals(few.A)).max())
     in_axes = replace(few, B=few.B @ vehicle.allocation(calm.allocation.weights), C=vehicle.effect @ few.C)
@@ -202,9 +214,9 @@ def single_loop(L: Any, i: int) -> Any:
 
 
 def margins_of(axis: str, w: Array, L: Any) -> AxisMargins:
-    """Gain and phase margin of one loop."""
+    """Gain and phase margins of one loop; one that is stable only because its gain is large has a least gain."""
     size, phase = np.log(np.abs(L)), np.unwrap(np.angle(L))
-    gain, least, crossover = math.inf, math.nan, math.nan
+    gain, least_gain, least, crossover = math.inf, 0.0, math.nan, math.nan
     for k in np.flatnonzero((size[:-1] >= 0.0) != (size[1:] >= 0.0)):
         part = size[k] / (size[k] - size[k + 1])
         left = _wrapped(math.degrees((1.0 - part) * phase[k] + part * phase[k + 1]) + 180.0)
@@ -215,8 +227,8 @@ def margins_of(axis: str, w: Array, L: Any) -> AxisMargins:
         edge = max(math.floor(turns[k]), math.floor(turns[k + 1]))
         part = (edge - turns[k]) / (turns[k + 1] - turns[k])
         factor = math.exp(-((1.0 - part) * size[k] + part * size[k + 1]))
-        gain = min(gain, factor) if factor > 1.0 else gain
-    return AxisMargins(axis, gain, least, crossover)
+        gain, least_gain = (min(gain, factor), least_gain) if factor > 1.0 else (gain, max(least_gain, factor))
+    return AxisMargins(axis, gain, least_gain, least, crossover)
 
 
 def _wrapped(angle: float) -> float:

@@ -22,12 +22,19 @@ from tandemlift.missions.flight_checks.table import FlightCheck, flight_checks
 from tandemlift.settings import Mission
 
 NEAR_PHASE = 1.0 / 6.0  # of 180 deg: less than 30 deg of phase left is close
-NEAR_GAIN = 0.4  # a gain that may grow by less than a factor of 1.7 is close
+NEAR_GAIN = 0.4  # a gain that may grow by less than a factor of 1.7, or fall by less, is close
 NEAR_DELAY = 0.3
 
 LOOP_CHECKS = (
     FlightCheck("loop phase", "phase lag of an axis where its loop's gain is 1", "180°", "deg", "", "the gains"),
-    FlightCheck("loop gain", "1", "the factor by which the gain of an axis may grow", "1", "", "the gains"),
+    FlightCheck(
+        "loop gain",
+        "1 for *most*; the factor to which the gain of an axis may fall, for *least*",
+        "the factor by which the gain may grow; 1. The limit that the smaller change reaches is the *nearer*",
+        "1",
+        "",
+        "the gains",
+    ),
     FlightCheck(
         "loop delay",
         "delay of the rotors",
@@ -114,7 +121,10 @@ def margins(loop: OpenLoop, delay: float, lag: float) -> Iterator[CheckResult]:
         if not math.isnan(found.phase):
             text = f"the {found.axis} loop lacks {-found.phase:.3g} deg of phase at {found.crossover:.3g} rad/s"
             yield judged("loop phase", 180.0 - found.phase, 180.0, "deg", text, subject=found.axis, near=NEAR_PHASE)
-        yield judged("loop gain", 1.0, found.gain, "1", "", subject=found.axis, near=NEAR_GAIN)
+        for name, value, limit in (("most", 1.0, found.gain), ("least", found.least_gain, 1.0)):
+            nearer = found.nearest_gain in (value, limit)
+            subject = f"{found.axis}, {name}{' (nearer)' if nearer else ''}"
+            yield judged("loop gain", value, limit, "1", "", subject=subject, near=NEAR_GAIN)
 
 
 def modes(mission: Mission, lag: float) -> Iterator[CheckResult]:

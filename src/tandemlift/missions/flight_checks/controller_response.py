@@ -1,7 +1,6 @@
 """The linear response of a controller about hover, by differences of its own law: any registered controller's.
 
-Positions along x, y, z are changed at once, and so are the other vectors: near hover, the vertical, roll (with y),
-pitch (with x) and yaw do not mix, so each output tells its own.
+Each component of what the controller reads is changed alone: about hover, axes mix by the products of inertia.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.algebra.layout import flat, unflat
-from tandemlift.algebra.vector import ZERO, Vec3
+from tandemlift.algebra.vector import ZERO, vec3
 from tandemlift.common.caching import kept
 from tandemlift.common.types import Array
 from tandemlift.controllers import CONTROLLERS, control
@@ -23,7 +22,7 @@ from tandemlift.laws.signals.trajectories import Reference, Trajectory
 from tandemlift.settings import ControllerTable, Mission, VehicleTable
 from tandemlift.vehicle import Vehicle
 
-INPUTS = 5  # position, velocity, angles, rates, push
+INPUTS = 5  # position, velocity, angles, rates, push: vectors
 CHANGE = 1e-6  # of an input or a memory, in its unit
 STILL = Reference(Trajectory(ZERO, ZERO, ZERO), 0.0)
 
@@ -33,9 +32,9 @@ class ControllerResponse(NamedTuple):
 
     Attributes:
         A: (n, n), of its memory.
-        B: (n, 5), by position [m], velocity [m/s], angles [rad], rates [rad/s] and push [N], of all three axes at once.
+        B: (n, 15), by x, y, z of position [m], velocity [m/s], angles [rad], rates [rad/s] and push [N].
         C: (4, n): thrust [N], roll, pitch, yaw [N m].
-        D: (4, 5).
+        D: (4, 15).
     """
 
     A: Array
@@ -44,13 +43,12 @@ class ControllerResponse(NamedTuple):
     D: Array
 
     def at(self, z: Any) -> Any:
-        """The response (w, 4, 5) at points z (w,) of the discrete plane."""
-        if not len(self.A):
-            return np.broadcast_to(self.D, (len(z), *self.D.shape))
-        eye = np.eye(len(self.A))
-        return self.D + self.C @ np.linalg.solve(
-            z[:, None, None] * eye - self.A, np.broadcast_to(self.B, (len(z), *self.B.shape))
-        )
+        """The response (w, 4, 5, 3) at points z (w,) of the discrete plane."""
+        found = np.broadcast_to(self.D, (len(z), *self.D.shape))
+        if len(self.A):
+            many = np.broadcast_to(self.B, (len(z), *self.B.shape))
+            found = found + self.C @ np.linalg.solve(z[:, None, None] * np.eye(len(self.A)) - self.A, many)
+        return found.reshape(len(z), 4, INPUTS, 3)
 
 
 def controller_response(m: Mission) -> ControllerResponse | None:
@@ -65,21 +63,21 @@ def _response(
     try:
         gains, memory = start(settings, Vehicle.from_settings(table), step)
         here = np.array(flat(memory), dtype=float)
-        rows = [_answer(gains, memory, np.zeros(INPUTS), here)]
-        for i in range(INPUTS + len(here)):
-            change = CHANGE * np.eye(INPUTS + len(here))[i]
-            rows.append((_answer(gains, memory, change[:INPUTS], here + change[INPUTS:]) - rows[0]) / CHANGE)
+        read = 3 * INPUTS
+        rows = [_answer(gains, memory, np.zeros(read), here)]
+        for change in CHANGE * np.eye(read + len(here)):
+            rows.append((_answer(gains, memory, change[:read], here + change[read:]) - rows[0]) / CHANGE)
     except (ArithmeticError, TypeError, ValueError, AttributeError):
         return None  # a law in plain Python may keep anything in its memory
     J = np.array(rows[1:]).T
     if not np.isfinite(J).all():
         return None
-    return ControllerResponse(J[4:, INPUTS:], J[4:, :INPUTS], J[:4, INPUTS:], J[:4, :INPUTS])
+    return ControllerResponse(J[4:, read:], J[4:, :read], J[:4, read:], J[:4, :read])
 
 
 def _answer(gains: Any, memory: Any, y: Array, numbers: Array) -> Array:
-    """(Thrust, moments, memory after) for a small motion and push of all axes."""
-    position, velocity, angles, rates, push = (Vec3(v, v, v) for v in y.tolist())
+    """(Thrust, moments, memory after) for a small motion and push."""
+    position, velocity, angles, rates, push = map(vec3, y.reshape(INPUTS, 3).tolist())
     state = State(position, velocity, quaternion_from_euler(angles), rates)
     measured = Measured(state, push, NO_DISTURBANCE)
     command, after = control(gains, unflat(numbers.tolist(), memory), measured, STILL)

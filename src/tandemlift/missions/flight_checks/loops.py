@@ -1,21 +1,28 @@
-"""How much delay the control loops bear: closed forms about hover, an axis at a time.
+"""How much delay the control loops bear: closed forms about hover.
 
-A loop leads from the thrusts or moments of the rotors by the body, the sensors' delay, the controller and the
-disturbance observer back to them, L(s) = (K P + Q + W) / (1 − Q M) · G, cut at the rotors:
+The loop leads from the thrust and the moments of the rotors by the body, the sensors' delay, the controller and the
+disturbance observer back to them. It is a matrix of z, roll, pitch and yaw, in accelerations, cut at the rotors:
+L(s) = (1 − Q M)⁻¹ (K P + W + Q) E · G.
 
-- P: the body: 1/(m s²), 1/(J s²); roll moves y and pitch moves x by the weight's share, ∓g/s².
-- K: the controller, linear about hover (`controller_response`), sampled.
-- Q = λ²/(s + λ)², the observer of bandwidth λ; M: its model of the rotors.
-- W: what a measured push adds by a payload's mass that is not what the pilot takes it for.
+- P: the body: 1/s²; roll moves y and pitch moves x by the weight's share, ∓g/s².
+- K: the controller, linear about hover (`controller_response`), sampled; over the mass and the inertia that it assumes.
+- E: the accelerations of the real body over those of the assumed one, J⁻¹ Ĵ: 1 where the model is right.
+- Q = λ²/(s + λ)², the observer of bandwidth λ along each axis; M: its model of the rotors.
+- W: what a measured push adds by a payload's mass, and moment of inertia, that is not what the pilot takes it for.
 - G = e^(−sT)/(1 + τ s): delay and lag of the rotors, half a step of the hold, and the readings' delay.
 
-The delay that remains until a loop oscillates is (π + arg L)/ω where |L| = 1, the least of them. Whether it is stable
-without any delay tells the number of turns of 1 + L about 0, counted from high frequencies: −n π/2 at the low end for n
+Products of inertia mix the axes. As G is the same for all of them, det(1 + L) is the product of 1 + λ over the
+eigenvalues λ of L: each of them is a loop of its own (MacFarlane and Postlethwaite, Int. J. Control 25, 1977), named by
+the axis that it belongs to at high frequencies.
+
+The delay that remains until a loop oscillates is (π + arg λ)/ω where |λ| = 1, the least of them. Whether it is stable
+without any delay tells the number of turns of 1 + λ about 0, counted from high frequencies: −n π/2 at the low end for n
 integrators, if it is.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator
 from typing import Any, NamedTuple
@@ -31,6 +38,8 @@ from tandemlift.vehicle import Vehicle
 
 LOOPS = ("z", "roll", "pitch", "yaw")
 LOWEST, HIGHEST, POINTS = 0.02, 1000.0, 120  # rad/s
+MIXED = 1e-9  # of a loop, below which axes do not mix
+TURNED = 0.4 * math.pi  # rad, of a loop that is not stable
 CLEAR = 0.25  # of an integrator, within which the slope of a loop at low frequencies tells their number
 NEAR = 0.3  # of the delay that a loop bears
 NOTABLE = 0.5  # of the payload's mass, by which a measured push errs
@@ -88,7 +97,7 @@ def push_mass_error(m: Mission) -> float:
     keeps its centre of mass, and so does the pilot with a difference that it has identified. A mass that the tare
     identifies takes a vertical disturbance for weight.
     """
-    if m.pilot.guidance != "hand" or m.pilot.push == "truth":
+    if not measures_push(m):
         return 0.0
     believed = m.vehicle.payload.mass
     real = believed + (m.plant.mass_scale - 1.0) * Vehicle.from_settings(m.vehicle).mass
@@ -106,12 +115,14 @@ def loop_delays(m: Mission) -> Iterator[LoopDelay]:
     w = np.geomspace(LOWEST, min(HIGHEST, 0.9 * math.pi / h), POINTS)
     late, readings = reading_delays(m)
     delay = round(m.actuators.delay / h) * h + 0.5 * h + late
-    K = response.at(np.exp(1j * w * h)) * np.exp(-1j * w[:, None, None] * readings)
+    K = response.at(np.exp(1j * w * h)) * np.exp(-1j * w[:, None, None] * readings)[..., None]
     lags = np.array([0.5 * (q.lag_up + q.lag_down) for q in m.vehicle.quadrotors])
     lagging = np.mean(1.0 / (1.0 + 1j * w[:, None] * lags), axis=1)
-    for i, axis in enumerate(LOOPS):
-        L = open_loop(m, w, K[:, i], i) * lagging
-        bears, crossover = delay_borne(w, L)
+    loops = eigenvalues_by_axis(open_loop(m, w, K) * lagging[:, None, None])
+    turns = [excess_turns(w, L) for L in loops]
+    stable = abs(sum(turns)) < TURNED  # where two loops meet, each may go on as the other
+    for axis, L, turned in zip(LOOPS, loops, turns, strict=True):
+        bears, crossover = delay_to_crossing(w, L) if stable or abs(turned) < TURNED else (0.0, math.nan)
         yield LoopDelay(axis, delay, bears, crossover)
 
 
@@ -126,48 +137,55 @@ def reading_delays(m: Mission) -> tuple[float, Array]:
     return late, beyond
 
 
-def open_loop(m: Mission, w: Array, K: Any, i: int) -> Any:
-    """The loop of axis i at frequencies w [rad/s] without delay and lag; K (w, 5): the controller's row."""
-    s, vehicle = 1j * w, Vehicle.from_settings(m.vehicle)
-    scale = m.plant.mass_scale if i == 0 else m.plant.inertia_scale[i - 1]
-    believed = vehicle.mass if i == 0 else float(vehicle.inertia[i - 1, i - 1])
-    double = 1.0 / (believed * scale * s * s)  # the body: a position or an angle for a force or a moment
-    position, velocity, angles, rates, push = K.T
-    if i == 0:
-        feedback = (position + velocity * s) * double
-    else:
-        along = {1: -1.0, 2: 1.0}.get(i, 0.0) * GRAVITY / (s * s)
-        feedback = (angles + rates * s + (position + velocity * s) * along) * double
-    feedback = -feedback - push * measured_push(m, s, i) * double
-    if m.observer.model == "none":
-        return feedback
-    o = m.observer
-    bandwidth = o.force_bandwidth[2] if i == 0 else o.moment_bandwidth[i - 1]
-    Q = (bandwidth / (s + bandwidth)) ** 2
+def open_loop(m: Mission, w: Array, K: Any) -> Any:
+    """The loop (w, 4, 4) in accelerations at frequencies w [rad/s] without delay and lag; K (w, 4, 5, 3)."""
+    s, vehicle, o, c = 1j * w, Vehicle.from_settings(m.vehicle), m.observer, m.compliance
+    scale = np.diag(np.sqrt(m.plant.inertia_scale))
+    assumed, real = np.eye(4), np.eye(4)
+    assumed[0, 0], assumed[1:, 1:] = vehicle.mass, vehicle.inertia
+    real[0, 0], real[1:, 1:] = vehicle.mass * m.plant.mass_scale, scale @ vehicle.inertia @ scale
+    bandwidth = np.array([o.force_bandwidth[2], *o.moment_bandwidth])
+    Q = (bandwidth / (s[:, None] + bandwidth)) ** 2 * (o.model != "none")
     M = 1.0 / (1.0 + 0.5 * s * (o.rotor_lag + o.rotor_delay + m.mission.step)) ** 2
-    return (feedback + Q / scale) / (1.0 - Q * M)
+    read = np.zeros((len(w), INPUTS, 3, 4), complex)  # position, velocity, angles, rates, push: of a height, of angles
+    read[:, 0, 2, 0] = 1.0
+    read[:, 0, 0, 2], read[:, 0, 1, 1] = GRAVITY / (s * s), -GRAVITY / (s * s)
+    read[:, 2, :, 1:] = np.eye(3)
+    read[:, 1], read[:, 3] = (s[:, None, None] * read[:, part] for part in (0, 2))
+    read[:, 4, 2, 0] = push_mass_error(m) * s * s * (measured(m, s, c.force_lead) - Q[:, 0])
+    asked = np.linalg.solve(assumed, -np.einsum("wuvi,wvij->wuj", K, read))
+    moved = np.linalg.solve(real, assumed)
+    feedback = asked @ moved / (s * s)[:, None, None]
+    if measures_push(m):
+        errs = measured(m, s, c.moment_lead)[:, None] - Q[:, 1:]
+        feedback[:, 1:, 1:] += errs[:, :, None] * (moved - np.eye(4))[1:, 1:]
+    return (feedback + Q[:, :, None] * moved) / (1.0 - Q * M[:, None])[:, :, None]
 
 
-def measured_push(m: Mission, s: Any, i: int) -> Any:
-    """The push that is countered [N] for a unit of z [m], roll or pitch [rad], as far as it errs."""
-    wrong = push_mass_error(m)
-    if i != 0 or wrong == 0.0:
-        return 0.0
-    bandwidth = m.compliance.input_bandwidth
-    path = (1.0 + m.compliance.force_lead * s) / (1.0 + s / bandwidth) ** 2
-    if m.observer.model != "none":
-        path = path - (m.observer.force_bandwidth[2] / (s + m.observer.force_bandwidth[2])) ** 2
-    return wrong * s * s * path
+def measures_push(m: Mission) -> bool:
+    """Whether a guidance by hand counters a push that is measured."""
+    return m.pilot.guidance == "hand" and m.pilot.push != "truth"
 
 
-def delay_borne(w: Array, L: Any) -> tuple[float, float]:
-    """(The delay that a loop without delay bears [s], 0 if it is unstable; the frequency of the crossing [rad/s]).
+def measured(m: Mission, s: Any, lead: float) -> Any:
+    """What a guidance by hand counters of a push [1], with a lead time [s]."""
+    return (1.0 + lead * s) / (1.0 + s / m.compliance.input_bandwidth) ** 2
 
-    A loop whose numbers are beyond what can be computed is not judged: no delay is too long for it.
-    """
-    if not np.isfinite(L).all() or not L[0]:
-        return math.inf, math.nan
-    return delay_to_crossing(w, L) if _stable(w, L) else (0.0, math.nan)
+
+def eigenvalues_by_axis(L: Any) -> Any:
+    """The eigenvalues (4, w) of a loop (w, 4, 4), each followed from the axis that it is at the highest frequency."""
+    own = np.einsum("wii->wi", L)
+    mixed = np.abs(L - own[:, None] * np.eye(4)).max()
+    if not np.isfinite(L).all() or mixed <= MIXED * np.abs(own).min():
+        return own.T
+    values, vectors = np.linalg.eig(L)
+    orders = np.array(list(itertools.permutations(range(4))))
+    found, before = np.empty_like(own), np.eye(4)
+    for k in reversed(range(len(L))):
+        alike = np.abs(before.conj().T @ vectors[k])
+        order = orders[alike[np.arange(4), orders].sum(axis=1).argmax()]
+        found[k], before = values[k, order], vectors[k][:, order]
+    return found.T
 
 
 def delay_to_crossing(w: Array, L: Any) -> tuple[float, float]:
@@ -183,10 +201,14 @@ def delay_to_crossing(w: Array, L: Any) -> tuple[float, float]:
     return best, crossover
 
 
-def _stable(w: Array, L: Any) -> bool:
-    """Whether the closed loop is stable: by the turns of 1 + L, from the highest to the lowest frequency."""
+def excess_turns(w: Array, L: Any) -> float:
+    """By how much 1 + L turns about 0 [rad] beyond what a stable loop does, from the highest to the lowest frequency.
+
+    A loop whose numbers are beyond what can be computed is not judged: it counts as stable.
+    """
+    if not np.isfinite(L).all() or not L[0]:
+        return 0.0
     turned = np.unwrap(np.angle(1.0 + L[::-1]))
     slope = -math.log(abs(L[1] / L[0])) / math.log(w[1] / w[0])
     around = {math.floor(slope + CLEAR), math.ceil(slope - CLEAR)}
-    misses = [abs(float(turned[-1] - turned[0]) + 0.5 * math.pi * n) for n in around]
-    return min(misses) < 0.4 * math.pi
+    return min((float(turned[-1] - turned[0]) + 0.5 * math.pi * n for n in around), key=abs)

@@ -30,7 +30,7 @@ def start_checks(m: Mission) -> Iterator[CheckResult]:
     asked, i = response.at(SETTLED)[0].real, m.initial
     authority = authority_of(m)
     for axis, name in enumerate(AXES):
-        value = abs(asked[axis + 1, 2] * i.euler[axis] + asked[axis + 1, 3] * i.rates[axis])
+        value = abs(asked[axis + 1, 2] @ i.euler + asked[axis + 1, 3] @ i.rates)
         text = (
             f"at the start the controller asks for {value:.3g} N m in {name}; the rotors give {authority[axis]:.3g} "
             f"in hover, and flights recover up to {BEYOND:g} times that: start nearer to rest (initial.euler, "
@@ -38,8 +38,8 @@ def start_checks(m: Mission) -> Iterator[CheckResult]:
         )
         yield judged("start", value, BEYOND * float(authority[axis]), "N m", text, subject=name)
     for axis, along in ((0, 1), (1, 0)):
-        turning = asked[axis + 1]
-        tilt = abs(turning[0] * i.position[along] + turning[1] * i.velocity[along]) / max(abs(turning[2]), 1e-12)
+        place, speed, angle = asked[axis + 1, 0, along], asked[axis + 1, 1, along], asked[axis + 1, 2, axis]
+        tilt = abs(place * i.position[along] + speed * i.velocity[along]) / max(abs(angle), 1e-12)
         text = (
             f"at the start the controller asks for {tilt:.3g} rad of tilt along {'xy'[along]}, and {TILTED:g} rad is "
             "what flights recover from: start nearer to the reference (initial.position, initial.velocity), or set "
