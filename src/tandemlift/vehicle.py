@@ -7,6 +7,7 @@ turn about +z, 2 and 4 about −z. Thrust is along body z, so heights do not ent
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -142,6 +143,23 @@ class Vehicle:
             "beam": self.beam,
             "payload": -self.center_of_mass,
         }
+
+    @cached_property
+    def box(self) -> tuple[Array, Array]:
+        """The lowest and the highest corner of all parts [m], body axes, from the system's centre of mass (3 each)."""
+        ends = []
+        for q, (x, y, z) in zip(self.quadrotors, self.lever_arms, strict=True):
+            wide = max(q.guard_radius, *[math.hypot(*r) + q.rotor_radius for r in q.rotors])
+            ends += [(x - wide, y - wide, z - q.feet_depth), (x + wide, y + wide, z + max(q.rotor_height, 0.0))]
+        length, radius = self.beam or (0.0, 0.0)
+        half = np.array([radius, 0.5 * length, radius])
+        ends += [-self.center_of_mass - half, -self.center_of_mass + half]
+        return np.min(ends, axis=0), np.max(ends, axis=0)
+
+    def beside(self, point: Sequence[float]) -> float:
+        """Distance of a point [m, body axes, from the system's centre of mass] from that box, 0 inside [m]."""
+        low, high = self.box
+        return math.dist(point, np.clip(point, low, high))
 
     @cached_property
     def inertia(self) -> Array:

@@ -18,6 +18,7 @@ from tandemlift.flight.channels import DERIVED, Channel, channel_of
 from tandemlift.flight.record import Ending, Flight
 from tandemlift.kernels import leaf_offset
 from tandemlift.loop.running_metrics import EMPTY
+from tandemlift.missions.person_checks import check_point
 from tandemlift.missions.recording import engine_of
 from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
@@ -113,7 +114,8 @@ class Simulation:
             The state (13,) at the new `time`.
 
         Raises:
-            InputError: the flight is over, or an input is not an array of that many finite numbers.
+            InputError: the flight is over, an input is not an array of that many finite numbers, or the point is not
+                on the vehicle.
         """
         if self.over:
             raise InputError(f"{self._why_over()}; reset() begins anew")
@@ -134,6 +136,7 @@ class Simulation:
             if push is None:
                 raise InputError(f"point = {shown(point)}: must come with a push")
             x[POINT] = numbers("point", point, 3, "m, in body axes")
+            check_point(self.mission, "point", x[POINT])
         if thrusts is not None:
             x[THRUSTS] = numbers("thrusts", thrusts, x.size - 7, "N, one for each rotor")
             x[-1] = 1.0

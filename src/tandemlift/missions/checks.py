@@ -26,6 +26,7 @@ MAX_STEPS = 1_000_000_000
 MAX_LOG = 4_000_000_000  # bytes
 LEAST_RATIO = 1e-12  # of the principal moments of inertia
 PRECISION = 1e-6  # of the allocation
+ABOVE = 0.05  # m, between rotors that turn above each other: blades bend
 
 
 def check_flyable(m: Mission) -> None:
@@ -102,6 +103,27 @@ def _check_vehicle(table: VehicleTable, weights: tuple[tuple[float, ...], ...]) 
         raise InputError(
             f"allocation.weights = {shown(weights)}: must not be so far apart, or the wrench is lost in rounding"
         )
+    _check_rotors(vehicle)
+
+
+def _check_rotors(vehicle: Vehicle) -> None:
+    """Refuse rotors whose discs would strike each other."""
+    hubs = (vehicle.lever_arms[:, None] + np.array(vehicle.rotor_hubs)).reshape(-1, 3)
+    radii = np.repeat([q.rotor_radius for q in vehicle.quadrotors], 4)
+    apart = np.linalg.norm(hubs[:, None, :2] - hubs[None, :, :2], axis=2)
+    level = np.abs(hubs[:, None, 2] - hubs[None, :, 2]) < ABOVE
+    least = radii[:, None] + radii
+    strike = np.argwhere(np.triu(level & (apart < least * (1.0 - 1e-9)), 1))
+    if len(strike):
+        first, second = strike[0].tolist()
+        names = " and ".join(f"rotor {rotor % 4 + 1} of quadrotor {rotor // 4 + 1}" for rotor in (first, second))
+        i, q = second // 4, vehicle.quadrotors[second // 4]
+        given = f"rotor_radius = {q.rotor_radius}" if first // 4 == i else f"position = {shown(q.position)}"
+        limit = f"must be {least[first, second]:.3g} m or more, or one {ABOVE:g} m above the other"
+        raise InputError(
+            f"vehicle.quadrotors.{i}.{given}: {names} strike each other: from hub to hub are "
+            f"{apart[first, second]:.3g} m, and it {limit}"
+        )
 
 
 def _check_admittance(m: Mission) -> None:
@@ -120,6 +142,12 @@ def _check_admittance(m: Mission) -> None:
 
 def _check_outcomes(m: Mission) -> None:
     """Refuse promises and thresholds that contradict each other."""
+    tilt = math.acos(math.cos(m.initial.euler[0]) * math.cos(m.initial.euler[1]))
+    if tilt >= m.crash.tilt:
+        given = f"initial.euler = {shown(m.initial.euler)}"
+        raise InputError(
+            f"{given}: must tilt by less than crash.tilt = {m.crash.tilt:.4g}, and does so by {tilt:.4g} rad"
+        )
     f, promise = m.findings, promise_of(m.promise, m.pilot.guidance)
     if promise.rms_promised(m.pilot.guidance) > promise.distance:
         given = f"promise.rms_distance = {promise.rms_distance}"

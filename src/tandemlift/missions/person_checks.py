@@ -1,12 +1,32 @@
-"""What a mission asks of a person who guides the vehicle by hand: what cannot be, and what may go badly."""
+"""What a mission asks of a person who guides the vehicle by hand or pushes it: what cannot be, what may go badly."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+
+import numpy as np
 
 from tandemlift.common.errors import InputError
 from tandemlift.missions.recording import read_recording
+from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
+from tandemlift.vehicle import Vehicle
+
+GRIP = slice(1, 4)  # of a recorded hand
+FARTHEST = 0.5  # m, of a push from the box of all parts
+
+
+def check_point(m: Mission, key: str, point: Sequence[float]) -> None:
+    """Refuse a push that does not act on the vehicle.
+
+    Raises:
+        InputError: with the key, its value and what is allowed.
+    """
+    vehicle = Vehicle.from_settings(m.vehicle)
+    if vehicle.beside(point) > FARTHEST:
+        low, high = (shown(np.round(corner, 3).tolist()) for corner in vehicle.box)
+        given = f"{key} = {shown([float(x) for x in point])}"
+        raise InputError(f"{given}: must be on the vehicle, whose parts reach from {low} to {high} m")
 
 
 def check_person(m: Mission) -> None:
@@ -15,11 +35,14 @@ def check_person(m: Mission) -> None:
     Raises:
         InputError: with the key, its value and what is allowed.
     """
+    for i, push in enumerate(m.pushes):
+        check_point(m, f"pushes.{i}.point", push.point)
     p, half = m.person, (m.vehicle.payload.length or 0.0) / 2.0
     if p.recording is not None and p.model != "grab":
         raise InputError(f'person.recording = "{p.recording}": must be left out where person.model is "{p.model}"')
     if p.model == "grab" and p.recording is not None:
-        read_recording(p.recording)
+        for grip in np.unique(read_recording(p.recording).hands[:, GRIP], axis=0):
+            check_point(m, f"person.recording: a grip in {p.recording}", grip)
     if p.model in ("none", "grab"):
         return
     if not p.path and not m.corridor.centreline:

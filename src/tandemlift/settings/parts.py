@@ -94,8 +94,8 @@ Turns = Literal[-1, 1]
 class Quadrotor(Table):
     """`[[vehicle.quadrotors]]`: one table for each quadrotor, 1 to 64 of them, rigidly fixed to the payload.
 
-    Their axes are parallel to the vehicle's, and they are at least 1 mm apart. In dotted keys, the first has the number
-    0.
+    Their axes are parallel to the vehicle's, they are at least 1 mm apart, and no rotor strikes another. In dotted
+    keys, the first has the number 0.
     """
 
     mass: Positive = key(..., "kg", "mass of the quadrotor", example=1.5)

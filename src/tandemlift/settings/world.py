@@ -27,6 +27,8 @@ Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
 def _upright(euler: Triple) -> Triple:
     if abs(euler[0]) >= math.radians(85.0):
         raise must("roll", "have a roll (the first angle) within ±85° (±1.4835 rad), where the angles are regular")
+    if abs(euler[1]) >= math.radians(85.0):
+        raise must("pitch", "have a pitch (the second angle) within ±85° (±1.4835 rad), or the rotors push downwards")
     return euler
 
 
@@ -41,7 +43,7 @@ class InitialTable(Table):
         (0.0, 0.0, 0.0),
         "rad",
         "roll, pitch and yaw; R = Rz(yaw) Rx(roll) Ry(pitch)",
-        rule="roll within ±85°",
+        rule="roll and pitch within ±85°",
         example=[0.15, -0.15, 0.2],
     )
     rates: Axes3 = key((0.0, 0.0, 0.0), "rad/s", "angular velocity, body axes")
@@ -53,7 +55,12 @@ class PushTable(Table):
     force: Exactly3 = key(..., "N", "peak force, world axes", example=[3.0, 0.0, 0.0])
     time: float = key(..., "s", "time of the peak", example=14.0)
     sigma: Positive = key(..., "s", "standard deviation σ of the push over time", example=0.6)
-    point: Exactly3 = key((0.0, 0.0, 0.0), "m", "point of application, body axes, from the system's centre of mass")
+    point: Exactly3 = key(
+        (0.0, 0.0, 0.0),
+        "m",
+        "point of application, body axes, from the system's centre of mass",
+        rule="no farther away than the vehicle's farthest part",
+    )
 
 
 class DisturbanceTable(Table):

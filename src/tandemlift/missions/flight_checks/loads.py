@@ -6,6 +6,7 @@ linearised about the wind that blows then: a drag k |v| v changes by k (|v| I + 
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
@@ -125,6 +126,22 @@ class WindOnParts:
             force, moment = force + self.R @ drag, moment + np.cross(part.place, drag)
             spread, turning = spread + change @ self.R.T, turning + np.cross(part.place, change)
         return force, moment, np.sqrt(np.sum(spread**2, axis=0)), np.sqrt(np.sum(turning**2, axis=0))
+
+
+def gust_times(m: Mission) -> list[float]:
+    """The ends of the rise, the hold and the fall of all gusts, and their middles [s]."""
+    edges = {0.0, m.mission.duration}
+    for g in m.wind.gusts:
+        hold = math.inf if g.hold is None else g.hold
+        edges |= {g.start, g.start + g.rise, g.start + g.rise + hold, g.start + 2.0 * g.rise + hold}
+    found = sorted(t for t in edges if 0.0 <= t <= m.mission.duration)
+    return sorted([*found, *[0.5 * (a + b) for a, b in itertools.pairwise(found)]])
+
+
+def wind_on_payload(m: Mission, t: float) -> Array:
+    """The force of mean wind and gusts on the payload at a time [N, world axes] (3)."""
+    R = heading_of(m)
+    return R @ drag_on(parts_of(m)[0], R, np.array(m.wind.velocity) + gusts_at(m, t), np.zeros((3, 3)))[0]
 
 
 def payload_gusting(m: Mission) -> Array:

@@ -1,12 +1,23 @@
-"""Pushes that are too weak to be followed."""
+"""Pushes that are too weak to be followed, or act beside the vehicle."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
 
-from tandemlift.missions.flight_checks.result import FAILS, CheckResult
+from tandemlift.missions.flight_checks.result import FAILS, CheckResult, judged
 from tandemlift.settings import Mission
+from tandemlift.vehicle import Vehicle
+
+BESIDE = 0.05  # m, from the box of all parts
+
+
+def point_checks(m: Mission) -> Iterator[CheckResult]:
+    """Pushes beside the box of all parts."""
+    for i, push in enumerate(m.pushes):
+        off = Vehicle.from_settings(m.vehicle).beside(push.point)
+        text = f"pushes.{i}.point = {list(push.point)} is {off:.2g} m beside the vehicle, where nobody can push"
+        yield judged("push point", off, BESIDE, "m", text, subject=f"pushes.{i}", near=0.0)
 
 
 def push_checks(m: Mission) -> Iterator[CheckResult]:

@@ -6,12 +6,16 @@ import itertools
 import math
 from collections.abc import Iterator
 
+from tandemlift.algebra.constants import GRAVITY
 from tandemlift.common.errors import InputError
 from tandemlift.missions.flight_checks.result import CLOSE, FAILS, CheckResult, judged, noted
+from tandemlift.missions.flight_checks.weight import lift_of, weight_of
 from tandemlift.settings import Mission
 from tandemlift.settings.world import PushTable
 
 STEEPEST = 1.875  # of the quintic smooth step: its largest slope
+SHARPEST = 10.0 / math.sqrt(3.0)  # and its largest second derivative
+UNLIMITED = 100.0  # m/s², of ideal actuators, which give any thrust
 
 
 def check_heights(m: Mission) -> None:
@@ -29,6 +33,7 @@ def check_heights(m: Mission) -> None:
 def schedule_checks(m: Mission) -> Iterator[CheckResult]:
     """What of the schedule is not reached, or leads into the floor."""
     yield from lift_checks(m)
+    yield from haste_checks(m)
     yield from push_time_checks(m)
     yield from descent_checks(m)
     yield from landing_checks(m)
@@ -51,6 +56,24 @@ def lift_checks(m: Mission) -> Iterator[CheckResult]:
         yield noted(
             "schedule", f"{when} end the lift after mission.duration = {end:g} s", verdict=CLOSE, subject="lift"
         )
+
+
+def haste_checks(m: Mission) -> Iterator[CheckResult]:
+    """Lift, and landing by the clock, in so short a time that thrust between none and all cannot follow."""
+    p, spare = m.phases, (lift_of(m) / weight_of(m) - 1.0) * GRAVITY
+    limit = min(max(spare, 0.0), GRAVITY) if m.actuators.model == "rotors" else UNLIMITED
+    phases = [("lift", p.lift_duration, p.lift_start)]
+    if p.land_start is not None and m.pilot.guidance != "hand":
+        phases.append(("land", p.land_duration, p.land_start))
+    for name, duration, start in phases:
+        if start < m.mission.duration:
+            value = SHARPEST * abs(p.height) / duration**2
+            text = (
+                f"phases.{name}_duration = {duration:g} s for {p.height:g} m asks for {value:.3g} m/s², and "
+                f"{limit:.3g} m/s² can be flown: set it to "
+                f"{math.sqrt(value / max(limit, 1e-3)) * duration:.2g} s or more"
+            )
+            yield judged("haste", value, limit, "m/s²", text, subject=name)
 
 
 def push_time_checks(m: Mission) -> Iterator[CheckResult]:

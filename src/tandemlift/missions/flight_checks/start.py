@@ -1,4 +1,6 @@
-"""What the controller asks for at a start that is not at rest at its reference, against what the rotors can give.
+"""A start that is not at rest at its reference: speed, rates, and what the controller asks for, against the rotors.
+
+A vehicle that turns with ω is stopped by a moment M after ω² J/(2 M).
 
 The controller is taken as linear: a moment for an angle and a rate of the start, and, once its filters have settled, an
 angle for a position and a velocity. An allocation by the pseudo-inverse loses thrust and the other moments where one is
@@ -15,14 +17,19 @@ from tandemlift.missions.flight_checks.authority import AXES, authority_of
 from tandemlift.missions.flight_checks.controller_response import controller_response
 from tandemlift.missions.flight_checks.result import CheckResult, judged
 from tandemlift.settings import Mission
+from tandemlift.vehicle import Vehicle
 
 BEYOND = 4.0  # times the rotors' moment, up to which flights recover; found by flights of mission flight-ready
 TILTED = 0.4  # rad, of the attitude that is asked for; likewise
+FASTEST = {"rotors": 5.0, "ideal": 10.0}  # m/s, at a start from which flights recover; found by flights, as above
+SPINNING = 20.0  # rad/s, which no vehicle of this kind can turn with
+TURNS = (0.35, 0.35, 2.0)  # rad, about each axis until a turn is stopped, as FASTEST
 SETTLED = np.array([1.0 + 1e-9])  # in the discrete plane
 
 
 def start_checks(m: Mission) -> Iterator[CheckResult]:
     """Moments and tilt that are asked for at the start of real rotors that run, allocated by the pseudo-inverse."""
+    yield from motion_checks(m)
     free = m.actuators.model == "rotors" and m.allocation.method == "pseudo-inverse" and m.phases.rotors == "always"
     response = controller_response(m) if free else None
     if response is None:
@@ -46,3 +53,21 @@ def start_checks(m: Mission) -> Iterator[CheckResult]:
             "controller.max_tilt"
         )
         yield judged("start", tilt, TILTED, "rad", text, subject=f"tilt along {'xy'[along]}")
+
+
+def motion_checks(m: Mission) -> Iterator[CheckResult]:
+    """Speed and rates at the start."""
+    speed, fastest = float(np.linalg.norm(m.initial.velocity)), FASTEST[m.actuators.model]
+    limits = np.full(3, SPINNING)
+    if m.actuators.model == "rotors" and m.phases.rotors == "always":
+        inertia = np.diag(Vehicle.from_settings(m.vehicle).inertia) * m.plant.inertia_scale
+        limits = np.minimum(limits, np.sqrt(2.0 * np.array(TURNS) * authority_of(m) / inertia))
+    found = [("velocity", "speed", speed, fastest, "m/s")]
+    rates = zip(AXES, np.abs(m.initial.rates).tolist(), limits.tolist(), strict=True)
+    found += [("rates", f"{axis} rate", rate, limit, "rad/s") for axis, rate, limit in rates]
+    for key, subject, value, limit, unit in found:
+        text = (
+            f"initial.{key} = {list(getattr(m.initial, key))}: a {subject} of {value:.3g} {unit} is more than flights "
+            f"recover from: lower it to {limit:.3g} {unit} or less"
+        )
+        yield judged("start", value, limit, unit, text, subject=subject)

@@ -10,11 +10,12 @@ import numpy as np
 from tandemlift.missions.flight_checks.authority import authority_checks
 from tandemlift.missions.flight_checks.loops import loop_checks
 from tandemlift.missions.flight_checks.passage import passage_checks
-from tandemlift.missions.flight_checks.pushes import push_checks
+from tandemlift.missions.flight_checks.pushes import point_checks, push_checks
 from tandemlift.missions.flight_checks.result import CLOSE, FAILS, CheckResult, noted
 from tandemlift.missions.flight_checks.schedule import schedule_checks
 from tandemlift.missions.flight_checks.sensing import sensing_checks
 from tandemlift.missions.flight_checks.start import start_checks
+from tandemlift.missions.flight_checks.stiffness import stiffness_checks
 from tandemlift.settings import Mission
 
 
@@ -66,11 +67,28 @@ CHECKS = (
     ),
     FlightCheck(
         "start",
-        "moment, and tilt, that the controller asks for at the start",
-        "4 times what the rotors can give in hover; 0.4 rad",
-        "N m, rad",
-        f'{ROTORS}, `allocation.method = "pseudo-inverse"`',
+        "speed, and rates; moment, and tilt, that the controller asks for at the start by the pseudo-inverse",
+        "5 m/s (of ideal rotors 10 m/s); 20 rad/s, and what the rotors stop in the air within 0.35 rad (yaw: 2 rad); 4 "
+        "times what the rotors can give in hover; 0.4 rad",
+        "m/s, rad/s, N m, rad",
+        "",
         "`initial`, the controller's gains, `allocation.method`",
+    ),
+    FlightCheck(
+        "gain",
+        "`lambda_1` and `lambda_2` of `nftsmc`",
+        "above 0 along each axis",
+        "",
+        '`controller.name = "nftsmc"`',
+        "`controller.gains`",
+    ),
+    FlightCheck(
+        "offset",
+        "constant unknown force over the controller's stiffness along each axis",
+        "`promise.rms_distance`; along z, to land without a floor, `outcome.landed_height`",
+        "m",
+        '`observer.model = "none"`',
+        "`observer.model`, `plant.mass_scale`, `disturbance.force`, the controller's gains",
     ),
     FlightCheck(
         "delay",
@@ -82,11 +100,19 @@ CHECKS = (
     ),
     FlightCheck(
         "wind on the payload",
-        "2 σ of the turbulent wind's force on the payload",
-        "`admittance.threshold`",
+        "2 σ of the turbulent wind's force on the payload; that of mean wind and gusts less what the tare takes off",
+        "`admittance.threshold`; in turbulence, gusts that carry the reference by up to 2 m are left out",
         "N",
-        "turbulence, and a push that is measured",
-        "`admittance.threshold`, `wind.turbulence`, `estimator.wind_compensation`",
+        "wind, and a push that is measured",
+        "`admittance.threshold`, `wind.turbulence`, `wind.gusts`, `estimator.wind_compensation`",
+    ),
+    FlightCheck(
+        "sampling",
+        "interval and delay of the joints' and inertial sensors, and of the motion sensor",
+        "π over the bandwidth of the push's low-pass; 1 over that of the estimator; at least 0.1 s",
+        "s",
+        "a push, a state that is measured",
+        "`sensors.interval`, `sensors.delay`, `sensors.motion.interval`, `sensors.motion.delay`",
     ),
     FlightCheck(
         "noise",
@@ -95,6 +121,14 @@ CHECKS = (
         "N",
         "a push that is measured",
         "`admittance.threshold`, `sensors.joints.force_noise`, `compliance.input_bandwidth`",
+    ),
+    FlightCheck(
+        "haste",
+        "largest acceleration of the lift and, by the clock, of the landing",
+        "what thrust between none and all can give; 100 m/s² of ideal actuators",
+        "m/s²",
+        "",
+        "`phases.lift_duration`, `phases.land_duration`, `phases.height`",
     ),
     FlightCheck(
         "descent",
@@ -121,6 +155,14 @@ CHECKS = (
         "`pushes.*.force`, `admittance.threshold`",
     ),
     FlightCheck(
+        "push point",
+        "distance of a push's point from the box of all parts",
+        "5 cm",
+        "m",
+        "a push of the mission",
+        "`pushes.*.point`",
+    ),
+    FlightCheck(
         "passage",
         "radius of a quadrotor's guard",
         "its distance from the nearest wall on the person's way, with the heading kept, turned or trailing",
@@ -133,10 +175,12 @@ CHECKS = (
 PARTS: tuple[Callable[[Mission], Iterator[CheckResult]], ...] = (
     authority_checks,
     start_checks,
+    stiffness_checks,
     loop_checks,
     sensing_checks,
     schedule_checks,
     push_checks,
+    point_checks,
     passage_checks,
 )
 

@@ -1,0 +1,71 @@
+"""How firmly a controller holds the vehicle: its offset under constant loads, and gains that are zero.
+
+The controller is taken as linear about hover (`controller_response`), once its memory has settled: a force for a
+position, along x and y by way of the angle that it asks for. A disturbance observer leaves no offset.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from tandemlift.common.types import Array
+from tandemlift.missions.flight_checks.controller_response import controller_response
+from tandemlift.missions.flight_checks.loads import WindOnParts
+from tandemlift.missions.flight_checks.result import FAILS, CheckResult, judged, noted
+from tandemlift.missions.flight_checks.start import SETTLED
+from tandemlift.missions.flight_checks.weight import weight_of
+from tandemlift.settings import Mission
+from tandemlift.settings.outcomes import promise_of
+from tandemlift.vehicle import Vehicle
+
+DRIVEN = {"lambda_1": "far from its surface", "lambda_2": "against disturbances"}  # of nftsmc, what a gain is for
+AXES = ("x", "y", "z", "roll", "pitch", "yaw")
+
+
+def stiffness_checks(m: Mission) -> Iterator[CheckResult]:
+    """Gains of zero, and the offset from the reference."""
+    yield from gain_checks(m)
+    if m.observer.model == "none":
+        yield from offset_checks(m)
+
+
+def gain_checks(m: Mission) -> Iterator[CheckResult]:
+    """Reaching gains of nftsmc that are zero."""
+    gains = getattr(m.controller, "gains", None)
+    for name, purpose in DRIVEN.items():
+        off = [axis for axis, gain in zip(AXES, getattr(gains, name, ()), strict=False) if gain == 0.0]
+        if off:
+            text = f"controller.gains.{name} is 0 along {', '.join(off)}: nothing holds the vehicle {purpose}; raise it"
+            yield noted("gain", text, verdict=FAILS, subject=name)
+
+
+def offset_checks(m: Mission) -> Iterator[CheckResult]:
+    """The offset that a wrong mass, the mean wind and an unknown force leave, against what is promised."""
+    response = controller_response(m)
+    if response is None:
+        return
+    wind, _, _, _ = WindOnParts(m).at(None)
+    load = wind + m.disturbance.force
+    load[2] += Vehicle.from_settings(m.vehicle).weight - weight_of(m)
+    promised = promise_of(m.promise, m.pilot.guidance).rms_promised(m.pilot.guidance)
+    lands = m.ground.model == "none" and m.phases.land_start is not None and m.phases.land_start < m.mission.duration
+    for axis, force, stiffness in zip(AXES, load, stiffness_of(m, response.at(SETTLED)[0].real), strict=False):
+        limit = min(promised, m.outcome.landed_height) if lands and axis == "z" else promised
+        value = abs(force) / max(stiffness, 1e-12)
+        text = (
+            f"wind, disturbance and a wrong mass push along {axis} with {force:.3g} N, and the controller holds with "
+            f"{stiffness:.3g} N/m: the vehicle stays {value:.3g} m off its reference, and at most {limit:g} m is "
+            "promised (promise.rms_distance, outcome.landed_height); take an observer (observer.model), raise the "
+            "gains, or correct plant.mass_scale"
+        )
+        yield judged("offset", value, limit, "m", text, subject=axis, near=0.3)
+
+
+def stiffness_of(m: Mission, asked: Array) -> Array:
+    """The force [N] along x, y, z for a metre, of a settled response (4, 5, 3)."""
+    angles = [
+        asked[row, 0, axis] / max(abs(asked[row, 2, about]), 1e-12) for axis, row, about in ((0, 2, 1), (1, 1, 0))
+    ]
+    return np.abs([*(np.array(angles) * weight_of(m)), asked[0, 0, 2]])
