@@ -217,14 +217,11 @@ def _by_lost_rotor(p: FlightPlan, flight_state: FlightState) -> Iterator[Finding
 
 def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str, end: float) -> Iterator[Finding]:
     """A landing that the mission asks for by its clock, that should be over by the end [s], and is not."""
-    mission, position = p.mission, flight_state.state.position
-    height = position.z - p.model.flight_state.state.position.z
-    asked = [r.time for r in mission.requests if r.action == "land"]
-    land_start = mission.phases.land_start
-    first = min([*asked, *([] if land_start is None else [land_start])], default=math.inf)
-    over = first + landing_time(mission, height)
-    if outcome == "flying" and over <= end:
-        text = f"{height:.3g} m above its start at the end, with a landing asked for at {first:g} s"
+    asked = _landing_asked(p.mission)
+    if outcome == "flying" and asked + landing_time(p.mission) <= end:
+        position = flight_state.state.position
+        height = position.z - p.model.flight_state.state.position.z
+        text = f"{height:.3g} m above its start at the end, with a landing asked for at {asked:g} s"
         yield finding(
             "not-landed",
             text,
@@ -233,5 +230,13 @@ def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str, end: flo
             quantity="height above the start",
             value=height,
             unit="m",
-            limit=mission.outcome.landed_height,
+            limit=p.mission.outcome.landed_height,
         )
+
+
+def _landing_asked(mission: Mission) -> float:
+    """When the mission first asks for the landing that no lift follows [s]; infinite if it asks for none."""
+    times = {action: [r.time for r in mission.requests if r.action == action] for action in ("lift", "land")}
+    land_start, last_lift = mission.phases.land_start, max([mission.phases.lift_start, *times["lift"]])
+    lands = [*times["land"], *([] if land_start is None else [land_start])]
+    return min((t for t in lands if t >= last_lift), default=math.inf)

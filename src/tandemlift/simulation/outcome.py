@@ -92,9 +92,9 @@ def _stands(p: FlightPlan, state: State, last: Any, start: float, end: float) ->
     return slow and abs(state.position.z - start) < mission.outcome.landed_height
 
 
-def landing_time(mission: Mission, height: float) -> float:
-    """The longest time that a landing from a height [m] takes [s]."""
+def landing_time(mission: Mission) -> float:
+    """The longest time that a landing takes from the height to which the mission lifts [s]."""
     if mission.pilot.guidance == "clock":
         return mission.phases.land_duration
-    slowest = STEEPEST * (height + mission.compliance.touchdown_depth) / mission.compliance.max_descent_speed
-    return max(mission.phases.land_duration, slowest) + MARGIN
+    height = mission.phases.height + mission.compliance.touchdown_depth
+    return max(mission.phases.land_duration, STEEPEST * height / mission.compliance.max_descent_speed) + MARGIN

@@ -1,0 +1,164 @@
+"""Nobody pushes, and the vehicle stays: no error of a sensor and no wind passes for a hand. A real hand is followed."""
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.common.phases import IDLE, LAND
+
+HOVER, AWAY = 12.5, 1.0  # s, m
+
+
+def fault(sensor, size, time=15.0, **more):
+    return {"sensor_faults": [{"sensor": sensor, "kind": "bias", "time": time, "size": size, **more}]}
+
+
+def gusts(*rows):
+    return {"wind.model": "air", "wind.gusts": [dict(zip(("velocity", "start", "rise", "hold"), r)) for r in rows]}  # noqa: B905
+
+
+FALSE = {  # on top of mission iris, without a push
+    "joints": fault("joints", 0.5),
+    "joints, supervised": {**fault("joints", 0.5), "supervision.model": "watch"},
+    "joints, upwards": fault("joints", -1.0),
+    "joints, little": fault("joints", -0.2, 13.0),
+    "joints, much": fault("joints", 3.0),
+    "joints, for a while": fault("joints", 0.6, 25.0, until=40.0),
+    "one joint": fault("joints", 0.8, quadrotor=1),
+    "accelerometer": fault("accelerometer", 2.0),
+    "accelerometer, downwards": fault("accelerometer", -1.0, 30.0),
+    "drift of the accelerometer": {"sensors.accelerometer.drift": 0.2},
+    "drift of the joints": {"sensors.joints.force_drift": 0.2},
+    "slow drift of the joints": {"sensors.joints.force_drift": 0.05, "mission.seed": 5},
+    "drift of the torques": {"sensors.joints.torque_drift": 0.05},
+    "gust that stays": gusts(([2.0, 0.0, 0.0], 20.0, 0.5)),
+    "gust": gusts(([4.0, 0.0, 0.0], 20.0, 0.5, 2.0)),
+    "gust over the tare": gusts(([2.0, 0.0, 0.0], 8.0, 0.5, 6.0)),
+    "light gust": gusts(([1.6, 0.0, 0.0], 25.0, 1.0)),
+    "gust aside": gusts(([-2.5, 2.5, 0.0], 20.0, 1.0)),
+    "gust from below": gusts(([0.0, 0.0, 2.0], 20.0, 0.5)),
+    "gusts one after the other": gusts(
+        ([3.4, -3.6, 0.0], 17.6, 1.0, 6.2), ([-1.5, 3.4, 1.1], 42.2, 0.5), ([1.9, -2.5, 0.0], 31.5, 1.0)
+    ),
+}
+QUIET = {"pushes": []}
+
+
+def steady(force, start=15.0, lasts=30.0, width=0.2):
+    """A steady push as a sum of Gaussians."""
+    apart = 0.5 * width
+    peak = (np.array(force) * apart / (width * np.sqrt(2.0 * np.pi))).tolist()
+    return [{"force": peak, "time": start + apart * (i + 0.5), "sigma": width} for i in range(round(lasts / apart))]
+
+
+@pytest.fixture(scope="module")
+def flights():
+    """Flights without a push by name, and with none of the errors: "calm"."""
+    missions = [tl.load_mission("iris", {**QUIET, **changes}) for changes in ({}, *FALSE.values())]
+    return dict(zip(("calm", *FALSE), tl.fly_many(missions, keep="flights"), strict=True))
+
+
+def away(flight):
+    """The largest distance per axis from where it hovered, until it touches down; a landing may go down."""
+    p, phase = flight["position"], flight["phase"][:, 0] if flight["phase"].ndim > 1 else flight["phase"]
+    off = p - p[np.searchsorted(flight.time, HOVER)]
+    off[:, 2] = np.where((phase == LAND) | (phase == IDLE), np.maximum(off[:, 2], 0.0), off[:, 2])
+    aloft = (flight.time >= HOVER) & (p[:, 2] > p[0, 2] + 0.01)
+    return np.abs(off[aloft]).max(axis=0)
+
+
+def of_kind(flight, kind):
+    return [f for f in flight.findings if f.kind == kind]
+
+
+@pytest.mark.parametrize("name", FALSE)
+def test_where_nobody_pushes_the_vehicle_stays_where_it_hovers(flights, name):
+    assert away(flights[name]).max() < AWAY
+    assert flights[name].outcome == "landed"
+
+
+@pytest.mark.parametrize("seed", [3, 4])
+def test_it_stays_whatever_else_the_sensors_err_by(seed):
+    names = ("joints", "accelerometer", "gust that stays", "gust over the tare", "drift of the joints")
+    missions = [tl.load_mission("iris", {**QUIET, **FALSE[name], "mission.seed": seed}) for name in names]
+    assert {n: a for n, f in zip(names, tl.fly_many(missions), strict=True) if (a := away(f).max()) > AWAY} == {}
+
+
+def test_it_stays_in_another_engine_too():
+    short = {"mission.duration": 22.0, "phases.land_start": 60.0}
+    assert away(tl.fly(tl.load_mission("iris", {**QUIET, **FALSE["joints"], **short}), engine="mujoco")).max() < 0.2
+
+
+def test_without_confirmation_a_finding_has_the_distance_by_which_the_reference_moved(flights):
+    flight = tl.fly(tl.load_mission("iris", {**QUIET, **FALSE["joints"], "estimator.confirmation": "none"}))
+    (found,) = of_kind(flight, "response-without-push")
+    moved = np.linalg.norm(flight["admittance_position"] - flight["admittance_position"][0], axis=1)
+    assert found.value == pytest.approx(moved[flight.time <= found.time + found.duration].max(), rel=0.01)
+    assert found.time == pytest.approx(flight.time[np.argmax(moved > 0.1)], abs=0.02)
+    assert found.limit == 0.1
+    assert not of_kind(flights["calm"], "response-without-push")
+
+
+def test_who_climbs_away_has_not_landed():
+    lifted = fault("joints", -1.0)
+    flight = tl.fly(tl.load_mission("iris", {**QUIET, **lifted, "estimator.confirmation": "none"}))
+    assert flight["position"][-1, 2] > 10.0
+    (found,) = of_kind(flight, "not-landed")
+    assert found.value == pytest.approx(flight["position"][-1, 2] - flight["position"][0, 2])
+
+
+def test_a_push_that_the_motion_refutes_is_told_with_its_size(flights):
+    (found,) = of_kind(flights["joints, upwards"], "push-refuted")
+    assert found.time == pytest.approx(15.0, abs=0.3)
+    assert found.value == pytest.approx(2.0 * np.sqrt(3.0), rel=0.15)  # two joints, three axes
+    assert not of_kind(flights["calm"], "push-refuted")
+    assert not of_kind(flights["gust that stays"], "push-refuted")
+
+
+def test_a_joint_that_jumped_is_tared_again_within_seconds():
+    jumped = {**fault("joints", 0.5), "pushes": steady([0.0, 1.0, 0.0], 30.0, 10.0)}
+    sound = {"pushes": jumped["pushes"]}
+    a, b = tl.fly_many([tl.load_mission("iris", x) for x in (jumped, sound)], keep="flights")
+    for flight in (a, b):
+        assert flight["position"][-1, 1] > 3.0
+    assert np.abs((a["position"][-1] - a["position"][np.searchsorted(a.time, 29.0)])[1]) == pytest.approx(
+        (b["position"][-1] - b["position"][np.searchsorted(b.time, 29.0)])[1], rel=0.1
+    )
+
+
+@pytest.mark.parametrize("direction", [(1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, 1.0)])
+def test_a_push_of_one_newton_is_followed_for_half_a_minute(direction):
+    flight = tl.fly(tl.load_mission("iris", {"pushes": steady(direction), "phases.land_start": 60.0}))
+    along = flight["velocity"] @ np.array(direction)
+    part = (flight.time > 20.0) & (flight.time < 44.5)
+    speed = 0.7 / 1.6  # beyond the threshold of 0.3 N, over the damping
+    assert along[part].min() > 0.6 * speed
+    assert along[part].mean() == pytest.approx(speed, rel=0.15)
+
+
+def test_a_hand_is_followed_as_it_was_without_confirmation():
+    a, b = (tl.fly(tl.load_mission("iris", {"estimator.confirmation": how})) for how in ("motion", "none"))
+    assert np.abs(a["position"] - b["position"]).max() < 0.02
+    assert not a.findings
+
+
+def test_a_push_of_little_more_than_half_a_newton_is_felt_within_55_milliseconds():
+    pushes = steady([0.6, 0.0, 0.0], 15.0, 2.0, 0.01)
+    flight = tl.fly(tl.load_mission("iris", {"pushes": pushes, "mission.log_interval": 0.001, "mission.duration": 16.0}))
+    active = flight.time[np.argmax(flight["push_active"][:, 0] > 0.0)]
+    assert 15.0 < active < 15.055
+
+
+def test_what_is_withheld_and_what_is_used_are_the_measured_push(flights):
+    """The push by NumPy from the logged readings, less its mean over the tare, at the same time constants."""
+    flight = flights["joints, upwards"]
+    joints, s = flight["measured_joint_force"], flight["measured_specific_force"]
+    joints = joints.reshape(len(joints), 2, 3).sum(axis=1)
+    mass = flight["payload_mass_estimate"][-1]
+    raw = mass * s - joints
+    tare, late = (flight.time > 9.0) & (flight.time < 12.0), flight.time > 20.0
+    late &= flight.time < 65.0
+    expected = (raw - raw[tare].mean(axis=0))[late].mean(axis=0)
+    assert expected == pytest.approx([2.0, 2.0, 2.0], abs=0.1)
+    both = (flight["push_estimate"] + flight["push_withheld"])[late].mean(axis=0)
+    assert both == pytest.approx(expected, abs=0.03)
