@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import operator
 import pickle
+from concurrent.futures import ThreadPoolExecutor
+from threading import Barrier
 from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 from hypothesis import given
 from law_values import array, numbers, random_state, vectors
+from patience import PATIENCE
 
+from tandemlift.algebra import vector
 from tandemlift.algebra.law import choice, elementwise
 from tandemlift.algebra.ops import (
     absolute,
@@ -173,3 +177,16 @@ def test_elementary_operations_on_numbers_hold_at_their_edges():
     assert atan2(-1.0, -1.0) == pytest.approx(-3.0 * np.pi / 4)
     assert log(np.e) == 1.0
     assert where(True, 1.0, 2.0) == 1.0
+
+
+def test_two_threads_that_need_a_set_for_the_first_time_get_the_same_class(monkeypatch):
+    both, finish = Barrier(2), vector.componentwise
+
+    def together(cls):
+        both.wait(PATIENCE)  # each has made a class of its own
+        return finish(cls)
+
+    monkeypatch.setattr(vector, "componentwise", together)
+    with ThreadPoolExecutor(2) as pool:
+        one, other = pool.map(vector.each, [7919, 7919])
+    assert one is other

@@ -182,13 +182,19 @@ def mat3(rows: Any) -> Mat3:
     return Mat3(x, y, z)
 
 
-@functools.cache
+_sets: dict[int, Any] = {}
+
+
 def each(count: int) -> Any:
     """The class of a set of `count` values, one for each rotor or each quadrotor of a vehicle.
 
     Value j of quadrotor i (both from 0) of a set of four a quadrotor is field 4 i + j. A `Vec3` of three sets holds a
     vector for each: the laws of vectors serve all of them at once.
     """
+    return _sets.get(count) or _sets.setdefault(count, _new_set(count))  # of two threads, both get the first one's
+
+
+def _new_set(count: int) -> Any:
     name = f"Each{count}"
     cls = NamedTuple(name, [(f"r{i}", Any) for i in range(count)])  # type: ignore[misc]
     cls.__module__, cls.__qualname__, cls.is_set = __name__, name, True  # type: ignore[attr-defined]
