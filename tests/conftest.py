@@ -2,12 +2,15 @@
 
 import os
 import shutil
+import signal
 
 import hypothesis
 import pytest
 
 from tandemlift.controllers import CONTROLLERS
 
+if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # of a job in the background: processes of tests would inherit it
+    signal.signal(signal.SIGINT, lambda *_: None)
 os.environ.setdefault("TANDEMLIFT_OPTIMISE", "0")  # hundreds of variants fly once each: what is tested is asked for
 SLOW = hypothesis.HealthCheck.too_slow
 hypothesis.settings.register_profile("tandemlift", deadline=None, suppress_health_check=[SLOW], derandomize=True)

@@ -10,6 +10,7 @@ import time
 import pytest
 import slow_compiler
 from patience import COMPILING, PATIENCE, completed, until
+from repository import ROOT
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 STOPPED = "stopped; nothing more is written"
@@ -174,3 +175,19 @@ def test_processes_that_optimise_are_ended_with_it(begin, tmp_path):
     beside = until(optimising, "a process that optimises", COMPILING)
     begun.interrupted()
     until(lambda: not any(os.path.exists(f"/proc/{pid}") for pid in beside), "its end")
+
+
+TESTS = """
+import importlib.util, signal, subprocess, sys
+signal.signal(signal.SIGINT, signal.SIG_IGN)
+spec = importlib.util.spec_from_file_location("conftest", sys.argv[1])
+spec.loader.exec_module(importlib.util.module_from_spec(spec))
+signal.raise_signal(signal.SIGINT)
+code = "import signal; print(signal.getsignal(signal.SIGINT) is signal.default_int_handler)"
+subprocess.run([sys.executable, "-c", code], check=True)
+"""
+
+
+def test_what_a_test_starts_can_be_interrupted_although_make_runs_in_the_background():
+    command = [sys.executable, "-c", TESTS, str(ROOT / "tests/conftest.py")]
+    assert completed(command, capture_output=True, text=True, check=True).stdout == "True\n"

@@ -6,12 +6,16 @@ At length, it is killed and shared by `python benchmarks/study_scaling.py kills`
 import random
 import signal
 import time
+from pathlib import Path
 
 import pytest
-from patience import ended, said
+from patience import PATIENCE, ended, said, until
 from study_runs import LONGER, assert_same_rows, files_of, fly, started
 
+from tandemlift.studies.units.running import WAITING
+
 SEED = 17
+IN_WORK = 2 * WAITING  # units, at most, that a process on two threads has in work
 
 
 @pytest.fixture(scope="module")
@@ -38,8 +42,21 @@ def test_a_study_that_is_killed_goes_on_with_the_units_that_are_missing(whole, t
 
 def test_two_processes_on_one_folder_share_its_units(whole, tmp_path):
     both = [started(LONGER, tmp_path) for _ in range(2)]
-    flown = [int(process.communicate(timeout=300)[0].split()[-1]) for process in both]
-    assert 12 <= sum(flown) <= 12 + 4, "each may fly again what the other one has in work at the end"
+    flown = [int(process.communicate(timeout=PATIENCE)[0].split()[-1]) for process in both]
+    assert 12 <= sum(flown) <= 12 + 2 * IN_WORK, "each may fly again what the other one has in work at the end"
+    assert_same_rows(whole, tmp_path)
+
+
+def test_a_process_that_sleeps_has_its_units_flown_and_flies_none_of_the_others_when_it_wakes(whole, tmp_path):
+    sleeper = started(LONGER, tmp_path)
+    said(sleeper, "^[1-9]")
+    sleeper.send_signal(signal.SIGSTOP)
+    until(lambda: Path(f"/proc/{sleeper.pid}/stat").read_text().rpartition(")")[2].split()[0] == "T")
+    done = len(files_of(tmp_path))
+    assert fly(LONGER, tmp_path, threads=2) == 12 - done
+    sleeper.send_signal(signal.SIGCONT)
+    flown = int(sleeper.communicate(timeout=PATIENCE)[0].split()[-1])
+    assert done <= flown <= done + IN_WORK
     assert_same_rows(whole, tmp_path)
 
 
