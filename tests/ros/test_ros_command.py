@@ -12,14 +12,18 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from patience import completed
+from patience import completed, until
 from reference_tables import topics
 from repository import ROOT
+from ros_trial import GUIDED, Middleware
 
 from tandemlift.cli.main import cli, main
 from tandemlift.common.errors import InputError
 from tandemlift.live.session.pacing import MOST_BEHIND
+from tandemlift.live.session.session import Session
+from tandemlift.missions import load_mission
 from tandemlift.ros.dds_types import PACKAGES
+from tandemlift.ros.node import FlightNode
 from tandemlift.ros.ros1 import folder
 from tandemlift.ros.sample_queue import Clock
 
@@ -225,12 +229,34 @@ def test_the_extra_installs_what_ros_2_needs():
 def test_stamps_are_even_and_the_time_of_day_also_after_a_delay_that_is_not_made_good(trial, monkeypatch):
     earlier = time.time_ns()
     clock, pace, step = Clock(trial.session), trial.session.pacer, trial.session.flight.step
+    pace.begin()
     now, wall = time.time_ns(), [pace._then]
-    before = [clock.stamp(k) for k in range(step, step + 1000, 10)]
+    before = [clock.stamp(k, clock.late) for k in range(step, step + 1000, 10)]
     assert np.all(np.diff(before) == 10_000_000)
     assert earlier - 1 <= before[0] <= now + 1
     monkeypatch.setattr("tandemlift.live.session.pacing.time", SimpleNamespace(perf_counter=lambda: wall[0]))
     wall[0] += 3.0  # s, in which nothing was flown
     pace.due()
     assert clock.late == pytest.approx(3.0 - MOST_BEHIND)
-    assert clock.stamp(step) - before[0] == pytest.approx(1e9 * clock.late, abs=1.0)
+    assert clock.stamp(step, clock.late) - before[0] == pytest.approx(1e9 * clock.late, abs=1.0)
+
+
+def test_stamps_count_from_the_first_step_however_long_the_start_takes(tmp_path, monkeypatch):
+    session, middleware, begun = Session(load_mission("hover", GUIDED), out=tmp_path), Middleware(), []
+    session.prepare()
+
+    def slowly():
+        time.sleep(0.5)
+        begun.append(time.time_ns())
+        return True
+
+    monkeypatch.setattr(session._thread, "_prepare", slowly)
+    node = FlightNode(session, middleware)
+    node.start()
+    sent = middleware.channels["/tandemlift/odometry"].sent
+    until(lambda: node.publish() and len(sent) > 1, "two samples")
+    node.stop()
+    stamps = [m.header.stamp.sec * 10**9 + m.header.stamp.nanosec for m in sent]
+    assert stamps[0] >= begun[0] - 10**6, "a step before the flight's thread began"
+    assert stamps[1] - stamps[0] >= 10 * 10**6
+    assert stamps[-1] <= time.time_ns()

@@ -88,7 +88,7 @@ class Trial:
     def __init__(self, mission, folder, middleware=None):
         self.session, self.middleware = Session(mission, out=folder), middleware or Middleware()
         self.session.prepare()
-        self.session.start = lambda: None
+        self.session.start = self.session.pacer.begin
         self.front = FlightNode(self.session, self.middleware)
         self.front.start()
         self.heed = self.middleware.heeding["/tandemlift/push"]

@@ -45,7 +45,7 @@ class FlightNode:
         vehicle = Vehicle.from_settings(self._flight.now.vehicle)
         self._tables = tables_of(self._flight.now)
         self._clock = Clock(session)
-        self._queue = SampleQueue(steps_between_samples(rate, self._flight.dt), lambda step: self._clock.stamp(step))
+        self._queue = SampleQueue(steps_between_samples(rate, self._flight.dt), self._clock)
         self.diagnostics = FlightDiagnostics(middleware)
         self._pushes = Pushes(session, self.diagnostics.add)
         self._parameters = Parameters(session, middleware, self.diagnostics.add)
@@ -59,9 +59,8 @@ class FlightNode:
         self._keeper = threading.Thread(target=self._keep_parameters, name="parameters", daemon=True)
 
     def _first(self) -> Flight:
-        self._queue.note(self._flight)
-        taken = self._queue.take(0.0)
-        assert taken, "the first step is one of the samples"
+        """The sample of the step that was taken last."""
+        taken = SampleBatch([self._flight.step - 1], [0], self._flight.sample[None])
         return as_flight(taken, self._flight, self._tables)
 
     def start(self) -> None:
@@ -74,7 +73,6 @@ class FlightNode:
         requests = RequestServices(self._session, self.diagnostics.add)
         for what in REQUESTS:
             self._middleware.serve(f"{ROOT}/{what}", partial(requests.answer, what))
-        self._clock = Clock(self._session)
         self._queue.note(self._flight)
         self._session.start()
         self._keeper.start()

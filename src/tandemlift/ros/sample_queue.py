@@ -6,9 +6,7 @@ The flight never waits. A stamp is the time of day, in even steps of the flight.
 from __future__ import annotations
 
 import threading
-import time
 from collections import deque
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,22 +25,30 @@ MOST = 1000  # samples that may wait; more are forgotten, the oldest first
 class Clock:
     """The time of day at which every step of a session's flight is due.
 
-    It is the time of the flight on top of when it began, so that samples are evenly apart to the nanosecond; after a
-    delay that the flight will not make good, by that much later.
+    It is the time of the flight on top of when its thread began to fly, so that samples are evenly apart to the
+    nanosecond; after a delay that the flight will not make good, by that much later.
+
+    Args:
+        session: whose flight it is; not yet started.
     """
 
     def __init__(self, session: Session) -> None:
-        self._session, self._dt = session, session.flight.dt
-        self._began = time.time_ns() - round(session.flight.step * self._dt * SECOND)
+        self._pacer, self._dt, self._first = session.pacer, session.flight.dt, session.flight.step
+
+    @property
+    def runs(self) -> bool:
+        """Whether the flight has begun."""
+        return self._pacer.began is not None
 
     @property
     def late(self) -> float:
         """By how much the flight is late for good [s]."""
-        return self._session.pacer.forgotten
+        return self._pacer.forgotten
 
-    def stamp(self, step: int) -> int:
-        """The time of day of the step that is flown now [ns]."""
-        return self._began + round((step * self._dt + self.late) * SECOND)
+    def stamp(self, step: int, late: float) -> int:
+        """The time of day [ns] of a step that was flown when the flight was so late [s]; it has begun."""
+        assert self._pacer.began is not None
+        return self._pacer.began + round(((step - self._first) * self._dt + late) * SECOND)
 
 
 class SampleBatch(NamedTuple):
@@ -58,30 +64,32 @@ class SampleQueue:
 
     Args:
         every: steps from one sample to the next.
-        stamp: the time of day of a step that is flown now [ns].
+        clock: of the flight.
     """
 
-    def __init__(self, every: int, stamp: Callable[[int], int]) -> None:
-        self._every, self._stamp = every, stamp
-        self._waiting: deque[tuple[int, int, Array]] = deque(maxlen=MOST)
+    def __init__(self, every: int, clock: Clock) -> None:
+        self._every, self._clock = every, clock
+        self._waiting: deque[tuple[int, float, Array]] = deque(maxlen=MOST)
         self._some = threading.Event()
 
     def note(self, flight: RecordedFlight) -> None:
         """Note the sample of the last step, if it is one of these."""
         step = flight.step - 1
         if step % self._every == 0:
-            self._waiting.append((step, self._stamp(step), flight.sample.copy()))
+            self._waiting.append((step, self._clock.late, flight.sample.copy()))
             self._some.set()
 
     def take(self, patience: float) -> SampleBatch | None:
-        """All that wait, after so long [s] at most; None if there are none."""
+        """All that wait, after so long [s] at most; None if there are none, or the flight has not begun."""
         self._some.wait(patience)
         self._some.clear()
+        if not self._clock.runs:
+            return None
         taken = [self._waiting.popleft() for _ in range(len(self._waiting))]
         if not taken:
             return None
-        steps, stamps, rows = zip(*taken, strict=True)
-        return SampleBatch(list(steps), list(stamps), np.array(rows))
+        steps, late, rows = zip(*taken, strict=True)
+        return SampleBatch(list(steps), list(map(self._clock.stamp, steps, late)), np.array(rows))
 
 
 def as_flight(taken: SampleBatch, flight: RecordedFlight, tables: dict[str, Any]) -> Flight:

@@ -31,17 +31,19 @@ class Pacer:
         behind: flight time that is due [s].
         most_behind: the most that was due since this was last set to 0 [s].
         forgotten: flight time that was due and will never be flown [s].
+        began: the time of day from which on time is counted [ns]; None before.
     """
 
     def __init__(self, dt: float) -> None:
         self.dt, self.speed, self.paused, self.behind = dt, 1.0, False, 0.0
         self.most_behind, self.forgotten = 0.0, 0.0
+        self.began: int | None = None
         self._then = time.perf_counter()
         self._flown: deque[tuple[float, int]] = deque()
 
     def begin(self) -> None:
         """Count time from now on."""
-        self.behind, self._then = 0.0, time.perf_counter()
+        self.behind, self._then, self.began = 0.0, time.perf_counter(), time.time_ns()
 
     def due(self) -> int:
         """Steps to be flown now."""
