@@ -71,7 +71,7 @@ def gazebo(
     Exit code:
       0   the flight was flown; findings are on standard error, a line each
       2   bad input: one message, nothing is written
-      3   crashed, diverged or not lifted: what was flown is written; with --strict, also findings
+      3   crashed, diverged, interrupted or not lifted: what was flown is written; with --strict, also findings
     """
     if by_hand and (fast or pictures):
         raise InputError(

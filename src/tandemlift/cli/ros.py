@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from tandemlift.live.session.session import Session
     from tandemlift.ros.middleware import Middleware
 
-BAD_ENDS = ("crashed", "diverged", "failed")
-
 
 @click.command()
 @click.argument("words", nargs=-1, metavar="[MISSION] [NAME:=VALUE]...", shell_complete=MISSIONS)
@@ -62,7 +60,7 @@ def ros(
     Exit code:
       0   ended by Ctrl-C, by ROS, or after an hour of flight
       2   bad input: one message, nothing is flown
-      3   the vehicle crashed or diverged, or the flight failed
+      3   crashed, diverged or interrupted, or ROS 1's master is gone: what was flown is saved, if --save asks for it
     """
     from tandemlift.engines.registry import engine_named
     from tandemlift.ros.ros1 import folder as package
@@ -84,12 +82,12 @@ def ros(
         session = session_of(loaded, engine)
         session.prepare()
         session.flight.optimise()
-        end = _fly(session, middleware, rate, f"{mission} in ROS {spoken}", rviz=rviz)
+        failures = _fly_and_save(session, middleware, rate, f"{mission} in ROS {spoken}", save, rviz=rviz)
     finally:
-        middleware.shutdown()
-    _save(session, save)
-    if end in BAD_ENDS:
-        click.echo(f"{mission}: {end}", err=True)
+        gone = _shut_down(middleware)
+    for failure in (*failures, *gone):
+        click.echo(f"{mission}: {failure}", err=True)
+    if failures or gone:
         sys.exit(FAILED)
 
 
@@ -100,6 +98,21 @@ def _split_arguments(words: tuple[str, ...]) -> tuple[str, list[str]]:
     if len(missions) > 1:
         raise InputError(f"{' '.join(missions)}: give one mission only")
     return missions[0], arguments
+
+
+def _fly_and_save(
+    session: Session, middleware: Middleware, rate: float, what: str, save: str | None, *, rviz: bool
+) -> list[str]:
+    """Fly until the flight ends, and save what was flown, whatever has ended it; why it failed, if it did."""
+    try:
+        end = _fly(session, middleware, rate, what, rviz=rviz)
+    except BaseException:
+        if session.flight.step > 1:
+            _save(session, save)
+        raise
+    _save(session, save)
+    ending = session.flight.ending
+    return [str(ending or end)] if ending or end == "failed" else []
 
 
 def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rviz: bool) -> str:
@@ -123,6 +136,15 @@ def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rv
         front.stop()
         if beside:
             beside.terminate()
+
+
+def _shut_down(middleware: Middleware) -> list[str]:
+    """Disconnect from ROS; what is to be said of it if it is gone."""
+    try:
+        middleware.shutdown()
+    except OSError as error:
+        return [str(error)]
+    return []
 
 
 def _save(session: Session, save: str | None) -> None:

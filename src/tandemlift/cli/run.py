@@ -90,7 +90,7 @@ def run(
     Exit code:
       0   the flight was flown; findings are on standard error, a line each
       2   bad input: one message, nothing is written
-      3   crashed, diverged or not lifted: what was flown is written; with --strict, also findings
+      3   crashed, diverged, interrupted or not lifted: what was flown is written; with --strict, also findings
     """
     began = time.perf_counter()
     chosen = None if controller is None else chosen_controller(controller)

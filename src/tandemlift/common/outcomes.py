@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 FAR = 1000.0  # m
 HARD = 2.0  # m/s: a blow that stops the vehicle from this speed is a crash, unless `crash.impulse` says otherwise
+INTERRUPTED = "interrupted"
 FLIES, DIVERGED, TURNED_OVER, STRUCK, LEFT_FENCE = map(float, range(5))  # values of `FlightState.ended`
 
 
@@ -45,6 +46,7 @@ OUTCOMES = (
     ),
     OutcomeKind("crashed", "turned over, struck something, or left the fence; the flight is stopped there", True),
     OutcomeKind("diverged", "the state is not finite, or too far away; the flight is stopped there", True),
+    OutcomeKind(INTERRUPTED, "the engine ended, or no longer answered; the flight is recorded until there", True),
 )
 ENDINGS = (
     EndingKind(

@@ -36,6 +36,7 @@ NONE = Nothing()
 UNSOUND = 1e8  # N, beyond which the flight has diverged
 RESTING = 0.1  # s, between messages that keep the session alive while no step is taken
 STARTING, STEPPING = 60.0, 10.0  # s, after which a server that does not answer is given up
+CHECKS: dict[int, Callable[[], None]] = {}  # by port: of servers that this process has started, for a flight to join
 CLOSE = 1e-9  # relative tolerance of the world's step and mass
 
 PORT, REAL_TIME = "TANDEMLIFT_GAZEBO_PORT", "TANDEMLIFT_GAZEBO_REAL_TIME"
@@ -66,7 +67,7 @@ class PluginLink(Protocol):
 def _connect(mission: Mission, vehicle: Vehicle) -> tuple[GazeboServer | None, PluginLink]:
     """Connect to the plugin over UDP, of a server started for the flight unless a port is named."""
     server, port = _find_server(mission)
-    return server, Wire(port, vehicle.count, STEPPING, server.check if server else None)
+    return server, Wire(port, vehicle.count, STEPPING, server.check if server else CHECKS.get(port))
 
 
 class GazeboBody:

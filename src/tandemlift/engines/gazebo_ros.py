@@ -136,7 +136,10 @@ class RosWire:
         for wrench, row in zip(self._step.wrench, values.tolist(), strict=True):
             force, torque = wrench.force, wrench.torque
             force.x, force.y, force.z, torque.x, torque.y, torque.z = row
-        self._request(self._step, self._at)
+        try:
+            self._request(self._step, self._at)
+        except self._rospy.ROSException as error:  # this node was shut down from outside
+            raise ConnectionError(f"engine 'gazebo-ros': {error}") from error
         return self.answer
 
     def keep_alive(self) -> None:

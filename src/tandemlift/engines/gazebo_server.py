@@ -170,5 +170,5 @@ def shell_command(inside: Path | None, script: str) -> list[str]:
 
 def shell_command_for_user(master: str, what: str) -> str:
     """The command line by which a user runs one of Gazebo's tools on this server."""
-    inside = root()
-    return f"{f'sudo chroot {inside} ' if inside else ''}env {MASTER}={master} GAZEBO_IP=127.0.0.1 {what}"
+    inside, rights = root(), "" if os.geteuid() == 0 else "sudo "
+    return f"{f'{rights}chroot {inside} ' if inside else ''}env {MASTER}={master} GAZEBO_IP=127.0.0.1 {what}"

@@ -29,6 +29,7 @@ DOUBLE = 8  # bytes
 STATE = 13  # numbers of a state
 LARGEST = 65536  # bytes
 FIRST_RESEND, SLOWEST_RESEND = 0.02, 0.5  # s, shortest and longest wait before a message is repeated
+GONE = 1.0  # s, in which a plugin that nobody listens for in flight is given up, and a server that ends has ended
 
 
 class MessageKind(IntEnum):
@@ -177,7 +178,7 @@ class Wire:
 
     def _request(self, message: bytes | bytearray, answer: MessageKind) -> None:
         """Send a message, again and again, until its answer is in `answer`."""
-        wait, deadline = FIRST_RESEND, time.monotonic() + self.patience
+        wait, deadline, gone = FIRST_RESEND, time.monotonic() + self.patience, False
         while time.monotonic() < deadline:
             try:
                 self._socket.send(message)
@@ -189,9 +190,15 @@ class Wire:
                 return
             except TimeoutError:
                 wait = min(2.0 * wait, SLOWEST_RESEND)
-            except ConnectionRefusedError:  # nothing listens at the port yet
+            except ConnectionRefusedError:  # nothing listens at the port: not yet, or not any more
+                gone = answer == MessageKind.STATE
+                deadline = min(deadline, time.monotonic() + GONE) if gone else deadline
                 time.sleep(wait)
             self._alive()
+        if gone:
+            raise ConnectionError(
+                f"engine 'gazebo': nothing listens at UDP port {self.port} any more: Gazebo has ended"
+            )
         raise TimeoutError(
             f"engine 'gazebo': the plugin on UDP port {self.port} did not answer within {self.patience:g} s "
             f"({MessageKind(message[AT_KIND]).name} {self._sequence}); is the world paused, or has Gazebo ended?"

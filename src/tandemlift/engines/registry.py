@@ -16,6 +16,10 @@ from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
 
+class EngineLost(ConnectionError):
+    """An engine in another process has ended or no longer answers, or another pilot leads its body."""
+
+
 class EngineBody(Protocol):
     """A body that is simulated by an engine other than the compiled one.
 
@@ -38,6 +42,9 @@ class EngineBody(Protocol):
             loads: (6 + 6N,) the numbers of a `laws.mechanics.loads.PartLoads`, held in world axes; empty without wind.
             force: of the person [N, world axes] (3,), the mean over the step.
             moment: of the person about the centre of mass [N m, body axes] (3,), at the start of the step.
+
+        Raises:
+            OSError: the engine is lost; `state` and `readings` are as before.
         """
 
 

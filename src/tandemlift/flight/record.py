@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import zipfile
 from collections.abc import Iterator, Mapping
@@ -15,7 +16,7 @@ import numpy as np
 from tandemlift.common.errors import InputError, suggestion
 from tandemlift.common.files import atomic_write, unpacked_size
 from tandemlift.common.findings import Finding, finding_from
-from tandemlift.common.outcomes import FAILURES
+from tandemlift.common.outcomes import FAILURES, INTERRUPTED
 from tandemlift.common.types import Array
 from tandemlift.flight.channels import DERIVED, Channel, channel_of
 from tandemlift.flight.data_frames import to_pandas, to_xarray
@@ -31,10 +32,14 @@ LATE = 10.0
 
 
 ENDING_TEXT = "{outcome} at {time:.6g} s: {quantity} = {value:.6g}, {limit}"
+INTERRUPTION_TEXT = "{outcome} at {time:.6g} s: {limit}"
 
 
 class Ending(NamedTuple):
-    """Why a flight was stopped: which quantity, at what time [s], its value, the limit it broke, and the outcome."""
+    """Why a flight was stopped: which quantity, at what time [s], its value, the limit it broke, and the outcome.
+
+    Of an interruption: no quantity (""), no value (nan), and the reason instead of a limit.
+    """
 
     quantity: str
     time: float
@@ -43,7 +48,12 @@ class Ending(NamedTuple):
     outcome: str = "diverged"
 
     def __str__(self) -> str:
-        return ENDING_TEXT.format(**self._asdict())
+        return (ENDING_TEXT if self.quantity else INTERRUPTION_TEXT).format(**self._asdict())
+
+
+def interruption(time: float, reason: object) -> Ending:
+    """The ending of a flight whose engine was lost at a time [s], for a reason in words."""
+    return Ending("", time, math.nan, str(reason), INTERRUPTED)
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +65,7 @@ class Flight(Mapping[str, Array]):
         channels: the recorded arrays by name; `flight[name]` also gives the differences in `DERIVED`.
         mission: the resolved mission as nested tables.
         results: the metrics, formed from every step and not from the log.
-        ending: why the flight was stopped before its end as crashed or diverged, or None.
+        ending: why the flight was stopped before its end as crashed, diverged or interrupted, or None.
         version: of tandemlift and of what it flew with.
         findings: what went badly, in the order of time; formed from every step, as the metrics.
     """
@@ -80,7 +90,7 @@ class Flight(Mapping[str, Array]):
 
     @property
     def failure(self) -> str:
-        """Why the flight failed (crashed, diverged, not lifted) in one sentence; "" if it did not."""
+        """Why the flight failed (crashed, diverged, interrupted, not lifted) in one sentence; "" if it did not."""
         return str(self.ending or FAILURES.get(self.outcome, ""))
 
     def __getitem__(self, name: str) -> Array:

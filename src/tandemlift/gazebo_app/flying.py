@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from tandemlift.common.errors import InputError
-from tandemlift.engines.gazebo import PORT, REAL_TIME, world_from
+from tandemlift.engines.gazebo import CHECKS, PORT, REAL_TIME, world_from
 from tandemlift.engines.gazebo_server import GazeboServer, free_port, root, shell_command, with_gazebo_environment
 from tandemlift.gazebo_app.camera_views import ViewRequest
 from tandemlift.models.cameras import PICTURES, add_cameras
@@ -45,6 +45,7 @@ class GazeboSession:
         master: address of Gazebo's own transport.
         port: of the plugin, UDP.
         photos: photographs taken so far.
+        check: raises a `ConnectionError` if the server has ended.
 
     Raises:
         InputError: there is no Gazebo, no display for the window, or the cameras save no picture.
@@ -59,7 +60,7 @@ class GazeboSession:
         with ExitStack() as closing:
             self._server = GazeboServer(text, draws=bool(views))
             closing.callback(self._server.close)
-            self.master = self._server.master
+            self.master, self.check = self._server.master, self._server.check
             if window:
                 closing.enter_context(_window(self.master))
             self._await_cameras()
@@ -102,10 +103,12 @@ def running_gazebo(
         GazeboSession(mission, views, window=window),
         {name: os.environ.get(name) for name in (PORT, REAL_TIME)},
     )
+    CHECKS[gazebo.port] = gazebo.check
     os.environ |= {PORT: str(gazebo.port), REAL_TIME: str(int(real_time))}
     try:
         yield gazebo
     finally:
+        del CHECKS[gazebo.port]
         gazebo.close()
         for name, value in before.items():
             os.environ.pop(name)

@@ -21,8 +21,8 @@ from tandemlift.common.files import atomic_write
 from tandemlift.common.findings import Finding
 from tandemlift.common.refusals import Refusals
 from tandemlift.common.types import Array
-from tandemlift.engines.registry import EngineBody
-from tandemlift.flight.record import Ending, Flight
+from tandemlift.engines.registry import EngineBody, EngineLost
+from tandemlift.flight.record import Ending, Flight, interruption
 from tandemlift.kernels import leaf_offset
 from tandemlift.laws.person.virtual_hand import HAND_RELEASED, VirtualHandInput
 from tandemlift.loop.running_metrics import EMPTY
@@ -129,6 +129,7 @@ class RecordedFlight:
         layout: of a sample.
         now: the mission with the changes made so far.
         step: steps flown.
+        interruption: why its engine took no further step, or None; then it is over.
 
     Raises:
         InputError: the engine is not known, or the mission cannot be built.
@@ -138,6 +139,7 @@ class RecordedFlight:
         p, body = setup or setup_flight(mission, engine)
         self.start, self.now, self.engine, self.step = mission, mission, engine, 0
         self._p, self._early, self._wall = p, EMPTY, 0.0
+        self.interruption: Ending | None = None
         self.layout = p.sample
         self._stepper = Stepper(p, body)
         self._log = np.zeros((p.steps // p.every + 1, leaves(p.sample)))
@@ -166,18 +168,18 @@ class RecordedFlight:
 
     @property
     def over(self) -> bool:
-        """Whether it has reached its mission's duration, or has crashed or diverged."""
-        return self.step >= self._p.steps or self._stepper.lost
+        """Whether it has reached its mission's duration, or was stopped before."""
+        return self.step >= self._p.steps or self.lost
 
     @property
     def lost(self) -> bool:
-        """Whether it has crashed or diverged."""
-        return self._stepper.lost
+        """Whether it has crashed or diverged, or was interrupted."""
+        return self._stepper.lost or self.interruption is not None
 
     @property
     def ending(self) -> Ending | None:
-        """Why it was stopped as crashed or diverged, or None."""
-        return ending_of(self._p, self._flight_state(), self.step) if self.lost else None
+        """Why it was stopped as crashed, diverged or interrupted, or None."""
+        return ending_of(self._p, self._flight_state(), self.step, self.interruption) if self.lost else None
 
     def numbers(self) -> Array:
         """A copy of the numbers of its state."""
@@ -210,14 +212,24 @@ class RecordedFlight:
         return unflat(self._stepper.a[self._stepper.hand], HAND_RELEASED)
 
     def advance(self) -> None:
-        """Take a step."""
+        """Take a step; if the engine is lost, the flight is over.
+
+        Raises:
+            EngineLost: the engine took no step at all.
+        """
         k, p, stepper, began = self.step, self._p, self._stepper, time.perf_counter()
         if self._like is not stepper.p.model.flight_state:
             self._before, self._like = stepper.a.copy(), stepper.p.model.flight_state
         self._before[:] = stepper.a
         if k == p.late_step:
             (self._early,) = take_metrics(stepper.a, stepper.p.model, 1)
-        stepper.step(k)
+        try:
+            stepper.step(k)
+        except EngineLost as error:
+            if k == 0:
+                raise
+            self.interruption = interruption(k * p.dt, error)
+            return
         if k % p.every == 0:
             self._log[k // p.every] = stepper.row
         self.step += 1
@@ -225,7 +237,8 @@ class RecordedFlight:
 
     def rest(self) -> None:
         """Take no step for now; to be called repeatedly during a pause."""
-        self._stepper.rest()
+        if not self.over:
+            self._stepper.rest()
 
     def hold(self, hand: VirtualHandInput) -> None:
         """Move the hand, from the next step on."""
@@ -261,9 +274,9 @@ class RecordedFlight:
         Raises:
             InputError: nothing was flown yet.
         """
-        if self.step < 2:
-            raise InputError(EMPTY_FLIGHT)
         steps = self.step if self.lost else self.step - 1
+        if steps < 1:
+            raise InputError(EMPTY_FLIGHT)
         hand = [(k, numbers) for k, numbers in self._hand if k <= steps]
         return FlightSnapshot(self.start, self.engine, self._flown(steps), hand, list(self._changes))
 
@@ -277,4 +290,5 @@ class RecordedFlight:
             self._log[: steps // p.every + 1],  # rows that are written are never written again
             np.full(leaves(p.sample), np.nan) if self.lost else self.sample.copy(),
             self._wall,
+            self.interruption,
         )

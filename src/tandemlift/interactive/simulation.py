@@ -14,8 +14,9 @@ from tandemlift.algebra.layout import leaves, unflat
 from tandemlift.common.errors import InputError, suggestion
 from tandemlift.common.refusals import Refusals
 from tandemlift.common.types import Array
+from tandemlift.engines.registry import EngineLost
 from tandemlift.flight.channels import DERIVED, Channel, channel_of
-from tandemlift.flight.record import Ending, Flight
+from tandemlift.flight.record import Ending, Flight, interruption
 from tandemlift.kernels import leaf_offset
 from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.missions.person_checks import check_point
@@ -78,6 +79,7 @@ class Simulation:
         self._stepper = Stepper(self._p, body_of(self._p))
         self.k, self._early, self._rows, self._end = 0, EMPTY, list[Array](), None
         self._wall = self._reported = 0.0
+        self._interruption: Ending | None = None
 
     def reset(self, seed: int | None = None) -> Array:
         """Begin anew at t = 0.
@@ -116,12 +118,17 @@ class Simulation:
         Raises:
             InputError: the flight is over, an input is not an array of that many finite numbers, or the point is not
                 on the vehicle.
+            OSError: the engine in another process is lost; the flight is over.
         """
         if self.over:
             raise InputError(f"{self._why_over()}; reset() begins anew")
         self._set_inputs(push, thrusts, point)
         began = time.perf_counter()
-        self._stepper.step(self.k, external=self._external)
+        try:
+            self._stepper.step(self.k, external=self._external)
+        except EngineLost as error:
+            self._interruption = interruption(self.time, error)
+            raise
         self._log_and_advance()
         self._wall += time.perf_counter() - began
         return self.state
@@ -177,18 +184,19 @@ class Simulation:
 
     @property
     def lost(self) -> bool:
-        """Whether the flight has crashed or diverged."""
-        return self._stepper.lost
+        """Whether the flight has crashed or diverged, or its engine is lost."""
+        return self._stepper.lost or self._interruption is not None
 
     @property
     def over(self) -> bool:
-        """Whether no further step can be taken: the duration is over, or it has crashed or diverged."""
-        return self.k >= self._p.steps or self._stepper.lost
+        """Whether no further step can be taken: the duration is over, or the flight is lost."""
+        return self.k >= self._p.steps or self.lost
 
     @property
     def ending(self) -> Ending | None:
-        """Why the flight has crashed or diverged: quantity, time, value and limit; None if it has not."""
-        return ending_of(self._p, self._result(np.empty((0, 0)), np.empty(0)).flight_state, self.k)
+        """Why the flight is lost: quantity, time, value and limit, or a reason; None if it is not."""
+        flown = self._result(np.empty((0, 0)), np.empty(0))
+        return ending_of(self._p, flown.flight_state, self.k, flown.interruption)
 
     @property
     def refusals(self) -> Refusals:
@@ -261,6 +269,7 @@ class Simulation:
             log=log,
             last=last,
             wall=self._wall,
+            interruption=self._interruption,
         )
 
     def _sample_here(self) -> Array | None:

@@ -60,4 +60,8 @@ class Middleware(Protocol):
         """Write an event to ROS's log."""
 
     def shutdown(self) -> None:
-        """Disconnect; nothing is sent or received any more."""
+        """Disconnect; nothing is sent or received any more.
+
+        Raises:
+            OSError: there was nothing to disconnect from any more.
+        """

@@ -81,6 +81,9 @@ class FlightNode:
         """Publish until the middleware is shut down, or the flight is over; the phase that it ended in."""
         while not self._middleware.over:
             if not self.publish() and self._session.status()["phase"] in ENDS:
+                if self._flight.interruption:
+                    self.diagnostics.add(str(self._flight.interruption))
+                    self.diagnostics.flush()
                 break
         return self._session.status()["phase"]
 
@@ -139,12 +142,17 @@ class FlightNode:
 
     def _keep_parameters(self) -> None:
         """Exchange parameters until the end, in a thread of their own: a change may take long to prepare."""
+        before = ""
         while not self._stopping.wait(PARAMETERS):
+            said = ""
             try:
                 if self._parameters.exchange():
                     self._publish_mission()
             except Exception as error:  # of a middleware that is not there for a while
-                self.diagnostics.add(f"parameters: {error!r}"[:300])
+                said = f"parameters cannot be changed: {error}"[:300]
+            if said != before:
+                self.diagnostics.add(said or "parameters can be changed again")
+            before = said
 
     def _publish_mission(self) -> None:
         self._once.publish_mission(tables_of(self._flight.now))

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.common.errors import InputError
+from tandemlift.engines.gazebo_ros import PLACES
 from tandemlift.engines.rospy import import_rospy, message_type
 from tandemlift.export.messages import MessageTypes
 from tandemlift.ros.middleware import Answer, TopicPublisher
@@ -17,6 +18,7 @@ from tandemlift.ros.middleware import Answer, TopicPublisher
 NAME = "tandemlift"
 FOLDER = Path(__file__).resolve().parent.parent / "data" / "ros"
 SHOWN = "tandemlift.rviz"
+OF_GAZEBO = {place.rpartition("/")[2] for place in PLACES}  # parameters of Gazebo's own below those of a node `NAME`
 OLD = {"builtin_interfaces/Time": "Time"}  # what has no message in ROS 1: of the package genpy
 
 
@@ -34,8 +36,9 @@ class Ros1:
         self._rospy = rospy = import_rospy()
         import rosgraph
 
+        self._uri = rosgraph.get_master_uri()
         if not rosgraph.is_master_online():
-            raise InputError(f"no ROS master at {rosgraph.get_master_uri()}: start roscore, or set ROS_MASTER_URI")
+            raise InputError(f"no ROS master at {self._uri}: start roscore, or set ROS_MASTER_URI")
         rospy.init_node(NAME, argv=["tandemlift", *arguments], disable_signals=True)
         self.types = MessageTypes(self._class_of, numbered=True)
         self._seen: dict[str, Any] = {}
@@ -65,9 +68,15 @@ class Ros1:
         self._rospy.Service(name, Trigger, lambda request: Response(*answer()))
 
     def parameters(self) -> dict[str, Any]:
-        """The parameters of the node's private namespace that differ from the kept values."""
-        tree = self._rospy.get_param("~", {})
-        self._seen = found = dict(_leaves(tree)) if isinstance(tree, dict) else {}
+        """The parameters of the node's private namespace that differ from the kept values; not those of a Gazebo there.
+
+        Raises:
+            ConnectionError: the master does not answer; so do `keep` and `shutdown`.
+        """
+        with self._master():
+            tree = self._rospy.get_param("~", {})
+        own = {name: value for name, value in tree.items() if name not in OF_GAZEBO} if tree else {}
+        self._seen = found = dict(_leaves(own))
         return {key: value for key, value in found.items() if key not in self._kept or self._kept[key] != value}
 
     def keep(self, values: Mapping[str, Any]) -> None:
@@ -75,9 +84,10 @@ class Ros1:
 
         What is set since `parameters` looked is left, for it to see the next time.
         """
-        for key, value in values.items():
-            if self._seen.get(key) != value:
-                self._rospy.set_param(_private(key), value)
+        with self._master():
+            for key, value in values.items():
+                if self._seen.get(key) != value:
+                    self._rospy.set_param(_private(key), value)
         if not self._kept:
             self._own = set(values) - set(self._seen)
         self._kept = {**self._seen, **values}
@@ -88,11 +98,20 @@ class Ros1:
 
     def shutdown(self) -> None:
         """Unregister from the master, and take away what the next flight would take for its parameters."""
-        if not self.over:
-            for key in self._own:
-                with contextlib.suppress(KeyError):
+        try:
+            for key in () if self.over else self._own:
+                with self._master(), contextlib.suppress(KeyError):
                     self._rospy.delete_param(_private(key))
-        self._rospy.signal_shutdown("the flight has ended")
+        finally:
+            self._rospy.signal_shutdown("the flight has ended")
+
+    @contextlib.contextmanager
+    def _master(self) -> Iterator[None]:
+        """What is said of a master that does not answer."""
+        try:
+            yield
+        except OSError as error:
+            raise ConnectionError(f"the ROS master at {self._uri} is gone: {error.strerror or error}") from None
 
 
 class _Publisher:

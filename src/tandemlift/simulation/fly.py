@@ -121,9 +121,11 @@ def fly(mission: Mission, engine: str | None = None, *, progress: Progress | Non
         progress: called from time to time with (steps flown, steps in all); by default, a notebook shows a bar.
 
     Returns:
-        The flight. If it diverged, it holds the samples until then, and `ending` says why.
+        The flight. If it crashed or diverged, or its engine was lost, it holds the samples until then, and `ending`
+        says why.
 
     Raises:
+        OSError: the engine in another process took no step at all.
         InputError: the engine is unknown, or the mission cannot be built.
     """
     engine = engine_of(mission) if engine is None else engine

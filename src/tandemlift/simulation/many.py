@@ -6,8 +6,9 @@ from collections.abc import Iterable, Sequence
 from typing import Any, Literal
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.outcomes import INTERRUPTED
 from tandemlift.common.types import Progress
-from tandemlift.engines.registry import engine_named
+from tandemlift.engines.registry import EngineLost, engine_named
 from tandemlift.settings import Mission
 from tandemlift.simulation.fly import fly, fly_many
 
@@ -21,6 +22,7 @@ def fly_each(
     keep: Keep = "metrics",
     threads: int | None = None,
     refusals: bool = False,
+    interrupted: bool = False,
     progress: Progress | None = None,
 ) -> list[Any]:
     """Fly missions: those of the compiled engine in blocks on several threads, those of other engines one by one.
@@ -31,18 +33,20 @@ def fly_each(
         keep: "flights" for a `Flight` of each; "metrics" for its metrics.
         threads: for blocks; by default one for each processor.
         refusals: whether a mission that cannot be built gives its `InputError`, and the others are flown.
+        interrupted: whether a flight whose engine is lost is a result too.
         progress: called with (flights flown, flights in all).
 
     Returns:
         One entry for each mission, in the order given.
 
     Raises:
+        EngineLost: an engine is lost, and `interrupted` flights are not asked for.
         InputError: an engine is unknown, or a mission cannot be built and `refusals` are not asked for.
     """
     if isinstance(engine, str):
-        return _Engine(engine, keep, threads, refusals).flown(missions, progress)
+        return _Engine(engine, keep, threads, refusals, interrupted).flown(missions, progress)
     missions, engines = list(missions), list(engine)
-    ways = {name: _Engine(name, keep, threads, refusals) for name in engines}
+    ways = {name: _Engine(name, keep, threads, refusals, interrupted) for name in engines}
     found, done = [None] * len(missions), 0
 
     def advanced(flown: int, _: int) -> None:
@@ -60,8 +64,9 @@ def fly_each(
 class _Engine:
     """An engine that flies many missions."""
 
-    def __init__(self, name: str, keep: Keep, threads: int | None, refusals: bool) -> None:
+    def __init__(self, name: str, keep: Keep, threads: int | None, refusals: bool, interrupted: bool) -> None:
         self.name, self.keep, self.threads, self.refusals = name, keep, threads, refusals
+        self.interrupted = interrupted
         self.in_blocks = engine_named(name).load is None
 
     def flown(self, missions: Iterable[Mission], progress: Progress | None) -> list[Any]:
@@ -81,4 +86,6 @@ class _Engine:
             if not self.refusals:
                 raise
             return error
+        if flight.outcome == INTERRUPTED and not self.interrupted:
+            raise EngineLost(flight.failure)
         return flight if self.keep == "flights" else flight.metrics()

@@ -20,11 +20,12 @@ MARGIN = 1.0  # s, in which a landing should touch down after its reference
 BORNE = 0.5  # of the weight: what the floor bears of a vehicle that stands on it
 
 
-def ending_of(p: FlightPlan, s: FlightState, step: int) -> Ending | None:
-    """Why a flight was stopped at a step, or None."""
-    if s.ended == 0.0:
-        return None
-    found = ending_numbers(p.model.limits, s.crash, EndingMoment(s.ended, step * p.dt, s.state, s.impulse))
+def ending_of(p: FlightPlan, s: FlightState, step: int, interruption: Ending | None = None) -> Ending | None:
+    """Why a flight was stopped at a step, or None; a crash after which it flew on counts before an interruption."""
+    ended = s.ended or (getattr(s.crash, "number", 0.0) if interruption else 0.0)
+    if ended == 0.0:
+        return interruption
+    found = ending_numbers(p.model.limits, s.crash, EndingMoment(ended, step * p.dt, s.state, s.impulse))
     if found.not_finite:
         return Ending(State._fields[int(found.not_finite) - 1], found.time, found.value, NOT_FINITE)
     kind = ENDING_OF[found.number]
@@ -49,7 +50,7 @@ def limit_of(p: FlightPlan, number: float) -> str:
 
 
 def outcome_of(p: FlightPlan, s: FlightState, last: Any, highest: float, end: float) -> str:
-    """The name of the outcome of a flight that is over.
+    """The name of the outcome of a flight that was not stopped before its end.
 
     Args:
         p: the plan of the flight.
@@ -58,9 +59,6 @@ def outcome_of(p: FlightPlan, s: FlightState, last: Any, highest: float, end: fl
         highest: the greatest z of its centre of mass [m].
         end: when it was over [s].
     """
-    ending = ending_of(p, s, 0)
-    if ending is not None:
-        return ending.outcome
     mission, start = p.mission, p.model.flight_state.state.position.z
     if asks_for_lift(mission, end) and highest - start < _lifted(mission):
         return "not-lifted"

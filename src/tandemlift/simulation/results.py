@@ -19,7 +19,7 @@ from tandemlift.common.phases import CONTACT as PHASE_CONTACT
 from tandemlift.common.phases import IDLE, PHASE_NAMES
 from tandemlift.common.types import Array
 from tandemlift.common.version import __version__
-from tandemlift.flight.record import Flight
+from tandemlift.flight.record import Ending, Flight
 from tandemlift.kernels import leaf_offset
 from tandemlift.laws.guidance.supervision import ALARM, CONTACT, PHASE, SupervisionState
 from tandemlift.loop.running_metrics import EMPTY, RunningMetrics, summary
@@ -49,6 +49,7 @@ class RawResult:
         log: logged samples as rows.
         last: the last sample.
         wall: computing time [s].
+        interruption: why it was interrupted, or None.
     """
 
     flight_state: FlightState
@@ -57,11 +58,12 @@ class RawResult:
     log: Array
     last: Array
     wall: float
+    interruption: Ending | None = None
 
     @property
     def lost(self) -> bool:
         """Whether the flight was stopped before its end."""
-        return self.flight_state.ended != 0.0
+        return self.flight_state.ended != 0.0 or self.interruption is not None
 
 
 def take_metrics(numbers: Array, like: FlightModel, lanes: int) -> list[RunningMetrics]:
@@ -92,11 +94,14 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     formed |= _detection_metrics(p, flown)
     formed = {name: _finite_or_none(value) for name, value in formed.items()}
     highest = max(early.highest, late.highest)
-    formed["outcome"] = outcome_of(p, flown.flight_state, last, highest, flown.step * p.dt)
+    ending = ending_of(p, flown.flight_state, flown.step, flown.interruption)
+    formed["outcome"] = (
+        ending.outcome if ending else outcome_of(p, flown.flight_state, last, highest, flown.step * p.dt)
+    )
     formed["findings"] = [
         [f.time, f.kind, f.text] for f in findings_of(p, flown.flight_state, flown.step, formed["outcome"])
     ]
-    formed["failure"] = str(ending_of(p, flown.flight_state, flown.step) or FAILURES.get(formed["outcome"], ""))
+    formed["failure"] = str(ending or FAILURES.get(formed["outcome"], ""))
     return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.flight_state)}
 
 
@@ -185,7 +190,7 @@ def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flig
         channels=channels,
         mission=portable(tables_of(p.mission)),
         results=metrics,
-        ending=ending_of(p, flown.flight_state, flown.step),
+        ending=ending_of(p, flown.flight_state, flown.step, flown.interruption),
         version={**versions(engine), "engine": engine},
         findings=findings_of(p, flown.flight_state, flown.step, metrics["outcome"]),
     )

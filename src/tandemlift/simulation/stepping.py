@@ -17,7 +17,8 @@ from tandemlift.algebra.vector import layout
 from tandemlift.common.refusals import Refusals
 from tandemlift.common.types import Array, Progress
 from tandemlift.controllers import control
-from tandemlift.engines.registry import EngineBody, PushedBody, TouchingBody, WaitingBody, engine_named
+from tandemlift.engines.registry import EngineBody, EngineLost, PushedBody, TouchingBody, WaitingBody, engine_named
+from tandemlift.flight.record import interruption
 from tandemlift.kernels import GIVEN, FlightMemory, leaf_offset
 from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.machine_code.compile_events import Stopped, always
@@ -74,6 +75,7 @@ class Stepper:
             start = start._replace(ring=before.ring.reshape(start.ring.shape))
         self.memory = FlightMemory(self.code, [start], p.grid(1, 1), leaves(p.sample))
         self.a, self.row = self.memory.numbers, self.memory.log[0, 0]
+        self.before = self.a.copy()
         self.at_lost, self.hand = leaf_offset(p.model, "flight_state", "ended").at, hand_place(p)
         self._bind_views()
 
@@ -136,6 +138,9 @@ class Stepper:
             k: the step.
             final: whether only the sample is taken; a body in another engine moves nevertheless.
             external: the numbers of a `laws.person.caller_inputs.CallerInput`, if the plan is interactive.
+
+        Raises:
+            EngineLost: the engine took no step; the flight's numbers are those before it.
         """
         self._change(k)
         if external is not None:
@@ -152,6 +157,7 @@ class Stepper:
                 call["ask"](at)
                 self._ask_controller()
             if self.body is not None:
+                self.before[:] = self.a
                 call["decide"](at)
                 self._advance(self.body)
             call["complete"](at)
@@ -166,7 +172,11 @@ class Stepper:
         self.interpreted, self.y[:] = (gains, memory), flat(command)
 
     def _advance(self, body: EngineBody) -> None:
-        body.advance(self.thrusts, self.loads, self.push[:3], self.push[3:])
+        try:
+            body.advance(self.thrusts, self.loads, self.push[:3], self.push[3:])
+        except OSError as error:
+            self.a[:] = self.before
+            raise EngineLost(error) from error
         self.v[:STATE] = body.state
         self.v[STATE : STATE + body.readings.size] = body.readings
         if self.touches.size:
@@ -204,16 +214,26 @@ def fly_stepwise(
     body: EngineBody | None = None,
     going: Callable[[], bool] = always,
 ) -> RawResult:
-    """Fly a mission step by step; with the compiled body equal to the compiled loop to the last bit."""
+    """Fly a mission step by step; with the compiled body equal to the compiled loop to the last bit.
+
+    Raises:
+        EngineLost: the engine took no step at all. Later, the result has what was flown, and the reason.
+    """
     stepper, columns = Stepper(p, body), leaves(p.sample)
     log, last = np.zeros((rows, columns)), np.full(columns, math.nan)
-    began, early, k = time.perf_counter(), EMPTY, 0
+    began, early, k, ending = time.perf_counter(), EMPTY, 0, None
     while k <= p.steps:
         if k == p.late_step < p.steps:
             (early,) = take_metrics(stepper.a, stepper.p.model, 1)
         if stepper.lost:
             break
-        stepper.step(k, final=k == p.steps)
+        try:
+            stepper.step(k, final=k == p.steps)
+        except EngineLost as error:
+            if k == 0:
+                raise
+            ending = interruption(k * p.dt, error)
+            break
         if k % every == 0:
             log[k // every] = stepper.row
         if k == p.steps:
@@ -227,4 +247,4 @@ def fly_stepwise(
                 progress(k, p.steps)
     like = stepper.p.model.flight_state
     flight_state = unflat(stepper.a[: leaves(like)], like)
-    return RawResult(flight_state, early, k, log, last, time.perf_counter() - began)
+    return RawResult(flight_state, early, k, log, last, time.perf_counter() - began, ending)

@@ -122,7 +122,7 @@ def compare(entered: Sequence[Entrant], engine: str = "compiled", progress: Prog
     """
     missions = [e.mission for e in entered if e.mission]
     try:  # on one thread, because their speed is compared
-        flights = fly_each(missions, engine, keep="flights", threads=1, progress=progress)
+        flights = fly_each(missions, engine, keep="flights", interrupted=True, threads=1, progress=progress)
     except InputError:
         raise
     except Exception as error:

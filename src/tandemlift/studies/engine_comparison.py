@@ -34,7 +34,7 @@ def fly_in(mission: Mission, engines: Sequence[str], progress: Progress | None =
     """
     if len(set(engines)) < 2 or len(set(engines)) < len(engines):
         raise InputError(f"engines = {', '.join(engines)}: must be two or more, without repetition")
-    flights = fly_each([mission] * len(engines), engines, keep="flights", progress=progress)
+    flights = fly_each([mission] * len(engines), engines, keep="flights", interrupted=True, progress=progress)
     return dict(zip(engines, flights, strict=True))
 
 

@@ -130,7 +130,7 @@ export interface SceneParameter {
 
 /** Why a flight was stopped before its end. */
 export interface SceneEnding {
-  outcome: Phase; // `crashed` or `diverged`
+  outcome: Phase; // `crashed`, `diverged`, or `failed` where the engine was lost
   text: string; // names outcome, time, quantity, value and limit
   time: number; // s
   place: Vector | null; // of the vehicle; null if that is not known

@@ -103,8 +103,9 @@ class Session:
             self.prepare()
             self._flight.optimise()
         except Exception as error:
-            log.error("error: the flight cannot be flown: %s", error, exc_info=not isinstance(error, InputError))
-            self._preparation.failure = str(error) if isinstance(error, InputError) else repr(error)
+            told = isinstance(error, InputError | OSError)  # the latter of an engine that is lost, or a file
+            log.error("error: the flight cannot be flown: %s", error, exc_info=not told)
+            self._preparation.failure = str(error) if told else repr(error)
             return False
         return True
 
@@ -115,6 +116,8 @@ class Session:
             while self._flight.step < before + steps and not self._flight.over and not self._failed:
                 self._hand.expire_requests()
                 self._flight.advance()
+                if self._flight.interruption:
+                    break
                 for watch in self.watchers:
                     watch(self._flight)
             if steps == 0:

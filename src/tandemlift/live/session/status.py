@@ -14,6 +14,7 @@ from tandemlift.flight.record import Ending
 from tandemlift.interactive.recorded_flight import RecordedFlight
 from tandemlift.live.session.checks import failed_rotors
 from tandemlift.live.session.pacing import Pacer
+from tandemlift.live.wire.quantities import LOST
 from tandemlift.live.wire.scene import SceneEnding
 from tandemlift.live.wire.server_messages import FlightStatus, StatusFinding, StatusRefusals
 
@@ -49,14 +50,21 @@ def phase_of(flight: RecordedFlight, number: int, failed: bool) -> str:
     if failed:
         return "failed"
     if flight.ending:
-        return flight.ending.outcome
+        return phase_after(flight.ending)
     return "over" if flight.over else PHASE_NAMES[number]
+
+
+def phase_after(ending: Ending) -> str:
+    """The phase of a flight that was stopped before its end."""
+    return ending.outcome if ending.outcome in LOST else "failed"
 
 
 def refusals_now(flight: RecordedFlight, failed: bool) -> Refusals:
     """What would be refused right now, and why; `failed`: whether the flight has ended by an error."""
-    if failed or flight.over:
-        return refusals_for("error" if failed else "stopped_early" if flight.lost else "over")
+    if failed:
+        return refusals_for("error")
+    if flight.over:
+        return refusals_for("stopped_early" if flight.lost and not flight.interruption else "over")
     return flight.refusals
 
 
@@ -66,7 +74,7 @@ def scene_ending(ending: Ending | None, place: Iterable[float]) -> SceneEnding |
         return None
     at = [float(x) for x in place]
     known = at if all(map(math.isfinite, at)) else None
-    return SceneEnding(outcome=ending.outcome, text=str(ending), time=ending.time, place=known)
+    return SceneEnding(outcome=phase_after(ending), text=str(ending), time=ending.time, place=known)
 
 
 def in_sentences(refusals: Refusals) -> StatusRefusals:

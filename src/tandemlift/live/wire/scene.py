@@ -112,7 +112,7 @@ class SceneParameter(TypedDict):
 class SceneEnding(TypedDict):
     """Why a flight was stopped before its end."""
 
-    outcome: Annotated[Phase, "`crashed` or `diverged`"]
+    outcome: Annotated[Phase, "`crashed`, `diverged`, or `failed` where the engine was lost"]
     text: Annotated[str, "names outcome, time, quantity, value and limit"]
     time: Seconds
     place: Annotated[WorldPosition | None, "of the vehicle; null if that is not known"]
