@@ -217,6 +217,19 @@ def test_a_ros_1_that_does_not_run_is_told_with_the_other_if_nobody_asked_for_it
     assert "--version 2" not in str(CliRunner().invoke(cli, ["ros", "hover"]).exception)
 
 
+def test_the_start_in_ros_2_names_the_file_without_which_kilted_gets_little(machine, monkeypatch, tmp_path):
+    machine(rospy=True, dds=True)
+    middleware = Middleware()
+    middleware.over = True
+    monkeypatch.setattr("tandemlift.ros.ros2.Ros2", lambda: middleware)
+    said = CliRunner().invoke(cli, ["ros", "hover", "--version", "2"]).output
+    file = Path(re.search(r"Kilted gets no odometry, .*FASTDDS_DEFAULT_PROFILES_FILE=(\S+)", said)[1])
+    (values,) = [[element.text for element in found] for found in ElementTree.parse(file).getroot().iter("property")]
+    assert values == ["fastdds.type_propagation", "disabled"]
+    monkeypatch.setattr("tandemlift.ros.ros1.Ros1", lambda _: middleware)
+    assert "Kilted" not in CliRunner().invoke(cli, ["ros", "hover", "--version", "1"]).output
+
+
 def test_the_extra_installs_what_ros_2_needs():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
     extra = [re.match(r"[\w-]+", requirement)[0] for requirement in project["optional-dependencies"]["ros2"]]

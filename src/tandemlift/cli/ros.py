@@ -64,6 +64,7 @@ def ros(
     """
     from tandemlift.engines.registry import engine_named
     from tandemlift.ros.ros1 import folder as package
+    from tandemlift.ros.ros2 import KILTED
     from tandemlift.ros.sample_queue import steps_between_samples
     from tandemlift.ros.selection import middleware_for, version_for
 
@@ -82,6 +83,8 @@ def ros(
         session = session_of(loaded, engine)
         session.prepare()
         session.flight.optimise()
+        if spoken == "2":
+            echo(KILTED)
         failures = _fly_and_save(session, middleware, rate, f"{mission} in ROS {spoken}", save, rviz=rviz)
     finally:
         gone = _shut_down(middleware)

@@ -20,6 +20,7 @@ from tandemlift.export.messages import MessageTypes
 from tandemlift.export.topics import ROOT, OtherTopic
 from tandemlift.ros.dds_types import DdsTypes, check_installed
 from tandemlift.ros.middleware import Answer, TopicPublisher
+from tandemlift.ros.ros1 import FOLDER
 
 TEXT = "std_msgs/String"
 REQUEST = OtherTopic(f"{ROOT}/request", TEXT, "name of a request")
@@ -28,6 +29,10 @@ ANSWER = OtherTopic(f"{ROOT}/answer", TEXT, "result of a request; published by t
 ONLY_ROS2 = (REQUEST, PARAMETER, ANSWER)
 ROSOUT, LOG, TIME, NAME = "/rosout", "rcl_interfaces/Log", "builtin_interfaces/Time", "tandemlift"
 INFO, WARN = 20, 30  # levels of the log
+KILTED = (
+    "an installed ROS 2 Kilted gets no odometry, joints, IMU, path, diagnostics or markers, unless its processes have "
+    f"FASTDDS_DEFAULT_PROFILES_FILE={FOLDER / 'fastdds.xml'}"
+)
 DEPTH = 10  # length of the message queue, the default of ROS 2
 NAP = 0.1  # s, timeout of a read, after which the loop checks whether to continue
 AGAIN = 0.2  # s, interval between checks for subscribers
