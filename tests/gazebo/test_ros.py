@@ -161,11 +161,12 @@ def test_a_pilot_of_ten_lines_flies_in_lock_step(over_ros, another, listen):
     pilots, states = listen("pilot", "std_msgs/Header"), listen("state", "sensor_msgs/MultiDOFJointState")
     pilot = another(check_plain_pilot())
     until(lambda: any(p.frame_id == "/plain_pilot" for p in pilots))
-    begun = len(states)
-    until(lambda: len(states) > begun + 600)
-    os.kill(pilot.pid, signal.SIGKILL)
-    flown = {stamp(s): s.twist[0].linear.z for s in states[begun + 50 : begun + 600]}  # one that is told twice, once
     step = round(1e9 * over_ros.dt)
+    (led, *_) = [p.stamp.to_nsec() for p in pilots if p.frame_id == "/plain_pilot"]
+    first, last = led + 50 * step, led + 600 * step  # by stamps: states of before may still be on their way
+    until(lambda: stamp(states[-1]) > last)
+    os.kill(pilot.pid, signal.SIGKILL)
+    flown = {stamp(s): s.twist[0].linear.z for s in states if first < stamp(s) < last}  # one that is told twice, once
     assert set(np.diff(list(flown))) == {step}
     thrust = float(re.search(r"effort=\[([\d.]+)\]", check_plain_pilot())[1])
     climb = 8 * thrust / over_ros.vehicle.mass - GRAVITY
