@@ -27,7 +27,7 @@ from tandemlift.algebra.vector import (
 from tandemlift.controllers import equations_of_motion, sliding_surface
 from tandemlift.laws.compliance import admittance
 from tandemlift.laws.contact import feet as contact
-from tandemlift.laws.contact import hull, spheres, touches, walls
+from tandemlift.laws.contact import hull, impulses, spheres, touches, walls
 from tandemlift.laws.contact.wall_geometry import Wall
 from tandemlift.laws.estimation import rotor_loss_decision, rotor_loss_detection, wind_compensation
 from tandemlift.laws.guidance import guidance
@@ -65,6 +65,16 @@ WALLS = walls.Walls(*[0.0] * 4, TWO, SPHERES, walls.Beam(0.0, TWO), 0.0)
 UPRIGHT, UPRIGHTS = Wall(*[0.0] * 6), Wall(*[TWO] * 6)
 NEAR_ROTORS = spheres.NearRotors(Wall(*[EIGHT] * 6), Wall(*[EIGHT] * 6))
 NEAR = walls.NearWalls(UPRIGHTS, UPRIGHTS, NEAR_ROTORS, walls.NearBeam(UPRIGHTS, UPRIGHT, UPRIGHT, UPRIGHT))
+ON_WALL = spheres.WallContact(0.0, V, V, loads.PartLoad(V, V))
+ON_WALLS = spheres.WallContact(TWO, VV, VV, loads.PartLoad(VV, VV))
+ROTOR_ON_WALL = spheres.WallContact(
+    EIGHT, *[Vec3(EIGHT, EIGHT, EIGHT)] * 2, loads.PartLoad(*[Vec3(EIGHT, EIGHT, EIGHT)] * 2)
+)
+TOUCHING = walls.NearWallContact(
+    spheres.ContactPair(ON_WALLS, ON_WALLS),
+    spheres.ContactPair(ROTOR_ON_WALL, ROTOR_ON_WALL),
+    walls.BeamContact(ON_WALLS, *[ON_WALL] * 3),
+)
 LAG, MIXER = rotor_lag.Lag(EIGHT, EIGHT, EIGHT), allocation.Mixer(EIGHT, EIGHT, EIGHT, EIGHT)
 SURFACES = ground_effect.GroundEffect(Vec3(EIGHT, EIGHT, EIGHT), EIGHT, 0.0)
 ROTORS = rotors.Rotors(
@@ -141,6 +151,10 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
         (touches.TouchRecord(0.0, V, 0.0, 0.0, 0.0), touches.PartContacts(EIGHT, Vec3(EIGHT, EIGHT, EIGHT)), 0.0, 0.0),
     ),
     "near walls": (walls.near_wall_loads, (WALLS, NEAR, FRAME, STATE)),
+    "impulses of walls": (
+        impulses.impulses_of_walls,
+        (WALLS, TOUCHING, FRAME, BODY, STATE, STATE, STATE, 0.0),
+    ),
     "nearest walls": (walls.nearest_with, (WALLS, UPRIGHT, NEAR, FRAME, STATE)),
     "motion, pushed at points": (motion, (BODY, State(V, V, Q, V), Wrench(0.0, V), PointPush(V, M))),
 }

@@ -6,6 +6,7 @@ import subprocess
 import numpy as np
 import pytest
 from c_flights import STRICT, CFlight, differences, same, unfused
+from passing import thrown, upright
 
 import tandemlift as tl
 from tandemlift.algebra.layout import leaves
@@ -25,6 +26,15 @@ def test_a_short_flight_in_c_has_the_bits_of_the_native_one(tmp_path):
     wrong, lost = differences(CFlight(mission, tmp_path), mission, range(5))
     assert not wrong
     assert lost > 0  # so a flight that diverges was compared too
+
+
+def test_a_flight_that_strikes_a_wall_hard_has_the_bits_of_the_native_one_in_c(tmp_path):
+    wall = upright((-1.0, 0.3), (1.0, 0.3), -0.2)
+    mission = unfused(thrown({"initial.velocity": [0.3, 0.0, -8.0], "walls": [wall, upright((1, -3), (1, 3))]}, 0.1))
+    assert np.abs(tl.fly(mission)["contact_force"]).max() > 1e4  # an impulse, beyond what springs give
+    in_c = CFlight(mission, tmp_path, "gcc", "-O2", "-Wno-error=parentheses")
+    wrong, _ = differences(in_c, mission, range(3))
+    assert not wrong
 
 
 def prepared_in_c(mission, values, folder):

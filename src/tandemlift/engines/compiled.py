@@ -22,6 +22,7 @@ from tandemlift.engines.compiled_contact import (
     hull_loads_in,
     load_about_center,
     quadrotor_loads,
+    struck_by_walls,
     wall_loads,
     with_contact_force,
     with_load,
@@ -63,8 +64,8 @@ def surrounded_motion(b: BodySurroundings, s: State, u: Any, push: Any) -> State
 
 
 @law
-def readings_in(b: BodySurroundings, s: State, k1: State, air: Any, thrusts: Any) -> PerfectReadings:
-    """Perfect readings in state `s`, whose motion is `k1`, under thrusts [N] and loads of the air on the parts."""
+def readings_in(b: BodySurroundings, s: State, k1: State, air: Any, thrusts: Any, impulses: Any) -> PerfectReadings:
+    """Perfect readings in state `s`, whose motion is `k1`, under thrusts [N] and loads of air and impulses on parts."""
     frame, q = b.plant.frame, s.attitude
     floor, hull, walls = floor_loads(b.plant.floor, b, s), hull_loads_in(b, s), wall_loads(b.plant.walls, b, s)
     readings = readings_with_load(
@@ -73,7 +74,8 @@ def readings_in(b: BodySurroundings, s: State, k1: State, air: Any, thrusts: Any
     readings = readings_with_load(quadrotor_loads(floor), frame, q, readings)
     readings = readings_with_load(quadrotor_loads(hull), frame, q, readings)
     readings = readings_with_load(quadrotor_loads(walls), frame, q, readings)
-    for loads in (floor, hull, walls):
+    readings = readings_with_load(quadrotor_loads(impulses), frame, q, readings)
+    for loads in (floor, hull, walls, impulses):
         readings = with_contact_force(load_about_center(loads, frame, q), readings)
     return readings
 
@@ -93,15 +95,19 @@ def advance(
 ) -> BodyStep:
     """One step of dt [s] with rotor thrusts [N] and the air's loads held, and the push continuous.
 
-    Its touches are left out; `compiled_touches.touches_in` gives them.
+    Walls strike at its start, before all else. Its touches are left out but for these impulses, a `NearWallContact` or
+    `Nothing`; `compiled_touches.touches_in` gives them all.
     """
     b, u = (
         BodySurroundings(plant, load_about_center(air, plant.frame, s.attitude), grip, near),
         wrench(plant.effect, thrusts),
     )
-    k1 = motion(b, s, u, hand.start)
-    after = rk4(b, s, k1, u, hand, dt)
-    return BodyStep(after, readings_in(b, s, k1, air, thrusts), grip_after(plant.floor, grip, after), Nothing())
+    struck, q = struck_by_walls(plant.walls, b, s, u, hand.start, dt), s.attitude
+    k1 = motion(b, struck.state, u, hand.start)
+    after = rk4(b, struck.state, k1, u, hand, dt)
+    mean = with_load(load_about_center(struck.loads, plant.frame, q), plant.body, k1)
+    readings = readings_in(b, struck.state, mean, air, thrusts, struck.loads)
+    return BodyStep(after, readings, grip_after(plant.floor, grip, after), struck.contact)
 
 
 @kept
@@ -109,8 +115,9 @@ def readings_at_rest(
     plant: CompiledPlant, s: State, grip: Any, near: Any, thrusts: Any, hand: PushSamples
 ) -> PerfectReadings:
     """Perfect readings in still air in state `s` under rotor thrusts [N]."""
-    b, air = BodySurroundings(plant, Nothing(), grip, near), Nothing()
-    return readings_in(b, s, motion(b, s, wrench(plant.effect, thrusts), hand.start), air, thrusts)
+    b = BodySurroundings(plant, Nothing(), grip, near)
+    k1 = motion(b, s, wrench(plant.effect, thrusts), hand.start)
+    return readings_in(b, s, k1, Nothing(), thrusts, Nothing())
 
 
 @kept

@@ -12,7 +12,8 @@ from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import ZERO, Nothing
 from tandemlift.laws.contact.feet import Floor, feet_load, grips_after_step
 from tandemlift.laws.contact.hull import Hull, HullContact, hull_contact, hull_loads
-from tandemlift.laws.contact.walls import Walls, near_wall_loads
+from tandemlift.laws.contact.impulses import WallImpulses, impulses_of_walls
+from tandemlift.laws.contact.walls import Walls, near_wall_contact, near_wall_loads
 from tandemlift.laws.mechanics.inertia import apply_inertia
 from tandemlift.laws.mechanics.loads import (
     PartLoad,
@@ -24,7 +25,7 @@ from tandemlift.laws.mechanics.loads import (
     resultant_of_quadrotors,
     without_negative_zero,
 )
-from tandemlift.laws.mechanics.rigid_body import RigidBody, State
+from tandemlift.laws.mechanics.rigid_body import RigidBody, State, motion
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.rotors.allocation import Mixer
 
@@ -118,6 +119,25 @@ def _walls_out_of_reach(walls: DistantWalls, b: BodySurroundings, s: State) -> Z
 @wall_loads.register(Walls)
 def _walls(walls: Walls, b: BodySurroundings, s: State) -> Any:
     return near_wall_loads(walls, b.near, b.plant.frame, s)
+
+
+@choice
+def struck_by_walls(walls: Any, b: BodySurroundings, s: State, u: Any, push: Any, dt: Any) -> WallImpulses:
+    """The impulses of walls at the start of a step of dt [s]."""
+
+
+@struck_by_walls.register(Nothing)
+@struck_by_walls.register(DistantWalls)
+def _not_struck(walls: Any, b: BodySurroundings, s: State, u: Any, push: Any, dt: Any) -> WallImpulses:
+    return WallImpulses(s, Nothing(), Nothing())
+
+
+@struck_by_walls.register(Walls)
+def _struck(walls: Walls, b: BodySurroundings, s: State, u: Any, push: Any, dt: Any) -> WallImpulses:
+    plant = b.plant
+    free, sprung = motion(b._replace(plant=plant._replace(walls=Nothing())), s, u, push), motion(b, s, u, push)
+    contact = near_wall_contact(walls, b.near, plant.frame, s)
+    return impulses_of_walls(walls, contact, plant.frame, plant.body, s, free, sprung, dt)
 
 
 @choice(absent="floor")

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from tandemlift.kernels.compiled_limit_solver import write_limits, write_solver
 from tandemlift.kernels.external_inputs import SPAN
 from tandemlift.kernels.offsets import leaf_offset
-from tandemlift.kernels.precompute import write_draw, write_gust, write_push, write_surroundings
+from tandemlift.kernels.precompute import write_draw, write_gust, write_push, write_surroundings, write_walls
 from tandemlift.kernels.scratch import ScratchValues, steady
 from tandemlift.kernels.step_output import write_next_state, write_sample
 from tandemlift.kernels.step_writer import StepWriter
@@ -39,12 +39,15 @@ class LoopWriter(StepWriter):
         """Form the inputs of step k from outside, once in a span where possible, and bind them."""
         x, lanes = self.templates, self.lanes
         in_span = f.integer("and", k, SPAN - 1)
-        with f.when(f.op(f"icmp eq i64 {in_span}, 0")):
+        begins = f.op(f"icmp eq i64 {in_span}, 0")
+        with f.when(begins):
             self.call(f, "sum_pushes", f"i64 {k}")
             if self.draws and lanes == 1:
                 self.call(f, "draw_noise", f"i64 {k}")
-            if x.has_floor or x.has_walls or x.has_person:
+            if x.has_floor or x.has_person:
                 self.call(f, "find_surroundings")
+        if x.has_walls:
+            self.call(f, "find_walls", f"double {f.op(f'uitofp i1 {begins} to double')}")
         self.bind_inputs(f, k)
         if self.draws and lanes > 1:
             self.call(f, "draw_noise", f"i64 {k}")
@@ -120,8 +123,10 @@ class LoopWriter(StepWriter):
             write_draw(self)
         if self.has_gusts:
             write_gust(self)
-        if self.templates.has_floor or self.templates.has_walls or self.templates.has_person:
+        if self.templates.has_floor or self.templates.has_person:
             write_surroundings(self)
+        if self.templates.has_walls:
+            write_walls(self)
         if self.traced.limits:
             write_solver(self.module, self.traced.limits.solver, self.lanes)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tandemlift.algebra.layout import flat, leaves
+from tandemlift.algebra.layout import leaves
 from tandemlift.kernels.context import MEMORY
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, HALVES, SPAN
 from tandemlift.kernels.offsets import leaf_offset
@@ -81,23 +81,34 @@ def write_draw(step: StepWriter) -> None:
 
 
 def write_surroundings(step: StepWriter) -> None:
-    """Search once per span: whether the floor is near, the nearest walls, the leg of the person's path."""
+    """Search once per span: whether the floor is near, the leg of the person's path."""
     x, f = step.templates, step.function("find_surroundings")
     if x.has_floor:
         low = f.any(f.value(step.traced.may_touch_floor))
         f.store(f.op(f"uitofp i1 {low} to double"), "%work", step.low * step.lanes, "double")
-    if x.has_walls:
-        at = leaf_offset(x.model, "flight_state", "near").at
-        for m, number in enumerate(flat(x.nowhere)):
-            f.store(f.spread(double(number)), "%flight", at + m)
+    if x.has_person:
+        _find_legs(step, f)
+    f.end()
+
+
+def write_walls(step: StepWriter) -> None:
+    """Find the nearest walls of the flights for which they are due."""
+    f, at = (
+        step.function("find_walls", ", double %begins"),
+        leaf_offset(step.templates.model, "flight_state", "near").at,
+    )
+    f.read |= {"begins": lambda m: "%begins", "due": lambda m: Place("%work", step.due)}
+    is_due, first, more = step.traced.wall_search
+    due = f.value(is_due)
+    f.store(due, "%work", step.due)
+    with f.when(f.any(f.op(f"fcmp one {f.vector} {due}, {f.zero}"))):
+        f.put("%flight", at, first)
         walls, count = step.context_word(f, "walls"), step.context_word(f, "wall_count")
         with f.repeat(count) as i:
             row = f.at(walls, f.integer("mul", i, leaves(WALL)))
             f.read["wall"] = lambda m: Place(row, m)
             with f.afresh():
-                f.put("%flight", at, step.traced.nearest)
-    if x.has_person:
-        _find_legs(step, f)
+                f.put("%flight", at, more)
     f.end()
 
 

@@ -9,7 +9,7 @@ from tandemlift.kernels.offsets import delayed_spans, leaf_offset
 from tandemlift.kernels.traced_step import Symbols, TracedStep
 from tandemlift.trace import Function, Module, Place
 
-UNIFORM = ("t", "dt", "when", "opens", "closes", "number")
+UNIFORM = ("t", "dt", "when", "opens", "closes", "number", "begins")
 ARGUMENTS = "ptr %c, ptr %flight, ptr %work"
 
 
@@ -64,7 +64,7 @@ class StepWriter:
         needs = self.traced.limits
         self.solving = take("solving", len(needs.problem) + len(needs.search) if needs else 0)
         self.sample = take("sample", leaves(x.sample) if self.lanes > 1 else 0)
-        self.low, self.near = take("low", 1), take("near", 1)
+        self.low, self.near, self.due = take("low", 1), take("near", 1), take("due", 1)
 
     def function(self, name: str, more: str = "", result: str = "void") -> Function:
         """An internal function whose arguments are the context %c, the flight, the scratch memory, and `more`."""

@@ -3,7 +3,7 @@
 Inputs by kind: `fly` (leaf of the flight), `hand`, `gust`, `noise`, `t`, `dt`; `answer` of a controller in Python;
 `solved`, the limit solver's result; `external`, what the caller of a step adds; `moved`, the body after the step, and
 `outside`, the push that it was given outside of the loop.
-Inputs of values computed before the step: `push` and `gusts` (a row of a table), `wall`, `when`, `number`, `key`.
+Inputs of values computed before the step: `push`, `gusts`, `wall` (rows), `begins`, `due`, `when`, `number`, `key`.
 """
 
 from __future__ import annotations
@@ -13,13 +13,14 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.layout import leaves
 from tandemlift.algebra.ops import where
+from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, layout, total
 from tandemlift.controllers import control
 from tandemlift.engines.compiled import first_motion
 from tandemlift.engines.compiled_contact import on_feet_only, without_contact
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, SPAN, draw_count, is_active
 from tandemlift.kernels.templates import COMMAND, Templates
-from tandemlift.laws.contact.clearance import clearance, may_touch_wall
+from tandemlift.laws.contact.clearance import clearance, is_fast, may_touch_wall
 from tandemlift.laws.contact.feet import may_touch
 from tandemlift.laws.contact.hull import hull_may_touch
 from tandemlift.laws.contact.wall_geometry import WALL
@@ -214,9 +215,8 @@ class TracedStep:
     def _may_touch_walls(self, acting: Any) -> Symbol:
         """Whether anything may touch a wall in this step."""
         before, plant, dt = self.model.flight_state, self.model.plant, self.dt
-        free, air = without_contact(plant), acting.wind.loads
-        args = before.state, before.grip, before.near, acting.thrusts, air, self.given.hand
-        rate = self.trace(first_motion)(free, *args)
+        args = before.state, before.grip, before.near, acting.thrusts, acting.wind.loads, self.given.hand
+        rate = self.trace(first_motion)(without_contact(plant), *args)
         room = self.trace(clearance)(plant.walls, before.near, plant.frame, before.state)
         return self.trace(may_touch_wall)(plant.walls, room, before.state, rate, dt)
 
@@ -257,12 +257,12 @@ class TracedStep:
         return [self.numbers(self.trace(normals)(number, i, *keys)) for i in draws]
 
     @cached_property
-    def nearest(self) -> Symbols:
-        """The nearest walls once a row of the table of walls was looked at."""
-        f, wall = self.model, self.input_of("wall", WALL)
-        return self.numbers(
-            self.trace(nearest_with)(f.plant.walls, wall, f.flight_state.near, f.plant.frame, f.flight_state.state)
-        )
+    def wall_search(self) -> tuple[Symbol, Symbols, Symbols]:
+        """1 where the nearest walls are `due`: as a span `begins`, and if fast; they at first, and with a row more."""
+        f, walls, g = self.model.flight_state, self.model.plant.walls, self.graph
+        found = self.trace(nearest_with)(walls, self.input_of("wall", WALL), f.near, self.model.plant.frame, f.state)
+        first, more = (self.numbers(chosen(g.input("due"), near, f.near)) for near in (self.templates.nowhere, found))
+        return where(self.trace(is_fast)(walls, f.state, self.dt * float(SPAN)), 1.0, g.input("begins")), first, more
 
     @cached_property
     def may_touch_floor(self) -> Symbol:

@@ -230,7 +230,8 @@ def step_body(
     """The body's part of a step."""
     loads = acting.wind.loads
     moved = advance(plant, before.state, before.grip, before.near, acting.thrusts, loads, hand, dt)
-    return moved._replace(touches=touches_in(before.touches, plant, before.near, before.state, t, dt))
+    touches = touches_in(before.touches, plant, before.near, before.state, moved.touches, t, dt)
+    return moved._replace(touches=touches)
 
 
 @law

@@ -71,19 +71,13 @@ static StepNoise draw_noise(const mission_Flight *flight, int64_t k)
 
 //end draws
 //if surroundings
-/* Whether the floor is near, the nearest walls, and the leg of the person's path. */
+/* Whether the floor is near, and the leg of the person's path. */
 static void find_surroundings(mission_Flight *flight)
 {
     FlightModel *model = &flight->model;
 //if floor
     flight->low = /*@FLOOR_IS_NEAR@*/;
 //end floor
-//if walls
-    model->flight_state.near = NOWHERE;
-    for (int64_t i = 0; i < flight->inputs.wall_count; i++) {
-        model->flight_state.near = /*@NEAREST_WALLS@*/;
-    }
-//end walls
 //if person
     {
         const double number = (double)model->flight_state.person.index;
@@ -95,6 +89,20 @@ static void find_surroundings(mission_Flight *flight)
 }
 
 //end surroundings
+//if walls
+/* The nearest walls, at the start of a span of steps and, of a vehicle that is fast, in every step. */
+static void find_walls(mission_Flight *flight, bool begins)
+{
+    FlightModel *model = &flight->model;
+    if (begins || /*@WALLS_ARE_DUE@*/) {
+        model->flight_state.near = NOWHERE;
+        for (int64_t i = 0; i < flight->inputs.wall_count; i++) {
+            model->flight_state.near = /*@NEAREST_WALLS@*/;
+        }
+    }
+}
+
+//end walls
 //if delays
 /* Exchange the delayed parts of the flight with the delay lines after step k. */
 static void exchange_delayed(mission_Flight *flight, int64_t k)
@@ -162,6 +170,9 @@ bool mission_flight_step(mission_Flight *flight, mission_Sample *sample)
         find_surroundings(flight);
 //end surroundings
     }
+//if walls
+    find_walls(flight, in_span == 0);
+//end walls
     {
         const real t = time_of(k);
         const PushSamples hand = {flight->hands[2 * in_span], flight->hands[2 * in_span + 1],

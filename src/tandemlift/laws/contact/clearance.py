@@ -19,6 +19,7 @@ from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 
 FAR = 1000.0  # m
+STALE = 0.05  # m, by which the vehicle may move before the nearest walls are found anew
 
 
 class Clearance(NamedTuple):
@@ -121,6 +122,12 @@ def _vehicle_clearance(c: Clearance) -> Number:
 def speed_bound(w: Walls, s: State) -> Number:
     """An upper bound on the speed of every point of the vehicle [m/s]; on its acceleration, if `s` is the motion."""
     return sqrt(dot(s.velocity, s.velocity)) + w.reach * sqrt(dot(s.rates, s.rates))
+
+
+@law
+def is_fast(w: Walls, s: State, span: Number) -> Condition:
+    """Whether the vehicle may move so far within a span [s] that other walls may be the nearest by then."""
+    return speed_bound(w, s) * span > STALE
 
 
 @law

@@ -40,11 +40,12 @@ def penetration(distance: Number, radius: Number) -> Number:
 class WallContact(NamedTuple):
     """Contact of a part with a wall, or of sets: N [N], nearest point of the wall [m], load about the part's centre.
 
-    World axes.
+    World axes; `offset` [m]: of the part's nearest point, before its radius, from that of the wall.
     """
 
     normal: Any
     place: Vec3
+    offset: Vec3
     load: PartLoad
 
 
@@ -69,7 +70,7 @@ def sphere_contact(w: Any, p: Vec3, o: Vec3, radius: Number, velocity: Vec3, spi
     sliding = scaled(velocity - cross(spin, o) + scaled(n, rate), w.tangential_damping)
     factor = friction_factor(dot(sliding, sliding), normal * w.friction)
     force = scaled(n, normal) - scaled(sliding, factor)
-    return WallContact(normal, p - o, PartLoad(force, cross(force, o)))
+    return WallContact(normal, p - o, o, PartLoad(force, cross(force, o)))
 
 
 class RotorSpheres(NamedTuple):

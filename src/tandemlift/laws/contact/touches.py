@@ -198,9 +198,9 @@ def harder_of(pair: ContactPair | Nothing) -> Any:
 
 @harder_of.register(ContactPair)
 def _harder(pair: ContactPair) -> PartContacts:
-    (n, p, _), (m, q, _) = pair
-    place = Vec3(*[first_or_second(n, m, a, b) for a, b in zip(p, q, strict=True)])
-    return PartContacts(n + m, place)
+    n, m = pair.first.normal, pair.second.normal
+    places = zip(pair.first.place, pair.second.place, strict=True)
+    return PartContacts(n + m, Vec3(*[first_or_second(n, m, a, b) for a, b in places]))
 
 
 @choice(absent="contact")
@@ -220,6 +220,21 @@ def _of_beam(c: BeamContact) -> PartContacts:
 def wall_contacts(contact: NearWallContact) -> SurfaceContacts:
     """Contacts of the vehicle with the walls near it."""
     return SurfaceContacts(harder_of(contact.rotors), harder_of(contact.guards), beam_parts(contact.beam))
+
+
+@choice(absent="contacts")
+def with_more(contacts: Any, more: Any) -> Any:
+    """Contacts with the forces of others at the same places: of a surface, of one kind of part, or `Nothing`."""
+
+
+@with_more.register(PartContacts)
+def _more_of_parts(contacts: PartContacts, more: PartContacts) -> PartContacts:
+    return PartContacts(contacts.normal + more.normal, contacts.place)
+
+
+@with_more.register(SurfaceContacts)
+def _more_of_surface(contacts: SurfaceContacts, more: SurfaceContacts) -> SurfaceContacts:
+    return SurfaceContacts(*[with_more(one, other) for one, other in zip(contacts, more, strict=True)])
 
 
 def start_touches(floor: Any, walls: Any, rotors: int) -> Any:

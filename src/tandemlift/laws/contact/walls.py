@@ -9,8 +9,9 @@ Each contact acts at the nearest point, with its penetration δ there:
 N acts along the line between the nearest points, F against the sliding velocity v of the surface there. The distance
 to a wall is continuous, so k δ is a spring, and both forces are passive.
 
-Which walls are near changes slowly: `nearest_with` looks at all of them now and then, from `no_walls_near` on.
-`near_wall_loads` measures the distance to the near ones in every state, so it stays exact in between.
+Which walls are near changes slowly: `nearest_with` looks at all of them now and then, from `no_walls_near` on, and in
+every step of a vehicle that is fast (`clearance.is_fast`). `near_wall_loads` measures the distance to the near ones in
+every state, so it stays exact in between. A blow that springs would not stop is stopped by `impulses`.
 """
 
 from typing import Any, NamedTuple

@@ -61,7 +61,7 @@ class FlightFile:
         found = {"gusts": self.step.has_gusts, "walls": x.has_walls, "person": x.has_person, "floor": x.has_floor}
         found |= {"draws": leaves(x.given.noise) > 0, "delays": x.has_delays and self.ring_rows > 1}
         return {name for name, is_there in found.items() if is_there} | (
-            {"surroundings"} if x.has_floor or x.has_walls or x.has_person else set()
+            {"surroundings"} if x.has_floor or x.has_person else set()
         )
 
     @property
@@ -124,10 +124,11 @@ class FlightFile:
         if "gusts" in self.has:
             given = {"sum": "sum", "row": "flight->inputs.gusts[i]", "t": "t"}
             add(outside.with_gust, {"sum": ZERO, "row": GUST, "t": 0.0}, given)
+        moving = {"model": "*model", "dt": f"{self.file.prefix.upper()}FLIGHT_STEP"}
         if "floor" in self.has:
-            step = f"{self.file.prefix.upper()}FLIGHT_STEP"
-            add(outside.floor_is_near, {"model": m, "dt": 0.0}, {"model": "*model", "dt": step})
+            add(outside.floor_is_near, {"model": m, "dt": 0.0}, moving)
         if "walls" in self.has:
+            add(outside.walls_are_due, {"model": m, "dt": 0.0}, moving)
             add(outside.nearest_walls, {"model": m, "row": WALL}, {"model": "*model", "row": "flight->inputs.walls[i]"})
         if "draws" in self.has:
             texts += self._draws(words, done)

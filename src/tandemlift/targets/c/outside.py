@@ -7,6 +7,7 @@ from typing import Any
 
 from tandemlift.algebra.layout import is_value
 from tandemlift.kernels.external_inputs import SPAN, is_active
+from tandemlift.laws.contact.clearance import is_fast
 from tandemlift.laws.contact.feet import may_touch
 from tandemlift.laws.contact.wall_geometry import Wall
 from tandemlift.laws.contact.walls import nearest_with
@@ -38,6 +39,11 @@ def with_gust(sum: Any, row: Gust, t: Any) -> Any:
 def floor_is_near(model: FlightModel, dt: Any) -> Any:
     """Whether a foot may touch the floor within a span of steps."""
     return may_touch(model.plant.floor, model.flight_state.state, dt * float(SPAN))
+
+
+def walls_are_due(model: FlightModel, dt: Any) -> Any:
+    """Whether the nearest walls are found anew in a step within a span, too."""
+    return is_fast(model.plant.walls, model.flight_state.state, dt * float(SPAN))
 
 
 def nearest_walls(model: FlightModel, row: Wall) -> Any:
