@@ -32,6 +32,14 @@ TOLD = {  # on top of mission iris
     "a high floor": ({"initial.position": [0.0, 0.0, 1.0]}, ["stands at z = 1 m", "presses down"]),
     "short legs": (SHORT_LEGS, ["the payload hangs 0.025 m lower than the feet"]),
     "a start into the floor": ({"initial.velocity": [0.0, 0.0, -2.3]}, ["= -2.3 m/s", "8.05 N s", "7 N s (crash"]),
+    "a start up from the floor": (
+        {"initial.velocity": [1.6, 1.6, 1.6]},
+        ["= [1.6, 1.6, 1.6] m/s", "9.7 N s", "7 N s ("],
+    ),
+    "ideal rotors on a floor": (
+        {"actuators.model": "ideal", "ground.effect": False},
+        ["press the vehicle on the floor"],
+    ),
     "a start in a wall": ({"walls": ALONG}, ["quadrotor 1 starts 0.17 m deep in walls.0", "quadrotor 2"]),
     "gusts of no wind": ({"wind.gusts": GUSTS}, ['wind.gusts do not blow while wind.model is "none"']),
     "eddies too low": (AIR | {"wind.height": 1.0}, ["wind.height = 1.0", "3.048 m to 304.8 m", "that of 3.048 m"]),

@@ -116,6 +116,13 @@ def test_the_judge_sees_energy_that_contact_adds():
     assert verdict.gained == pytest.approx(0.5 * body.mass, rel=0.03)
 
 
+def test_the_judge_sees_the_floor_bear_the_vehicle_in_the_last_sample():
+    (drawn,) = [d for d in random_family(16, 89, 8) if d.member == 7]
+    row = judged(drawn)
+    assert row.outcome == row.judged == "landed"
+    assert row.confirmed
+
+
 def test_the_same_seed_draws_the_same_missions():
     one, other = (list(random_missions(3, 2, 2)) for _ in range(2))
     assert one == other

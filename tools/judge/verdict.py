@@ -128,7 +128,7 @@ def _end(mission: dict[str, Any], flown: Replay, ground: Ground) -> tuple[str, d
         margins["lifted"] = (risen - asked) / BANDS["height"]
         if risen < asked:
             return "not-lifted", margins
-    last = slice(-1 - max(1, round(LATELY / mission["mission"]["step"])), -1)
+    last = slice(-1 - max(1, round(LATELY / mission["mission"]["step"])), None)  # with the record's last sample
     speed = float(np.linalg.norm(flown.velocity[-2]))
     slow = (limits["landed_speed"] - speed) / BANDS["speed"]
     if mission["ground"]["model"] == "floor":

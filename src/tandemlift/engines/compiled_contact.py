@@ -122,8 +122,8 @@ def _walls(walls: Walls, b: BodySurroundings, s: State) -> Any:
 
 
 @choice
-def struck_by_walls(walls: Any, b: BodySurroundings, s: State, u: Any, push: Any, dt: Any) -> WallImpulses:
-    """The impulses of walls at the start of a step of dt [s]."""
+def struck_by_walls(walls: Any, b: BodySurroundings, s: State, u: Any, push: Any, dt: Any) -> Any:
+    """The `WallImpulses` at the start of a step of dt [s]."""
 
 
 @struck_by_walls.register(Nothing)

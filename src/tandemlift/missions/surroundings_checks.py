@@ -120,6 +120,11 @@ def _of_floor(m: Mission, standing: Standing) -> Iterator[str]:
             f"ground.sinkage = {m.ground.sinkage} m: with mission.step = {m.mission.step} s the floor must be softer, "
             f"and the standing vehicle sinks by {standing.sinkage:.2g} m"
         )
+    if m.actuators.model == "ideal":
+        yield (
+            'actuators.model = "ideal": thrusts have no limits and may pull down, so the pilot may press the vehicle '
+            'on the floor as hard as a blow; "rotors" cannot'
+        )
     soles = min(q.position[2] - q.feet_depth for q in m.vehicle.quadrotors)
     radius = m.vehicle.payload.radius or 0.0
     if soles > -radius:
@@ -137,14 +142,22 @@ def _of_start(m: Mission, standing: Standing) -> Iterator[str]:
 
 
 def _of_first_blow(m: Mission, depth: float) -> Iterator[str]:
-    """A start so fast into the floor that it ends the flight, or nearly so; a contact gives back some of the speed."""
+    """A start so fast into the floor that it ends the flight, or nearly so; a contact gives back some of the speed.
+
+    With stopped rotors, a vehicle that starts upwards falls back as fast.
+    """
+    stopped = m.phases.rotors == "flight" and m.phases.lift_start > 0.0
     down = max(-m.initial.velocity[2], 0.0)
+    speed = math.hypot(*m.initial.velocity) if stopped or down else 0.0
     mass = Vehicle.from_settings(m.vehicle).mass * m.plant.mass_scale
     limit = mass * HARD if m.crash.impulse is None else m.crash.impulse
-    if -depth < FAR_DOWN and mass * down > NEARLY * limit:
+    if -depth < FAR_DOWN and mass * speed > NEARLY * limit:
+        straight = mass * down > NEARLY * limit
+        speed = down if straight else speed
+        what = f"[2] = {-down:g}" if straight else f" = {shown(m.initial.velocity)}"
         yield (
-            f"initial.velocity[2] = {m.initial.velocity[2]:g} m/s drives the vehicle into the floor with "
-            f"{mass * down:.3g} N s, and a blow of {limit:.3g} N s (crash.impulse) ends the flight"
+            f"initial.velocity{what} m/s drives the vehicle into the floor with "
+            f"{mass * speed:.3g} N s, and a blow of {limit:.3g} N s (crash.impulse) ends the flight"
         )
 
 
