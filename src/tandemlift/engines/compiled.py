@@ -95,8 +95,7 @@ def advance(
 ) -> BodyStep:
     """One step of dt [s] with rotor thrusts [N] and the air's loads held, and the push continuous.
 
-    Walls strike at its start, before all else. Its touches are left out but for these impulses, a `NearWallContact` or
-    `Nothing`; `compiled_touches.touches_in` gives them all.
+    Walls strike at its start, before all else. Its touches are left out; `compiled_touches.touches_in` gives them.
     """
     b, u = (
         BodySurroundings(plant, load_about_center(air, plant.frame, s.attitude), grip, near),
@@ -107,7 +106,7 @@ def advance(
     after = rk4(b, struck.state, k1, u, hand, dt)
     mean = with_load(load_about_center(struck.loads, plant.frame, q), plant.body, k1)
     readings = readings_in(b, struck.state, mean, air, thrusts, struck.loads)
-    return BodyStep(after, readings, grip_after(plant.floor, grip, after), struck.contact)
+    return BodyStep(after, readings, grip_after(plant.floor, grip, after), Nothing())
 
 
 @kept

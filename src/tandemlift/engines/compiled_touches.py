@@ -14,7 +14,6 @@ from tandemlift.laws.contact.touches import (
     floor_contacts,
     touches_after,
     wall_contacts,
-    with_more,
 )
 from tandemlift.laws.contact.walls import NearWallContact, Walls, near_wall_contact
 from tandemlift.laws.mechanics.loads import PartsLayout
@@ -52,12 +51,11 @@ def _on_walls(contact: NearWallContact, s: State) -> SurfaceContacts:
 
 
 @choice(absent="touches")
-def touches_in(touches: Any, plant: CompiledPlant, near: Any, s: State, impulses: Any, t: Any, dt: Any) -> Any:
-    """The touches after a step of dt [s] that began at time t [s] in state `s`, with impulses of walls or `Nothing`."""
+def touches_in(touches: Any, plant: CompiledPlant, near: Any, s: State, t: Any, dt: Any) -> Any:
+    """The touches after a step of dt [s] that began at time t [s] in state `s`."""
 
 
 @touches_in.register(Touches)
-def _touches(touches: Touches, plant: CompiledPlant, near: Any, s: State, impulses: Any, t: Any, dt: Any) -> Touches:
+def _touches(touches: Touches, plant: CompiledPlant, near: Any, s: State, t: Any, dt: Any) -> Touches:
     floor, walls = hull_contact_with(plant.floor, s), wall_contact_with(plant.walls, near, plant.frame, s)
-    on_walls = with_more(parts_touched(walls, s), parts_touched(impulses, s))
-    return touches_after(touches, parts_touched(floor, s), on_walls, t, dt)
+    return touches_after(touches, parts_touched(floor, s), parts_touched(walls, s), t, dt)

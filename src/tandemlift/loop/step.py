@@ -230,7 +230,7 @@ def step_body(
     """The body's part of a step."""
     loads = acting.wind.loads
     moved = advance(plant, before.state, before.grip, before.near, acting.thrusts, loads, hand, dt)
-    touches = touches_in(before.touches, plant, before.near, before.state, moved.touches, t, dt)
+    touches = touches_in(before.touches, plant, before.near, before.state, t, dt)
     return moved._replace(touches=touches)
 
 

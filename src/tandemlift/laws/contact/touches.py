@@ -1,6 +1,7 @@
 """The record of touches: of each kind of part on floor and walls, the first touch, the greatest force, the impulse.
 
-A rotor that touches anything stops for good. Feet on the floor are no touch.
+A rotor that touches anything stops for good. Feet on the floor are no touch. Forces are those of springs; impulses of
+walls (`impulses`), whose mean force depends on the step, are left out.
 """
 
 from typing import Any, NamedTuple
@@ -220,21 +221,6 @@ def _of_beam(c: BeamContact) -> PartContacts:
 def wall_contacts(contact: NearWallContact) -> SurfaceContacts:
     """Contacts of the vehicle with the walls near it."""
     return SurfaceContacts(harder_of(contact.rotors), harder_of(contact.guards), beam_parts(contact.beam))
-
-
-@choice(absent="contacts")
-def with_more(contacts: Any, more: Any) -> Any:
-    """Contacts with the forces of others at the same places: of a surface, of one kind of part, or `Nothing`."""
-
-
-@with_more.register(PartContacts)
-def _more_of_parts(contacts: PartContacts, more: PartContacts) -> PartContacts:
-    return PartContacts(contacts.normal + more.normal, contacts.place)
-
-
-@with_more.register(SurfaceContacts)
-def _more_of_surface(contacts: SurfaceContacts, more: SurfaceContacts) -> SurfaceContacts:
-    return SurfaceContacts(*[with_more(one, other) for one, other in zip(contacts, more, strict=True)])
 
 
 def start_touches(floor: Any, walls: Any, rotors: int) -> Any:
