@@ -144,7 +144,9 @@ def test_a_hand_is_followed_as_it_was_without_confirmation():
 
 def test_a_push_of_little_more_than_half_a_newton_is_felt_within_55_milliseconds():
     pushes = steady([0.6, 0.0, 0.0], 15.0, 2.0, 0.01)
-    flight = tl.fly(tl.load_mission("iris", {"pushes": pushes, "mission.log_interval": 0.001, "mission.duration": 16.0}))
+    flight = tl.fly(
+        tl.load_mission("iris", {"pushes": pushes, "mission.log_interval": 0.001, "mission.duration": 16.0})
+    )
     active = flight.time[np.argmax(flight["push_active"][:, 0] > 0.0)]
     assert 15.0 < active < 15.055
 
