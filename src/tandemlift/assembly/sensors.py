@@ -146,7 +146,9 @@ def start_confirmation(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
         low_pass=low_pass(BANDWIDTH, mission.mission.step),
     )
     force, turning = LowPassState(ZERO, ZERO), LowPassState(0.0, 0.0)
-    return confirmation, ConfirmationState(speeds, force, turning, Zero(ZERO, ZERO), Zero(0.0, 0.0))
+    return confirmation, ConfirmationState(
+        speeds, force, turning, Zero(ZERO, ZERO, force, ZERO), Zero(0.0, 0.0, turning, 0.0)
+    )
 
 
 def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings: Any) -> tuple[Any, Any]:

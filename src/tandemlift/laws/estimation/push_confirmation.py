@@ -9,17 +9,19 @@ T. All that acts on the vehicle from outside is F̂ + r. Per body axis,
     wind                          F̂ = ρ r,      ρ the ratio of the drag areas of payload and quadrotors;
     an accelerometer wrong by α   F̂ = m_L α,    r = Σ m_i α, like wind with ρ = m_L / Σ m_i.
 
-Nothing of F̂ is confirmed while F̂ + r is below 0.4 F̂, all of it above 0.6 F̂. Wind takes ρ r from it, less a tolerance,
-where ρ r is above 0.6 F̂, and nothing below 0.4 F̂: so a long push is not mistaken for wind as the sensors drift. A part
-of the size of the tolerance is always left. The tolerance is half the threshold of a push, so
-what is left stays below the threshold, also once the bias of the dead band has followed an error of the other sign.
+Nothing of F̂ is confirmed while F̂ + r is below 0.4 F̂, all of it above 0.6 F̂. What of r is within twice the
+standard deviation of F̂ + r without a push is gusts on the quadrotors, and refutes nothing. Wind takes ρ r from F̂, less
+a tolerance, where ρ r is above 0.6 F̂, and nothing below 0.4 F̂: so a long push is not mistaken for wind as the sensors
+drift. A part of the size of the tolerance is always left. The tolerance is half the threshold of a push, so what is
+left stays below the threshold, also once the bias of the dead band has followed an error of the other sign.
 About the vertical the same holds for the moments, without wind.
 
 r counts from its mean over the tare, and F̂ from an offset. What is not confirmed for long becomes their new zero: a
 joint that jumps is tared again within seconds, and pushes are followed as before.
 
-Limits: wind that acts on the payload alone counts as a push. A gust on the quadrotors against a push weakens it while
-the gust is larger than 0.4 of the push. Without rotors that have limits, T is not known, and nothing is told.
+Limits: wind that acts on the payload alone counts as a push. A first gust on the quadrotors against a push weakens it,
+if it is larger than 0.4 of the push; in gusts, joints may be wrong by as much. Without rotors
+that have limits, T is not known, and nothing is told.
 """
 
 from typing import Any, NamedTuple
@@ -42,6 +44,7 @@ BANDWIDTH = 10.0  # rad/s, of the low-pass on r: a push does not show in r, so i
 REFUTED, CONFIRMED = 0.4, 0.6  # unexplained share of a push up to which none is confirmed, and from which on all is
 RELEARN_TIME = 2.0  # s, in which what is not confirmed becomes the new zero
 DRIFT_TIME = 20.0  # s, in which the mean of r follows a drift, as the bias of the dead band does
+GUSTS, GUST_TIME = 2.0, 5.0  # standard deviations of F̂ + r that are gusts; s, in which its mean square is followed
 FAR = 4.0  # tolerances: a larger r, such as the floor's force, is no drift
 LARGE, LITTLE = 3.0, 1.5  # tolerances: of a push beyond the first, less than the second is left where it is refuted
 NEGLIGIBLE = 0.1  # of a tolerance
@@ -74,10 +77,15 @@ class PushConfirmation(NamedTuple):
 
 
 class Zero(NamedTuple):
-    """From where on r and a push count: the `mean` of r, and the `offset` of the push, forces [N] or moments [N·m]."""
+    """From where on r and a push count: the `mean` of r, the `offset` of the push; and how F̂ + r scatters.
+
+    `slow`: F̂ with the low-pass of r; `square`: mean of (F̂ + r)² while there is no push. Forces [N] or moments [N·m].
+    """
 
     mean: Any
     offset: Any
+    slow: LowPassState
+    square: Any
 
 
 class ConfirmationState(NamedTuple):
@@ -154,12 +162,13 @@ def confirmed_fraction(share: Any) -> Any:
 
 
 @elementwise
-def confirmed(push: Any, rest: Any, tolerance: Any, ratio: Any) -> Any:
-    """The confirmed part of a push beside which `rest` acts on the quadrotors."""
+def confirmed(push: Any, rest: Any, square: Any, tolerance: Any, ratio: Any) -> Any:
+    """The confirmed part of a push beside which `rest` acts on the quadrotors; `square`: see `Zero`."""
     size = absolute(push)
     along = where(push < 0.0, -rest, rest)
+    against = minimum(along + GUSTS * sqrt(square), 0.0)
     per_size = 1.0 / maximum(size, TINY)
-    moving = maximum(tolerance, size * confirmed_fraction((size + along) * per_size))
+    moving = maximum(tolerance, size * confirmed_fraction(1.0 + against * per_size))
     wind = (ratio * along - tolerance) * (1.0 - confirmed_fraction(1.0 - ratio * along * per_size))
     left = maximum(minimum(minimum(size, moving), size - maximum(wind, 0.0)), 0.0)
     return where(push < 0.0, -left, left)
@@ -185,24 +194,36 @@ def mean_change(push: Any, left: Any, off: Any, tolerance: Any, dt: Any) -> Any:
     return off * drifts * (dt / DRIFT_TIME) + explained * (dt / RELEARN_TIME)
 
 
+@elementwise
+def square_change(push: Any, load: Any, square: Any, tolerance: Any, dt: Any) -> Any:
+    """The change of the mean square of a load F̂ + r in a step; none under a push, and slow for what is unusual."""
+    usual = minimum(load * load, 9.0 * square + tolerance * tolerance)
+    return where(absolute(push) < tolerance, usual - square, 0.0) * (dt / GUST_TIME)
+
+
 @law
-def compared(zero: Zero, push: Any, rest: Any, tolerance: Any, ratio: Any, tare: Any, dt: Any) -> Confirmed:
+def compared(
+    k: PushConfirmation, zero: Zero, push: Any, rest: Any, tolerance: Any, ratio: Any, tare: Any, dt: Any
+) -> Confirmed:
     """What a push and `rest`, that is r, tell of each other.
 
     Args:
+        k: the parameters.
         zero: the memory before.
         push: F̂, low-passed, a vector or a number.
         rest: r, likewise.
-        tolerance: see `PushConfirmation`.
+        tolerance: of forces or of moments.
         ratio: ρ.
         tare: share of this sample in the mean over the tare; 0 once that is over.
-        dt: since the last sample [s]; 0 while nothing is learnt.
+        dt: since the last sample [s]; 0 while nothing is learnt, as before the end of the tare.
     """
     force, off = push - zero.offset, rest - zero.mean
-    left = confirmed(force, off, tolerance, ratio)
+    left = confirmed(force, off, zero.square, tolerance, ratio)
     mean = zero.mean + off * tare + mean_change(force, left, off, tolerance, dt)
+    slow = low_pass_step(k.low_pass, zero.slow, push)
+    square = zero.square + square_change(force, slow.value - zero.offset + off, zero.square, tolerance, dt)
     offset = zero.offset + (force - left) * (dt / RELEARN_TIME)
-    return Confirmed(push - left, is_refuted(force, left, off, tolerance), Zero(mean, offset))
+    return Confirmed(push - left, is_refuted(force, left, off, tolerance), Zero(mean, offset, slow, square))
 
 
 @choice(absent=("push", "memory"))
@@ -234,9 +255,9 @@ def _confirmed(
     rest, about_z = low_pass_step(k.low_pass, m.rest, now.force), low_pass_step(k.low_pass, m.turning, now.turning)
     force, beside = after.force.value, rest.value + subtracted_wind(after.wind)
     turned = about_vertical(e, after.moment.value, force)
-    tare, learns = (1.0 - p.armed) / maximum(after.sums.count, 1.0), (1.0 - explained) * dt
-    f = compared(m.force_zero, force, beside, k.tolerance, k.ratio, tare, learns)
-    n = compared(m.turning_zero, turned, about_z.value, k.moment_tolerance, NO_WIND, tare, learns)
+    tare, learns = (1.0 - p.armed) / maximum(after.sums.count, 1.0), p.armed * (1.0 - explained) * dt
+    f = compared(k, m.force_zero, force, beside, k.tolerance, k.ratio, tare, learns)
+    n = compared(k, m.turning_zero, turned, about_z.value, k.moment_tolerance, NO_WIND, tare, learns)
     refuted = maximum(maximum(f.refuted.x, f.refuted.y), maximum(f.refuted.z, n.refuted))
     left = withheld(p, imu, f.withheld, n.withheld, 1.0 - explained, refuted)
     return left, ConfirmationState(speeds, rest, about_z, f.zero, n.zero)
