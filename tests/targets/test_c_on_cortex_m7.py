@@ -1,6 +1,7 @@
 """The pilot of `iris` in C on a Cortex-M7 under QEMU: the same bits, and what flight-computer.md says of a sample."""
 
 import re
+import subprocess
 
 import numpy as np
 import pytest
@@ -20,12 +21,15 @@ def test_a_sample_has_the_bits_of_the_native_pilot_and_costs_what_the_guide_says
     vectors = closed_loop(mission, 40)
     span = np.ptp([thrusts for *_, thrusts in vectors])
     guide = (ROOT / "docs" / "how-to" / "flight-computer.md").read_text("utf-8")
+    version = subprocess.run(["arm-none-eabi-gcc", "-dumpfullversion"], check=True, capture_output=True, text=True)
+    assert f"(arm-none-eabi-gcc {version.stdout.strip()})" in guide  # another compiler takes another stack
     for precision in ("double", "single"):
         found = measured(mission, vectors, tmp_path / precision, precision == "single")
         if precision == "double":
             assert found["wrong"] == 0
         assert found["farthest_uN"] <= 1e3 * span
+        wanted = [found[key] for key in ("mean", "most", "stack", "flash")]
         row = re.search(rf"^\| `{name}`, {precision} \|(.*)\|$", guide, re.MULTILINE)[1]
         said = [int(x.replace(",", "")) for x in re.findall(r"[\d,]+", row)]
-        wanted = [found[key] for key in ("mean", "most", "stack", "flash")]
-        assert said == pytest.approx(wanted, rel=0.1)
+        assert said[2:] == wanted[2:]
+        assert said[:2] == pytest.approx(wanted[:2], rel=0.01)

@@ -9,6 +9,7 @@ from tandemlift.algebra.vector import ZERO
 from tandemlift.kernels.traced_step import Symbols, TracedStep
 from tandemlift.targets.c.language.function_text import FunctionHead, function
 from tandemlift.targets.c.language.law_functions import law_function
+from tandemlift.targets.c.language.operations import UNARY
 from tandemlift.targets.c.language.statements import Statements
 from tandemlift.targets.c.limits import Solver, write_limits
 from tandemlift.targets.c.source_file import SourceFile
@@ -79,8 +80,7 @@ class FlightStep:
         body.compute([s.node for s in [*x.sample, *x.next_state]])
         sample = rebuilt(iter(x.sample), templates.sample)
         after = rebuilt(iter(x.next_state), templates.model.flight_state)
-        unused = [f"(void){name};" for name, is_used in (("t", True), ("dt", True)) if not is_used]
-        last = [*unused, f"*sample = {body.value(sample)};", f"return {body.value(after)};"]
+        last = [f"*sample = {body.value(sample)};", f"return {body.value(after)};"]
         head = FunctionHead(COMMENT, kind(templates.model.flight_state), "advance_flight", given)
         return function(head, body.made, "\n".join(last))
 
@@ -99,7 +99,7 @@ class FlightStep:
             move(x.body_in_contact)
             return
         body.compute([s.node for s in [*x.may_touch_walls, *x.may_touch_hull]])
-        walls, hull = ([f"{body.number(s.node).text} != 0" for s in t] for t in (x.may_touch_walls, x.may_touch_hull))
+        walls, hull = ([body.number(s.node).within(UNARY) for s in t] for t in (x.may_touch_walls, x.may_touch_hull))
         with body.branch(f"if ({' || '.join([*walls, *[f'(low && {test})' for test in hull]])}) {{", last=False):
             move(x.body_in_contact)
         with body.branch("} else if (low) {", last=False):

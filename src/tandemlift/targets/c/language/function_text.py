@@ -17,7 +17,7 @@ LONGEST = 240  # lines of a function
 PART = 180  # lines of a part of a longer one
 BEGIN, END = "\x01", "\x02"
 TOKEN = re.compile(f"{BEGIN}(\\w+){END}")
-WORD = re.compile(r"\w+")
+VARIABLE = re.compile(r"(?<![\w.])(?<!->)[A-Za-z]\w*")  # a name that is not a member's
 JOINED = "\x03"  # a space at which no line is broken
 BRACES = re.compile(r"([^{]*\{+)(.*?)(\}+[^}]*)")
 AS_THEY_ARE: dict[str, Any] = {"break_long_words": False, "break_on_hyphens": False}
@@ -112,7 +112,7 @@ def without_unused(statements: Sequence[Statement], last: str) -> list[Statement
 
 def _lines(statement: Statement, shared: set[str]) -> list[str]:
     """The lines of a statement; `shared`: variables that are members of the struct of the parts."""
-    text = TOKEN.sub(lambda m: f"w->{m[1]}" if m[1] in shared else m[1], statement.text)
+    text = TOKEN.sub(lambda m: f"shared->{m[1]}" if m[1] in shared else m[1], statement.text)
     indent = "    " * (1 + statement.depth)
     if statement.kind == "raw":
         return [line for given in text.split("\n") for line in wrapped(given, indent).split("\n")]
@@ -121,7 +121,7 @@ def _lines(statement: Statement, shared: set[str]) -> list[str]:
         return [*own, *(wrapped(text + ";", indent).split("\n") if text else [])]
     kind, name = statement.variables[0]
     if name in shared:
-        line = f"w->{name} = ({kind}){text};" if text.startswith("{") else f"w->{name} = {text};"
+        line = f"shared->{name} = ({kind}){text};" if text.startswith("{") else f"shared->{name} = {text};"
     else:
         line = f"const {kind} {name} = {text};"
     return wrapped(line, indent).split("\n")
@@ -152,16 +152,17 @@ def _in_parts(head: FunctionHead, statements: list[Statement], end: Statement) -
     shared = {n for i, part in enumerate(parts) for s in part for n in TOKEN.findall(s.text) if home[n] != i}
     shared |= set(TOKEN.findall(end.text))
     values = f"{head.name}_values"
-    text = ["typedef struct {", *[f"    {kinds[n]} {n};" for n in home if n in shared], f"}} {values};", ""]
-    calls = []
+    members = [f"    {kinds[n]} {n};" for n in home if n in shared]
+    text = ["typedef struct {", *members, f"}} {values};", ""] if members else []
+    calls = [f"    {values} shared[1];"] if members else []
     for i, part in enumerate(parts):
         body = [line for s in part for line in _lines(s, shared)]
-        words = set(WORD.findall("\n".join(body)))
-        given = [p for p in head.parameters if p.split()[-1].lstrip("*") in words]
+        words = set(VARIABLE.findall("\n".join(body)))
+        given = [p for p in [*head.parameters, f"{values} *shared"] if p.split()[-1].lstrip("*") in words]
         note = comment([f"Part {i + 1} of {len(parts)} of {head.name}."])
         name = f"{head.name}_part{i + 1}"
-        text += [FunctionHead(note, "void", name, [*given, f"{values} *w"]).text, "{", *body, "}", ""]
-        calls.append(wrapped(f"{name}({', '.join([*[p.split()[-1].lstrip('*') for p in given], 'w'])});"))
+        text += [FunctionHead(note, "void", name, given).text, "{", *body, "}", ""]
+        calls.append(wrapped(f"{name}({', '.join(p.split()[-1].lstrip('*') for p in given)});"))
     ending = [line for line in _lines(end, shared) if line.strip()]
-    text += [head.text, "{", f"    {values} values, *const w = &values;", *calls, *ending, "}", ""]
+    text += [head.text, "{", *calls, *ending, "}", ""]
     return "\n".join(text)
