@@ -1,7 +1,8 @@
-"""Speed of flying: one flight, blocks of flights on one and two threads, a pilot call, and memory.
+"""Speed of flying: whole calls, as a user makes them, then the compiled loop in them, alone and in blocks; and memory.
 
-Two speeds are told apart. "Kernel" is the compiled loop alone, from each flight's `wall_s`; "whole call" is what a
-caller waits for, with the Python that prepares each mission and forms its metrics or its flight.
+"Whole call" is all that a call of `tl.fly`, `tl.fly_many`, `Simulation.step` or `Pilot.step` does, with the Python that
+prepares a mission and forms its metrics or its flight. "Kernel" is the compiled loop alone. Both are measured in time
+of the processor, which other programs hardly change; only what two threads gain is in time of the clock.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import contextlib
 import resource
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -18,6 +19,9 @@ from typing import Any
 import numpy as np
 
 import tandemlift as tl
+from tandemlift.kernels import LANES, FlightMemory
+from tandemlift.machine_code.code import Code
+from tandemlift.simulation.plan import FlightPlan
 
 DURATION = 90.0  # s, of each
 WIND = {  # on top of iris: then every part is on
@@ -35,76 +39,109 @@ MISSIONS: dict[str, dict[str, Any]] = {
     "iris, wind": WIND,
 }
 MANY = 64  # flights a call
-BLOCKS = {  # name: keep, threads
-    "metrics_1": ("metrics", 1),
-    "metrics_2": ("metrics", 2),
-    "log_1": ("flights", 1),
-    "log_2": ("flights", 2),
-}
+KEPT = {"metrics": "metrics", "log": "flights"}  # what a call of `fly_many` keeps
+STEPS = 10_000  # in a row, from Python
 MEBIBYTE = 2**20
 
 
-def _timed(call: Callable[[], Any]) -> tuple[float, Any]:
-    began = time.perf_counter()
+def timed(call: Callable[[], Any], clock: Callable[[], float] = time.process_time) -> tuple[float, Any]:
+    """(Seconds, result) of a call; by default seconds of the processor in this process."""
+    began = clock()
     result = call()
-    return time.perf_counter() - began, result
+    return clock() - began, result
 
 
-def _one(mission: tl.Mission, repeats: int = 5) -> dict[str, float]:
-    """Medians of flying alone, logged at the mission's interval."""
-    runs = [_timed(lambda: tl.fly(mission)) for _ in range(repeats)]
-    kernel = median([flight.metrics()["wall_s"] for _, flight in runs])
-    call = median([seconds for seconds, _ in runs])
-    steps = runs[0][1].metrics()["steps"]
-    return {"one_ns": kernel / steps * 1e9, "one_kernel_ms": kernel * 1e3, "one_call_ms": call * 1e3}
+@contextlib.contextmanager
+def in_kernel() -> Iterator[list[float]]:
+    """Collects the seconds of the processor that the compiled loop takes, stretch by stretch."""
+    plain, spent = FlightMemory.fly, list[float]()
+
+    def fly(memory: FlightMemory, stop: int) -> int:
+        seconds, step = timed(lambda: plain(memory, stop), time.thread_time)
+        spent.append(seconds)
+        return step
+
+    FlightMemory.fly = fly  # type: ignore[method-assign]
+    try:
+        yield spent
+    finally:
+        FlightMemory.fly = plain  # type: ignore[method-assign]
 
 
-def _block(missions: list[tl.Mission], name: str) -> dict[str, float]:
-    keep, threads = BLOCKS[name]
-    seconds, results = _timed(lambda: tl.fly_many(missions, keep=keep, threads=threads))
-    metrics = results if keep == "metrics" else [flight.metrics() for flight in results]
-    steps = sum(m["steps"] for m in metrics)
-    kernel = sum(m["wall_s"] for m in metrics) / threads
-    return {f"{name}_kernel": steps / kernel / 1e6, f"{name}_call": steps / seconds / 1e6}
+def best(code: Code) -> None:
+    """Wait until the optimised code is there."""
+    code.optimise()
+    while not code.is_best:
+        time.sleep(0.05)
 
 
-def mission_speeds(name: str, rounds: int) -> dict[str, Any]:
+def one(mission: tl.Mission, repeats: int = 3) -> dict[str, float]:
+    """Medians of flying alone, logged at the mission's interval: ns a step, ms a call."""
+    steps, calls, kernels = mission.mission.steps, [], []
+    for _ in range(repeats):
+        with in_kernel() as spent:
+            calls.append(timed(lambda: tl.fly(mission))[0])
+        kernels.append(sum(spent))
+    call, kernel = median(calls), median(kernels)
+    return {"fly_ms": call * 1e3, "fly_ns": call / steps * 1e9, "kernel_ns": kernel / steps * 1e9}
+
+
+def block(missions: list[tl.Mission], name: str) -> dict[str, float]:
+    """Million steps a second of one call of `fly_many` on one thread: of the whole call, and of the kernel."""
+    steps = sum(m.mission.steps for m in missions) / 1e6
+    with in_kernel() as spent:
+        call, _ = timed(lambda: tl.fly_many(missions, keep=KEPT[name], threads=1))
+    return {f"{name}_call": steps / call, f"{name}_kernel": steps / sum(spent)}
+
+
+def two_threads(missions: list[tl.Mission], name: str) -> dict[str, float]:
+    """How many times as fast a call of `fly_many` is on two threads as on one, by the clock."""
+    walls = [timed(lambda n=n: tl.fly_many(missions, keep=KEPT[name], threads=n), time.perf_counter)[0] for n in (1, 2)]
+    return {f"{name}_2": walls[0] / walls[1]}
+
+
+def simulation_step(mission: tl.Mission) -> dict[str, float]:
+    """Microseconds of one `Simulation.step` from Python."""
+    sim = tl.Simulation(mission)
+    sim.step()
+    best(sim._stepper.code)
+    return {"simulation_us": timed(lambda: [sim.step() for _ in range(STEPS)])[0] / STEPS * 1e6}
+
+
+def pilot_step(mission: tl.Mission) -> dict[str, float]:
+    """Microseconds of one `Pilot.step` from Python, array in and array out."""
+    pilot, measurement = tl.Pilot(mission), np.zeros(16)
+    measurement[6] = 1.0
+    pilot.step(measurement)
+    best(pilot._code)
+    return {"pilot_us": timed(lambda: [pilot.step(measurement) for _ in range(STEPS)])[0] / STEPS * 1e6}
+
+
+def mission_speeds(name: str, rounds: int, busy: bool = False) -> dict[str, Any]:
     """Medians over rounds in which everything takes its turn, so that a drift of the machine meets all alike.
 
-    `one_ns` a step of one flight, `one_*_ms` for the whole flight; `metrics_*` and `log_*` in million steps a second,
-    the latter with the log at the mission's interval. `ratio`, of a step alone to a step in a block in the kernel, is
-    between the best of the rounds.
+    `busy`: whether to leave out what the clock measures. `ratio`, of a step alone to a step in a block in the kernel,
+    is between the best of the rounds.
     """
     mission = tl.load_mission(name.partition(",")[0], {"mission.duration": DURATION, **MISSIONS[name]})
+    kernels = FlightPlan(mission).kernels
+    for lanes in (1, LANES):
+        best(kernels.loop(lanes))
     many = [mission] * MANY
     taken: dict[str, list[float]] = {}
     for turn in range(rounds + 1):
-        result = _one(mission)
-        for block in BLOCKS:
-            result |= _block(many, block)
+        result = one(mission) | simulation_step(mission) | pilot_step(mission)
+        for kept in KEPT:
+            result |= block(many, kept) | ({} if busy else two_threads(many, kept))
         for key, value in result.items():
             taken.setdefault(key, []).extend([value] if turn else [])  # the first turn warms up
     speeds = {key: median(values) for key, values in taken.items()}
-    ratio = min(taken["one_ns"]) * max(taken["metrics_1_kernel"]) * 1e-3
+    ratio = min(taken["kernel_ns"]) * max(taken["metrics_kernel"]) * 1e-3
     return {**speeds, "ratio": ratio}
 
 
-def pilot_call_us(repeats: int = 50, calls: int = 2000) -> float:
-    """Median time [µs] of one `Pilot.step` from Python, array in and array out."""
-    pilot = tl.Pilot(tl.load_mission("paper"))
-    measurement = np.zeros(16)
-    measurement[6] = 1.0
-    pilot.step(measurement)
-
-    def run() -> None:
-        for _ in range(calls):
-            pilot.step(measurement)
-
-    return median([_timed(run)[0] / calls * 1e6 for _ in range(repeats)])
-
-
 def mujoco_speed(duration: float = 30.0, rounds: int = 5) -> dict[str, float]:
-    """MuJoCo with the pilot in the loop, no contact: times real time, µs a step, and bare `mj_step`'s share."""
+    """`tl.fly` in MuJoCo, no contact: times real time, µs a step, and bare `mj_step`'s share."""
     import mujoco
 
     from tandemlift.engines.mujoco import MuJoCoBody
@@ -115,11 +152,11 @@ def mujoco_speed(duration: float = 30.0, rounds: int = 5) -> dict[str, float]:
     steps = mission.mission.steps
     taken = []
     for _ in range(rounds + 1):
-        wall = tl.fly(mission, "mujoco").metrics()["wall_s"]
-        bare, _ = _timed(lambda: [mujoco.mj_step(body.model, body.data) for _ in range(steps)])
-        taken.append((wall, bare))
-    wall, bare = (median(times) for times in zip(*taken[1:], strict=True))
-    return {"real_time": duration / wall, "step_us": wall / steps * 1e6, "bare_share": bare / wall}
+        call, _ = timed(lambda: tl.fly(mission, "mujoco"))
+        bare, _ = timed(lambda: [mujoco.mj_step(body.model, body.data) for _ in range(steps)])
+        taken.append((call, bare))
+    call, bare = (median(times) for times in zip(*taken[1:], strict=True))
+    return {"real_time": duration / call, "step_us": call / steps * 1e6, "bare_share": bare / call}
 
 
 def _peak_mebibytes() -> float:

@@ -28,9 +28,13 @@ def pin(count: int) -> None:
 
 
 def _processor_name() -> str:
-    about = Path("/proc/cpuinfo")
-    names = [line.partition(":")[2].strip() for line in about.read_text().splitlines() if line.startswith("model name")]
-    return names[0] if names else platform.processor() or platform.machine()
+    """Its name, with family and model, because virtual machines shorten the name."""
+    pairs = [line.partition(":")[::2] for line in Path("/proc/cpuinfo").read_text().splitlines()]
+    about = {key.strip(): value.strip() for key, value in reversed(pairs)}
+    if "model name" not in about:
+        return platform.processor() or platform.machine()
+    numbers = [f"{key.removeprefix('cpu ')} {about[key]}" for key in ("cpu family", "model") if key in about]
+    return about["model name"] + (f" ({', '.join(numbers)})" if numbers else "")
 
 
 def _processor() -> str:
@@ -67,7 +71,7 @@ def heading(about: dict[str, Any]) -> str:
     versions = ", ".join(f"{name} {v}" for name, v in about["versions"].items())
     load = "" if about["load_at_start"] is None else f", load at the start {about['load_at_start']:.2f}"
     machine = f"{about['processor']}, {about['cores']} cores{load}"
-    return f"{about['date']} · {machine} · {about['system']} · Python {about['python']} · {versions}"
+    return f"{machine} · {about['system']} · Python {about['python']} · {versions} · {about['date']}"
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]], texts: int = 1) -> str:

@@ -1,0 +1,68 @@
+"""What is said of speed: whole calls, as a user pays them, before the compiled loop in them; the processor named."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+from repository import ROOT
+
+PAGE = ROOT / "docs" / "explanation" / "benchmarks.md"
+MEASURE = """
+import json, bench, flights
+flights.DURATION, flights.MANY, flights.STEPS, flights.MISSIONS = 2.0, 16, 50, {"paper": {}}
+speeds = {"paper": flights.mission_speeds("paper", 1, busy=True)}
+about = bench.describe(("tandemlift",))
+mujoco = {"real_time": 1.0, "step_us": 1.0, "bare_share": 0.5}
+print(json.dumps([about["processor"], speeds["paper"]]))
+print(bench.report({"machine": about, "missions": speeds, "mujoco": mujoco, "memory_mib": {}}))
+"""
+
+
+@pytest.fixture(scope="module")
+def measured():
+    """(Processor, numbers, the report) of a small run of `benchmarks/bench.py`."""
+    folder, env = ROOT / "benchmarks", {**os.environ, "TANDEMLIFT_OPTIMISE": "1"}
+    env["PYTHONPATH"] = os.pathsep.join([str(ROOT / "src"), env.get("PYTHONPATH", "")])
+    command = [sys.executable, "-c", MEASURE]
+    printed = subprocess.run(command, cwd=folder, env=env, check=True, capture_output=True, text=True).stdout
+    numbers, _, report = printed.partition("\n")
+    return *json.loads(numbers), report
+
+
+def test_a_whole_call_takes_no_less_than_the_compiled_loop_in_it(measured):
+    _, speeds, _ = measured
+    assert 0.0 < speeds["kernel_ns"] <= speeds["fly_ns"]
+    for kept in ("metrics", "log"):
+        assert 0.0 < speeds[f"{kept}_call"] <= speeds[f"{kept}_kernel"]
+
+
+def test_the_benchmark_names_the_processor_then_prints_whole_calls_then_the_loop(measured):
+    processor, _, report = measured
+    order = [report.index(words) for words in (processor, "Whole calls", "`tl.fly`, ms", "The compiled loop")]
+    assert order == sorted(order)
+
+
+def rows_below(title):
+    """The rows of the first table below a heading of the page: cells by the name in the first."""
+    text = PAGE.read_text("utf-8").split(f"\n## {title}\n")[1]
+    table = re.search(r"(?:^\|.*\n)+", text, re.MULTILINE)[0].splitlines()
+    lines = [[cell.strip(" `") for cell in line.strip("|").split("|")] for line in table]
+    return lines[0], {cells[0]: cells[1:] for cells in lines[2:]}
+
+
+def test_the_readme_has_the_whole_calls_of_the_benchmarks_and_their_processor():
+    heads, rows = rows_below("Whole calls")
+    ns, block = (next(i for i, head in enumerate(heads[1:]) if words in head) for words in ("ns a step", "metrics"))
+    text = " ".join((ROOT / "README.md").read_text("utf-8").split())
+    said = re.search(
+        r"`tl.fly` takes (\S+) ns a step of `paper` and (\S+) of `iris`.* `fly_many` makes (\S+) and (\S+) million",
+        text,
+    )
+    found = [float(said[i].replace(",", "")) for i in (1, 2, 3, 4)]
+    table = [float(rows[name][i].replace(",", "")) for i in (ns, block) for name in ("paper", "iris")]
+    assert found == pytest.approx(table, rel=0.05)
+    processor = re.search(r"Measured on ([^,;(]*\([^)]*\))", PAGE.read_text("utf-8"))[1]
+    assert processor in text
