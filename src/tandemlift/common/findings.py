@@ -7,6 +7,8 @@ watch every step, `simulation.findings` forms findings from what they hold.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from typing import Any, Literal, NamedTuple, get_args
 
 FindingName = Literal[
@@ -161,6 +163,33 @@ class Finding(NamedTuple):
     def as_table(self) -> dict[str, Any]:
         """Its fields by name, as findings.json has them, and what to do."""
         return {**self._asdict(), "place": self.place and list(self.place), "remedy": self.remedy}
+
+
+def finding(
+    kind: FindingName,
+    text: str,
+    *,
+    time: float,
+    duration: float = 0.0,
+    place: Iterable[float] | None = None,
+    quantity: str = "",
+    value: float | None = None,
+    unit: str = "",
+    limit: float | None = None,
+) -> Finding:
+    """A finding with plain numbers; one that is not finite, of a flight that diverged, is left out."""
+    at = None if place is None else tuple(map(float, place))
+    return Finding(
+        kind=kind,
+        time=round(float(time), 9),
+        duration=round(float(duration), 9),
+        place=at if at and all(map(math.isfinite, at)) else None,  # type: ignore[arg-type]
+        quantity=quantity,
+        value=value if value is not None and math.isfinite(value) else None,
+        unit=unit,
+        limit=limit,
+        text=text,
+    )
 
 
 def finding_from(table: dict[str, Any]) -> Finding:

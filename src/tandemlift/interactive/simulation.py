@@ -143,7 +143,7 @@ class Simulation:
             if push is None:
                 raise InputError(f"point = {shown(point)}: must come with a push")
             x[POINT] = numbers("point", point, 3, "m, in body axes")
-            check_point(self.mission, "point", x[POINT])
+            check_point(self.mission, "point", x[POINT].tolist())
         if thrusts is not None:
             x[THRUSTS] = numbers("thrusts", thrusts, x.size - 7, "N, one for each rotor")
             x[-1] = 1.0

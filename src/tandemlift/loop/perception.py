@@ -7,12 +7,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import Nothing, Quat, Vec3, apply_transposed, cross
 from tandemlift.common.phases import LAND
-from tandemlift.laws.estimation.contact_detection import (
-    Around,
-    contact_step,
-    explained_push,
-    shaken,
-)
+from tandemlift.laws.estimation.contact_detection import Around, contact_step, explained_push, shaken
 from tandemlift.laws.estimation.contact_evidence import ContactDetector, PushReading
 from tandemlift.laws.estimation.navigation import Navigator, navigate
 from tandemlift.laws.estimation.push_confirmation import SampledPush, confirm, refuted_push

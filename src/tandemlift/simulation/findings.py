@@ -8,15 +8,15 @@ from typing import Any
 
 from tandemlift.algebra.vector import Nothing, dot, total
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS
-from tandemlift.common.findings import Finding
+from tandemlift.common.findings import Finding, FindingName, finding
 from tandemlift.common.phases import IDLE, LAND, LIFT, REASONS, STOPPED
 from tandemlift.laws.compliance.following import FollowingState
 from tandemlift.laws.guidance.supervision import ALARM, PHASE, SupervisionState
+from tandemlift.loop.excess import Excess
 from tandemlift.loop.oscillation import HalfPeriods
 from tandemlift.loop.step import FlightState
 from tandemlift.settings import Mission
 from tandemlift.settings.outcomes import Promise, promise_of
-from tandemlift.simulation.excess_findings import excess_finding, finding, refuted, unanswered, unpushed
 from tandemlift.simulation.outcome import landing_time
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.touches import touches_of
@@ -45,9 +45,9 @@ def findings_of(p: FlightPlan, flight_state: FlightState, steps: int, outcome: s
         *_deviations(d, promise, mission, p.dt),
         *_saturations(d.saturation, steps, mission, p.dt),
         *_out_of_reach(d.reach, p),
-        *unanswered(d.push.unanswered, p.dt),
-        *unpushed(d.unpushed.excess, mission.findings.unpushed_distance, p.dt),
-        *refuted(d.refuted, mission.findings.refuted_time, p.dt),
+        *_unanswered(d.push.unanswered, p.dt),
+        *_unpushed(d.unpushed.excess, mission.findings.unpushed_distance, p.dt),
+        *_refuted(d.refuted, mission.findings.refuted_time, p.dt),
         *_cannot_follow(flight_state, mission),
         *_touches(flight_state),
         *_by_events(flight_state, mission),
@@ -81,16 +81,32 @@ def _oscillation(m: HalfPeriods, what: str, unit: str, limit: float) -> Finding:
     )
 
 
+def _excess(
+    kind: FindingName, text: str, m: Excess, dt: float, quantity: str, value: float, unit: str, limit: float | None
+) -> Finding:
+    """A finding of a limit that was exceeded."""
+    lasted = m.steps * dt
+    return finding(
+        kind,
+        f"{text}, worst at {m.at:.5g} s; beyond it for {lasted:.3g} s",
+        time=m.start,
+        duration=lasted,
+        place=m.place,
+        quantity=quantity,
+        value=value,
+        unit=unit,
+        limit=limit,
+    )
+
+
 def _deviations(d: Any, promise: Promise, mission: Mission, dt: float) -> Iterator[Finding]:
     far, reach = math.sqrt(d.distance.worst), mission.findings.reach_distance
     if d.distance.steps and far > reach:
         text = f"the reference is {far:.3g} m from the vehicle, which it has left behind"
-        yield excess_finding("out-of-reach", text, d.distance, dt, "distance from the reference", far, "m", reach)
+        yield _excess("out-of-reach", text, d.distance, dt, "distance from the reference", far, "m", reach)
     elif d.distance.steps:
         text = f"{far:.3g} m from its reference (promised: {promise.distance:g} m)"
-        yield excess_finding(
-            "off-track", text, d.distance, dt, "distance from the reference", far, "m", promise.distance
-        )
+        yield _excess("off-track", text, d.distance, dt, "distance from the reference", far, "m", promise.distance)
     rms = math.sqrt(d.squares / d.steps) if d.steps else 0.0
     promised = promise.rms_promised(mission.pilot.guidance)
     if rms > promised:
@@ -107,14 +123,14 @@ def _deviations(d: Any, promise: Promise, mission: Mission, dt: float) -> Iterat
         )
     if d.heading.steps:
         text = f"{_degrees(d.heading.worst)} from its reference heading (promised: {_degrees(promise.heading)})"
-        yield excess_finding(
+        yield _excess(
             "off-track", text, d.heading, dt, "difference from the reference heading", d.heading.worst, "rad",
             promise.heading,
         )  # fmt: skip
     if d.tilt.steps:
         angle = math.acos(max(-1.0, min(1.0, 1.0 - d.tilt.worst)))
         text = f"tilted by {_degrees(angle)} (promised: {_degrees(promise.tilt)})"
-        yield excess_finding("off-track", text, d.tilt, dt, "tilt", angle, "rad", promise.tilt)
+        yield _excess("off-track", text, d.tilt, dt, "tilt", angle, "rad", promise.tilt)
 
 
 def _degrees(angle: float) -> str:
@@ -147,7 +163,38 @@ def _out_of_reach(m: Any, p: FlightPlan) -> Iterator[Finding]:
         return
     needed, most = math.sqrt(m.worst), math.sqrt(p.model.finding_limits.thrust)
     text = f"the reference asks for {needed:.4g} N of thrust, the rotors have {most:.4g} N"
-    yield excess_finding("out-of-reach", text, m, p.dt, "thrust that the reference needs", needed, "N", most)
+    yield _excess("out-of-reach", text, m, p.dt, "thrust that the reference needs", needed, "N", most)
+
+
+def _unanswered(m: Excess, dt: float) -> Iterator[Finding]:
+    """A push that moves nothing."""
+    if m.steps:
+        text = f"a push of up to {m.worst:.3g} N moves nothing"
+        yield finding(
+            "push-unanswered",
+            f"{text} for {m.steps * dt:.3g} s",
+            time=m.start,
+            duration=m.steps * dt,
+            place=m.place,
+            quantity="push",
+            value=m.worst,
+            unit="N",
+        )
+
+
+def _unpushed(m: Excess, limit: float, dt: float) -> Iterator[Finding]:
+    """Motion of the reference without a push, of more than the limit [m]."""
+    if m.steps:
+        text = f"the reference moved {m.worst:.3g} m although nobody pushed"
+        yield _excess("response-without-push", text, m, dt, "motion without a push", m.worst, "m", limit)
+
+
+def _refuted(m: Excess, longest: float, dt: float) -> Iterator[Finding]:
+    """A measured push that the motion refutes for more than the longest time [s]."""
+    if m.stretch > longest:
+        size = math.sqrt(m.worst)
+        text = f"the joint sensors measured a push of up to {size:.3g} N along which the vehicle does not move"
+        yield _excess("push-refuted", text, m, dt, "push that the motion refutes", size, "N", None)
 
 
 def _cannot_follow(flight_state: FlightState, mission: Mission) -> Iterator[Finding]:
