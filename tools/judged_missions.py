@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import mujoco
+import numpy as np
 from judge.verdict import judge
 from pyarrow import parquet
 
@@ -20,7 +21,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.missions.files import built_in, path_of
 from tandemlift.simulation.many import fly_each
 from tandemlift.studies import random_missions
-from tandemlift.studies.random_missions.generate import RandomMission, random_family
+from tandemlift.studies.random_missions.generate import UNPUSHED, RandomMission, random_family
 from tandemlift.studies.units.columns import Columns
 from tandemlift.studies.units.files import UnitFiles
 from tandemlift.studies.units.unit import sources_digest
@@ -28,6 +29,7 @@ from tandemlift.studies.units.unit import sources_digest
 BAD = ("not-lifted", "crashed", "diverged")
 SAME_TIME = 0.02  # s, within which record and judge must see a crash
 FREE = 1.0  # s, for which MuJoCo must follow by itself in free flight
+AWAY = 1.0  # m along any axis, which a vehicle keeps to that nobody pushes
 GAIN, GAIN_SHARE = 0.05, 0.002  # J, and fraction of the rotors' work: energy that contact may seem to add
 TOO_SHORT = ("ends in the air", "the person's way")  # in warnings that tell of a late end, not of a bad one
 KINDS = {"tilt": "turned over", "impulse": "struck", "fence": "left fence", "origin": "far"}
@@ -82,6 +84,8 @@ def judged(drawn: RandomMission) -> Judged:
             flight = flown(drawn)
         heard += [str(w.message) for w in also]
         said = _judged(flight)
+        if drawn.family >= UNPUSHED and (away := moved(flight)) > AWAY:
+            said = (*said[:3], f"moved {away:.2f} m, and nobody pushed", *said[4:])
     except Exception:
         said = ("", "", "", f"error: {traceback.format_exc(limit=-3)}", [], [], 0)
     outcome, ending, by_judge, verdict, close, findings, restarts = said
@@ -99,6 +103,20 @@ def judged(drawn: RandomMission) -> Judged:
         findings=findings,
         restarts=restarts,
     )
+
+
+def moved(flight: Flight) -> float:
+    """The largest distance [m] along an axis from where it hovers after its tare, until its landing begins.
+
+    Raises:
+        ValueError: somebody pushed.
+    """
+    if flight["push_force"].any():
+        raise ValueError("somebody pushed")
+    tared = flight.mission["estimator"]["tare_start"] + flight.mission["estimator"]["tare_duration"]
+    part = (flight.time >= tared) & (flight.time < flight.mission["phases"]["land_start"])
+    p = flight["position"][part]
+    return float(np.abs(p - p[0]).max())
 
 
 def _judged(flight: Flight) -> tuple[str, str, str, str, list[str], list[str], int]:

@@ -1,6 +1,9 @@
-"""A thousand missions at random, and a judge of each outcome: prints the table of the validation, or writes it.
+"""Missions at random, and a judge of each outcome: prints the table of the validation, or writes it.
 
-python tools/random_missions.py [--families 125] [--members 8] [--seed 16] [--processes 2] [--out DIR] [--write]
+python tools/random_missions.py [--families 125] [--unpushed 25] [--members 8] [--seed 16] [--processes 2]
+                                [--out DIR] [--write]
+
+In `unpushed` families nobody pushes, and no vehicle may move by a metre.
 
 Each family is a unit of work with a file of its own in DIR: what was judged already by the same sources is left out.
 """
@@ -23,7 +26,7 @@ import mujoco
 from judged_missions import BAD, Families, Judged
 
 import tandemlift as tl
-from tandemlift.studies.random_missions.generate import shortened
+from tandemlift.studies.random_missions.generate import UNPUSHED, shortened
 from tandemlift.studies.units.files import UnitFiles
 from tandemlift.studies.units.running import run_units
 from tandemlift.studies.units.workers import ExecutorWorkers
@@ -88,13 +91,14 @@ def judge_all(families: Families, files: UnitFiles, processes: int) -> list[Judg
 def main() -> int:
     """Draw, fly, judge, print; 1 if the judge disagrees with an outcome."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    for name, value in {"families": 125, "members": 8, "seed": 16, "processes": 2, "first": 0}.items():
+    for name, value in {"families": 125, "members": 8, "seed": 16, "processes": 2, "first": 0, "unpushed": 25}.items():
         parser.add_argument(f"--{name}", type=int, default=value)
     parser.add_argument("--out", type=Path, default=Path("out", "random-missions"), help="folder of the files")
     parser.add_argument("--write", action="store_true", help="write the table into docs/reference/validation.md")
     a = parser.parse_args()
     a.out.mkdir(parents=True, exist_ok=True)
-    families = Families(a.seed, range(a.first, a.first + a.families), a.members)
+    numbers = [*range(a.first, a.first + a.families), *range(UNPUSHED, UNPUSHED + a.unpushed)]
+    families = Families(a.seed, numbers, a.members)
     rows = judge_all(families, UnitFiles(a.out, {"seed": str(a.seed)}), a.processes)
     for r in rows:
         if not r.confirmed or r.silent:

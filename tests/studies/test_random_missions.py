@@ -19,6 +19,7 @@ from tandemlift.settings import CorridorTable
 from tandemlift.studies.random_missions.generate import (
     FIXED,
     LISTS,
+    UNPUSHED,
     drawable_keys,
     random_family,
     random_missions,
@@ -44,6 +45,19 @@ def test_fifty_missions_at_random_end_as_the_judge_says(family):
     assert len(rows) == 5
     wrong = [f"{r.family}/{r.member} {r.base}: {r.verdict} {r.changes}" for r in rows if not r.confirmed]
     assert wrong == []
+
+
+def test_where_nobody_pushes_no_mission_at_random_moves_a_metre():
+    rows = [judged(drawn) for family in (UNPUSHED, UNPUSHED + 1) for drawn in random_family(16, family, 6)]
+    assert [f"{r.family}/{r.member} {r.base}: {r.verdict} {r.changes}" for r in rows if not r.confirmed] == []
+
+
+def test_the_judge_says_no_where_a_vehicle_follows_nobody():
+    drawn = next(d for d in random_family(16, UNPUSHED, 12) if "sensor_faults" in d.changes)
+    fault = {"sensor": "joints", "kind": "bias", "time": 5.0, "size": 1.0}
+    credulous = {"pushes": [], "sensor_faults": [fault], "estimator.confirmation": "none"}
+    mission = tl.load_mission("iris", {**shortened("iris", 16.0), **credulous})
+    assert judged(drawn._replace(mission=mission)).verdict.endswith("and nobody pushed")
 
 
 def test_the_judge_shares_no_code_with_the_package():

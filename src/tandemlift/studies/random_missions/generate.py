@@ -24,6 +24,7 @@ from tandemlift.studies.random_missions.values import varied
 Changes = dict[str, Any]
 
 MOST_KEYS, MOST_FLIPS = 12, 3
+UNPUSHED = 1000  # from this number on, nobody pushes in a family
 TRIES = 40  # of keys for one mission; many changes do not load
 FIXED = ("mission.name", "mission.fused", "mission.log_interval", "person.recording", "changes", "admittance.feel")
 NEEDS: Mapping[tuple[str, Any], Changes] = {  # what a choice needs, or excludes
@@ -101,7 +102,10 @@ def random_missions(seed: int, families: int, members: int) -> Iterator[RandomMi
 
 
 def random_family(seed: int, family: int, members: int) -> Iterator[RandomMission]:
-    """The members of one family."""
+    """The members of one family; in those from number `UNPUSHED` on, nobody pushes."""
+    if family >= UNPUSHED:
+        yield from _unpushed_family(seed, family, members)
+        return
     rng = np.random.default_rng([seed, family])
     base = str(rng.choice(sorted(built_in())))
     common = shortened(base)
@@ -112,6 +116,36 @@ def random_family(seed: int, family: int, members: int) -> Iterator[RandomMissio
         changes = _changed(base, {**common, **flips}, count, rng, flips=False)
         mission, said = _loaded(base, {**common, **flips, **changes})
         yield RandomMission(family, member, base, {**common, **flips, **changes}, mission, said)
+
+
+def _unpushed_family(seed: int, family: int, members: int) -> Iterator[RandomMission]:
+    """Missions without a push, each with an error that looks like one: of a sensor, a drift, or gusts."""
+    base = ("iris", "heavy-payload", "off-centre-push")[family % 3]
+    for member in range(members):
+        rng = np.random.default_rng([seed, family, member])
+        changes = {**shortened(base, 22.0), "mission.seed": int(rng.integers(1000)), "pushes": [], **_false_push(rng)}
+        mission, said = _loaded(base, changes)
+        yield RandomMission(family, member, base, changes, mission, said)
+
+
+def _false_push(rng: np.random.Generator) -> Changes:
+    """A bias or drift of the joints or the accelerometer, or one to three gusts, from 5 s on."""
+    sensor = ("joints", "accelerometer")[int(rng.integers(2))]
+    kind, sign = ("bias", "drift", "gusts")[int(rng.integers(3))], float(rng.choice([-1.0, 1.0]))
+    if kind == "bias":
+        size = sign * float(rng.uniform(0.2, 1.5) if sensor == "joints" else rng.uniform(0.5, 3.0))
+        fault = {"sensor": sensor, "kind": "bias", "time": float(rng.uniform(5.0, 13.0)), "size": size}
+        return {"sensor_faults": [fault]}
+    if kind == "drift":
+        key = "sensors.joints.force_drift" if sensor == "joints" else "sensors.accelerometer.drift"
+        return {key: float(rng.uniform(0.01, 0.2))}
+    gusts = []
+    for _ in range(int(rng.integers(1, 4))):
+        speed, angle = float(rng.uniform(0.5, 4.0)), float(rng.uniform(0.0, 2.0 * np.pi))
+        velocity = [speed * np.cos(angle), speed * np.sin(angle), float(rng.uniform(-1.0, 1.0))]
+        gust = {"velocity": velocity, "start": float(rng.uniform(2.0, 13.0)), "rise": float(rng.uniform(0.1, 2.0))}
+        gusts.append(gust if rng.random() < 0.5 else {**gust, "hold": float(rng.uniform(0.5, 6.0))})
+    return {"wind.model": "air", "wind.gusts": gusts}
 
 
 def shortened(base: str, duration: float = 14.0) -> Changes:
