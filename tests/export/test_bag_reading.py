@@ -1,5 +1,6 @@
 """A bag becomes the flight again that it was made of, and a report; what is lost or foreign is told."""
 
+import dataclasses
 import sys
 
 import numpy as np
@@ -96,6 +97,13 @@ def test_a_bag_that_lacks_a_topic_is_refused_by_its_name(missing, pieces, paper,
     with pytest.raises(InputError) as refused:
         read_bag(bag)
     assert [piece for piece in pieces if piece not in str(refused.value)] == []
+
+
+def test_a_bag_of_a_mission_with_an_unknown_key_is_refused_by_the_key(paper, tmp_path):
+    mission = {**paper.mission, "partner": {"speed": 1.0}}
+    bag = export(dataclasses.replace(paper, mission=mission), tmp_path / "flight.bag")
+    with pytest.raises(InputError, match=r"flight\.bag: .*: partner: unknown key of a mission"):
+        read_bag(bag)
 
 
 @pytest.mark.parametrize("ending", ["bag", "mcap"])

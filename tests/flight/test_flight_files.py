@@ -1,7 +1,12 @@
+import copy
+import dataclasses
+import functools
 import json
 import math
+import operator
 import pickle
 import random
+import re
 import sys
 import zipfile
 from pathlib import Path
@@ -144,6 +149,35 @@ def test_a_flight_of_a_wrong_form_is_refused(changes, piece, short, tmp_path):
     with pytest.raises(tl.InputError) as refused:
         Flight.load(path)
     assert piece in str(refused.value)
+
+
+@pytest.mark.parametrize("key", ["partner", "compliance.hearing", "supervision.watch", "vehicle.quadrotors.0.span"])
+def test_a_flight_of_a_mission_with_an_unknown_key_is_refused_by_the_key(key, short, tmp_path):
+    mission = copy.deepcopy(short.mission)
+    *above, last = (int(part) if part.isdigit() else part for part in key.split("."))
+    functools.reduce(operator.getitem, above, mission)[last] = {"speed": 1.0}
+    path = dataclasses.replace(short, mission=mission).save(tmp_path / "flight.npz")
+    with pytest.raises(tl.InputError, match=rf"flight\.npz: {re.escape(key)}: unknown key of a mission"):
+        Flight.load(path)
+
+
+def test_a_flight_with_a_channel_of_another_version_is_refused_and_one_of_the_user_s_own_loads(short, tmp_path):
+    own = dataclasses.replace(short, channels={**short.channels, "push_on": short.time, "measured_smell": short.time})
+    path = own.save(tmp_path / "flight.npz")
+    assert Flight.load(path) == own
+    described = {"unit": "1", "frame": "", "meaning": "described by another version"}
+    with np.load(path) as file:
+        channels = json.loads(str(file["header"]))["channels"]
+    rewritten(path, channels={**channels, "measured_smell": described})
+    assert Flight.load(path) == own
+    rewritten(path, channels={**channels, "push_on": described})
+    with pytest.raises(tl.InputError, match=r"flight\.npz: unknown channel 'push_on'; there are position, "):
+        Flight.load(path)
+
+
+def test_a_flight_with_a_controller_that_is_not_loaded_here_is_read(short, tmp_path):
+    foreign = dataclasses.replace(short, mission={**short.mission, "controller": {"name": "mine", "own_gain": 3.0}})
+    assert Flight.load(foreign.save(tmp_path / "flight.npz")) == foreign
 
 
 def test_what_is_no_flight_is_refused(tmp_path):

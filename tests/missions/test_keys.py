@@ -229,8 +229,7 @@ def test_the_keys_and_tables_that_the_guide_to_missions_names_are_there():
     parts = {".".join(key.split(".")[:i]) for key in known for i in range(1, 4)}
     names = set(re.findall(r"`(\[?\[?[a-z_]+\.[a-z_.0-9]+\]?\]?)[ `]", MISSIONS))
     files = {name for name in names if name.endswith((".py", ".toml", ".npz", ".md"))}
-    old = {"compliance.hearing"}
-    assert {plain_name(name) for name in names - files} - old <= known | parts
+    assert {plain_name(name) for name in names - files} <= known | parts
 
 
 def test_the_refusals_in_the_guide_to_missions_are_real(tmp_path, monkeypatch):

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 import tomli_w
 from bombs import memory_below, zeros_archive
+from click.testing import CliRunner
 
 import tandemlift as tl
+from tandemlift.cli.main import cli
 from tandemlift.common.toml import MAX_PARTS
 from tandemlift.missions.recording import MAX_UNPACKED, WIDTH, Recording, read_recording, write_recording
 
@@ -27,13 +29,24 @@ def write(tmp_path, monkeypatch):
 )
 def test_a_mission_with_a_key_of_thousands_of_parts_is_refused_in_little_memory(write, text):
     write(text)
-    with memory_below(MOST), pytest.raises(tl.InputError, match=f"mine.toml: a.a.*at most {MAX_PARTS} parts"):
+    with (
+        memory_below(MOST),
+        pytest.raises(tl.InputError, match=rf"mine.toml: (changes\.0: )?a\.a.*at most {MAX_PARTS} parts"),
+    ):
         tl.load_mission("mine.toml")
 
 
 def test_a_change_of_a_key_of_thousands_of_parts_is_refused_in_little_memory(write):
     with memory_below(MOST), pytest.raises(tl.InputError, match=f"a.a.*at most {MAX_PARTS} parts"):
         tl.load_mission("hover", {LONG: 1})
+
+
+def test_a_key_of_thousands_of_parts_is_refused_by_set_and_by_explain(tmp_path):
+    for command in (["explain", LONG], ["run", "hover", "--out", str(tmp_path / "out"), "--set", f"{LONG}=1"]):
+        result = CliRunner().invoke(cli, command)
+        assert isinstance(result.exception, tl.InputError)
+        assert f"a key has at most {MAX_PARTS} parts" in str(result.exception)
+    assert not any(tmp_path.iterdir())
 
 
 def test_a_recording_that_unpacks_to_more_than_any_flight_has_is_refused_unread(tmp_path):

@@ -1,4 +1,4 @@
-"""TOML from anyone: Python's reader, whose memory grows with the square of a key's parts, behind a bound on them."""
+"""TOML and dotted keys from anyone: memory grows with the square of a key's parts, behind a bound on them."""
 
 from __future__ import annotations
 
@@ -23,10 +23,20 @@ def toml_tables(text: str) -> dict[str, Any]:
         RecursionError: its lists or tables are nested too deeply.
     """
     if deep := _TOO_DEEP.search(text):
-        raise too_deep(deep[0])
+        raise _too_deep(deep[0])
     return tomllib.loads(text)
 
 
-def too_deep(key: str) -> InputError:
-    """The error for a dotted key of more than `MAX_PARTS` parts."""
+def parts_of(key: str) -> list[str]:
+    """The parts of a dotted key of plain words.
+
+    Raises:
+        InputError: there are more than `MAX_PARTS`.
+    """
+    if key.count(".") >= MAX_PARTS:
+        raise _too_deep(key)
+    return key.split(".")
+
+
+def _too_deep(key: str) -> InputError:
     return InputError(f"{key[:40]}…: unknown key, nested too deeply: a key has at most {MAX_PARTS} parts")

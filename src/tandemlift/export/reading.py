@@ -33,8 +33,8 @@ from tandemlift.export.topics import (
     topics_from,
 )
 from tandemlift.flight.channels import CHANNELS
-from tandemlift.flight.old_names import renamed_channel, renamed_tables, renamed_topic, warn_of_old_names
 from tandemlift.flight.record import LATE, Flight
+from tandemlift.settings.mission import check_keys
 from tandemlift.vehicle import Vehicle
 
 BASE = f"{ROOT}/odometry"
@@ -82,14 +82,14 @@ def _flight(path: Path, said: dict[str, Stamped]) -> Flight:
 
 
 def _mission(path: Path, said: Stamped) -> dict[str, Any]:
-    """The mission as it was in the end, by the names that its keys have now."""
+    """The mission as it was in the end."""
     if not said:
         raise InputError(f"{path}: has no {MISSION.name}, the mission that was flown")
     try:
-        tables, notices = renamed_tables(toml_tables(said[max(said)].data))
+        tables = toml_tables(said[max(said)].data)
+        check_keys(tables)
     except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: {MISSION.name} is no mission: {error}") from error
-    warn_of_old_names(str(path), notices)
     return tables
 
 
@@ -97,7 +97,6 @@ def _messages(path: Path) -> dict[str, Stamped]:
     """The messages of all topics that are read, by topic; of those without a stamp, by when they came."""
     found: dict[str, Stamped] = defaultdict(dict)
     for topic, at, message in _opened(path):
-        topic = renamed_topic(topic)
         header = getattr(message, "header", None)
         stamp = header.stamp.sec * SECOND + header.stamp.nanosec if header else at
         if topic == DIAGNOSTICS.name:
@@ -138,7 +137,7 @@ def _channels(said: dict[str, Stamped], stamps: Array, vehicle: Vehicle) -> dict
     """The channels of all topics that there are."""
     there = {name for r in (*ALWAYS, *SOMETIMES) if said[f"{ROOT}/{r.name}"] for name in r.needs}
     there |= set(JOINTS[1][1:3]) if said[f"{ROOT}/joint_1/measured"] else set()
-    there |= {name.partition(".")[0] for m in list(said[VALUES].values())[:1] for name in _names(m)} & {*PILOT}
+    there |= {name.partition(".")[0] for m in list(said[VALUES].values())[:1] for name in m.name} & {*PILOT}
     parts: dict[str, list[Array]] = defaultdict(list)
     seen = MeasuredPose(np.zeros((0, 4)), vehicle)
     for recipe in all_recipes(there, vehicle):
@@ -168,14 +167,8 @@ def _numbers(recipe: Recipe, message: Any) -> list[float]:
     numbers = NUMBERS[recipe.kind](message)
     if not recipe.labels:
         return numbers
-    named = dict(zip(_names(message), numbers, strict=True))
+    named = dict(zip(message.name, numbers, strict=True))
     return [named.get(label, np.nan) for label in recipe.labels]
-
-
-def _names(message: Any) -> list[str]:
-    """The names in a message of numbers by name: channels by the names that they have now, and components."""
-    parts = (name.partition(".") for name in message.name)
-    return ["".join((renamed_channel(channel), *component)) for channel, *component in parts]
 
 
 def _events(said: Stamped, first: int) -> list[list[Any]]:

@@ -1,4 +1,4 @@
-"""The record of a flight: its channels, its file, the record as a table, and the old names of renamed things."""
+"""The record of a flight: its channels, its file, and the record as a table."""
 
 from tandemlift.flight.channels import CHANNELS, DERIVED, Channel
 from tandemlift.flight.record import Ending, Flight

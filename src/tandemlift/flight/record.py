@@ -7,20 +7,20 @@ import math
 import os
 import zipfile
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 import numpy as np
 
-from tandemlift.common.errors import InputError, suggestion
+from tandemlift.common.errors import InputError, suggestion, unknown
 from tandemlift.common.files import atomic_write, unpacked_size
 from tandemlift.common.findings import Finding, finding_from
 from tandemlift.common.outcomes import FAILURES, INTERRUPTED
 from tandemlift.common.types import Array
-from tandemlift.flight.channels import DERIVED, Channel, channel_of
+from tandemlift.flight.channels import CHANNELS, DERIVED, OTHER, Channel, channel_of
 from tandemlift.flight.data_frames import to_pandas, to_xarray
-from tandemlift.flight.old_names import renamed_channels, renamed_tables, warn_of_old_names
+from tandemlift.settings.mission import check_keys
 
 if TYPE_CHECKING:
     import pandas
@@ -85,7 +85,7 @@ class Flight(Mapping[str, Array]):
 
     @property
     def outcome(self) -> str:
-        """How it ended, one of `common.outcomes.OUTCOMES`; "unknown" for a flight of an older version."""
+        """How it ended, one of `common.outcomes.OUTCOMES`; "unknown" for a flight that was read from a bag."""
         return self.results.get("outcome", "unknown")
 
     @property
@@ -185,20 +185,20 @@ class Flight(Mapping[str, Array]):
         """Read a flight that `save` wrote.
 
         Raises:
-            InputError: the file is missing, damaged, no flight, or of a newer format.
+            InputError: the file is missing, damaged, no flight, of a newer format, or has an unknown mission key or
+                channel.
         """
         path = Path(path)
         try:
             with path.open("rb") as file:
                 header, arrays = _read(file)
-            flight = _flight(header, arrays)
+            return _flight(header, arrays)
         except InputError as error:
             raise InputError(f"{path}: {error}") from None
         except OSError as error:
             raise InputError(f"{path}: {error.strerror or error}") from None
         except Exception as error:  # whatever a file of any content can do to the readers of ZIP, NPY and JSON
             raise InputError(f"{path} is damaged or no flight that tandemlift saved ({error})") from error
-        return _by_new_names(flight, str(path))
 
 
 def _described(channel: Channel) -> dict[str, str]:
@@ -229,25 +229,22 @@ def _read(file: BinaryIO) -> tuple[dict[str, Any], dict[str, Array]]:
         return header, {name: content[name] for name in dict.fromkeys(("time", *header["channels"]))}
 
 
-def _by_new_names(flight: Flight, source: str) -> Flight:
-    """A flight that may have been saved before mission keys and channels were renamed."""
-    try:
-        mission, notices = renamed_tables(flight.mission)
-        channels, more = renamed_channels(flight.channels)
-    except InputError as error:
-        raise InputError(f"{source}: {error}") from None
-    warn_of_old_names(source, [*notices, *more])
-    return replace(flight, mission=mission, channels=channels)
+def _check_names(header: dict[str, Any]) -> None:
+    """Refuse keys and channels that another version had; a channel of the user's own is described as that."""
+    check_keys(header["mission"])
+    for name, said in header["channels"].items():
+        if channel_of(name) == OTHER and said != _described(OTHER) and not name.startswith("measured_"):
+            raise unknown("channel", name, CHANNELS)
 
 
 def _flight(header: dict[str, Any], arrays: dict[str, Array]) -> Flight:
     """The flight of a header and its arrays, if they fit each other."""
+    _check_names(header)
     time = arrays.pop("time")
     for name, array in {"time": time, **arrays}.items():
         if array.dtype != np.float64 or array.ndim not in (1, 2) or len(array) != len(time):
             raise InputError(f"damaged: channel {name} is {array.dtype} {array.shape}, beside {len(time)} times")
-    ending = header["ending"] if "ending" in header else header["divergence"]
-    if ending is not None:
+    if (ending := header["ending"]) is not None:
         quantity, at, value, *rest = ending
         ending = Ending(quantity, at, float(value), *rest)
     mission, metrics, version = (dict(header[key]) for key in ("mission", "metrics", "version"))

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.toml import parts_of
 from tandemlift.controllers import CONTROLLERS
-from tandemlift.flight.old_names import renamed_setting, warn_of_old_names
 from tandemlift.missions.bounds import table_in
 from tandemlift.missions.values import Tables, merge, shown, value_at
 from tandemlift.settings import Mission, PerAxis
@@ -79,18 +79,14 @@ def changed_tables(tables: Tables, key: Any, value: Any, source: str) -> Tables:
 
     A leaf that is given for all axes at once, such as `admittance.mass = 1.0`, has an entry for each axis, too.
     """
-    if not isinstance(key, str) or not all(key.split(".")):
+    parts = parts_of(key) if isinstance(key, str) else [""]
+    if not all(parts):
         raise InputError(f"{source}: {key!r} is not a dotted key such as controller.gains.xi")
     value = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else copy.deepcopy(value)
-    try:
-        key, value, notices = renamed_setting(key, value)
-    except InputError as error:
-        raise InputError(f"{source}: {error}") from None
-    warn_of_old_names(source, notices)
     if re.match(r"admittance\.(mass|damping)\b", key):
         tables = _without_feel(tables)
-    tables = _axis_by_axis(tables, key.split("."))
-    after = _with(tables, key.split("."), value, f"{source}: {key}")
+    tables = _axis_by_axis(tables, parts)
+    after = _with(tables, parts, value, f"{source}: {key}")
     names = [value_at(t, ("controller", "name")) for t in (tables, after)]
     if names[0] != names[1] and key in ("controller", "controller.name"):
         after["controller"] = value if isinstance(value, dict) else {"name": value}

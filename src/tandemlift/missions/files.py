@@ -11,12 +11,12 @@ from typing import NamedTuple
 
 from tandemlift.common.errors import InputError, suggestion, unknown
 from tandemlift.common.toml import toml_tables
-from tandemlift.flight.old_names import renamed_tables, warn_of_old_names
 from tandemlift.missions.recording import unpacked_recording
 from tandemlift.missions.values import MISSING, Tables, merge, shown, value_at
 
 DATA = Path(__file__).resolve().parent.parent / "data"
 MAX_FILE = 1_000_000  # bytes
+_parsed = functools.lru_cache(maxsize=32)(toml_tables)  # for sweeps of one mission; not to be modified
 
 
 class Layer(NamedTuple):
@@ -47,22 +47,13 @@ def path_of(name: str | os.PathLike[str], folder: Path) -> Path:
     return unpacked_recording(path, path.stat().st_mtime_ns) if path.suffix == ".zip" else path
 
 
-@functools.lru_cache(maxsize=32)
-def _parsed(text: str) -> tuple[Tables, list[str]]:
-    """The tables of a text by their new names, and which old names it uses.
-
-    They are cached for sweeps that load one mission many times, and must not be modified.
-    """
-    return renamed_tables(toml_tables(text))
-
-
 def _read(path: Path) -> Tables:
     with path.open("rb") as file:
         content = file.read(MAX_FILE + 1)
     if len(content) > MAX_FILE:
         raise InputError(f"{path} is larger than {MAX_FILE} bytes, the most that a mission file may have")
     try:
-        tables, notices = _parsed(content.decode("utf-8-sig").replace("\r\n", "\n"))
+        return dict(_parsed(content.decode("utf-8-sig").replace("\r\n", "\n")))
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
     except UnicodeDecodeError as error:
@@ -71,8 +62,6 @@ def _read(path: Path) -> Tables:
         raise InputError(f"{path} is not a mission: nested too deeply") from None
     except ValueError as error:  # TOMLDecodeError, or a whole number of thousands of digits
         raise InputError(f"{path} is not valid TOML: {error}") from None
-    warn_of_old_names(str(path), notices)
-    return dict(tables)
 
 
 def overlay(base: Tables, changes: Tables) -> Tables:

@@ -11,7 +11,6 @@ from typing import Any
 
 from tandemlift.common.errors import InputError
 from tandemlift.controllers import CONTROLLERS, Controller
-from tandemlift.flight.old_names import check_said_once
 from tandemlift.missions.changes import changed_tables
 from tandemlift.missions.checking import as_checked, check
 from tandemlift.missions.files import Layer, layers_of, overlay, path_of
@@ -99,7 +98,6 @@ class MissionTemplate:
         """
         layers, again = self._layers, not self.changes.keys().isdisjoint(changes)
         with _named(self._layers[-1].source):
-            check_said_once({**self.changes, **changes})
             tables = self._own if again else self._common
             tables = _with_changes(tables, {**self.changes, **changes} if again else changes, layers)
             return check(tables, layers[-1].source, layers, known=self._known, quiet=self.quiet)
@@ -142,7 +140,6 @@ def read_tables(
 
 def _with_changes(tables: Tables, changes: Mapping[str, Any], layers: Sequence[Layer]) -> Tables:
     """Tables with values by dotted key set, one after the other."""
-    check_said_once(changes)
     for key, value in changes.items():
         tables = changed_tables(tables, key, value, layers[-1].source)
     return tables

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from html import escape
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, Field, SerializeAsAny, model_validator
+from pydantic import AfterValidator, Field, SerializeAsAny, ValidationError, model_validator
 
+from tandemlift.common.errors import InputError
 from tandemlift.settings import key_description
 from tandemlift.settings.admittance import AdmittanceTable, with_feel
 from tandemlift.settings.corridor import CorridorTable, WallTable
@@ -165,3 +167,18 @@ class Mission(Table):
         }
         cells = (f"<tr><th style='text-align:left'>{k}</th><td>{escape(v)}</td></tr>" for k, v in rows.items())
         return f"<table>{''.join(cells)}</table>"
+
+
+def check_keys(tables: Mapping[str, Any]) -> None:
+    """Refuse a flown mission's nested tables that have a key unknown here; a controller's own keys are left alone.
+
+    Raises:
+        InputError: with the dotted key.
+    """
+    try:
+        Mission.model_validate(tables)
+    except ValidationError as error:
+        for problem in error.errors(include_url=False, include_input=False):
+            if problem["type"] == "extra_forbidden" and problem["loc"][0] != "controller":
+                key = ".".join(map(str, problem["loc"]))
+                raise InputError(f"{key}: unknown key of a mission; `tandemlift explain` lists all") from None

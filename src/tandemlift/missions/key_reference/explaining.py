@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Iterable
 
 from tandemlift.common.errors import InputError
-from tandemlift.flight.old_names import renamed_setting, warn_of_old_names
+from tandemlift.common.toml import parts_of
 from tandemlift.missions.key_reference.sections import EXTENDS, Key, Section, default_words, sections
 from tandemlift.missions.values import shown
 
@@ -21,11 +21,9 @@ def explained(name: str, controller: str = "") -> str:
         controller: of its tables alone, where several controllers have one of that name; "" for those of all.
 
     Raises:
-        InputError: there is none of that name; the message names the three nearest.
+        InputError: there is none of that name, and the message names the three nearest; or it has too many parts.
     """
-    new, _, notices = renamed_setting(name, None)
-    warn_of_old_names("explain", notices)
-    plain = plain_name(new)
+    plain = plain_name(name)
     if plain == "extends":
         return f"extends: {EXTENDS.meaning}."
     found = [(section, key) for section in sections() for key in section.keys if plain_name(key.name) == plain]
@@ -49,8 +47,12 @@ def index() -> str:
 
 
 def plain_name(name: str) -> str:
-    """A dotted key without the numbers and brackets that pick entries of lists."""
-    parts = name.strip("[]").replace("[]", "").replace("[", ".").replace("]", "").split(".")
+    """A dotted key without the numbers and brackets that pick entries of lists.
+
+    Raises:
+        InputError: it has more parts than any key.
+    """
+    parts = parts_of(name.strip("[]").replace("[]", "").replace("[", ".").replace("]", ""))
     return ".".join(part for part in parts if part and not part.isdigit())
 
 
