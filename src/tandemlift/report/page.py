@@ -148,7 +148,7 @@ FEEL = """<!DOCTYPE html>
 <h2>The standard push</h2>
 <p class="soft">{note}</p>
 {table}
-{sentences}
+<p>{gate}</p>
 </section>
 {figures}
 <section>

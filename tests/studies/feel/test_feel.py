@@ -1,4 +1,4 @@
-"""`tandemlift feel`: what is flown is what the closed form says, wishes come true, and presets pass their checks."""
+"""`tandemlift feel`: what is flown is what the closed form and the keys say, and presets pass their checks."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,6 @@ import tandemlift as tl
 from tandemlift.settings.admittance import FEELS
 from tandemlift.studies.feel.feel_study import study_feel
 from tandemlift.studies.feel.standard_push import answer_of, pushed_axes
-from tandemlift.studies.feel.wish import proposed, wishes, with_proposal
 
 EDGE = 0.02  # s, of the flown push
 IDEAL = "one-push"  # ideal rotors, no sensors, the push known
@@ -31,14 +30,13 @@ def test_with_ideal_parts_the_admittance_is_the_closed_form_and_the_vehicle_foll
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_a_wish_comes_out_of_the_flight_with_ideal_parts(seed):
+def test_the_keys_of_a_feel_come_out_of_the_flight_with_ideal_parts(seed):
     rng = np.random.default_rng(seed)
     force, speed, time = rng.uniform(0.5, 4.0), rng.uniform(0.1, 1.2), rng.uniform(1.2, 4.0)
-    gate = ("hard", "soft")[seed % 2]
-    mission = tl.load_mission(IDEAL, {"admittance.gate": gate})
-    text = f"{force:.4f} N gives {speed:.4f} m/s in {time:.4f} s"
-    for pushed in pushed_axes(with_proposal(mission, proposed(mission, text))):
-        assert pushed.feel.push == pytest.approx(force, abs=1e-4)
+    feel = {"force": force, "speed": speed, "time": time}
+    mission = tl.load_mission(IDEAL, {"admittance.gate": ("hard", "soft")[seed % 2], "admittance.feel": feel})
+    for pushed in pushed_axes(mission):
+        assert pushed.feel.push == pytest.approx(force)
         reference = answer_of(pushed.feel, pushed.time, reference_of(pushed), pushed.hold)
         assert reference.final_speed == pytest.approx(speed, rel=0.005)
         assert reference.time == pytest.approx(time, rel=0.01, abs=0.02)
@@ -50,15 +48,13 @@ def test_a_wish_comes_out_of_the_flight_with_ideal_parts(seed):
 def test_each_preset_passes_its_checks_in_iris(preset):
     study = study_feel(tl.load_mission("iris", {"admittance.feel.preset": preset}))
     assert [(c.check, c.subject, c.text) for c in study.checks if c.verdict == "fails"] == []
-    assert study.effort.arrived
-    assert study.effort.clearance > 0.2
     for pushed in study.pushed[:3]:
         assert pushed.real.final_speed == pytest.approx(FEELS[preset].speed, rel=0.1)
 
 
-def test_a_wish_that_the_rotors_cannot_give_says_the_bound():
-    mission = tl.load_mission("iris")
-    study = study_feel(with_proposal(mission, proposed(mission, "1 N gives 1.5 m/s in 0.5 s along x")))
+def test_an_answer_that_the_rotors_cannot_give_fails_with_the_bound():
+    feel = {"force": 1.0, "speed": [1.5, 0.4, 0.4], "time": [0.5, 2.0, 2.0]}
+    study = study_feel(tl.load_mission("iris", {"admittance.feel": feel}))
     failed = {(c.check, c.subject): c for c in study.checks if c.verdict == "fails"}
     rotors = failed["rotors", "x"]
     assert rotors.limit == pytest.approx(9.81 * np.tan(0.25), rel=1e-3)
@@ -69,10 +65,10 @@ def test_a_wish_that_the_rotors_cannot_give_says_the_bound():
     assert ("rotors", "y") not in failed
 
 
-def test_a_quick_answer_without_mass_drives_a_person_who_sees_late():
+def test_an_answer_that_is_quicker_than_filters_and_rotors_is_not_what_is_flown():
     study = study_feel(tl.load_mission("iris", {"admittance.feel": {"force": 1.0, "speed": 0.6, "time": 0.5}}))
     failed = {c.check for c in study.checks if c.verdict == "fails"}
-    assert {"acceleration", "rotors", "flown", "corridor", "arm"} <= failed
+    assert {"acceleration", "rotors", "flown"} <= failed
 
 
 def test_a_spring_leads_to_no_speed_and_is_shown_all_the_same():
@@ -80,58 +76,3 @@ def test_a_spring_leads_to_no_speed_and_is_shown_all_the_same():
     assert pushed.ideal.final_speed is None
     assert abs(pushed.real.final_speed) < 0.02
     assert pushed.difference < 0.1 * np.abs(pushed.closed).max()
-
-
-def test_clauses_name_axes_once_and_one_without_axes_holds_for_the_others():
-    found = wishes(
-        "2 N gives 0.6 m/s in 1 s along x and y;  1 N leads to 0.3 m/s within 1.5 s; 0.5 N m gives 0.2 rad/s in 6 s."
-    )
-    assert [w.axes for w in found] == [("x", "y"), ("z",), ("yaw",)]
-    assert found[1][:3] == (1.0, 0.3, 1.5)
-    mission = tl.load_mission("iris")
-    tables = proposed(mission, "1 N gives 0.5 m/s in 2 s along z; 0.5 N m gives 0.2 rad/s in 6 s")
-    after = with_proposal(mission, tables)
-    assert after.admittance.damping == pytest.approx([1.6, 1.6, 1.4], rel=1e-5)
-    assert after.admittance.mass[:2] == pytest.approx([1.0, 1.0], rel=1e-5)
-    assert after.compliance.yaw.damping == pytest.approx(0.35 / 0.2)
-    assert after.compliance.yaw.inertia / after.compliance.yaw.damping == pytest.approx(6.0 / np.log(20.0), rel=1e-5)
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("quick, please", "'quick, please' must have the form \"1 N gives"),
-        ("1 kg gives 0.6 m/s in 1 s", "must have the form"),
-        ("1 N gives 0.6 m/s in 1 s along w", "must have the form"),
-        ("1 N gives -0.6 m/s in 1 s", "must have the form"),
-        ("", "must have the form"),
-        ("0 N gives 0.6 m/s in 1 s", "must be from 1e-06 to 1e+06"),
-        ("1 N gives 1e9 m/s in 1 s", "must be from 1e-06 to 1e+06"),
-        ("1 N gives 0.6 m/s in 1 s; 2 N gives 0.6 m/s in 1 s", "has two clauses without axes"),
-        ("1 N gives 0.6 m/s in 1 s along x, x", "names x twice"),
-        ("1 N gives 0.6 m/s in 1 s along x, y and z; 1 N gives 1 m/s in 1 s", "no axis is left"),
-        ("1 N m gives 0.6 m/s in 1 s", "mixes forces and moments"),
-        ("0.3 N gives 0.6 m/s in 1 s", "0.3 N along x must be above admittance.threshold = 0.3 N"),
-        ("0.1 N m gives 0.2 rad/s in 2 s", "must be above compliance.yaw.threshold = 0.15 N m"),
-        ("2 N m gives 0.2 rad/s in 2 s", "no steady rate exists above 1.05 N m"),
-    ],
-)
-def test_what_is_no_wish_is_refused(text, said):
-    with pytest.raises(tl.InputError, match="--wish") as error:
-        proposed(tl.load_mission("iris"), text)
-    assert said in str(error.value)
-
-
-@pytest.mark.parametrize(
-    ("changes", "text", "said"),
-    [
-        ({"admittance.stiffness": 2.0}, "1 N gives 0.6 m/s in 1 s", "add --set admittance.stiffness=0"),
-        ({}, "0.5 N m gives 0.2 rad/s in 6 s", "keeps its heading"),
-        ({"admittance.damping": 0.0}, "1 N gives 0.6 m/s in 1 s along x", "name y in --wish, too"),
-    ],
-    ids=["spring", "yaw", "undamped"],
-)
-def test_a_wish_that_a_mission_cannot_have_is_refused(changes, text, said):
-    with pytest.raises(tl.InputError) as error:
-        proposed(tl.load_mission(IDEAL, changes), text)
-    assert said in str(error.value)

@@ -99,3 +99,12 @@ def test_a_key_without_a_value_is_searched_in_the_range_that_is_given(mission):
     tilt = found(mission, {"controller.max_tilt": [0.1, 0.9]})["controller.max_tilt"]
     assert (tilt.low, tilt.high) == (0.1, 0.9)
     assert tilt.present == pytest.approx(0.3)
+
+
+def test_a_feel_is_searched_as_one_number_for_all_axes_or_as_one_for_each():
+    light = tl.load_mission("zigzag", {"admittance.feel.preset": "light"})
+    (speed,) = parameters_of(light, {"admittance.feel.speed": [0.2, 0.8]}, FACTOR)
+    found = tl.load_mission("zigzag", {"admittance.feel.preset": "light", **changes_at([speed], [0.35], light)})
+    assert found.admittance.damping == pytest.approx([(1.0 - 0.3) / 0.35] * 3)
+    numbers = {"admittance.feel": {"force": 1.0, "speed": 0.5, "time": 2.5}}
+    assert len(parameters_of(tl.load_mission("zigzag", numbers), {"admittance.feel": None}, FACTOR)) == 9

@@ -11,22 +11,19 @@ from typing import TYPE_CHECKING, Any
 
 from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Progress
-from tandemlift.missions import Mission, format_toml, tables_of, to_toml
+from tandemlift.missions import Mission, format_toml, tables_of
 from tandemlift.missions.flight_checks.result import FAILS, CheckResult
 from tandemlift.report.controller_comparison import html_figures, html_versions
 from tandemlift.report.flight_report import DASH, NO_BREAK, html_table
 from tandemlift.report.page import FEEL, STYLE
-from tandemlift.studies.feel.feel_study import HEADS, FeelStudy, sentences_of, study_feel, table_of
+from tandemlift.studies.feel.feel_study import HEADS, FeelStudy, gate_text, study_feel, table_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from tandemlift.studies.feel.search import FeelSearch
-
 NOTE = """Closed form → flown: a push that begins at once, lasts, and ends at once, in calm air from hover. The lag is
 the mean delay of the speed against the push; apart is the largest difference between both speeds."""
 FIGURE = "feel"
-SEARCHED = ("evidence.json", "feel.toml")
 
 
 class FeelReport:
@@ -34,15 +31,13 @@ class FeelReport:
 
     Args:
         study: from `study_feel`.
-        search: that found the numbers of the study, if one did.
 
     Attributes:
-        study: axes under the standard push, effort and checks, as numbers.
-        search: old numbers against new ones; None without a search.
+        study: axes under the standard push and checks, as numbers.
     """
 
-    def __init__(self, study: FeelStudy, search: FeelSearch | None = None) -> None:
-        self.study, self.search = study, search
+    def __init__(self, study: FeelStudy) -> None:
+        self.study = study
 
     @property
     def checks(self) -> tuple[CheckResult, ...]:
@@ -51,21 +46,17 @@ class FeelReport:
 
     def summary(self) -> dict[str, Any]:
         """All numbers in SI units, as in feel.json."""
-        return self.study.summary() | ({"search": self.search.evidence()} if self.search else {})
-
-    def sentences(self) -> list[str]:
-        """What the least force does, the effort in the corridor, and what a search found."""
-        return [*sentences_of(self.study), *(self.search.sentences() if self.search else [])]
+        return self.study.summary()
 
     def lines(self) -> list[str]:
-        """The table and the sentences."""
+        """The table, and a sentence about the gate."""
         rows = [("", *HEADS), *table_of(self.study)]
         widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
         table = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
-        return [*table, *self.sentences()]
+        return [*table, gate_text(self.study)]
 
     def __str__(self) -> str:
-        """The table, the sentences and what fails."""
+        """The table, a sentence about the gate, and what fails."""
         failed = [f"{check.verdict}: {check.text}" for check in self.checks if check.verdict == FAILS]
         return "\n".join([*self.lines(), *failed])
 
@@ -78,8 +69,6 @@ class FeelReport:
     def save(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write feel.json, feel.html, feel.png and feel.pdf into a folder, which is made; each appears whole or not.
 
-        After a search, also evidence.json and feel.toml, the mission with the new numbers.
-
         Returns:
             The files.
         """
@@ -91,13 +80,6 @@ class FeelReport:
         files = [folder / f"{FIGURE}.json", folder / f"{FIGURE}.html"]
         _write(files[0], json.dumps(_plain(self.summary()), indent=1, ensure_ascii=False, allow_nan=False))
         _write(files[1], self._page(html_figures({FIGURE: figure}, {FIGURE: CAPTION})))
-        found = [folder / name for name in SEARCHED]
-        for old in found:  # of an earlier search
-            old.unlink(missing_ok=True)
-        if self.search:
-            files += found
-            _write(files[2], json.dumps(_plain(self.search.evidence()), indent=1, allow_nan=False))
-            _write(files[3], to_toml(self.search.mission).rstrip())
         return [*files, *(save_figure(figure, folder / f"{FIGURE}.{kind}") for kind in ("png", "pdf"))]
 
     def _page(self, figures: str) -> str:
@@ -108,7 +90,7 @@ class FeelReport:
             verdict=_verdict(self.checks),
             note=NOTE,
             table=_axes(table_of(self.study)),
-            sentences="\n".join(f"<p>{_with_code(text)}</p>" for text in self.sentences()),
+            gate=escape(gate_text(self.study)),
             figures=figures,
             checks=_checks(self.checks),
             admittance=escape(format_toml(tables)),
@@ -121,10 +103,10 @@ def feel(mission: Mission, *, progress: Progress | None = None) -> FeelReport:
 
     Args:
         mission: from `load_mission`.
-        progress: called with (parts done, parts in all).
+        progress: called with (axes flown, axes in all).
 
     Raises:
-        InputError: the mission cannot be flown without its surroundings, or `zigzag` not with its admittance.
+        InputError: the mission cannot be flown without its surroundings.
     """
     return FeelReport(study_feel(mission, progress))
 
@@ -141,12 +123,6 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(inner) for inner in value]
     return None if isinstance(value, float) and abs(value) == float("inf") else value
-
-
-def _with_code(text: str) -> str:
-    """A sentence as HTML; what stands in backquotes is code."""
-    parts = escape(text).split("`")
-    return "".join(f"<code>{part}</code>" if i % 2 else part for i, part in enumerate(parts))
 
 
 def _verdict(checks: Iterable[CheckResult]) -> str:
@@ -175,7 +151,7 @@ def _checks(checks: Iterable[CheckResult]) -> str:
         shown = [_with_unit(x, c.unit) for x in (c.value, c.limit)]
         margin = DASH if c.margin is None else f"{100.0 * c.margin:.0f} %"
         cells = "".join(f"<td>{cell}</td>" for cell in (*shown, margin.replace("-", "−")))
-        said = f"<strong>{c.verdict}</strong>: {_with_code(c.text)}" if c.text else c.verdict
+        said = f"<strong>{c.verdict}</strong>: {escape(c.text)}" if c.text else c.verdict
         name = escape(f"{c.check} {c.subject}").replace(" ", NO_BREAK)
         rows.append(f'<tr><th scope="row">{name}</th>{cells}<td>{said}</td></tr>')
     return html_table(f"<tr>{heads}</tr>", rows, "compared")

@@ -1,1 +1,1 @@
-"""What a push feels like: the response of the admittance, its checks, numbers for a wish, and a search for them."""
+"""What a push feels like: the response of the admittance to a standard push, and its checks."""

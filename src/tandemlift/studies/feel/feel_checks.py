@@ -1,7 +1,7 @@
-"""Whether what a push should do can be done: limits of the guidance, noise and drift, rotors, walls, the person's arm.
+"""Whether what a push should do can be done: limits of the guidance, noise and drift, rotors, walls.
 
 Each check is a number against its limit, and what to do. What a flight shows is taken from the flights of the standard
-push and of the corridor.
+push.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ from tandemlift.missions.flight_checks.weight import lift_of, weight_of
 from tandemlift.settings import Mission
 from tandemlift.settings.admittance import LN_20
 from tandemlift.studies.feel.closed_form import AXES, YAW, AxisFeel
-from tandemlift.studies.feel.effort import CORRIDOR, Effort
 from tandemlift.studies.feel.standard_push import PushedAxis
 from tandemlift.vehicle import Vehicle
 
@@ -148,19 +147,12 @@ def _yaw_check(m: Mission, k: AxisFeel) -> CheckResult:
     return judged("rotors", needed, limit, "N m", text, subject=YAW)
 
 
-def free_room(m: Mission) -> float | None:
-    """The room beside the person's way [m], less the guard of a quadrotor; None without walls or such a way."""
-    places = places_of(m) if m.all_walls else None
-    if places is None:
-        return None
-    return least_room(m, places)[0] - max(q.guard_radius for q in m.vehicle.quadrotors)
-
-
 def stop_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
     """The way until it stops after the hand lets go, against the room beside the person's way."""
-    room = free_room(m)
-    if room is None:
+    places = places_of(m) if m.all_walls else None
+    if places is None:
         return
+    room = least_room(m, places)[0] - max(q.guard_radius for q in m.vehicle.quadrotors)
     slowest = max(axes[:2], key=lambda k: k.stop_distance)
     text = (
         f"let go at {slowest.final_speed:.3g} m/s along {slowest.axis} it stops within {slowest.stop_distance:.3g} m, "
@@ -169,14 +161,8 @@ def stop_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
     yield judged("stop", slowest.stop_distance, room, "m", text)
 
 
-def flown_checks(pushed: Iterable[PushedAxis], effort: Effort) -> Iterator[CheckResult]:
-    """What the flights of the standard push and of the corridor show."""
-    for p in pushed:
-        yield from _pushed_checks(p)
-    yield from _corridor_checks(effort)
-
-
-def _pushed_checks(p: PushedAxis) -> Iterator[CheckResult]:
+def flown_checks(p: PushedAxis) -> Iterator[CheckResult]:
+    """What the flight of an axis under the standard push shows."""
     axis, unit = p.feel.axis, "rad/s" if p.feel.axis == YAW else "m/s"
     if p.difference is None:
         text = f"under {p.feel.push:g} {'N m' if axis == YAW else 'N'} along {axis}: {p.flight.failure}"
@@ -192,18 +178,3 @@ def _pushed_checks(p: PushedAxis) -> Iterator[CheckResult]:
             f"speed is {limit:.3g} {unit}: filters, limits and rotors are too slow; allow it more time"
         )
         yield judged("flown", p.difference, limit, unit, text, subject=axis)
-
-
-def _corridor_checks(effort: Effort) -> Iterator[CheckResult]:
-    if not effort.arrived:
-        what = "touches a wall" if effort.touched else f"does not land at the end ({effort.outcome})"
-        text = f"in `{CORRIDOR}` the vehicle {what}: ask for less speed, or for more force"
-        yield noted("corridor", text, verdict="fails")
-    else:
-        yield noted("corridor", "", verdict="ok")
-    if effort.work is not None and effort.work <= 0.0:
-        text = (
-            f"in `{CORRIDOR}` the vehicle does {-effort.work:.3g} J of work on the hand for each metre: with so little "
-            "virtual mass it oscillates with a person who sees late; allow it more time"
-        )
-        yield noted("arm", text, verdict="fails")

@@ -1,4 +1,4 @@
-"""What the keys of a mission feel like: its axes under the standard push, the effort in a corridor, and the checks."""
+"""What the keys of a mission feel like: its axes under the standard push, and the checks."""
 
 from __future__ import annotations
 
@@ -9,13 +9,11 @@ from tandemlift.common.progress import progress_or_own
 from tandemlift.common.types import Progress
 from tandemlift.missions import Mission
 from tandemlift.missions.flight_checks.result import FAILS, CheckResult
-from tandemlift.studies.feel.closed_form import YAW, AxisFeel
-from tandemlift.studies.feel.effort import CORRIDOR, Effort, effort_in_corridor
+from tandemlift.studies.feel.closed_form import YAW
 from tandemlift.studies.feel.feel_checks import feel_checks, flown_checks
 from tandemlift.studies.feel.standard_push import Answer, PushedAxis, pushed_axes
 
 HEADS = ("push", "moves from", "final speed", "95 % after", "overshoot", "lag", "stops within", "apart")
-STEPS = 2  # of the progress: the pushes, the corridor
 
 
 class FeelStudy(NamedTuple):
@@ -24,13 +22,11 @@ class FeelStudy(NamedTuple):
     Attributes:
         mission: that was asked about.
         pushed: each axis under the standard push, by closed form and flown.
-        effort: of the person in mission `zigzag` with this admittance.
         checks: each with its number, its limit, and what to do.
     """
 
     mission: Mission
     pushed: tuple[PushedAxis, ...]
-    effort: Effort
     checks: tuple[CheckResult, ...]
 
     @property
@@ -45,30 +41,24 @@ class FeelStudy(NamedTuple):
             "mission": self.mission.mission.name,
             "feel": None if a.feel is None else [f._asdict() for f in a.feel.axes],
             "axes": [_axis(p) for p in self.pushed],
-            "corridor": {"mission": CORRIDOR, **self.effort._asdict()},
             "checks": [{**check._asdict(), "margin": check.margin} for check in self.checks],
         }
 
 
 def study_feel(mission: Mission, progress: Progress | None = None) -> FeelStudy:
-    """Fly the standard push and the corridor with a mission's admittance, and check it.
+    """Fly the standard push along each axis of a mission's admittance, and check it.
 
     Args:
         mission: from `load_mission`.
-        progress: called with (parts done, parts in all); by default, a notebook shows a bar.
+        progress: called with (axes flown, axes in all); by default, a notebook shows a bar.
 
     Raises:
-        InputError: the mission cannot be flown without its surroundings, or `zigzag` not with its admittance.
+        InputError: the mission cannot be flown without its surroundings.
     """
-    with progress_or_own("Feel", progress, "parts") as shown:
-        pushed = pushed_axes(mission)
-        if shown:
-            shown(1, STEPS)
-        effort = effort_in_corridor(mission)
-        if shown:
-            shown(STEPS, STEPS)
-    checks = (*feel_checks(mission, [p.feel for p in pushed]), *flown_checks(pushed, effort))
-    return FeelStudy(mission, pushed, effort, checks)
+    with progress_or_own("Feel", progress, "axes") as shown:
+        pushed = pushed_axes(mission, shown)
+    flown = (check for p in pushed for check in flown_checks(p))
+    return FeelStudy(mission, pushed, (*feel_checks(mission, [p.feel for p in pushed]), *flown))
 
 
 def _axis(p: PushedAxis) -> dict[str, Any]:
@@ -106,35 +96,12 @@ def _both(ideal: float | None, real: float | None, unit: str) -> str:
     return f"{' → '.join(dict.fromkeys(texts))} {unit}".removeprefix("– → ")
 
 
-def gate_text(k: AxisFeel, release: float | None, dwell: float) -> str:
-    """What the least force does, in words.
-
-    Args:
-        k: the axis.
-        release: below which a push ends [N]; None without a dead band.
-        dwell: for which it must last before [s].
-    """
+def gate_text(study: FeelStudy) -> str:
+    """What the smallest force that moves the vehicle does, along x, in a sentence."""
+    k, m = study.pushed[0].feel, study.mission
     acts = "only what exceeds it acts" if k.soft else "beyond it the whole force acts"
-    if release is None:
+    if m.pilot.guidance != "hand":
         return f"A push must exceed {k.threshold:g} N; {acts}."
-    lasting = f"for {1e3 * dwell:g} ms; {acts}, until the push falls below {release:.2g} N"
+    release, dwell = k.threshold * m.compliance.release_fraction, 1e3 * m.compliance.dwell
+    lasting = f"for {dwell:g} ms; {acts}, until the push falls below {release:.2g} N"
     return f"A push must exceed {k.threshold:g} N {lasting}."
-
-
-def sentences_of(study: FeelStudy) -> list[str]:
-    """What the least force does, and the effort in the corridor, in a sentence each."""
-    m, by_hand = study.mission, study.mission.pilot.guidance == "hand"
-    first = study.pushed[0].feel
-    release = first.threshold * m.compliance.release_fraction if by_hand else None
-    e = study.effort
-    if e.force is None or e.work is None or e.time is None or e.jerk is None:
-        effort = f"In `{CORRIDOR}` nobody could lead the vehicle: {e.outcome}."
-    else:
-        ended = "it lands at the end" if e.arrived else f"it does not arrive ({e.outcome})"
-        clearance = "" if e.clearance is None else f", {e.clearance:.2f} m from the walls at least"
-        work = f"{e.work:.2f}".replace("-", "−")
-        effort = (
-            f"In `{CORRIDOR}` a person leads it with {e.force:.2f} N and {work} J/m for {e.time:.1f} s, with "
-            f"{e.jerk:.2f} m/s³ of jerk (rms); {ended}{clearance}."
-        )
-    return [gate_text(first, release, m.compliance.dwell), effort]

@@ -7,18 +7,19 @@ of two hands across the beam, which turns with the answer of the closed form.
 from __future__ import annotations
 
 import math
+import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.common.types import Array
+from tandemlift.common.errors import FlightWarning
+from tandemlift.common.types import Array, Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, merge, tables_of
 from tandemlift.missions.values import Tables
 from tandemlift.simulation.many import fly_each
 from tandemlift.studies.feel.closed_form import AXES, YAW, AxisFeel, axes_of, speed_at
-from tandemlift.studies.feel.quiet import quietly
 from tandemlift.vehicle import Vehicle
 
 RISE = 0.02  # s: spacing and standard deviation of the Gaussians
@@ -91,15 +92,19 @@ class PushedAxis(NamedTuple):
         return float(np.mean(np.any((share < AT_LIMIT) | (share > 1.0 - AT_LIMIT), axis=1)))
 
 
-def pushed_axes(m: Mission) -> tuple[PushedAxis, ...]:
+def pushed_axes(m: Mission, progress: Progress | None = None) -> tuple[PushedAxis, ...]:
     """Every axis of a mission's admittance under the standard push, each in a flight of its own.
+
+    Args:
+        m: the mission.
+        progress: called with (axes flown, axes in all).
 
     Raises:
         InputError: the mission cannot be flown without its surroundings.
     """
     axes, start = axes_of(m), start_of(m)
     end = start + 2.0 * max(map(hold_of, axes)) + LEAST_HOLD
-    flights = fly_each([push_mission(m, k, start, end) for k in axes], keep="flights")
+    flights = fly_each([push_mission(m, k, start, end) for k in axes], keep="flights", progress=progress)
     return tuple(_measured(k, flight, start) for k, flight in zip(axes, flights, strict=True))
 
 
@@ -142,7 +147,8 @@ def push_mission(m: Mission, k: AxisFeel, start: float, end: float) -> Mission:
         "person": {"model": "none"},
     }
     tables.pop("person", None)
-    with quietly():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FlightWarning)  # how it flies is seen in the flight
         return check(merge(tables, changes), f"{m.mission.name}, pushed along {k.axis}")
 
 
