@@ -172,7 +172,7 @@ def run(tmp_path, monkeypatch, capsys):
 @pytest.mark.parametrize("given", ["saved", "saved/flight.npz"])
 def test_a_saved_flight_is_exported_by_its_file_or_its_folder(given, flight, run, tmp_path):
     flight.save(tmp_path / "saved" / "flight.npz")
-    assert run("export", given, "--out", "there/it.csv") == (0, f"iris: {Path('there/it.csv')} (0.1 MB)\n", "")
+    assert run("export", given, "--out", "there/it.csv") == (0, f"iris: {Path('there/it.csv')} (0.2 MB)\n", "")
     np.testing.assert_array_equal(check_table_of(tmp_path / "there" / "it.csv")["time[s]"], flight.time)
 
 

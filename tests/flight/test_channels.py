@@ -66,7 +66,7 @@ def test_the_tables_of_the_documents_name_every_channel():
 def unflown(changes, count=2):
     """The record of mission iris with changes and so many quadrotors, before anything was flown."""
     quadrotor = tl.load_mission("iris").vehicle.quadrotors[0].model_dump(exclude_none=True)
-    fleet = [quadrotor | {"position": [0.3 * i, 1.0, 0.075]} for i in range(count)]
+    fleet = [quadrotor | {"position": [1.2 * i, 1.0, 0.075]} for i in range(count)]
     p = FlightPlan(tl.load_mission("iris", {"vehicle.quadrotors": fleet, **changes}))
     row = np.zeros(leaves(p.sample))
     return flight_of(p, RawResult(p.model.flight_state, EMPTY, 0, row[None], row, 0.0))
@@ -116,7 +116,7 @@ def test_all_channels_have_their_widths(count):
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
 def test_channels_have_their_widths_for_any_number_of_quadrotors(count):
     quadrotor = tl.load_mission("paper").vehicle.quadrotors[0].model_dump()
-    spread = [quadrotor | {"position": [0.3 * i, 1.0, 0.1]} for i in range(count)]
+    spread = [quadrotor | {"position": [1.2 * i, 1.0, 0.1]} for i in range(count)]
     flight = tl.fly(tl.load_mission("flight-ready", {"vehicle.quadrotors": spread, "mission.duration": 0.05}))
     widths = {name: (1 if array.ndim == 1 else array.shape[1]) for name, array in flight.items()}
     assert widths == {name: CHANNELS[name].columns(count, 4 * count) for name in ALWAYS}

@@ -54,7 +54,7 @@ def sample_size(m: Mission) -> int:
         "commands of real rotors": (5 + 4 * count) * (m.actuators.model == "rotors"),
         "wind": 6 * (m.wind.model == "air"),
         "force of floor and walls": 3 * (m.ground.model == "floor"),
-        "readings and estimates": (42 + 6 * count) * (m.sensors.model == "simulated"),
+        "readings and estimates": (45 + 6 * count) * (m.sensors.model == "simulated"),
         "additional sensors": sum(ADDITIONAL[s.name].width for s in m.sensors.additional if s.name in ADDITIONAL),
         "observer": 12 * (m.observer.model != "none"),
         "guidance by hand": 10 * (m.pilot.guidance == "hand"),
