@@ -8,6 +8,8 @@ from scipy.fft import rfft, rfftfreq
 from scipy.signal import find_peaks
 
 import tandemlift as tl
+from tandemlift.simulation.findings import findings_of
+from tandemlift.simulation.plan import FlightPlan
 
 ROTORS = {"actuators.model": "rotors", "mission.duration": 14.0, "mission.log_interval": 0.001}
 CLOCK = {  # on top of mission hover with rotors, in one compiled loop
@@ -144,6 +146,21 @@ def test_a_vehicle_that_stays_in_the_air_has_not_landed(flights):
     assert found.value == pytest.approx(flights["held up"]["position"][-1, 2])
     assert flights["held up"].outcome == "flying"
     assert not of_kind(flights["calm"], "not-landed")
+
+
+def test_the_first_of_several_landings_that_are_asked_for_is_the_one_that_is_missed():
+    asked = [{"action": "land", "time": t} for t in (20.0, 5.0, 60.0)]
+    plan = FlightPlan(tl.load_mission("iris", {"requests": asked, "mission.duration": 70.0}))
+    start = plan.model.flight_state
+    above = start.state._replace(position=start.state.position._replace(z=start.state.position.z + 0.5))
+
+    def missed(seconds, outcome="flying"):
+        found = findings_of(plan, start._replace(state=above), round(seconds / plan.dt), outcome)
+        return [(f.kind, f.value, f.text.split()[-2]) for f in found]
+
+    assert missed(19.0) == [("not-landed", pytest.approx(0.5), "5")]
+    assert missed(69.0) == missed(19.0)
+    assert missed(6.0) == missed(19.0, "landed") == []
 
 
 @pytest.mark.parametrize("name", ["slow rotors", "sideways", "unanswered"])

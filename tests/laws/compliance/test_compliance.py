@@ -7,7 +7,14 @@ from scipy.integrate import solve_ivp
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
 from tandemlift.common.phases import GUIDED
-from tandemlift.laws.compliance.compliance import DeadBand, DeadBandState, compliance_step, dead_band
+from tandemlift.laws.compliance.compliance import (
+    BIAS_CLIP,
+    QUIET_TIME,
+    DeadBand,
+    DeadBandState,
+    compliance_step,
+    dead_band,
+)
 from tandemlift.laws.compliance.energy_tank import EnergyTank, EnergyTankState, passivity_damping
 from tandemlift.laws.guidance.phases import PhaseOutput
 from tandemlift.laws.guidance.yaw_compliance import yaw_step
@@ -69,6 +76,17 @@ def test_a_bias_is_learned_while_nobody_pushes_and_bounds_the_drift():
     assert memory.bias == pytest.approx(0.08, abs=0.01)
     out, _ = heard(lambda t: 0.35, 1.0, memory=memory)
     assert not out.any()  # less than the threshold beyond the bias
+
+
+def test_blows_shorter_than_the_dwell_teach_the_bias_no_more_than_a_fraction_of_the_threshold():
+    """However hard: the mean follows a force that is cut at `BIAS_CLIP` of the threshold, at its own rate."""
+    for size in (0.2, 3.0, 300.0):
+        out, memory = heard(lambda t, size=size: size if (t % 0.1) < 0.0095 else 0.0, 12.0)
+        assert not out.any()
+        assert 0.0 < memory.mean <= 0.3 * BAND.threshold * BAND.bias_rate * 12.0 * 0.11
+    _, memory = heard(lambda t: 0.25, 3.0)
+    learning = 3.0 - QUIET_TIME
+    assert memory.mean == pytest.approx(BIAS_CLIP * BAND.threshold * BAND.bias_rate * learning, rel=0.01)
 
 
 def test_the_beginning_of_a_push_is_no_bias():
@@ -160,6 +178,17 @@ def test_a_heading_waits_for_a_vehicle_that_cannot_turn():
     assert heading.angle == pytest.approx(0.3)
 
 
+def test_on_the_ground_the_heading_is_that_of_the_vehicle_however_it_is_turned():
+    g, m = guided({"compliance.yaw.model": "yielding"})
+    for grounded in (1.0, 0.0):
+        heading, yaw = m.heading._replace(rate=0.3), 0.0
+        for i in range(2000):
+            yaw = 0.2 * np.sin(3.0 * i * H)  # as the ground lets it turn
+            _, heading = yaw_step(g.heading, heading, 1.0, yaw, STEERED._replace(grounded=grounded), 0.0, H)
+            assert not grounded or (heading.angle, heading.rate) == (pytest.approx(yaw, abs=1e-15), 0.0)
+    assert heading.angle - yaw > 0.1  # in the air it leads
+
+
 def swing(tank, seconds=20.0):
     """The largest swing in the last second of a vehicle that follows late and is held by a spring [m]."""
     late, stiffness, M, C = 120, 60.0, 1.0, 1.6
@@ -186,3 +215,11 @@ def test_energy_that_runs_out_adds_the_damping_that_keeps_a_stiff_hand_from_swin
     assert kept < 0.5
     energy = [passivity_damping(tank, EnergyTankState(e, 0.0), ZERO, ZERO, 0.0, H)[0] for e in (2.0, 1.0, 0.5, 0.0)]
     assert energy == [0.0, 0.0, 20.0, 40.0]
+
+
+def test_damping_that_was_added_decays_exponentially_once_the_tank_is_full():
+    tank, full = EnergyTank(2.0, 1.0, 40.0, 0.0, 0.5), EnergyTankState(2.0, 1.0)
+    for i in range(1, 4001):
+        damping, full = passivity_damping(tank, full, ZERO, ZERO, 0.0, H)
+        assert damping == pytest.approx(40.0 * np.exp(-0.5 * i * H), rel=2e-3)
+    assert full.energy == 2.0

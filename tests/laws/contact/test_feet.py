@@ -340,3 +340,19 @@ def test_machine_code_of_contact_equals_plain_python(count):
     found, wanted = answers(both, (ground, grip, frame, s))[0], np.array(flat(answer))
     assert np.abs(flat(answer.load)).max() > 1.0
     assert np.abs(found - wanted).max() < 1e-12 * np.abs(wanted).max()
+
+
+def test_a_foot_that_turning_alone_brings_to_the_floor_is_said_to_touch():
+    """Every attitude and spin: the body turns about its centre of mass as SciPy says, and its lowest sole touches."""
+    rng, soles = np.random.default_rng(5), sole_positions(VEHICLE.lever_arms, 0.12, DEPTH).reshape(-1, 3)
+    time, sunk = 0.002, 0.0
+    for _ in range(200):
+        attitude, rates = Rotation.random(random_state=rng), rng.normal(size=3) * 20.0
+        lowest, now = ((attitude * Rotation.from_rotvec(rates * t)).apply(soles)[:, 2].min() for t in (time, 0.0))
+        sunk = max(sunk, now - lowest)
+        q = Quat(*attitude.as_quat(scalar_first=True).tolist())
+        assert may_touch(FLOOR, State(Vec3(0.0, 0.0, -float(lowest) - 1e-3), ZERO, q, vec3(rates)), time)
+    assert sunk > 0.05
+    above = State(Vec3(0.0, 0.0, DEPTH + 0.02), ZERO, LEVEL, ZERO)
+    assert not may_touch(FLOOR, above, time)
+    assert may_touch(FLOOR, above._replace(velocity=Vec3(0.0, 0.0, -13.5)), time)

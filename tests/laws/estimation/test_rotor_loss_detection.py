@@ -4,11 +4,20 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from scipy.signal import StateSpace, lsim
+from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each, vec3
-from tandemlift.laws.estimation.rotor_loss_detection import confirmed, detection_step, left_of, with_trials
+from tandemlift.laws.estimation.rotor_loss_detection import (
+    confirmed,
+    detection_step,
+    followed,
+    left_of,
+    residual,
+    with_trials,
+)
 from tandemlift.laws.guidance.guidance import PilotInput
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.rotors.allocation import mixer_from
@@ -165,3 +174,38 @@ def test_without_detection_nothing_is_left_out_or_tried():
     assert left_of(Nothing(), Nothing()) == 1.0
     assert with_trials(Nothing(), Nothing(), commands, 0.0) is commands
     assert detection_step(Nothing(), Nothing(), None, commands, 1.0, 0.0, DT) == Nothing()
+
+
+def unexplained(attitude, climb, rates, thrust, seconds=0.3):
+    """The residual of a vehicle with an attitude (3 angles), climb(t) [m/s] and rates(t), each rotor at a thrust(t)."""
+    q, memory = Quat(*Rotation.from_euler("ZXY", attitude).as_quat(scalar_first=True).tolist()), SETTLED
+    for k in range(round(seconds / DT)):
+        state = State(ZERO, Vec3(0.0, 0.0, climb(k * DT)), q, vec3(rates(k * DT)))
+        pilot_input = PilotInput(state, ZERO, ZERO, 0.0, Nothing())
+        memory = followed(DETECTION, memory, pilot_input, EIGHT(*(thrust(k * DT),) * 8), k * DT)
+    return np.array(residual(DETECTION, memory, pilot_input))
+
+
+@pytest.mark.parametrize("attitude", [(0.0, 0.0, 0.0), (1.0, 0.5, 0.0), (-2.0, 0.3, -0.7), (0.4, 0.0, 1.1)])
+@pytest.mark.parametrize("missing", [0.0, 0.2])
+def test_on_a_tilted_vehicle_what_thrust_is_missing_along_its_own_axis_is_what_is_not_explained(attitude, missing):
+    """Newton's law along the vertical: m a = T cos(tilt) − m g, with the tilt from SciPy."""
+    cosine, up = Rotation.from_euler("ZXY", attitude).as_matrix()[2, 2], 1.5
+    needed = VEHICLE.mass * (GRAVITY + up) / cosine
+    off = unexplained(attitude, lambda t: up * t, lambda t: (0.0, 0.0, 0.0), lambda t: needed / (1.0 - missing) / 8.0)
+    assert off[0] == pytest.approx(-needed * missing / (1.0 - missing), abs=1e-3 * needed)
+    assert off[1:] == pytest.approx([0.0] * 3, abs=1e-9)
+
+
+def test_a_vehicle_that_tumbles_freely_explains_its_turning_by_its_own_momentum():
+    """Euler's equations without a moment, by SciPy: the rates change by −J⁻¹ (ω × J ω) alone."""
+    J = VEHICLE.inertia
+
+    def rate(t, w):
+        return -np.linalg.solve(J, np.cross(w, J @ w))
+
+    tumbling = solve_ivp(rate, (0.0, 0.3), [3.0, 2.0, 2.5], rtol=1e-10, atol=1e-12, dense_output=True).sol
+    gyroscopic = max(np.abs(np.cross(w, J @ w)).max() for w in tumbling(np.linspace(0.0, 0.3, 50)).T)
+    off = unexplained((0.0, 0.0, 0.0), lambda t: 0.0, tumbling, lambda t: HOVER)
+    assert gyroscopic > 0.5
+    assert np.abs(off[1:]).max() < 0.02 * gyroscopic

@@ -18,7 +18,7 @@ from tandemlift.assembly.persons import path_legs_from, start_person
 from tandemlift.engines.compiled import start_state
 from tandemlift.laws.mechanics.push import PointPush, PushSamples, push_moment
 from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.person.person import PathLeg, PersonState, landing_request, person_step, person_view
+from tandemlift.laws.person.person import PathLeg, PersonState, aim, landing_request, person_step, person_view
 from tandemlift.laws.person.tremor import STILL, TremorNoise, tremor, tremor_step
 from tandemlift.laws.signals.low_pass import LowPassState
 from tandemlift.vehicle import Vehicle
@@ -175,3 +175,15 @@ def test_a_mission_without_a_person_has_none():
     model, given, tables, *_ = assemble(tl.load_mission("hover"))
     assert model.person == model.flight_state.person == given.person == ()
     assert len(tables.legs) == 0
+
+
+def test_two_hands_turn_the_beam_as_a_spring_and_a_damper_about_the_vertical():
+    """The couple K (ψ_leg − ψ) − D ψ̇ at the predicted heading; the heading of this leg is 0."""
+    person, memory, legs = company("two-hands", ((5.0, 0.0),), tremor=0.0, max_couple=1e3)
+    s, ahead = person.settings, person.arm.horizon
+    assert legs[0].heading == 0.0
+    for yaw, rate in ((0.1, 0.0), (-0.2, 0.4), (0.0, -0.5)):
+        turning = at((0.0, 0.0, 1.0), yaw=yaw)._replace(rates=Vec3(0.0, 0.0, rate))
+        couple = aim(person, memory._replace(view=person_view(person.grip, turning), leg=legs[0])).couple
+        assert couple == pytest.approx(-s.yaw_gain * (yaw + rate * ahead) - s.yaw_damping * rate, rel=1e-12)
+    assert s.yaw_damping * 0.4 > 0.05

@@ -46,3 +46,23 @@ def test_a_name_that_some_flights_have_is_kept_of_these(tmp_path):
     assert zigzag["human_path_m"] >= 0.0
     assert len(zigzag["flight.phase"]) == len(zigzag["flight.time"])
     assert len(plain["flight.position_error"]) == 3 * len(plain["flight.time"])
+
+
+@pytest.mark.parametrize(
+    ("asked", "rows"),
+    [
+        ({"every": 3}, [0, 3, 6, 9]),
+        ({"rows": [5, 8]}, [5, 8]),
+        ({"every": 4, "rows": [1], "outcomes": ["crashed"]}, [0, 1, 4, 8]),
+        ({"outcomes": ["flying"]}, list(range(10))),
+    ],
+)
+def test_channels_are_kept_of_one_row_in_so_many_of_those_named_and_of_those_with_an_outcome(asked, rows, tmp_path):
+    study = {
+        "study": {"name": "some", "missions": ["one-push"], "seeds": 10, "rows_per_unit": 4},
+        "set": {"mission.duration": 0.1},
+        "keep": {"channels": ["position"], **asked},
+    }
+    fly(study, tmp_path)
+    table = tl.load_study(tmp_path).read(["row", "flight.position"]).to_pylist()
+    assert [row["row"] for row in table if row["flight.position"]] == rows
