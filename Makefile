@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page docs test lint types imports tests examples test-pythons test-distributions test-gazebo test-targets random-missions bench compare-engines bench-peers lock clean help
+.PHONY: run live page docs test lint types imports tests examples test-pythons test-distributions test-gazebo test-targets random-missions mutation-check bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -66,6 +66,9 @@ test-targets: .venv/dev  ## every target on every mission: cross compilers, QEMU
 
 random-missions: .venv/dev  ## a thousand missions at random, each outcome confirmed by a judge; into docs/reference/validation.md
 	$(BIN)/python tools/random_missions.py --write
+
+mutation-check: .venv/dev  ## small mistakes in laws, loop, simulation and studies, one at a time: does a test notice each? For hours
+	$(BIN)/python tools/mutation_check.py
 
 bench: .venv/dev ## speed of everything, printed
 	$(BIN)/python benchmarks/bench.py

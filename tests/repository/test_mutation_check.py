@@ -1,0 +1,63 @@
+"""`make mutation-check` makes mistakes where they can be made, laws included, and knows why it leaves some out."""
+
+import ast
+import tomllib
+
+import mutation_check
+import pytest
+from mutants.operators import mutants
+
+LAW = b"""@law
+def pull(k, m, dt):
+    \"\"\"Text + more.\"\"\"
+    force = -k.stiffness * (m.x - 0.5)
+    return where(force < k.limit, clip(force, 0.0, 1.0), minimum(force, dt))
+
+
+@pull.register(Spring)
+def _spring(k, m):
+    return cross(k, m) if not k else ahead(m, k, 1e-12)
+"""
+
+
+@pytest.mark.parametrize(
+    "mistake",
+    [
+        "pull: -k.stiffness * (m.x - 0.5) -> -k.stiffness / (m.x - 0.5)",
+        "pull: -k.stiffness -> k.stiffness",
+        "pull: m.x - 0.5 -> m.x + 0.5",
+        "pull: m.x - 0.5 -> m.x",
+        "pull: m.x -> m.y",
+        "pull: 0.5 -> 1.0",
+        "pull: force < k.limit -> force <= k.limit",
+        "pull: force < k.limit -> force > k.limit",
+        "pull: clip(force, 0.0, 1.0) -> force",
+        "pull: minimum(force, dt) -> maximum(force, dt)",
+        "_spring: cross(k, m) -> cross(m, k)",
+        "_spring: not k -> k",
+    ],
+)
+def test_each_kind_of_mistake_is_made_in_laws_and_their_variants(mistake):
+    found = {m.name: m for m in mutants("a.py", LAW)}
+    mutant = found[f"a.py: {mistake}"]
+    assert mutant.is_law
+    wanted = mistake.partition(": ")[2].partition(" -> ")
+    assert ast.unparse(ast.parse(mutant.made_in(LAW))) == ast.unparse(
+        ast.parse(LAW.replace(wanted[0].encode(), f"({wanted[2]})".encode(), 1))
+    )
+    assert not [name for name in found if "Text" in name or "1e-12 ->" in name]
+
+
+def test_at_least_300_mistakes_are_drawn_more_than_half_in_laws_each_can_be_compiled_and_no_two_are_one():
+    every = [m for room in mutation_check.ROOMS for m in mutation_check.drawn(room, 320, 25)]
+    assert len(every) >= 300
+    assert sum(m.is_law for m in every) > len(every) / 2
+    assert len({m.name for m in every}) == len(every)
+    for m in every:
+        source = (mutation_check.PACKAGE / m.file).read_bytes()
+        assert ast.dump(ast.parse(m.made_in(source))) != ast.dump(ast.parse(source)), m.name
+
+
+def test_a_mistake_that_no_test_can_notice_has_a_reason_in_a_line():
+    reasons = tomllib.loads(mutation_check.REASONS.read_text("utf-8"))["equivalent"]
+    assert [name for name, why in reasons.items() if len(why) < 20 or "\n" in why] == []
