@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from law_values import array, paper_vehicle, seeds
 from scipy.linalg import solve_continuous_are
+from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.algebra.constants import GRAVITY
@@ -100,6 +101,26 @@ def test_an_error_tilts_the_vehicle_towards_the_reference_whatever_its_yaw(name,
     assert up[:2] @ [0.02, 0.05] > 0.0
     for axis, way in enumerate((up[0], up[1])):
         assert way * (0.02, 0.05)[axis] > 0.0
+
+
+@EACH
+def test_the_drag_at_the_present_velocity_is_added_to_the_thrust(name):
+    """At the wanted velocity: m g + D_z v_z, level."""
+    gains, memory = started(name)
+    drag = gains.vehicle._replace(drag_force=Vec3(0.3, 0.4, 0.5))
+    climbing = Vec3(0.0, 0.0, 1.2)
+    state = State(ZERO, climbing, LEVEL, ZERO)
+    reference = Reference(STILL._replace(velocity=climbing), 0.0)
+    found, _ = control(gains._replace(vehicle=drag), memory, Measured(state, ZERO), reference)
+    assert found.wrench.thrust == pytest.approx(MASS * GRAVITY + 0.5 * 1.2, rel=1e-9)
+
+
+def test_the_thrust_of_the_geometric_controller_is_the_wanted_force_along_the_body_s_own_axis():
+    """f = (m g e_z − D) · R e_z, at rest at the reference, with R from SciPy."""
+    turned, wind = Rotation.from_euler("zxy", [0.8, 0.3, -0.2]), np.array([1.0, -2.0, 0.5])
+    state = State(ZERO, ZERO, Quat(*turned.as_quat(scalar_first=True).tolist()), ZERO)
+    found = command("geometric", state, disturbance=Disturbance(vec3(wind), ZERO)).wrench.thrust
+    assert found == pytest.approx(turned.apply([0.0, 0.0, 1.0]) @ ([0.0, 0.0, MASS * GRAVITY] - wind), rel=1e-12)
 
 
 # LQR

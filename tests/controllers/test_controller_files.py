@@ -178,6 +178,10 @@ WRONG_LAWS = {
         (("return gains, Memory", "return Memory"),),
         "must return (gains, memory), not Memory(Vec3)",
     ),
+    "a list of gains and memory": (
+        (("return gains, Memory(ZERO)", "return [gains, Memory(ZERO)]"),),
+        "must return (gains, memory), not list",
+    ),
     "a typo in start": ((("vehicle.mass", "vehicle.mas"),), "line 71: AttributeError: 'Vehicle' object has no"),
     "a default that is not allowed": ((("key(4.0", "key(-4.0"),), "controller.stiffness: must be one number or a list"),
 }

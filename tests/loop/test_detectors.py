@@ -2,10 +2,27 @@
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
-from tandemlift.algebra.vector import ZERO, Vec3
-from tandemlift.loop.detectors import NO_RESPONSE, PushLimits, push_step
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.laws.guidance.guidance import ThrustFraction
+from tandemlift.laws.rotors.allocation import mixer_from
+from tandemlift.laws.rotors.rotors import IdealRotors
+from tandemlift.loop.detectors import (
+    ASLEEP,
+    NO_RESPONSE,
+    FindingLimits,
+    PushLimits,
+    counted,
+    detect,
+    push_step,
+    thrust_needed,
+)
+from tandemlift.loop.excess import NO_EXCESS
+from tandemlift.loop.oscillation import OscillationLimits, Swings
 
 DT = 0.01
 LIMITS = PushLimits(
@@ -71,3 +88,84 @@ def test_a_push_that_was_unanswered_leaves_nothing_to_the_next():
         return (FORCE, 0.0, 1.0) if t < 1.9 else (0.0, 0.0, 1.0) if t < 3.0 else (FORCE, 0.12, 1.0)
 
     assert not watched(story, 8.0)[-1].unanswered.steps
+
+
+def test_a_rotor_that_cannot_be_used_is_not_at_its_limit():
+    assert [counted(at_limit, usable) for at_limit in (0.0, 1.0) for usable in (0.0, 7.0)] == [0.0, 0.0, 0.0, 1.0]
+
+
+def test_the_thrust_that_the_reference_needs_is_that_of_newton():
+    needed = 3.0 * np.linalg.norm([1.0, -2.0, 0.5 + GRAVITY])
+    assert thrust_needed(NO_EXCESS, 3.0, Vec3(1.0, -2.0, 0.5)) == pytest.approx(needed**2)
+
+
+# All detectors together, on a vehicle whose motion and reference are given
+
+CALM = {
+    "position": ZERO, "velocity": ZERO, "rates": ZERO, "euler": ZERO, "attitude": Quat(1.0, 0.0, 0.0, 0.0),
+    "reference_position": ZERO, "reference_velocity": ZERO, "reference_acceleration": ZERO, "reference_euler": ZERO,
+    "push_force": ZERO,
+}  # fmt: skip
+OSCILLATION = OscillationLimits(Swings(0.3, 0.3, 0.3, 0.15), shortest=0.02, longest=2.0, halves=4.0)
+FOUND = FindingLimits(1.0, 0.1**2, 0.2, np.cos(0.25), 3.0, 40.0**2, 0.3**2, LIMITS, OSCILLATION)
+TILTED = Quat(*Rotation.from_euler("x", 0.3).as_quat(scalar_first=True).tolist())
+BAD = {  # beyond one limit each
+    "distance": {"position": Vec3(0.08, 0.0, -0.08)},
+    "heading": {"reference_euler": Vec3(0.0, 0.0, -0.21)},
+    "tilt": {"attitude": TILTED},
+    "reach": {"reference_acceleration": Vec3(0.0, 8.0, 3.0)},
+}
+
+
+def detected(sample, seconds=3.0, running=1.0):
+    """The memory of all detectors after a flight whose samples are given, as a function of time."""
+    memory = ASLEEP._replace(saturation=Nothing())
+    effect = mixer_from(np.ones((4, 4)))
+    pilot = SimpleNamespace(detection=Nothing(), allocation=effect)
+    guidance = SimpleNamespace(flying=1.0, running=ThrustFraction(running), force=ZERO)
+    decision = SimpleNamespace(guidance=guidance, thrusts=each(4)(1.0, 1.0, 1.0, 1.0))
+    output = SimpleNamespace(decision=decision)
+    for k in range(round(seconds / DT)):
+        state = SimpleNamespace(detectors=memory, memory=SimpleNamespace(detection=Nothing()))
+        model = SimpleNamespace(finding_limits=FOUND, flight_state=state, pilot=pilot, rotors=IdealRotors())
+        memory = detect(model, output, SimpleNamespace(**{**CALM, **sample(k * DT)}), k * DT, DT)
+    return memory
+
+
+def test_nothing_wakes_the_detectors_of_a_calm_flight():
+    calm = detected(lambda t: {})
+    assert calm == ASLEEP._replace(saturation=Nothing(), steps=pytest.approx(200.0))
+
+
+@pytest.mark.parametrize("name", list(BAD))
+def test_each_limit_wakes_its_detector_and_no_other_and_counts_only_once_settled(name):
+    found = detected(lambda t: BAD[name] if t < 2.0 else {})
+    late = 100 if name != "reach" else 200
+    for other in ("distance", "heading", "tilt", "reach"):
+        assert getattr(found, other).steps == (pytest.approx(late, abs=1) if other == name else 0.0), other
+    assert found.awake == 0.0
+    assert detected(lambda t: BAD[name]).awake == 1.0
+    assert detected(lambda t: BAD[name], running=0.0).distance.steps == 0.0
+
+
+def test_what_each_detector_remembers_is_what_was_exceeded():
+    worst = {name: getattr(detected(lambda t, name=name: BAD[name]), name).worst for name in BAD}
+    wanted = {
+        "distance": 2.0 * 0.08**2,
+        "heading": 0.21,
+        "tilt": 1.0 - np.cos(0.3),
+        "reach": 9.0 * (64.0 + (3.0 + GRAVITY) ** 2),
+    }
+    assert worst == pytest.approx(wanted)
+    assert detected(lambda t: BAD["distance"]).squares == pytest.approx(200 * wanted["distance"])
+
+
+@pytest.mark.parametrize("signal", Swings._fields)
+def test_an_oscillation_is_found_in_the_signal_that_swings(signal):
+    def swinging(t):
+        x = np.sin(2.0 * np.pi * 2.0 * t)
+        rates = Vec3(*[float(x) if signal == name else 0.0 for name in ("roll", "pitch", "yaw")])
+        return {"rates": rates, "velocity": Vec3(0.0, 0.0, float(x) if signal == "vertical" else 0.0)}
+
+    swings = detected(swinging, 4.0).oscillation.swings
+    assert {name for name, found in swings._asdict().items() if found.halves > 0.0} == {signal}
