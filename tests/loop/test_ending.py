@@ -49,7 +49,7 @@ def test_a_force_beyond_the_weight_adds_up_and_fades(force, beyond):
 
 
 def flown(numbers, states, seconds, duration=5.0):
-    """(the memory, the ending) after each step with the number(t) of an ending and a state(t); the impulse is the step."""
+    """(the memory, the ending) after each step with the number(t) of an ending and a state(t); impulse k in step k."""
     crash, found = SOUND, []
     for k in range(round(seconds / DT)):
         t = k * DT
