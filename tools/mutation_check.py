@@ -1,6 +1,6 @@
 """Mutation testing: make small mistakes in the source, one at a time, and see whether a test fails for each.
 
-python tools/mutation_check.py [--count 320] [--seed 25] [--jobs 2] [--rooms laws studies]
+python tools/mutation_check.py [--count 320] [--seed 25] [--jobs 2] [--rooms laws studies] [--tests "tests/laws/*"]
 
 A mistake (mutant) is made in a copy of the repository under out/mutants, never in the source. First, each test file
 runs once, to learn which functions each of its tests calls, and what it costs. Then each mutant runs against the tests
@@ -45,11 +45,9 @@ BLIND = [  # tests that compare one source with itself, and tests of what is apa
     "*/test_one_source*.py", "*/test_jacobian.py", "*/test_compiling.py", "*/test_kills.py",
     "tests/studies/validation/*", "*/test_random_missions.py", "*/test_silent_failures.py",
 ]  # fmt: skip
-ENOUGH, BUDGET, FIRST = (
-    0.95,
-    300.0,
-    5.0,
-)  # share to kill; s of tests for a mutant; s of them that run in a first process
+CHOSEN: list[str] = []  # patterns of --tests
+ENOUGH = 0.95  # of the mutants that are not equivalent have to be killed
+BUDGET = 120.0  # s of tests at most for a mutant
 
 
 def digest(*content: bytes) -> str:
@@ -69,6 +67,11 @@ def tests_in(folders: Iterable[str]) -> list[str]:
     """The test files in folders, from the root."""
     found = [p.relative_to(ROOT).as_posix() for folder in folders for p in sorted((ROOT / folder).rglob("test_*.py"))]
     return [file for file in found if not any(fnmatch(file, blind) for blind in BLIND)]
+
+
+def chosen_in(folder: str) -> list[str]:
+    """The test files in a folder that this run uses."""
+    return [file for file in tests_in([folder]) if not CHOSEN or any(fnmatch(file, pattern) for pattern in CHOSEN)]
 
 
 def calls(file: str) -> Path:
@@ -93,7 +96,7 @@ def calling(mutant: Mutant, folder: str) -> dict[str, float]:
 @cache
 def calls_in(folder: str) -> dict[str, tuple[float, list[str]]]:
     """What the tests in a folder cost and call."""
-    return {test: said for file in tests_in([folder]) for test, said in json.loads(calls(file).read_text()).items()}
+    return {test: said for file in chosen_in(folder) for test, said in json.loads(calls(file).read_text()).items()}
 
 
 class Book:
@@ -113,11 +116,13 @@ class Book:
         return False, None
 
     def add(self, mutant: Mutant, folders: list[str], killer: str | None) -> None:
-        """Keep a result of the tests in the last of folders."""
+        """Keep a result of the tests in the last of folders; what some of them do not notice, others may."""
+        print(f"{killer or 'no test in ' + folders[-1]} notices {mutant.name}", flush=True)
+        if CHOSEN and not killer:
+            return
         with self.file.open("a") as file:
             said = mutant.name, len(folders), state_of(mutant, folders, killer), killer
             file.write(json.dumps(said) + "\n")
-        print(f"{killer or 'no test in ' + folders[-1]} notices {mutant.name}", flush=True)
 
 
 def table(found: dict[str, list[Mutant]]) -> tuple[list[str], float]:
@@ -165,7 +170,7 @@ def try_fast(copy: Copy, part: list[tuple[Mutant, list[str]]]) -> None:
         if tests and (killer := copy.killer(mutant, tests, lambda: session.run_with(mutant, tests))):
             Book().add(mutant, folders, killer)
 
-    copy.pytest(sorted(tests_in([part[0][1][-1]])), Exchanging(copy, part, work))
+    copy.pytest(chosen_in(part[0][1][-1]), Exchanging(copy, part, work))
 
 
 def try_slowly(copy: Copy, part: list[tuple[Mutant, list[str]]]) -> None:
@@ -184,7 +189,9 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=25, help="of the draw (%(default)s)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes (%(default)s)")
     parser.add_argument("--rooms", nargs="+", choices=ROOMS, default=list(ROOMS), help="only these (all)")
+    parser.add_argument("--tests", nargs="+", default=[], help="only these test files, or patterns of them (all)")
     given = parser.parse_args()
+    CHOSEN[:] = given.tests
     found = {room: drawn(room, given.count, given.seed) for room in given.rooms}
     for folder in ("calls", "traced", "machine-code"):
         (OUT / folder).mkdir(parents=True, exist_ok=True)
@@ -194,7 +201,7 @@ def main() -> int:
         todo = [one for one in rest if one[0].name not in book.equivalent and not book.known(*one)[0]]
         for folder in dict.fromkeys(folders[-1] for _, folders in todo):
             mine = [one for one in todo if one[1][-1] == folder]
-            missing = [(file, calls(file)) for file in tests_in([folder]) if not calls(file).exists()]
+            missing = [(file, calls(file)) for file in chosen_in(folder) if not calls(file).exists()]
             share(ROOT, OUT, given.jobs, missing, record)
             share(ROOT, OUT, given.jobs, mine, try_fast)
             share(ROOT, OUT, given.jobs, [one for one in mine if not Book().known(*one)[0]], try_slowly)
