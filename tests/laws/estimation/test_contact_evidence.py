@@ -229,10 +229,10 @@ def test_what_is_heard_of_a_steady_force_is_nothing_and_of_a_sudden_one_all():
         memory, d = heard(DETECTOR, memory, e, reading((0.1, 0.2), (0.3, -0.1), (0.2, 0.4)), hold, DT)
     assert max(np.abs(np.array(part)).max() for part in d) < 1e-3
     for _ in range(100):  # long for the low-pass, short for the means
-        memory, d = heard(DETECTOR, memory, e, reading((0.6, -0.2), (1.3, 0.9), (-0.8, 1.4)), hold, DT)
+        memory, d = heard(DETECTOR, memory, e, reading((0.6, -0.2), (1.3, 0.9), (0.5, 1.4)), hold, DT)
     a, f = (
         np.array([0.5, -0.4]),
-        np.array([[1.0, -1.0], [1.0, 1.0]]),
+        np.array([[1.0, 0.3], [1.0, 1.0]]),
     )  # by how much they jumped; f: x and y by quadrotor
     wanted = Deviations(f + np.outer(a, [0.5, 0.7]), f + np.outer(a, [0.5, 0.7]), f, 3.0 * a, 1.8 * a - f.sum(axis=1))
     for found, part in zip(d, wanted, strict=True):

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
 from tandemlift.assembly.actuators import ground_effect_from, rotors_from
@@ -110,6 +111,21 @@ def test_ground_effect_is_bounded_on_the_floor_and_gone_high_up():
     on_it = ground_effect_ratio(surface, LEVEL._replace(position=ZERO))
     assert max(on_it) == pytest.approx(4.0 / 3.0, rel=1e-12)
     assert max(ground_effect_ratio(surface, LEVEL)) < 1.0001
+
+
+def test_each_rotor_of_a_tilted_vehicle_gains_by_its_own_height():
+    """Heights by SciPy's rotation; in flight the ratio multiplies the thrust of the free rotor."""
+    turned, low = Rotation.from_euler("zxy", [0.8, 0.2, -0.15]), Vec3(0.4, -0.3, 0.5)
+    state = LEVEL._replace(position=low, attitude=Quat(*turned.as_quat(scalar_first=True).tolist()))
+    surface = ground_effect_from(VEHICLE, 0.0)
+    height = 0.5 + turned.apply(np.transpose(surface.rotors))[:, 2]
+    assert np.ptp(height) > 0.15
+    ratio = 1.0 / (1.0 - (0.128 / (4.0 * np.maximum(height, 0.064))) ** 2)
+    assert list(ground_effect_ratio(surface, state)) == pytest.approx(ratio.tolist(), rel=1e-12)
+    memory, command = RotorState(EIGHT(*(800.0,) * 8), EIGHT(*(0.0,) * 8)), EIGHT(*(4.0,) * 8)
+    near, _ = rotors_step(rotors(surface=surface), memory, command, state, 0.0)
+    free, _ = rotors_step(rotors(), memory, command, state, 0.0)
+    assert list(near) == pytest.approx((np.array(free) * ratio).tolist(), rel=1e-12)
 
 
 def test_ideal_rotors_give_any_thrust_at_once():
