@@ -77,6 +77,7 @@ CAUSES = {  # the table of the module: deviations, the part that touches
     "a guard that the motion confirms": (seen(guard=FORCE, moves=0.71 * FORCE), 1.0),
     "a guard that the motion hardly confirms": (seen(guard=FORCE, moves=0.69 * FORCE), 0.0),
     "a beam that the motion hardly confirms": (seen(push=FORCE, moves=0.69 * FORCE), 0.0),
+    "a push beside a larger force on a guard": (seen(guard=[-6.0, 0.0], push=FORCE, moves=FORCE), 0.0),
     "a guard with less than the push": (seen(guard=FORCE, push=1.1 * FORCE, moves=FORCE), BEAM),
 }  # fmt: skip
 

@@ -97,10 +97,13 @@ def test_the_parts_of_the_injection_meet_continuously():
 def test_nothing_is_estimated_on_the_ground():
     vehicle, k, memory = started(model="super-twisting")
     for _ in range(100):
-        told = Told(State(ZERO, Vec3(1.0, 0.0, 0.0), LEVEL, ZERO), ZERO, ZERO)
+        told = Told(State(ZERO, Vec3(1.0, 0.0, 0.0), LEVEL, Vec3(0.3, 0.2, 0.1)), ZERO, ZERO)
         unknown, memory = observer_step(k, memory, told, hover(vehicle) * 0.0, 0.0, 1.0, H)
         assert unknown.force == ZERO
         assert unknown.moment == ZERO
+    learned = memory._replace(acceleration=Vec3(0.1, 0.2, 0.3), turning=Vec3(0.3, 0.2, 0.1))
+    unknown, memory = observer_step(k, learned, told, hover(vehicle) * 0.0, 0.0, 1.0, H)
+    assert (unknown.force, unknown.moment) == (ZERO, ZERO)  # what was learned in flight is forgotten
 
 
 def test_a_disturbing_moment_is_found_about_every_axis():

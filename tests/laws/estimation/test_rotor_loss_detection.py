@@ -10,9 +10,11 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each, vec3
+from tandemlift.laws.estimation.rotor_loss_decision import decision_step
 from tandemlift.laws.estimation.rotor_loss_detection import (
     confirmed,
     detection_step,
+    explained_by,
     followed,
     left_of,
     residual,
@@ -96,6 +98,7 @@ def test_a_rotor_that_stops_is_named_within_80_ms_and_stays_named(rotor):
     assert [number for _, number in seen] == [rotor + 1]
     assert 0.1 < seen[0][0] < 0.18
     assert confirmed(DETECTION, memory.verdict, 0.9) == 1.0
+    assert confirmed(DETECTION, memory.verdict, seen[0][0] + DETECTION.rules.retest_time - DT) == 0.0
     assert left_array(memory)[rotor] == 0.0
     assert left_array(memory).sum() == 7.0
 
@@ -209,3 +212,21 @@ def test_a_vehicle_that_tumbles_freely_explains_its_turning_by_its_own_momentum(
     off = unexplained((0.0, 0.0, 0.0), lambda t: 0.0, tumbling, lambda t: HOVER)
     assert gyroscopic > 0.5
     assert np.abs(off[1:]).max() < 0.02 * gyroscopic
+
+
+@pytest.mark.parametrize("rotor", range(8))
+def test_what_a_lost_rotor_explains_is_its_column_of_the_effect(rotor):
+    verdict = named(rotor, 0.0).verdict
+    thrusts = np.linspace(3.0, 5.0, 8)
+    found = np.array(explained_by(DETECTION, verdict, EIGHT(*thrusts.tolist())))
+    assert found == pytest.approx(-VEHICLE.effect[:, rotor] * thrusts[rotor], abs=1e-12)
+
+
+@pytest.mark.parametrize(("explained", "names"), [(1.05, True), (0.95, False)])
+def test_only_a_rotor_that_explains_nearly_all_of_the_residual_is_named(explained, names):
+    rules, verdict = DETECTION.rules, SETTLED.verdict
+    evidence = EIGHT(*np.where(np.arange(8) == 3, 10.0 * rules.threshold, 0.0).tolist())
+    square = 10.0 * rules.threshold / (1.0 - rules.unexplained_fraction) / explained
+    for k in range(100):
+        verdict = decision_step(rules, verdict, evidence, square, 1.0, k * DT, DT)
+    assert np.array(verdict.lost).tolist() == (np.eye(8)[3] * names).tolist()

@@ -2,17 +2,19 @@
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, vec3
 from tandemlift.common.phases import GUIDED, IDLE, LAND, LIFT
-from tandemlift.laws.guidance.guidance import PilotInput
+from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate
+from tandemlift.laws.guidance.guidance import PilotInput, guide
 from tandemlift.laws.guidance.hand_guidance import grounded_at, presses_on_ground, with_lift_and_landing
 from tandemlift.laws.guidance.phases import PhaseOutput
 from tandemlift.laws.guidance.supervised_reference import fenced, usable_input, with_blind_descent
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.rotors.rotor_faults import NoFaults
-from tandemlift.laws.signals.low_pass import LowPassState
+from tandemlift.laws.signals.low_pass import LowPassState, low_pass_step
 from tandemlift.laws.signals.trajectories import SmoothStep, Trajectory
 from tandemlift.pilot.assemble import admittance_from
 from tandemlift.pilot.guidance import start_hand_guidance
@@ -67,6 +69,59 @@ def test_on_the_ground_the_reference_stays_with_the_vehicle_at_rest_and_in_the_a
     assert (grounded.position, grounded.anchor) == (STATE.position, STATE.position)
     assert grounded.output == LowPassState(ZERO, ZERO)
     assert grounded.velocity == grounded.acceleration == grounded.jerk == ZERO
+
+
+def test_the_heading_yields_to_the_moment_about_the_vertical_however_the_vehicle_is_tilted():
+    mission = tl.load_mission("one-push", {"pilot.guidance": "hand", "compliance.yaw.model": "yielding"})
+    g, m = start_hand_guidance(
+        mission, Vehicle.from_settings(mission.vehicle), admittance_from(mission.admittance), NoFaults()
+    )
+    tilted, moment = Rotation.from_euler("zxy", [0.7, 0.3, -0.2]), [0.5, -0.3, 0.8]
+    state = STATE._replace(attitude=Quat(*tilted.as_quat(scalar_first=True).tolist()))
+    pilot_input = PilotInput(state, ZERO, vec3(moment), 0.0, Nothing())
+    none = DisturbanceEstimate(ZERO, ZERO, ZERO, ZERO)
+    after = guide(g, m, pilot_input, none, 0.0, 0.0, 1e-3)[1].heading.filtered
+    wanted = low_pass_step(g.heading.input_filter, m.heading.filtered, tilted.apply(moment)[2])
+    assert after.rate == pytest.approx(wanted.rate)
+    assert after.value == pytest.approx(wanted.value)
+
+
+ALONE = GUIDANCE._replace(supervision=Nothing())
+
+
+def stepped(m, pilot_input):
+    """The memory after a sample without a disturbance, unsupervised."""
+    return guide(ALONE, m, pilot_input, DisturbanceEstimate(ZERO, ZERO, ZERO, ZERO), 0.0, 20.0, 1e-3)[1]
+
+
+HOVERING = MEMORY._replace(phase=MEMORY.phase._replace(phase=GUIDED, lift_fraction=1.0), supervision=Nothing())
+
+
+def test_a_vehicle_that_has_lost_its_heading_for_too_long_lands():
+    for lost, phase in ((0.9, GUIDED), (1.1, LAND)):
+        time = lost * GUIDANCE.following.heading_timeout
+        m = HOVERING._replace(following=HOVERING.following._replace(heading=time))
+        assert stepped(m, PilotInput(STATE, ZERO, ZERO, 0.0, Nothing())).phase.phase == phase
+
+
+def test_everything_is_the_same_above_a_higher_ground():
+    """Reference, vehicle and ground are 2 m higher: near the ground a downward push is limited alike."""
+    down = GUIDANCE.compliance.band.threshold.z * 20.0
+    found = []
+    for ground in (0.0, 2.0):
+        near = Vec3(0.0, 0.0, ground + 0.12 - GUIDANCE.phasing.height)
+        falling = HOVERING.compliance._replace(
+            position=near,
+            anchor=near,
+            velocity=Vec3(0.0, 0.0, -0.2),
+            band=HOVERING.compliance.band._replace(active=Vec3(0.0, 0.0, 1.0)),
+            output=LowPassState(Vec3(0.0, 0.0, -down), ZERO),
+        )
+        m = HOVERING._replace(compliance=falling, phase=HOVERING.phase._replace(ground=ground))
+        state = STATE._replace(position=Vec3(0.0, 0.0, ground + 0.12))
+        found.append(stepped(m, PilotInput(state, Vec3(0.0, 0.0, -down), ZERO, 0.0, Nothing())).compliance)
+    assert found[1].acceleration == pytest.approx(found[0].acceleration)
+    assert found[0].acceleration.z > 0.0  # it brakes, although it is pushed down
 
 
 def test_feet_press_on_the_ground_below_it_in_a_landing_and_on_a_floor_after_it():

@@ -195,3 +195,14 @@ def test_a_landing_ends_just_above_the_ground_where_the_vehicle_still_turns(rate
     state = State(Vec3(0.0, 0.0, height), ZERO, LEVEL, Vec3(0.0, 0.0, rate))
     after = update_phase(PHASING, m, state, requests_until(Nothing(), 1.0), (0.0, 0.0), FREE, 1.0, DT)
     assert (after.phase == IDLE) == ends
+
+
+def test_the_ramp_of_a_landing_goes_from_0_to_1_in_its_time_and_stays_there():
+    k, m = PHASING, BEFORE._replace(phase=LAND, since=2.0, land_rate=0.5)
+    ramp = [phase_output(k, m, t).land for t in (2.0, 3.0, 4.0)]
+    assert [step.value for step in ramp] == pytest.approx([0.0, 0.5, 1.0])
+    assert ramp[1].rate > 0.5  # twice the mean, or nearly
+    quarters = [phase_output(k, m, t).land.value for t in (2.5, 3.5)]
+    assert quarters[0] + quarters[1] == pytest.approx(1.0)
+    landed = phase_output(k._replace(always_running=1.0), m._replace(phase=IDLE), 9.0).land
+    assert (landed.value, landed.rate, landed.curvature) == (1.0, 0.0, 0.0)

@@ -16,6 +16,7 @@ from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.rotors.allocation import (
     ConstrainedAllocation,
     allocate,
+    command_for,
     limits_at,
     mixer_from,
     outside_limits,
@@ -165,3 +166,7 @@ def test_the_pilot_of_the_real_iris_allocates_what_makes_the_wrench(method):
             moment[2] += 0.06 * spin * f
     assert [total, *moment] == pytest.approx(wanted, abs=1e-12)
     assert np.all((thrusts > 0.0) & (thrusts < vehicle.quadrotors[0].max_thrust))
+
+
+def test_a_failed_rotor_is_commanded_nothing_whatever_it_is_allotted():
+    assert [command_for(3.0, efficiency) for efficiency in (1.0, 0.5, 0.0)] == [3.0, 6.0, 0.0]

@@ -139,12 +139,6 @@ def out_of_range_of_sets(v: Vec3, largest: Any) -> Any:
     return any_of_sets(Vec3(out_of_range(v.x, largest), out_of_range(v.y, largest), out_of_range(v.z, largest)))
 
 
-@law
-def differing_components(v: Vec3, last: Vec3) -> Any:
-    """How many components of each vector differ, a set."""
-    return differs(v.x, last.x) + differs(v.y, last.y) + differs(v.z, last.z)
-
-
 @choice
 def check_sample(limits: Any, sample: Any, last: Any) -> Any:
     """The `SampleChecks` of a sample; it and the one before it are tuples of the sensor's quantities."""
