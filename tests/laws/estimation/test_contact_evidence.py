@@ -212,6 +212,17 @@ def test_a_force_away_from_a_near_wall_is_explained_by_the_first_wall_that_can()
         assert not np.array(found.offset).any()
 
 
+def test_of_two_posts_that_explain_a_force_the_first_counts():
+    level, zero = STATE._replace(position=ZERO, attitude=Quat(1.0, 0.0, 0.0, 0.0)), PAIR(0.0, 0.0)
+    near = Wall(PAIR(0.3, 0.1), PAIR(1.25, -0.7), zero, zero, zero, PAIR(9.0, 9.0))  # 0.2 and 0.25 or 0.3 m beside
+    far = near._replace(x=PAIR(5.0, 5.0))
+    out = Vec3(PAIR(-2.0, -2.0), PAIR(-2.5, -3.0), zero)
+    for first, second in ((near, near), (near, far), (far, near)):
+        found = guards_matched(NearWalls(first, second, Nothing(), Nothing()), GEOMETRY, level, out)
+        assert found.matched == PAIR(1.0, 1.0)
+        assert np.array(found.offset) == pytest.approx(np.array([[-0.2, -0.2], [-0.25, -0.3], [0.0, 0.0]]))
+
+
 def test_what_is_heard_of_a_steady_force_is_nothing_and_of_a_sudden_one_all():
     """Deviations from slow means: c_i = f_i + m_i s_i on the guards, p = m_L s − Σ f_i, T = m s, j_i = f_i."""
     base = dict.fromkeys(PushEstimator._fields, 0.0)

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each, vec3
-from tandemlift.laws.estimation.rotor_loss_decision import decision_step
+from tandemlift.laws.estimation.rotor_loss_decision import decision_step, share_gone, support
 from tandemlift.laws.estimation.rotor_loss_detection import (
     confirmed,
     detection_step,
@@ -230,3 +230,13 @@ def test_only_a_rotor_that_explains_nearly_all_of_the_residual_is_named(explaine
     for k in range(100):
         verdict = decision_step(rules, verdict, evidence, square, 1.0, k * DT, DT)
     assert np.array(verdict.lost).tolist() == (np.eye(8)[3] * names).tolist()
+
+
+@pytest.mark.parametrize(("fit", "size"), [(3.0, 4.0), (0.5, 2.0), (9.0, 4.0), (20.0, 21.0)])
+def test_the_fraction_that_is_taken_for_lost_has_the_most_evidence(fit, size):
+    """Against a search over all fractions; without a spread it is fit/size, within its bounds."""
+    shares = np.linspace(0.5, 1.5, 10_001)
+    for per_spread in (0.0, 2.0, 50.0):
+        wanted = shares[np.argmax([support(share, fit, size, per_spread) for share in shares.tolist()])]
+        assert share_gone(fit, size, per_spread) == pytest.approx(wanted, abs=1e-4)
+    assert support(1.0, fit, size, 7.0) == pytest.approx(2.0 * fit - size)

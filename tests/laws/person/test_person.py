@@ -187,15 +187,3 @@ def test_two_hands_turn_the_beam_as_a_spring_and_a_damper_about_the_vertical():
         couple = aim(person, memory._replace(view=person_view(person.grip, turning), leg=legs[0])).couple
         assert couple == pytest.approx(-s.yaw_gain * (yaw + rate * ahead) - s.yaw_damping * rate, rel=1e-12)
     assert s.yaw_damping * 0.4 > 0.05
-
-
-@pytest.mark.parametrize(("speed", "asks"), [(0.19, True), (0.21, False)])
-def test_at_the_end_of_the_path_a_landing_is_asked_for_once_the_vehicle_is_slow(speed, asks):
-    person, memory, legs = company("steer", ((1.0, 0.0),), tremor=0.0, start_time=0.0)
-    slow = person._replace(following=person.following._replace(landing_speed=0.2))
-    there = at((*array(legs[0].end)[:2], 1.0), velocity=(0.0, 0.6 * speed, 0.8 * speed))
-    memory = memory._replace(leg=legs[0])
-    for k in range(2000):
-        view = person_view(slow.grip, there)._replace(grip_velocity=ZERO)
-        memory = person_step(slow, memory._replace(view=view), NO_PUSH, there, CALM, k * DT, DT).memory
-    assert landing_request(memory) == float(asks)
