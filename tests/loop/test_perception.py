@@ -7,6 +7,8 @@ from scipy.spatial.transform import Rotation
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, vec3
 from tandemlift.laws.estimation.push_estimate import PushEstimate
 from tandemlift.laws.mechanics.rigid_body import State
+from tandemlift.loop.estimate_channels import estimated_channels
+from tandemlift.loop.fault_tolerant_perception import CheckedEstimates
 from tandemlift.loop.perception import Estimates, EstimateSource, MeasurementSource, NominalVehicle, read_push
 
 VEHICLE = NominalVehicle(
@@ -49,3 +51,14 @@ def test_the_wrench_on_the_payload_is_moved_to_the_centre_of_mass_less_the_drag(
 def test_a_push_that_is_not_trusted_or_not_armed_is_none(source, doubt):
     for part in used(source, **doubt):
         assert not part.any()
+
+
+@pytest.mark.parametrize(("trusted", "armed"), [(1.0, 1.0), (0.0, 1.0), (1.0, 0.0)])
+def test_the_channels_of_estimates_are_the_estimates_checked_or_not(trusted, armed):
+    known = Estimates(PUSH._replace(trusted=trusted, armed=armed), STATE, VEHICLE, Nothing())
+    shown = estimated_channels(known)
+    assert (shown.estimated_position, shown.estimated_rates) == (STATE.position, STATE.rates)
+    assert (shown.push_measured, shown.push_estimate) == (PUSH.measured, PUSH.force)
+    assert shown.push_usable == trusted * armed
+    fields = {**dict.fromkeys(CheckedEstimates._fields), **known._asdict()}
+    assert estimated_channels(CheckedEstimates(**fields)) == shown
