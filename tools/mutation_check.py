@@ -63,7 +63,14 @@ def drawn(room: str, count: int, seed: int) -> list[Mutant]:
     return sorted(every, key=lambda m: digest(str(seed).encode(), m.name.encode()))[: round(count * ROOMS[room][0])]
 
 
-def tests_in(folders: Iterable[str]) -> list[str]:
+@cache
+def content(path: Path) -> bytes:
+    """Of a file as it was when this run first looked, whatever is written meanwhile."""
+    return path.read_bytes()
+
+
+@cache
+def tests_in(*folders: str) -> list[str]:
     """The test files in folders, from the root."""
     found = [p.relative_to(ROOT).as_posix() for folder in folders for p in sorted((ROOT / folder).rglob("test_*.py"))]
     return [file for file in found if not any(fnmatch(file, blind) for blind in BLIND)]
@@ -71,18 +78,18 @@ def tests_in(folders: Iterable[str]) -> list[str]:
 
 def chosen_in(folder: str) -> list[str]:
     """The test files in a folder that this run uses."""
-    return [file for file in tests_in([folder]) if not CHOSEN or any(fnmatch(file, pattern) for pattern in CHOSEN)]
+    return [file for file in tests_in(folder) if not CHOSEN or any(fnmatch(file, pattern) for pattern in CHOSEN)]
 
 
 def calls(file: str) -> Path:
     """Where it is kept what the tests of a file call."""
-    return OUT / "calls" / f"{digest(file.encode(), (ROOT / file).read_bytes())}.json"
+    return OUT / "calls" / f"{digest(file.encode(), content(ROOT / file))}.json"
 
 
 def state_of(mutant: Mutant, folders: list[str], killer: str | None) -> str:
     """A hash of what a result depends on: source, and the test that killed or all tests that did not."""
-    files = [killer.partition("::")[0]] if killer and "::" in killer else tests_in(folders)
-    return digest(*[path.read_bytes() for path in (PACKAGE / mutant.file, *(ROOT / file for file in files))])
+    files = [killer.partition("::")[0]] if killer and "::" in killer else tests_in(*folders)
+    return digest(*[content(path) for path in (PACKAGE / mutant.file, *(ROOT / file for file in files))])
 
 
 def calling(mutant: Mutant, folder: str) -> dict[str, float]:

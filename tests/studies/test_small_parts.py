@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from study_runs import TWELVE, fly
 
 import tandemlift as tl
 from tandemlift.studies import controller_comparison
@@ -14,6 +15,7 @@ from tandemlift.studies.feel.feel_checks import drift_checks
 from tandemlift.studies.feel.feel_study import _both
 from tandemlift.studies.feel.standard_push import answer_of
 from tandemlift.studies.reading.html import MOST_NAMES, study_html
+from tandemlift.studies.study import mission_of_row
 from tandemlift.studies.tuning.candidates import _trial
 from tandemlift.studies.tuning.front import front_of
 from tandemlift.studies.tuning.searches import PARTS, _Coordinate
@@ -138,3 +140,15 @@ def test_a_pair_of_numbers_is_said_once_where_alike_and_a_missing_one_by_a_dash(
     assert _both(0.5, 0.75, "m") == "0.50 → 0.75 m"
     assert _both(0.5, 0.5, "m") == "0.50 m"
     assert _both(0.05, None, "%") == "5 → – %"
+
+
+def test_the_mission_of_a_row_is_that_with_its_draw(tmp_path):
+    fly(TWELVE | {"study": TWELVE["study"] | {"draws": 6}, "set": {"mission.duration": 0.1}}, tmp_path)
+    scales = tl.load_study(tmp_path).read(["row", "plant.mass_scale"]).to_pylist()
+    assert [row["row"] for row in scales] == list(range(6))
+    for row in scales:
+        mission, engine, name = mission_of_row(tmp_path, row["row"])
+        assert mission.plant.mass_scale == row["plant.mass_scale"]
+        assert (engine, str(row["row"]) in name) == ("compiled", True)
+    with pytest.raises(tl.InputError, match="has rows 0 to 5"):
+        mission_of_row(tmp_path, 6)
