@@ -29,23 +29,28 @@ class Touched:
     def __init__(self, package: Path, rooms: Iterable[str], traced: Path, out: Path) -> None:
         self.skip, self.rooms = len(str(package)) + 1, tuple(f"{package}/{room}/" for room in rooms)
         self.traced, self.out, self.collecting = traced, out, processor_time()
-        self.now, self.sets = set[Any](), dict[Any, set[Any]]()
+        self.active, self.sets = list[set[Any]](), dict[Any, set[Any]]()
         self.tests, self.bad = dict[str, tuple[float, list[str]]](), set[str]()
         threading.settrace(self._called)
         sys.settrace(self._called)
 
     def _called(self, frame: Any, event: str, argument: Any) -> None:
-        self.now.add(frame.f_code)
+        for collected in self.active:
+            collected.add(frame.f_code)
 
     @contextlib.contextmanager
     def _collected(self, key: Any) -> Iterator[None]:
-        """What is called meanwhile counts for `key`, and for whoever waits for it."""
-        before, self.now = self.now, self.sets.setdefault(key, set())
+        """What is called meanwhile, in any thread, counts for `key` and for whoever waits for it."""
+        mine = self.sets.setdefault(key, set())
+        self.active = [*self.active, mine]
         try:
             yield
         finally:
-            before |= self.now
-            self.now = before
+            self.active = [one for one in self.active if one is not mine]
+
+    def _count(self, functions: set[Any]) -> None:
+        for collected in self.active:
+            collected |= functions
 
     def _names(self, codes: set[Any]) -> set[str]:
         """Of functions, from their code or names."""
@@ -103,7 +108,7 @@ class Touched:
                 code = ask(kernels, *more, **options)
             self._remember(code._key, self.sets[id(kernels)])  # its parts share one trace
             self.sets[id(kernels)] |= self.sets[code._key]
-            self.now |= self.sets[id(kernels)]
+            self._count(self.sets[id(kernels)])
             return code
 
         Code.touched, Code.__init__, Kernels._code = True, made, asked  # type: ignore[attr-defined, method-assign]
@@ -115,7 +120,7 @@ class Touched:
         if names != known:
             file.write_text("\n".join(sorted(names)))
         self.sets[key] |= names
-        self.now |= names
+        self._count(names)
 
 
 class Chosen:
