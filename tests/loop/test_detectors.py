@@ -13,16 +13,14 @@ from tandemlift.laws.rotors.allocation import mixer_from
 from tandemlift.laws.rotors.rotors import IdealRotors
 from tandemlift.loop.detectors import (
     ASLEEP,
-    NO_RESPONSE,
     FindingLimits,
-    PushLimits,
     counted,
     detect,
-    push_step,
     thrust_needed,
 )
 from tandemlift.loop.excess import NO_EXCESS
 from tandemlift.loop.oscillation import OscillationLimits, Swings
+from tandemlift.loop.push_detectors import NO_RESPONSE, PushLimits, push_step
 
 DT = 0.01
 LIMITS = PushLimits(
@@ -109,7 +107,11 @@ CALM = {
     "push_force": ZERO,
 }  # fmt: skip
 OSCILLATION = OscillationLimits(Swings(0.3, 0.3, 0.3, 0.15), shortest=0.02, longest=2.0, halves=4.0)
-FOUND = FindingLimits(1.0, 0.1**2, 0.2, np.cos(0.25), 3.0, 40.0**2, 0.3**2, LIMITS, OSCILLATION)
+FOUND = FindingLimits(
+    settled=1.0, distance=0.1**2, heading=0.2, upright=np.cos(0.25), mass=3.0, thrust=40.0**2, rate=0.3**2,
+    push=LIMITS, unpushed=1.0, oscillation=OSCILLATION,
+)  # fmt: skip
+STILL = SimpleNamespace(position=ZERO)
 TILTED = Quat(*Rotation.from_euler("x", 0.3).as_quat(scalar_first=True).tolist())
 BAD = {  # beyond one limit each
     "distance": {"position": Vec3(0.08, 0.0, -0.08)},
@@ -124,9 +126,9 @@ def detected(sample, seconds=3.0, running=1.0):
     memory = ASLEEP._replace(saturation=Nothing())
     effect = mixer_from(np.ones((4, 4)))
     pilot = SimpleNamespace(detection=Nothing(), allocation=effect)
-    guidance = SimpleNamespace(flying=1.0, running=ThrustFraction(running), force=ZERO)
+    guidance = SimpleNamespace(flying=1.0, running=ThrustFraction(running), force=ZERO, admittance=STILL)
     decision = SimpleNamespace(guidance=guidance, thrusts=each(4)(1.0, 1.0, 1.0, 1.0))
-    output = SimpleNamespace(decision=decision)
+    output = SimpleNamespace(decision=decision, estimates=Nothing())
     for k in range(round(seconds / DT)):
         state = SimpleNamespace(detectors=memory, memory=SimpleNamespace(detection=Nothing()))
         model = SimpleNamespace(finding_limits=FOUND, flight_state=state, pilot=pilot, rotors=IdealRotors())
@@ -136,7 +138,8 @@ def detected(sample, seconds=3.0, running=1.0):
 
 def test_nothing_wakes_the_detectors_of_a_calm_flight():
     calm = detected(lambda t: {})
-    assert calm == ASLEEP._replace(saturation=Nothing(), steps=pytest.approx(200.0))
+    assert calm._replace(steps=0.0, unpushed=ASLEEP.unpushed) == ASLEEP._replace(saturation=Nothing())
+    assert calm.steps == pytest.approx(200.0)
 
 
 @pytest.mark.parametrize("name", list(BAD))

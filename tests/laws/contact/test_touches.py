@@ -10,10 +10,15 @@ from tandemlift.laws.contact.touches import UNTOUCHED, PartContacts, harder_of, 
 PAIR = each(2)
 
 
+def pressed(normal, place):
+    """A contact of which only force and place count."""
+    return WallContact(**{**dict.fromkeys(WallContact._fields), "normal": normal, "place": place})
+
+
 @pytest.mark.parametrize("turned", [False, True])
 def test_two_walls_press_with_the_sum_of_their_forces_at_the_place_of_the_greater(turned):
-    one = WallContact(PAIR(3.0, 0.0), Vec3(PAIR(1.0, 1.0), PAIR(2.0, 2.0), PAIR(3.0, 3.0)), None)
-    two = WallContact(PAIR(2.0, 5.0), Vec3(PAIR(-1.0, -1.0), PAIR(-2.0, -2.0), PAIR(-3.0, -3.0)), None)
+    one = pressed(PAIR(3.0, 0.0), Vec3(PAIR(1.0, 1.0), PAIR(2.0, 2.0), PAIR(3.0, 3.0)))
+    two = pressed(PAIR(2.0, 5.0), Vec3(PAIR(-1.0, -1.0), PAIR(-2.0, -2.0), PAIR(-3.0, -3.0)))
     force, place = harder_of(ContactPair(two, one) if turned else ContactPair(one, two))[:2]
     assert force == PAIR(5.0, 5.0)
     assert np.array(place) == pytest.approx(np.array([[1.0, -1.0], [2.0, -2.0], [3.0, -3.0]]))
