@@ -52,7 +52,7 @@ def wind_checks(m: Mission) -> Iterator[CheckResult]:
         if gust > eddies[i]:
             parts = f"wind and gusts push the payload along {axis} with {gust:.3g} N beside what the tare takes off"
         text = (
-            f"{parts}, and admittance.threshold is {threshold:g} N there: the vehicle follows the wind; raise the "
+            f"{parts}, and admittance.threshold is {threshold:g} N there: the vehicle may follow the wind; raise the "
             "threshold, lower wind.turbulence or wind.gusts, or take estimator.wind_compensation"
         )
         yield judged("wind on the payload", max(float(eddies[i]), gust), threshold, "N", text, subject=axis, near=0.2)
