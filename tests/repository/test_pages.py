@@ -20,9 +20,5 @@ def test_a_page_is_read_in_ten_minutes(page):
     assert page.is_relative_to(ROOT / "docs" / "reference") or words(page) <= 2500
 
 
-def test_all_pages_together_are_read_in_an_afternoon():
-    assert sum(map(words, PAGES)) + words(ROOT / "README.md") <= 31_500
-
-
 def test_the_readme_fills_two_screens():
     assert len((ROOT / "README.md").read_text("utf-8").splitlines()) <= 82
