@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from tandemlift.cli.terminal.console import progress_bar
 from tandemlift.common.errors import InputError
 from tandemlift.common.files import atomic_write
-from tandemlift.missions.recording import recording_bytes
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
@@ -81,6 +80,8 @@ def write_flight(flight: Flight, folder: Path, *, figures: bool, photographs: Se
 
 def copy_recording(mission: Mission, folder: Path) -> None:
     """Copy the recording of a mission, if it has one, into the folder, so that the folder can be flown anywhere."""
+    from tandemlift.missions.recording import recording_bytes
+
     if mission.person.recording is None:
         return
     path = mission.person.recording
