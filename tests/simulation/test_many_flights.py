@@ -20,7 +20,7 @@ FOUR_IDEAL = {"controller.attitude_reference_derivatives": "zero", "admittance.g
 def quadrotors(count):
     """So many quadrotors along the beam, on the paper's payload."""
     one = tl.load_mission("paper").vehicle.quadrotors[0].model_dump(mode="json")
-    places = np.linspace(1.0, -1.0, count) if count > 1 else [0.0]
+    places = np.linspace(1.3, -1.3, count) if count > 1 else [0.0]
     return [{**one, "position": [0.0, float(y), 0.075]} for y in places]
 
 

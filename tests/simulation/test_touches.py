@@ -23,7 +23,7 @@ from tandemlift.simulation.fly import _fly_compiled
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.touches import struck_rotors, touches_of
 
-ON_ITS_BACK = THROWN | {"initial.euler": [0.3, 2.6, 0.5], "mission.name": "crash"}
+ON_ITS_BACK = THROWN | {"initial.euler": [0.3, 1.4, 0.5], "initial.rates": [0.8, 3.0, 0.0], "mission.name": "crash"}
 
 
 def contacts(normals: list[float], places: Any = None) -> PartContacts:

@@ -44,7 +44,7 @@ def _lost(rotors: list[tuple[int, int]], time: float) -> list[dict[str, Any]]:
 CRASHES: dict[str, dict[str, Any]] = {
     "turned over by an unknown moment": HELD | {"disturbance.moment": [0.3, 5.0, 0.5]},
     "thrown onto its back": THROWN
-    | {"initial.euler": [0.3, 2.6, 0.5], "initial.velocity": [1.0, 0.5, 0.5], "initial.rates": [0.8, 0.4, 0.0]},
+    | {"initial.euler": [0.3, 1.4, 0.5], "initial.velocity": [1.0, 0.5, 0.5], "initial.rates": [0.8, 3.0, 0.0]},
     "dropped on one end of the beam": THROWN | LONG | {"initial.euler": [1.1, 0.05, 0.0], "ground.height": -2.0},
     "dropped on its side": THROWN | {"initial.euler": [0.05, 1.3, 0.4], "initial.rates": [0.2, 0.3, 0.0]},
     "flown into a wall with one rotor": HELD | BARE | WALL_AHEAD | {"initial.velocity": [3.2, 0.0, 0.0]},

@@ -112,7 +112,7 @@ def _estimates(known: Estimates) -> Any:
         estimated_velocity=s.velocity,
         estimated_attitude=s.attitude,
         estimated_rates=s.rates,
-        push_measured=p.measured,
+        push_measured=p.measured + p.withheld,
         push_estimate=p.force,
         push_moment_estimate=p.moment,
         push_point_estimate=p.point,
