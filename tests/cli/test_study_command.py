@@ -5,7 +5,7 @@ from click.testing import CliRunner
 from tandemlift.cli.main import cli
 
 WITH_A_FILE = '''
-"""A controller that reads a file beside it, which a study does not take along."""
+"""A controller that reads a file beside it, which is not there, as a study takes none along."""
 
 from pathlib import Path
 
@@ -42,7 +42,6 @@ def test_a_controller_all_of_whose_rows_are_refused_is_named_with_the_reason_and
 ):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "with_a_file.py").write_text(WITH_A_FILE, "utf-8")
-    (tmp_path / "weights.txt").write_text("1.0")
     (tmp_path / "weights.toml").write_text(STUDY, "utf-8")
     done = CliRunner().invoke(cli, ["study", "weights.toml", "--threads", "1"], catch_exceptions=False)
     assert done.exit_code == 0

@@ -115,9 +115,8 @@ def test_a_step_that_the_engine_did_not_take_leaves_no_trace_in_the_numbers(lost
 
 def test_a_crash_after_which_it_flew_on_comes_before_the_interruption(lost):
     lost()
-    flight = tl.fly(
-        tl.load_mission("hover", SHORT | {"crash.tilt": 0.05, "promise.tilt": 0.04, "crash.fly_on": 9.0}), "gazebo"
-    )
+    tilted = {"crash.tilt": 0.15, "promise.tilt": 0.04, "initial.rates": [20.0, 0.0, 0.0]}  # from 0.14 rad on
+    flight = tl.fly(tl.load_mission("hover", SHORT | tilted | {"crash.fly_on": 9.0}), "gazebo")
     assert flight.outcome == "crashed"
     assert flight.failure.startswith("crashed at 0.001 s: tilt")
     assert len(flight.time) == LAST

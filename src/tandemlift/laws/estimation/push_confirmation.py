@@ -9,7 +9,7 @@ T. All that acts on the vehicle from outside is F̂ + r. Per body axis,
     wind                          F̂ = ρ r,      ρ the ratio of the drag areas of payload and quadrotors;
     an accelerometer wrong by α   F̂ = m_L α,    r = Σ m_i α, like wind with ρ = m_L / Σ m_i.
 
-Nothing of F̂ is confirmed while F̂ + r is below 0.4 F̂, all of it above 0.6 F̂. What of r is within twice the
+Nothing of F̂ is confirmed while F̂ + r is below 0.4 F̂, all of it above 0.6 F̂. What of r is within three times the
 standard deviation of F̂ + r without a push is gusts on the quadrotors, and refutes nothing. Wind takes ρ r from F̂, less
 a tolerance, where ρ r is above 0.6 F̂, and nothing below 0.4 F̂: so a long push is not mistaken for wind as the sensors
 drift. A part of the size of the tolerance is always left. The tolerance is half the threshold of a push, so what is
@@ -44,9 +44,10 @@ BANDWIDTH = 10.0  # rad/s, of the low-pass on r: a push does not show in r, so i
 REFUTED, CONFIRMED = 0.4, 0.6  # unexplained share of a push up to which none is confirmed, and from which on all is
 RELEARN_TIME = 2.0  # s, in which what is not confirmed becomes the new zero
 DRIFT_TIME = 20.0  # s, in which the mean of r follows a drift, as the bias of the dead band does
-GUSTS, GUST_TIME = 2.0, 5.0  # standard deviations of F̂ + r that are gusts; s, in which its mean square is followed
+GUSTS, GUST_TIME = 3.0, 5.0  # standard deviations of F̂ + r that are gusts; s, in which its mean square is followed
 FAR = 4.0  # tolerances: a larger r, such as the floor's force, is no drift
 LARGE, LITTLE = 3.0, 1.5  # tolerances: of a push beyond the first, less than the second is left where it is refuted
+REST_THRUST = 1e-3  # N
 NEGLIGIBLE = 0.1  # of a tolerance
 TINY = 1e-12  # N
 NO_WIND = 1e-9  # a ratio ρ by which r explains nothing
@@ -135,6 +136,12 @@ def about_vertical(e: PushEstimator, moment: Vec3, force: Vec3) -> Any:
     return moment.z - cross(e.system, force).z
 
 
+@elementwise
+def speed_at(thrust: Any, per_constant: Any) -> Any:
+    """The speed of a rotor [rad/s] with a thrust [N] in the steady state; its slope at rest is 0, not infinite."""
+    return sqrt(maximum(thrust, REST_THRUST) * per_constant)
+
+
 @choice(absent=(OutsideLoad(ZERO, 0.0), "memory"))
 def outside_load(rotors: Any, memory: Any, commands: Any, quadrotors: Vec3, turning: Any) -> Any:
     """(`OutsideLoad` of a sample, the new memory).
@@ -150,7 +157,7 @@ def outside_load(rotors: Any, memory: Any, commands: Any, quadrotors: Vec3, turn
 
 @outside_load.register(RotorModel)
 def _beside_thrust(rotors: RotorModel, memory: Any, commands: Any, quadrotors: Vec3, turning: Any) -> Any:
-    squares, speeds = lag_step(rotors.up, rotors.down, memory, sqrt(maximum(commands * rotors.per_constant, 0.0)))
+    squares, speeds = lag_step(rotors.up, rotors.down, memory, speed_at(commands, rotors.per_constant))
     made = wrench(rotors.effect, squares * rotors.constant)
     return OutsideLoad(quadrotors - UP * made.thrust, turning - made.moment.z), speeds
 
@@ -166,7 +173,7 @@ def confirmed(push: Any, rest: Any, square: Any, tolerance: Any, ratio: Any) -> 
     """The confirmed part of a push beside which `rest` acts on the quadrotors; `square`: see `Zero`."""
     size = absolute(push)
     along = where(push < 0.0, -rest, rest)
-    against = minimum(along + GUSTS * sqrt(square), 0.0)
+    against = minimum(along + GUSTS * sqrt(maximum(square, TINY)), 0.0)
     per_size = 1.0 / maximum(size, TINY)
     moving = maximum(tolerance, size * confirmed_fraction(1.0 + against * per_size))
     wind = (ratio * along - tolerance) * (1.0 - confirmed_fraction(1.0 - ratio * along * per_size))
