@@ -87,7 +87,8 @@ def test_a_set_copied_onto_itself_the_other_way_round_is_whole():
 def quadrotors(mission, count):
     """So many quadrotors along the beam."""
     one = tl.load_mission(mission).vehicle.quadrotors[0].model_dump(mode="json")
-    return [{**one, "position": [0.0, float(y), 0.075]} for y in np.linspace(1.0, -1.0, count)]
+    reach = max(1.0, 0.4 * (count - 1))  # m, so that no rotor strikes another
+    return [{**one, "position": [0.0, float(y), 0.075]} for y in np.linspace(reach, -reach, count)]
 
 
 def fleet(mission, count, **changes):
