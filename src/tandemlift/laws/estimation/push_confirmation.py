@@ -17,7 +17,8 @@ left stays below the threshold, also once the bias of the dead band has followed
 About the vertical the same holds for the moments, without wind.
 
 r counts from its mean over the tare, and F̂ from an offset. What is not confirmed for long becomes their new zero: a
-joint that jumps is tared again within seconds, and pushes are followed as before.
+joint that jumps is tared again within seconds, and pushes are followed as before. While there is no push, a drift of
+the joints, the common part of F̂ and −r, becomes their new zero too: r is small where wind acts on a large payload.
 
 Limits: wind that acts on the payload alone counts as a push. A first gust on the quadrotors against a push weakens it,
 if it is larger than 0.4 of the push; in gusts, joints may be wrong by as much. Without rotors
@@ -43,6 +44,7 @@ from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_ste
 BANDWIDTH = 10.0  # rad/s, of the low-pass on r: a push does not show in r, so it need not be fast
 REFUTED, CONFIRMED = 0.4, 0.6  # unexplained share of a push up to which none is confirmed, and from which on all is
 RELEARN_TIME = 2.0  # s, in which what is not confirmed becomes the new zero
+QUIET_TIME = 1.0  # s, in which a drift of the joints does while there is no push
 DRIFT_TIME = 20.0  # s, in which the mean of r follows a drift, as the bias of the dead band does
 GUSTS, GUST_TIME = 3.0, 5.0  # standard deviations of F̂ + r that are gusts; s, in which its mean square is followed
 FAR = 4.0  # tolerances: a larger r, such as the floor's force, is no drift
@@ -208,6 +210,14 @@ def square_change(push: Any, load: Any, square: Any, tolerance: Any, dt: Any) ->
     return where(absolute(push) < tolerance, usual - square, 0.0) * (dt / GUST_TIME)
 
 
+@elementwise
+def joint_drift(push: Any, off: Any, tolerance: Any, dt: Any) -> Any:
+    """The change of the offset in a step without a push by joints that drift; the mean of r changes the other way."""
+    common = minimum(absolute(push), absolute(off))
+    drift = where(push < 0.0, -common, common) * (dt / QUIET_TIME)
+    return where(absolute(push) < tolerance, where(push * off < 0.0, drift, 0.0), 0.0)
+
+
 @law
 def compared(
     k: PushConfirmation, zero: Zero, push: Any, rest: Any, tolerance: Any, ratio: Any, tare: Any, dt: Any
@@ -226,10 +236,11 @@ def compared(
     """
     force, off = push - zero.offset, rest - zero.mean
     left = confirmed(force, off, zero.square, tolerance, ratio)
-    mean = zero.mean + off * tare + mean_change(force, left, off, tolerance, dt)
+    drift = joint_drift(force, off, tolerance, dt)
+    mean = zero.mean + off * tare + mean_change(force, left, off, tolerance, dt) - drift
     slow = low_pass_step(k.low_pass, zero.slow, push)
     square = zero.square + square_change(force, slow.value - zero.offset + off, zero.square, tolerance, dt)
-    offset = zero.offset + (force - left) * (dt / RELEARN_TIME)
+    offset = zero.offset + (force - left) * (dt / RELEARN_TIME) + drift
     return Confirmed(push - left, is_refuted(force, left, off, tolerance), Zero(mean, offset, slow, square))
 
 
