@@ -5,6 +5,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.common.phases import IDLE, LAND
+from tandemlift.studies.validation.scenarios import drawn
 
 HOVER, AWAY = 12.5, 1.0  # s, m
 
@@ -82,6 +83,21 @@ def test_it_stays_whatever_else_the_sensors_err_by(seed):
     names = ("joints", "accelerometer", "gust that stays", "gust over the tare", "drift of the joints")
     missions = [tl.load_mission("iris", {**QUIET, **FALSE[name], "mission.seed": seed}) for name in names]
     assert {n: a for n, f in zip(names, tl.fly_many(missions), strict=True) if (a := away(f).max()) > AWAY} == {}
+
+
+@pytest.mark.parametrize(("drift", "seed"), [(0.05, 109), (0.05, 111), (0.2, 111), (0.2, 147)])
+def test_it_stays_however_long_its_joints_drift(drift, seed):
+    changes = {**QUIET, "sensors.joints.force_drift": drift, "mission.seed": seed}
+    assert away(tl.fly(tl.load_mission("iris", changes))).max() < AWAY
+
+
+def test_a_gust_on_the_quadrotors_against_a_push_does_not_end_it():
+    chance = np.random.default_rng(4)
+    gusty = [drawn(chance, number) for number in range(13)][12]  # 1.8 N of gust while a hand pushes with 2.3 N
+    flight = tl.fly(gusty)
+    late = flight.time > 10.0
+    assert np.sqrt((flight["position_error"][late, 2] ** 2).mean()) < 3e-3
+    assert np.linalg.norm(flight["push_withheld"][late], axis=1).max() < 1.5
 
 
 def test_it_stays_as_the_wind_goes_though_the_joints_have_drifted_by_what_it_shows_on_the_quadrotors():

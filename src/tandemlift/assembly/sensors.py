@@ -15,14 +15,9 @@ from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.assembly.contacts import start_contacts
 from tandemlift.common.sensors import additional_sensor
 from tandemlift.common.types import Array
+from tandemlift.laws.estimation.confirmed_part import Zero
 from tandemlift.laws.estimation.navigation import navigator, start_navigation
-from tandemlift.laws.estimation.push_confirmation import (
-    BANDWIDTH,
-    ConfirmationState,
-    PushConfirmation,
-    RotorModel,
-    Zero,
-)
+from tandemlift.laws.estimation.push_confirmation import BANDWIDTH, ConfirmationState, PushConfirmation, RotorModel
 from tandemlift.laws.estimation.push_estimate import push_estimator, start_push
 from tandemlift.laws.estimation.wind_compensation import PayloadDrag
 from tandemlift.laws.mechanics.inertia import inertia_value
@@ -147,7 +142,7 @@ def start_confirmation(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
     )
     force, turning = LowPassState(ZERO, ZERO), LowPassState(0.0, 0.0)
     return confirmation, ConfirmationState(
-        speeds, force, turning, Zero(ZERO, ZERO, force, ZERO), Zero(0.0, 0.0, turning, 0.0)
+        speeds, force, turning, Zero(ZERO, ZERO, force, ZERO, ZERO), Zero(0.0, 0.0, turning, 0.0, 0.0)
     )
 
 
