@@ -137,15 +137,19 @@ def _judged(flight: Flight) -> tuple[str, str, str, str, list[str], list[str], i
         complaint = f"contact added {verdict.gained:.3f} J"
     findings = sorted({finding.kind for finding in getattr(flight, "findings", ())})
     restarts = len(verdict.followed.restarts)
-    return outcome, kind, verdict.outcome, complaint or "agreed", verdict.close, findings, restarts
+    close = verdict.close + ["steps"] * (complaint == "in a band" and verdict.unresolved)
+    return outcome, kind, verdict.outcome, complaint or "agreed", close, findings, restarts
 
 
 def _complaint(outcome: str, kind: str, verdict: Any) -> str:
-    """What the judge has against an outcome; "in a band" where the measure that decides is too near to its limit."""
+    """What the judge has against an outcome; "in a band" where it cannot be decided.
+
+    Either the measure that decides is too near to its limit, or steps do not resolve the end.
+    """
     deciding = {kind, verdict.kind} - {""} if "crashed" in (outcome, verdict.outcome) else set()
     if not deciding:
         deciding = {"lifted"} if "not-lifted" in (outcome, verdict.outcome) else {"landed"}
-    near = all(abs(verdict.margins.get(name, 1e9)) <= 1.0 for name in deciding)
+    near = verdict.unresolved or all(abs(verdict.margins.get(name, 1e9)) <= 1.0 for name in deciding)
     numbers = {name: round(float(verdict.margins.get(name, 1e9)), 2) for name in deciding}
     said = f"{outcome} {kind}, judged {verdict.outcome} {verdict.kind} (beyond the limit, in bands: {numbers})"
     return "in a band" if near else said

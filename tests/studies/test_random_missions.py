@@ -8,6 +8,7 @@ import judge
 import numpy as np
 import pytest
 from judge.model import GRAVITY, body_of, corridor_walls
+from judge.verdict import is_rough
 from judge.verdict import judge as judged_record
 from judged_missions import Families, Judged, judged
 from mission_schema import SCHEMA
@@ -135,6 +136,26 @@ def test_the_judge_sees_the_floor_bear_the_vehicle_in_the_last_sample():
     row = judged(drawn)
     assert row.outcome == row.judged == "landed"
     assert row.confirmed
+
+
+@pytest.mark.parametrize(("member", "steps"), [(3, True), (6, False)])
+def test_the_judge_does_not_decide_what_steps_do_not_resolve_and_no_more_than_that(member, steps):
+    (drawn,) = [d for d in random_family(16, 109, 8) if d.member == member]
+    row = judged(drawn)
+    assert row.confirmed
+    assert ("steps" in row.close) is steps
+
+
+@pytest.mark.parametrize("blow", [3.0, 10.0])  # m/s, within five steps
+def test_a_blow_is_resolved_and_a_chatter_is_not(blow):
+    time = np.arange(300) * 0.001
+    zero = np.zeros((300, 3))
+    struck, shaken = zero.copy(), zero.copy()
+    struck[:, 2] = np.interp(time, [0.29, 0.295], [-blow, 0.2 * blow])
+    shaken[:, 1] = np.where(np.arange(300) % 2, 0.3, -0.3)
+    for fast, rough in ((struck, False), (shaken, True)):
+        assert is_rough({"velocity": fast, "rates": zero}, 0.001) is rough
+    assert is_rough({"velocity": zero, "rates": shaken}, 0.001)
 
 
 def test_the_same_seed_draws_the_same_missions():

@@ -16,6 +16,8 @@ from judge.replay import Replay, drag_of, replay, rotations
 GRAVITY, FAR = 9.81, 1000.0
 FADING = 0.1  # s, in which an impulse of contact fades
 BEARS, LATELY = 0.5, 0.05  # of the weight, by the floor; s, within which what it bears may not cross that
+ROUGH, ROUGH_TURN = 100.0, 500.0  # m/s², rad/s²: from such accelerations on, as medians, steps are too long
+ROUGH_STEPS = 16  # of which the medians are: a blow is over within half of them
 TOUCHING = 0.01  # of the weight: contact forces below this are rounding
 
 BANDS = {  # width of the band on either side of each threshold, within which a disagreement does not count
@@ -34,7 +36,8 @@ class Verdict(NamedTuple):
     `kind`: what ended it, if it crashed or diverged; `at`: when [s]; `margins`: distance of each measure from its
     threshold over the width of its band, the band itself being from −1 to 1; `close`: those measures within their
     bands; `followed`: the replay; `gained`: energy that contact added [J], beside the `work` done by all else, either
-    way; `unexplained`: times of restarts without a contact [s].
+    way; `unexplained`: times of restarts without a contact [s]; `unresolved`: whether the vehicle is shaken, at the
+    end of the record, so fast that values at steps do not tell what happens between them.
     """
 
     outcome: str
@@ -45,6 +48,7 @@ class Verdict(NamedTuple):
     gained: float
     work: float
     unexplained: list[float]
+    unresolved: bool
 
     @property
     def close(self) -> list[str]:
@@ -92,7 +96,15 @@ def judge(mission: dict[str, Any], time: np.ndarray, channels: dict[str, np.ndar
         for (t, _, touched), since in zip(flown.restarts, starts, strict=False)
         if not touched and not np.any((touching >= since - LATELY) & (touching <= t))
     ]
-    return Verdict(outcome, kind, at, found, flown, ground.gained, ground.work, free)
+    rough = is_rough(channels, mission["mission"]["step"])
+    return Verdict(outcome, kind, at, found, flown, ground.gained, ground.work, free, rough)
+
+
+def is_rough(channels: dict[str, np.ndarray], step: float) -> bool:
+    """Whether velocity or rates jump from step to step at the end of the record."""
+    last = slice(-1 - ROUGH_STEPS, None)
+    jumps = (np.linalg.norm(np.diff(channels[c][last], axis=0), axis=1) / step for c in ("velocity", "rates"))
+    return bool(any(np.median(j) > limit for j, limit in zip(jumps, (ROUGH, ROUGH_TURN), strict=True) if len(j)))
 
 
 def _limits(mission: dict[str, Any], flown: Replay, ground: Ground) -> dict[str, tuple[float, float]]:
