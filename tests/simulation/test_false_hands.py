@@ -158,12 +158,14 @@ def test_a_push_of_one_newton_is_followed_for_half_a_minute(direction):
 
 def test_a_hand_is_followed_closer_to_its_true_push_than_without_confirmation():
     how = {"motion": {}, "none": {"estimator.confirmation": "none"}, "truth": {"pilot.push": "truth"}}
-    many = [tl.load_mission("iris", {**changes, "mission.seed": seed}) for changes in how.values() for seed in range(8)]
+    many = [
+        tl.load_mission("iris", {**changes, "mission.seed": seed}) for changes in how.values() for seed in range(24)
+    ]
     flights = tl.fly_many(many)
-    ends = dict(zip(how, np.array([f["position"][-1] for f in flights]).reshape(3, 8, 3), strict=True))
+    ends = dict(zip(how, np.array([f["position"][-1] for f in flights]).reshape(3, 24, 3), strict=True))
     far = {name: np.linalg.norm(ends[name] - ends["truth"], axis=1) for name in ("motion", "none")}
-    assert np.median(far["motion"]) < 0.6 * np.median(far["none"])
-    assert far["motion"].max() < 0.35  # of nearly 9 m
+    assert np.median(far["motion"]) < 0.7 * np.median(far["none"])
+    assert far["motion"].max() < 0.4  # of nearly 9 m
     assert not flights[0].findings
 
 

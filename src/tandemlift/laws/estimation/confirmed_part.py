@@ -110,7 +110,8 @@ def square_change(push: Any, load: Any, square: Any, tolerance: Any, dt: Any) ->
 @elementwise
 def joint_drift(push: Any, off: Any, tolerance: Any, dt: Any) -> Any:
     """The change of the offset in a step by joints that drift, as r less its mean shows; that changes the other way."""
-    common = minimum(absolute(push), absolute(off))
+    least = minimum(absolute(push), absolute(off))
+    common = least * least / (least + NEGLIGIBLE * tolerance)  # its slope at rest is 0, whichever sign noise has there
     rate = dt * where(absolute(push) < tolerance, 1.0 / QUIET_TIME, 1.0 / DRIFT_TIME)
     return where(push * off < 0.0, where(push < 0.0, -common, common) * rate, 0.0)
 
