@@ -89,7 +89,7 @@ TRIED_WITH = {  # each fault by its text, and the changes of the mission that le
         "supervision.hold_timeout": 0.2,
     },
     "cannot follow: heading lost": {
-        "compliance.yaw.max_lead_angle": 0.004,
+        "compliance.yaw.max_lead_angle": 0.003,
         "compliance.following.time": 0.02,
         "supervision.hold_timeout": 0.2,
     },
