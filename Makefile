@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page docs test lint types imports tests examples test-pythons test-distributions test-gazebo test-targets random-missions mutation-check bench compare-engines bench-peers lock clean help
+.PHONY: run live page docs test lint types imports tests examples test-pythons test-distributions test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -64,8 +64,11 @@ test-targets: .venv/dev  ## every target on every mission: cross compilers, QEMU
 	tools/test-packages --targets
 	TANDEMLIFT_REQUIRE_ALL=1 $(BIN)/pytest -n 2 -m targets
 
+validate: .venv/dev  ## the pilot's performance beside its targets, printed; 5 minutes. CHAPTER="tracking draws" for some, ENGINE=mujoco
+	$(BIN)/python evidence/validate.py $(if $(CHAPTER),--chapter $(CHAPTER)) $(if $(ENGINE),--engine $(ENGINE)) $(if $(DRAWS),--draws $(DRAWS))
+
 random-missions: .venv/dev  ## a thousand missions at random, each outcome confirmed by a judge; into docs/reference/validation.md
-	$(BIN)/python tools/random_missions.py --write
+	$(BIN)/python evidence/fly_random_missions.py --write
 
 mutation-check: .venv/dev  ## small mistakes in laws, loop, simulation and studies, one at a time: does a test notice each? For hours
 	$(BIN)/python tools/mutation_check.py

@@ -40,11 +40,12 @@ ROOMS = {  # share of the mutants, and folders of tests: laws and loops that sur
     "simulation": (0.125, ["tests/simulation"]),
     "studies": (0.155, ["tests/studies"]),
 }
-APART = ["studies/validation/*", "studies/random_missions/*"]  # tests themselves: another scenario is as good
-BLIND = [  # tests that compare one source with itself, and tests of what is apart
-    "*/test_one_source*.py", "*/test_jacobian.py", "*/test_compiling.py", "*/test_kills.py",
-    "tests/studies/validation/*", "*/test_random_missions.py", "*/test_silent_failures.py",
-]  # fmt: skip
+BLIND = [
+    "*/test_one_source*.py",
+    "*/test_jacobian.py",
+    "*/test_compiling.py",
+    "*/test_kills.py",
+]  # that compare one source with itself
 CHOSEN: list[str] = []  # patterns of --tests
 ENOUGH = 0.95  # of the mutants that are not equivalent have to be killed
 BUDGET = 120.0  # s of tests at most for a mutant
@@ -58,8 +59,7 @@ def digest(*content: bytes) -> str:
 def drawn(room: str, count: int, seed: int) -> list[Mutant]:
     """The mutants of a room with the smallest hashes of seed and name: a change of the source exchanges few of them."""
     paths = {path.relative_to(PACKAGE).as_posix(): path for path in sorted((PACKAGE / room).rglob("*.py"))}
-    kept = {file: path for file, path in paths.items() if not any(fnmatch(file, apart) for apart in APART)}
-    every = [mutant for file, path in kept.items() for mutant in mutants(file, path.read_bytes())]
+    every = [mutant for file, path in paths.items() for mutant in mutants(file, path.read_bytes())]
     return sorted(every, key=lambda m: digest(str(seed).encode(), m.name.encode()))[: round(count * ROOMS[room][0])]
 
 

@@ -11,7 +11,6 @@ import tandemlift as tl
 from tandemlift.cli.main import cli, main
 from tandemlift.figures.registry import figures
 from tandemlift.missions import built_in, load_mission, to_toml
-from tandemlift.studies.validation.chapters import CHAPTERS
 
 METRICS = [
     "position_rmse_m",
@@ -92,12 +91,6 @@ def test_the_help_of_run_names_what_is_written_and_the_exit_codes(run):
         assert word in out
 
 
-def test_the_help_of_validate_names_every_chapter(run):
-    _, out, _ = run("validate", "--help")
-    named = re.search(r"Run only this chapter: (.*?)\.", " ".join(out.split()))[1]
-    assert re.split(", | or ", named) == list(CHAPTERS)
-
-
 def test_without_a_verb_the_help_is_shown(run):
     code, out, err = run()
     assert code == 2
@@ -115,7 +108,7 @@ def test_the_version_is_told(run):
             ("rnu", "paper"),
             [
                 "No such command 'rnu'",
-                "run, compare, render, live, page, replay, gazebo, ros, study, validate, tune, linearize, check, feel,",
+                "run, compare, render, live, page, replay, gazebo, ros, study, tune, linearize, check, feel,",
                 "Did you mean 'run'?",
             ],
         ),

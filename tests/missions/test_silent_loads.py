@@ -6,11 +6,11 @@ import warnings
 
 import numpy as np
 import pytest
+from validation.scenarios import BASE, WINDY
 
 import tandemlift as tl
 from tandemlift.missions import load_mission
 from tandemlift.missions.flight_checks.table import flight_checks
-from tandemlift.studies.validation.scenarios import BASE, WINDY
 
 
 def push(**keys):

@@ -5,14 +5,7 @@ import re
 
 import numpy as np
 import pytest
-
-import tandemlift as tl
-from tandemlift.algebra.vector import ZERO, Vec3
-from tandemlift.common.phases import CONTACT
-from tandemlift.laws.estimation.contact_detection import ContactEstimate
-from tandemlift.laws.guidance.contact_hold import code_of
-from tandemlift.simulation.contact_texts import contact_codes, describe_contact
-from tandemlift.studies.validation.contacts import (
+from validation.contacts import (
     ACROSS,
     KINDS,
     POST,
@@ -25,7 +18,14 @@ from tandemlift.studies.validation.contacts import (
     touch_of,
     touching,
 )
-from tandemlift.studies.validation.persons import random_persons
+from validation.persons import random_persons
+
+import tandemlift as tl
+from tandemlift.algebra.vector import ZERO, Vec3
+from tandemlift.common.phases import CONTACT
+from tandemlift.laws.estimation.contact_detection import ContactEstimate
+from tandemlift.laws.guidance.contact_hold import code_of
+from tandemlift.simulation.contact_texts import contact_codes, describe_contact
 
 pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.common.errors.FlightWarning")
 

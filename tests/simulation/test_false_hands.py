@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from validation.scenarios import drawn
 
 import tandemlift as tl
 from tandemlift.common.phases import IDLE, LAND
-from tandemlift.studies.validation.scenarios import drawn
 
 HOVER, AWAY = 12.5, 1.0  # s, m
 

@@ -5,10 +5,10 @@ import subprocess
 
 import pytest
 from c_flights import STRICT
+from random_missions.generate import random_family
 
 import tandemlift as tl
 from tandemlift.missions import built_in
-from tandemlift.studies.random_missions.generate import random_family
 from tandemlift.targets.c.language.function_text import FunctionHead, Statement, function, token
 from tandemlift.targets.c.write import code_texts, written
 from tools import need

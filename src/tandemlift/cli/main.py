@@ -27,7 +27,6 @@ from tandemlift.cli.studies.compare import compare
 from tandemlift.cli.studies.feel import feel
 from tandemlift.cli.studies.study import study
 from tandemlift.cli.studies.tune import tune
-from tandemlift.cli.studies.validate import validate
 from tandemlift.cli.terminal.console import compile_notices, echo, exit_now, handle_interrupts
 from tandemlift.common.errors import FlightWarning, InputError, suggestion
 from tandemlift.common.version import __version__
@@ -77,7 +76,6 @@ cli.add_command(replay)
 cli.add_command(gazebo)
 cli.add_command(ros)
 cli.add_command(study)
-cli.add_command(validate)
 cli.add_command(tune)
 cli.add_command(linearize)
 cli.add_command(check)

@@ -1,1 +1,1 @@
-"""Commands that fly many missions: comparisons, studies, tuning, feel, validation."""
+"""Commands that fly many missions: comparisons, studies, tuning, feel."""

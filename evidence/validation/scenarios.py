@@ -15,7 +15,7 @@ import numpy as np
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
 from tandemlift.simulation.many import fly_each
-from tandemlift.studies.validation.census import Census
+from validation.census import Census
 
 Changes = dict[str, Any]
 

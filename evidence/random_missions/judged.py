@@ -17,11 +17,10 @@ from judge.verdict import judge
 from pyarrow import parquet
 
 import tandemlift as tl
+from random_missions.generate import UNPUSHED, RandomMission, random_family
 from tandemlift.flight.record import Flight
 from tandemlift.missions.files import built_in, path_of
 from tandemlift.simulation.many import fly_each
-from tandemlift.studies import random_missions
-from tandemlift.studies.random_missions.generate import UNPUSHED, RandomMission, random_family
 from tandemlift.studies.units.columns import Columns
 from tandemlift.studies.units.files import UnitFiles
 from tandemlift.studies.units.unit import sources_digest
@@ -200,8 +199,8 @@ def _row(values: dict[str, Any]) -> Judged:
 
 def _sources() -> str:
     """Digest of all that decides what becomes of a mission: tandemlift, its missions, what draws them, the judge."""
-    folders = [Path(__file__).parent / "judge", *map(Path, random_missions.__path__)]
-    files = [Path(__file__), *(path for folder in folders for path in sorted(folder.glob("*.py")))]
+    here = Path(__file__).resolve().parent
+    files = [path for folder in (here, here.parent / "judge") for path in sorted(folder.glob("*.py"))]
     parts = [path.read_bytes() for path in [*files, *(path_of(name, Path()) for name in built_in())]]
     return _hash(b"\0".join([sources_digest().encode(), mujoco.__version__.encode(), *parts]))
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from tandemlift.flight.record import LATE, Flight
-from tandemlift.studies.validation.rows import Row, below, errors, rms, triple, true_yielding
-from tandemlift.studies.validation.scenarios import SLOW, WINDY, Bench, Changes, drawn, mission
+from validation.rows import Row, below, errors, rms, triple, true_yielding
+from validation.scenarios import SLOW, WINDY, Bench, Changes, drawn, mission
 
 HEAVIER = 0.3  # kg
 ASIDE = 0.1  # m, of the payload's centre of mass

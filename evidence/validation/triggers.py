@@ -16,8 +16,8 @@ import numpy as np
 
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission
-from tandemlift.studies.validation.rows import Row
-from tandemlift.studies.validation.scenarios import Bench, Changes, mission
+from validation.rows import Row
+from validation.scenarios import Bench, Changes, mission
 
 HOVER: Changes = {
     "initial.euler": [0.0, 0.0, 0.0],

@@ -14,8 +14,8 @@ import numpy as np
 
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission
-from tandemlift.studies.validation.rows import Row, below
-from tandemlift.studies.validation.scenarios import STEADY, TURBULENCE, Bench, Changes, mission, wind
+from validation.rows import Row, below
+from validation.scenarios import STEADY, TURBULENCE, Bench, Changes, mission, wind
 
 FLOOR, DROP = -0.5, 0.36  # m, height of the floor, and of the landing below the start
 TRIAL: Changes = {

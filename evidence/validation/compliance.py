@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from tandemlift.flight.record import Flight
-from tandemlift.studies.validation.rows import Row, below
-from tandemlift.studies.validation.scenarios import Bench, mission
+from validation.rows import Row, below
+from validation.scenarios import Bench, mission
 
 STEADY = (1.0 - 0.15) / 1.6  # rad/s, where the damping carries what exceeds the threshold
 LATE = 3.28 / 1.6  # s, until it turns so fast

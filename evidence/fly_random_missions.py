@@ -1,6 +1,6 @@
 """Missions at random, and a judge of each outcome: prints the table of the validation, or writes it.
 
-python tools/random_missions.py [--families 125] [--unpushed 25] [--members 8] [--seed 16] [--processes 2]
+python evidence/fly_random_missions.py [--families 125] [--unpushed 25] [--members 8] [--seed 16] [--processes 2]
                                 [--out DIR] [--write]
 
 In `unpushed` families nobody pushes, and no vehicle may move by a metre.
@@ -23,10 +23,10 @@ from pathlib import Path
 os.environ.setdefault("TANDEMLIFT_OPTIMISE", "0")  # many loops, each flown for seconds only
 
 import mujoco
-from judged_missions import BAD, Families, Judged
+from random_missions.generate import UNPUSHED, shortened
+from random_missions.judged import BAD, Families, Judged
 
 import tandemlift as tl
-from tandemlift.studies.random_missions.generate import UNPUSHED, shortened
 from tandemlift.studies.units.files import UnitFiles
 from tandemlift.studies.units.running import run_units
 from tandemlift.studies.units.workers import ExecutorWorkers

@@ -1,8 +1,9 @@
 """The census of a study counts flights by outcome and by the kinds of their findings."""
 
+from validation.census import Census
+from validation.scenarios import Bench
+
 import tandemlift as tl
-from tandemlift.studies.validation.census import Census
-from tandemlift.studies.validation.scenarios import Bench
 
 
 def test_flights_are_counted_once_each_whatever_their_findings():

@@ -10,8 +10,8 @@ import numpy as np
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.missions import Mission, load_mission
 from tandemlift.studies.design.study_files import load_plan
-from tandemlift.studies.validation.rows import Row
-from tandemlift.studies.validation.scenarios import Bench, Changes
+from validation.rows import Row
+from validation.scenarios import Bench, Changes
 
 NEAR, STANDS = 1.2, 0.02  # m, tolerance of the path's end and of the final height
 LEAST = {"zigzag": 0.0, "narrow": 0.3, "narrow-zigzag": 0.1, "doorway": 0.05}  # m, smallest clearance

@@ -7,17 +7,12 @@ from pathlib import Path
 import judge
 import numpy as np
 import pytest
+from fly_random_missions import report, table
 from judge.model import GRAVITY, body_of, corridor_walls
 from judge.verdict import is_rough
 from judge.verdict import judge as judged_record
-from judged_missions import Families, Judged, judged
 from mission_schema import SCHEMA
-from random_missions import report, table
-
-import tandemlift as tl
-from tandemlift.missions import tables_of
-from tandemlift.settings import CorridorTable
-from tandemlift.studies.random_missions.generate import (
+from random_missions.generate import (
     FIXED,
     LISTS,
     UNPUSHED,
@@ -26,6 +21,11 @@ from tandemlift.studies.random_missions.generate import (
     random_missions,
     shortened,
 )
+from random_missions.judged import Families, Judged, judged
+
+import tandemlift as tl
+from tandemlift.missions import tables_of
+from tandemlift.settings import CorridorTable
 from tandemlift.studies.units.files import UnitFiles
 from tandemlift.studies.units.running import StudyPart, run_units
 from tandemlift.studies.units.workers import thread_workers

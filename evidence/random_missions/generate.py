@@ -12,6 +12,7 @@ from typing import Any, Literal, NamedTuple, get_args, get_origin
 
 import numpy as np
 
+from random_missions.values import varied
 from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.controllers import CONTROLLERS
 from tandemlift.missions import load_mission, tables_of
@@ -19,7 +20,6 @@ from tandemlift.missions.bounds import plain
 from tandemlift.missions.files import built_in
 from tandemlift.missions.key_reference.sections import Key, is_of_the_package, sections
 from tandemlift.settings import Mission
-from tandemlift.studies.random_missions.values import varied
 
 Changes = dict[str, Any]
 

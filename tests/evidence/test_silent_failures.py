@@ -5,11 +5,11 @@ import warnings
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
+from random_missions.generate import shortened
 
 import tandemlift as tl
 from tandemlift.common.outcomes import FAILURES
 from tandemlift.simulation.many import fly_each
-from tandemlift.studies.random_missions.generate import shortened
 
 AXES = st.integers(0, 2)
 CHANGES = {  # what may be wrong with a vehicle, its surroundings, or what is asked of it; each within its own range

@@ -18,9 +18,9 @@ from tandemlift.common.faults import ALARM_TEXTS, FAULTS
 from tandemlift.common.phases import CONTACT, GUIDED, HOLD
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
-from tandemlift.studies.validation.persons import random_persons
-from tandemlift.studies.validation.rows import Row
-from tandemlift.studies.validation.scenarios import Bench, Changes
+from validation.persons import random_persons
+from validation.rows import Row
+from validation.scenarios import Bench, Changes
 
 SIDE, POST, ACROSS, MOUTH = "side", "post", "across", "mouth"
 KINDS = (SIDE, POST, ACROSS, MOUTH)
