@@ -14,8 +14,8 @@ from tandemlift.cli.main import main
 from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.gazebo_app.camera_views import views_from
 from tandemlift.missions import tables_of
-from tandemlift.models.cameras import FixedCamera, add_cameras
 from tandemlift.models.sdf import world
+from tandemlift.models.sdf_cameras import FixedCamera, add_cameras
 from tandemlift.report.flight_files import write_flight_files
 
 STANDS, FLIES, LANDS = 5.0, 25.0, 30.0  # s

@@ -1,4 +1,4 @@
-"""Pictures show what is there, where it is: projection, hiding, shadow, grid, and the files that come of it."""
+"""Pictures show a flight where it is: projection, shadow, grid, and the files that come of it."""
 
 import dataclasses
 import re
@@ -7,23 +7,18 @@ import sys
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from hypothesis import given
-from hypothesis import strategies as st
 from patience import completed
 from PIL import Image
 
 import tandemlift as tl
 from tandemlift.cli.render import render as command
+from tandemlift.models.visuals import SUN
 from tandemlift.rendering import Animation, Shot, camera_of, picture, render, studio
-from tandemlift.rendering.camera import ANGLE, look_at
-from tandemlift.rendering.ground import line_coverage
-from tandemlift.rendering.light import SUN, Shadow
-from tandemlift.rendering.mesh import EMPTY, box, cylinder, merged, panel, sphere, torus
+from tandemlift.rendering.film import Film, look_at
+from tandemlift.rendering.ground import HAZE, ZENITH, floor, grid, rgb, shadow_on, sky
 from tandemlift.rendering.stage import FlightStage
-from tandemlift.rendering.studio import Pane, Scene, SceneLine, render_scene
 
 TINY = (96, 54)
-RED, BLUE = "#ff0000", "#0000ff"
 
 
 @pytest.fixture(scope="module")
@@ -32,124 +27,78 @@ def flight():
     return tl.fly(tl.load_mission("one-push", changes))
 
 
-def scene(solid=EMPTY, panes=(), lines=()):
-    """A scene far above its floor."""
-    return Scene(solid, list(lines), list(panes), -50.0, 1.0)
-
-
-SHADED = sphere([0.0, 0.0, -40.0], 0.1, RED)  # out of sight; a shadow needs something that throws it
-VIEW = look_at([0.0, 0.0, 0.0], 0.0, 0.0, 10.0, 320, 180)  # from +x, y to the right, z up
-FOCAL = 90.0 / np.tan(ANGLE / 2.0)
-
-
 def reddish(image):
-    """Whether pixels are clearly red."""
-    light = image.astype(int)
-    return light[..., 0] - light[..., 1:].max(axis=-1) > 40
+    """Whether pixels are clearly red, and not orange as the front of a quadrotor is."""
+    red, green, blue = np.moveaxis(image.astype(int), -1, 0)
+    return (red - np.maximum(green, blue) > 40) & (green - blue < 40)
 
 
-@pytest.mark.parametrize("place", [(0.0, 0.0, 0.0), (3.0, 1.2, 0.5), (-6.0, -3.0, -2.0)])
-def test_a_ball_appears_where_a_pinhole_camera_sees_it_and_as_large(place):
-    x, y, z = place
-    image = render_scene(scene(merged([sphere(place, 0.4, RED), SHADED])), VIEW, 10.0, 3)
-    rows, columns = np.nonzero(reddish(image))
-    distance = 10.0 - x
-    assert columns.mean() + 0.5 == pytest.approx(160.0 + FOCAL * y / distance, abs=0.5)
-    assert rows.mean() + 0.5 == pytest.approx(90.0 - FOCAL * z / distance, abs=0.5)
-    assert len(rows) == pytest.approx(np.pi * (FOCAL * 0.4 / distance) ** 2, rel=0.1)
+def seen(view, size, point):
+    """The column and row of a point as a pinhole camera sees it."""
+    ahead = view.target - view.eye
+    ahead /= np.linalg.norm(ahead)
+    away = point - view.eye
+    right = np.cross(ahead, view.up)
+    return np.array(size) / 2.0 + view.focal * np.array([away @ right, -(away @ view.up)]) / (away @ ahead)
 
 
-def test_what_is_nearer_hides_what_is_behind_it_whichever_is_drawn_first():
-    near, far = sphere([2.0, 0.0, 0.0], 0.5, BLUE), sphere([-2.0, 0.0, 0.0], 0.5, RED)
-    for order in ([near, far], [far, near]):
-        assert not reddish(render_scene(scene(merged([*order, SHADED])), VIEW, 10.0, 1)).any()
+@pytest.mark.parametrize("name", ["follow", "overview", "side", "30,40", "-120,12.5,6"])
+def test_the_arrow_of_a_push_appears_where_a_pinhole_camera_sees_it(flight, name):
+    size = (480, 270)
+    film = Film(flight, camera_of(name), size)
+    bare = Film(
+        dataclasses.replace(flight, channels=flight.channels | {"push_force": 0.0 * flight["push_force"]}),
+        camera_of(name),
+        size,
+    )
+    changed = (
+        np.abs(np.asarray(film.picture(3.0)).astype(int)[:250] - np.asarray(bare.picture(3.0)).astype(int)[:250]).max(
+            axis=-1
+        )
+        > 40
+    )
+    rows, columns = np.nonzero(changed)
+    found = np.array([[columns.min(), rows.min()], [columns.max(), rows.max()]])
+    ends = np.array([seen(film.view(3.0), size, point) for point in film.stage.arrow(3.0)])
+    np.testing.assert_allclose(found + 0.5, [ends.min(axis=0), ends.max(axis=0)], atol=6.0)  # an arrow is wide
 
 
-def test_what_is_behind_the_eye_is_not_drawn():
-    behind = merged([sphere([14.0, 0.0, 0.0], 0.5, RED), SHADED])
-    assert not reddish(render_scene(scene(behind), VIEW, 10.0, 1)).any()
+def test_a_shadow_lies_where_the_suns_rays_meet_the_floor():
+    point = np.array([1.0, -2.0, 3.0])
+    shadow = (shadow_on(0.5) @ [*point, 1.0])[:3]
+    np.testing.assert_allclose(shadow, point - SUN / SUN[2] * 2.5, atol=1e-12)
 
 
-def test_a_pane_mixes_with_what_is_behind_it_in_proportion_to_its_opacity():
-    bright = studio.Mesh(*panel([-2.0, -2.0, -2.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0], "#ffffff"))
-    bright = bright._replace(normals=np.zeros_like(bright.normals))  # shines by itself
-    pane = panel([2.0, -1.0, -1.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0], "#000000")
-    image = render_scene(scene(merged([bright, SHADED]), [Pane(pane, 0.25)]), VIEW, 10.0, 1)
-    half_up = 255.0 * (1.055 * 0.75 ** (1 / 2.4) - 0.055)  # 0.75 of the light as sRGB
-    np.testing.assert_allclose(image[90, 160], half_up, atol=1.0)
+def test_the_lines_of_the_grid_stand_at_the_multiples_of_its_cells_and_fade_with_distance():
+    view = look_at(np.array([3.3, -4.7, 1.0]), 0.3, 0.4, 5.0, 640, 360)
+    points, cells, colors = grid(view, 2.0, 0.0)
+    lines = points[cells.reshape(-1, 3)[:, 1:]]
+    alike = np.abs(np.diff(lines, axis=1)[:, 0, :2]) < 1e-12  # each line keeps its x or its y
+    assert (alike.sum(axis=1) == 1).all()
+    kept = lines[:, 0, :2][alike]
+    np.testing.assert_allclose(kept / 2.0, np.round(kept / 2.0), atol=1e-12)
+    away, dark = np.linalg.norm(points - view.eye, axis=1), rgb(HAZE).sum() - colors.sum(axis=1)
+    assert dark[away < 6.0].min() > dark[away > 40.0].max()
 
 
-def test_a_line_keeps_its_width_in_pixels_at_any_distance():
-    width = 8.0
-    for x in (0.0, -30.0):
-        points = np.array([[x, -20.0, 0.0], [x, 20.0, 0.0]])
-        line = SceneLine(points, width, np.tile([1.0, 0.0, 0.0], (2, 1)))
-        image = render_scene(scene(SHADED, lines=[line]), VIEW, 10.0, 4)
-        assert reddish(image)[:, 160].sum() == pytest.approx(width * 180.0 / 720.0, abs=1.0)
-
-
-def test_a_large_picture_is_the_same_in_strips(monkeypatch):
-    parts = scene(merged([torus([0.0, 0.0, 0.0], 2.0, 0.1, RED), box([1.0, 1.0, 0.5], [1.0, 1.0, 1.0], BLUE)]))
-    whole = render_scene(parts, VIEW, 10.0, 2)
-    monkeypatch.setattr(studio, "AT_ONCE", 320 * 4 * 7)
-    np.testing.assert_array_equal(render_scene(parts, VIEW, 10.0, 2), whole)
-
-
-def volume(mesh):
-    """By the ending theorem."""
-    a, b, c = np.moveaxis(mesh.corners, 1, 0)
-    return abs((a * np.cross(b, c)).sum() / 6.0)
-
-
-@pytest.mark.parametrize(
-    ("mesh", "expected", "error"),
-    [
-        (sphere([1.0, 2.0, 3.0], 0.5, RED), 4.0 / 3.0 * np.pi * 0.5**3, 0.06),
-        (cylinder([0.0, 1.0, 0.0], [2.0, 1.0, 1.0], 0.3, RED, sides=60), np.pi * 0.3**2 * np.sqrt(5.0), 0.01),
-        (cylinder([0.0, 0.0, 0.0], [0.0, 2.0, 0.0], 0.3, RED, 0.0, sides=60), np.pi * 0.3**2 * 2.0 / 3.0, 0.01),
-        (torus([0.0, 0.0, 0.0], 1.0, 0.1, RED), 2.0 * np.pi**2 * 0.1**2, 0.12),
-        (box([1.0, 0.0, 0.0], [1.0, 2.0, 3.0], RED), 6.0, 1e-12),
-    ],
-    ids=["ball", "rod", "cone", "ring", "box"],
-)
-def test_shapes_are_closed_and_their_normals_point_outward(mesh, expected, error):
-    assert volume(mesh) == pytest.approx(expected, rel=error)
-    a, b, c = np.moveaxis(mesh.corners, 1, 0)
-    areas = np.cross(b - a, c - a)
-    np.testing.assert_allclose(areas.sum(axis=0), 0.0, atol=1e-12)  # of a closed surface
-    flux = (mesh.corners * mesh.normals).sum(axis=-1).mean(axis=1) * np.linalg.norm(areas, axis=1) / 6.0
-    assert flux.sum() == pytest.approx(expected, rel=0.1)
-
-
-def test_a_shadow_lies_where_the_suns_rays_through_a_body_meet_the_floor():
-    shadow = Shadow(sphere([1.0, -2.0, 3.0], 0.2, RED).corners, 0.5)
-    rows, columns = np.indices(shadow.shade.shape)
-    weight = shadow.shade / shadow.shade.sum()
-    center = np.array([(columns * weight).sum(), (rows * weight).sum()]) + 0.5
-    expected = np.array([1.0, -2.0]) - SUN[:2] / SUN[2] * 2.5
-    np.testing.assert_allclose(shadow.low + shadow.texel * center, expected, atol=0.01)
-    below = np.array([[1.0, -2.0, 3.0]]) - 1.5 * SUN
-    beside = below + np.array([0.5, 0.0, 0.0])
-    np.testing.assert_array_equal(shadow.shade_on(np.concatenate([below, beside])), [1.0, 0.0])
-
-
-@given(st.floats(-5.0, 5.0), st.floats(0.01, 7.0), st.floats(0.01, 0.3))
-def test_lines_cover_the_share_of_a_pixel_that_samples_find(start, blur, width):
-    x = start + blur * (np.arange(20000) + 0.5) / 20000
-    found = np.mean(x % 1.0 < width)
-    assert line_coverage(start, blur, 1.0, width) == pytest.approx(found, abs=2e-3)
+def test_floor_and_sky_meet_in_haze():
+    view = look_at(np.array([0.0, 0.0, 1.0]), 0.3, 0.4, 5.0, 640, 360)
+    ground, heaven = floor(view, 0.0), sky(view)
+    np.testing.assert_allclose(ground.points[:, 2], 0.0)
+    np.testing.assert_allclose(ground.colors[-1], rgb(HAZE), atol=0.5)
+    np.testing.assert_allclose(heaven.colors[0], rgb(HAZE))
+    np.testing.assert_allclose(heaven.colors[-1], rgb(ZENITH))
 
 
 def test_the_arrow_of_a_push_starts_on_the_line_along_which_it_acts(flight):
     point, k = np.array([0.0, 0.7, 0.1]), int(np.argmin(np.abs(flight.time - 3.0)))
     moment = {"push_moment": np.cross(point, flight["push_force"])}  # level within milliradians
     stage = FlightStage(dataclasses.replace(flight, channels=flight.channels | moment))
-    solid, without = stage.scene(3.0, 0.01).solid, stage.scene(0.5, 0.01).solid
-    arrow = solid.corners[len(without.corners) :].reshape(-1, 3)  # what there is only while the push acts
-    acts = flight["position"][k] + point
+    start, tip = stage.arrow(3.0)
     force = flight["push_force"][k] / np.linalg.norm(flight["push_force"][k])
-    np.testing.assert_allclose(np.linalg.norm(np.cross(arrow - acts, force), axis=1).min(), 0.0, atol=0.01)
-    assert np.ptp(arrow @ force) == pytest.approx(0.9, abs=0.01)
+    np.testing.assert_allclose(np.cross(start - flight["position"][k] - point, force), 0.0, atol=0.01)
+    np.testing.assert_allclose(tip - start, 0.9 * force, atol=0.01)
+    assert stage.arrow(0.5) is None
 
 
 def test_the_floor_touches_the_lowest_foot_of_the_flight_or_is_the_missions(flight):
@@ -266,6 +215,20 @@ def test_options_that_mean_nothing_are_refused_before_anything_flies(args, says)
         run("no-such-mission", *args)
 
 
-def test_nothing_of_graphics_is_needed():
-    code = "import sys, tandemlift.rendering; print([m for m in ('mujoco', 'OpenGL', 'tkinter') if m in sys.modules])"
+def test_a_missing_package_and_a_system_that_cannot_draw_are_named(flight, tmp_path, monkeypatch):
+    studio.pyvista.cache_clear()
+    monkeypatch.setattr(studio, "WINDOWS", {"libnowhere.so.1": "vtkEGLRenderWindow"})
+    with pytest.raises(tl.InputError, match="needs EGL or OSMesa: apt-get install libegl1 libgl1-mesa-dri"):
+        render(flight, tmp_path / "a.png")
+    monkeypatch.setitem(sys.modules, "pyvista", None)
+    with pytest.raises(tl.InputError, match=r"drawing a flight needs pyvista: pip install 'tandemlift\[video\]'"):
+        render(flight, tmp_path / "a.png")
+    assert list(tmp_path.iterdir()) == []
+    studio.pyvista.cache_clear()
+
+
+def test_nothing_of_graphics_is_imported_before_something_is_drawn():
+    code = (
+        "import sys, tandemlift.rendering; print([m for m in ('mujoco', 'vtkmodules', 'tkinter') if m in sys.modules])"
+    )
     assert completed([sys.executable, "-c", code], capture_output=True, text=True).stdout == "[]\n"

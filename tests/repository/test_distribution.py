@@ -18,7 +18,6 @@ COMES_WITH = {  # an import's package, where it has another name
     **{"dask": "distributed", "lz4": "rosbags", "pydantic_core": "pydantic", "mpl_toolkits": "matplotlib"},
     **{"PIL": "pillow", "cycler": "matplotlib"},
 }
-WITH_A_PROGRAM = {"imageio-ffmpeg"}  # the message also names the program that serves as well
 OF_NOTEBOOKS = {"IPython"}  # imported only where it runs
 OF_ROS_1 = {"rosgraph", "rospy"}  # from Debian
 
@@ -82,8 +81,8 @@ def test_what_is_imported_is_a_dependency_or_in_the_extra_that_is_named_where_it
     assert len(found) > 15
     assert {(package, extra) for package, extra in found if extra and package not in packages_of(extra)} == set()
     named = {package for package, extra in found if extra}
-    assert {package for package, _ in found} - named == WITH_A_PROGRAM, "imported, but nothing says how to install it"
-    assert packages_of("all") - named <= WITHOUT_IMPORT | WITH_A_PROGRAM
+    assert {package for package, _ in found} == named, "imported, but nothing says how to install it"
+    assert packages_of("all") - named <= WITHOUT_IMPORT
 
 
 def test_all_has_every_extra():

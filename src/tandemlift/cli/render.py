@@ -52,7 +52,7 @@ def render(
     engine: str,
     settings: tuple[str, ...],
 ) -> None:
-    """Draw a flight: a picture (PNG) or an animation (GIF, or MP4 by ffmpeg).
+    """Draw a flight: a picture (PNG) or an animation (GIF, MP4).
 
     FLIGHT_OR_MISSION is a saved flight (flight.npz or its folder), or a mission, which is flown first. --engine and
     --set are for a mission only.
@@ -78,11 +78,12 @@ def render(
 
 
 def _check_options(path: Path, given: list[str]) -> None:
-    """Refuse options that do not fit the kind of file, and an MP4 without ffmpeg, before anything is flown.
+    """Refuse options that do not fit the kind of file, and what cannot be drawn here, before anything is flown.
 
     Raises:
-        InputError: an option does not fit the kind of file, the kind is unknown, or ffmpeg is missing for an MP4.
+        InputError: an option does not fit the kind of file, the kind is unknown, or a package or library that draws is missing.
     """
+    from tandemlift.rendering.studio import pyvista
     from tandemlift.rendering.video import ffmpeg
 
     kind = path.suffix.lower()
@@ -92,6 +93,7 @@ def _check_options(path: Path, given: list[str]) -> None:
     if wrong:
         other = "an animation, --out FILE.gif or FILE.mp4" if kind == ".png" else "a picture, --out FILE.png"
         raise InputError(f"{', '.join(wrong)} {'are' if len(wrong) > 1 else 'is'} for {other}")
+    pyvista()
     if kind == ".mp4":
         ffmpeg()
 

@@ -13,7 +13,7 @@ import numpy as np
 from tandemlift.common.phases import GUIDED
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.models.cameras import FixedCamera, reach_of
+from tandemlift.models.sdf_cameras import FixedCamera, reach_of
 
 DISTANCE = 5.0  # from the vehicle to a camera, as a multiple of the vehicle's reach
 ELEVATION, OFFSET = np.radians([34.0, 24.0])  # rad, of a camera above the horizon and beside the way

@@ -16,7 +16,7 @@ from tandemlift.common.errors import InputError
 from tandemlift.engines.gazebo import CHECKS, PORT, REAL_TIME, world_from
 from tandemlift.engines.gazebo_server import GazeboServer, free_port, root, shell_command, with_gazebo_environment
 from tandemlift.gazebo_app.camera_views import ViewRequest
-from tandemlift.models.cameras import PICTURES, add_cameras
+from tandemlift.models.sdf_cameras import PICTURES, add_cameras
 from tandemlift.settings import Mission
 
 EVERY = 0.5  # s, from one picture of a camera to the next

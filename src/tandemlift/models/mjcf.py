@@ -22,9 +22,7 @@ from tandemlift.models.mujoco_bodies import specification
 from tandemlift.models.mujoco_contact import set_contact_stiffness
 from tandemlift.models.mujoco_import import mujoco
 from tandemlift.models.surroundings import floor_from, walls_from
-from tandemlift.models.visuals import VisualShape, payload_shapes, quadrotor_shapes
-from tandemlift.rendering.light import SUN
-from tandemlift.rendering.stage import GLASS, WALL
+from tandemlift.models.visuals import GLASS, SUN, WALL, VisualShape, payload_shapes, quadrotor_shapes
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 

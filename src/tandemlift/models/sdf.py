@@ -21,6 +21,7 @@ from tandemlift.algebra.vector import vec3
 from tandemlift.common.types import Array
 from tandemlift.laws.contact.feet import Floor
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
+from tandemlift.models.camera import CAMERAS
 from tandemlift.models.links import Link, links_of
 from tandemlift.models.sdf_collisions import (
     FASTEST,
@@ -33,10 +34,7 @@ from tandemlift.models.sdf_collisions import (
 )
 from tandemlift.models.sdf_elements import Element, add, fill, geometry, numbers, pose, rgba
 from tandemlift.models.surroundings import floor_from
-from tandemlift.models.visuals import LEVEL, VisualShape, payload_shapes, quadrotor_shapes
-from tandemlift.rendering.camera import CAMERAS
-from tandemlift.rendering.light import SUN
-from tandemlift.rendering.stage import GLASS, WALL
+from tandemlift.models.visuals import GLASS, LEVEL, SUN, WALL, VisualShape, payload_shapes, quadrotor_shapes
 from tandemlift.settings import Mission, WallTable
 from tandemlift.vehicle import Vehicle
 

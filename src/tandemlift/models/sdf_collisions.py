@@ -27,7 +27,7 @@ from tandemlift.laws.contact.walls import Beam, Walls
 from tandemlift.models.links import Link
 from tandemlift.models.sdf_elements import Element, add, fill, geometry, pose
 from tandemlift.models.surroundings import feet_and_floor_from, wall_contact_from
-from tandemlift.models.visuals import ALONG_Y, VisualShape
+from tandemlift.models.visuals import VisualShape, frame_along
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
@@ -127,7 +127,7 @@ def _beam(walls: Walls) -> list[VisualShape]:
     if not isinstance(walls.beam, Beam):
         return []
     ends, radius = sorted(walls.beam.ends), walls.beam.radius
-    middle = VisualShape("beam", "cylinder", (radius, ends[1] - ends[0]), np.zeros(3), ALONG_Y)
+    middle = VisualShape("beam", "cylinder", (radius, ends[1] - ends[0]), np.zeros(3), frame_along([0.0, 1.0, 0.0]))
     spheres = [
         VisualShape(f"beam_end_{k}", "sphere", (radius,), np.array([0.0, y, 0.0])) for k, y in enumerate(ends, 1)
     ]

@@ -1,6 +1,7 @@
-"""Visual shapes of a vehicle: boxes, spheres and cylinders, which every simulator has.
+"""Looks of a vehicle and its surroundings: boxes, spheres and cylinders, which every simulator has, and their colours.
 
-Colours and proportions are those of `rendering.aircraft`: front parts are orange, rear parts blue.
+Front parts are orange and rear parts blue, so that the heading is visible. Pictures, MuJoCo, Gazebo and RViz draw this
+one list; the live page has shapes of its own, in the same colours.
 """
 
 from __future__ import annotations
@@ -13,18 +14,32 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.common.types import Array
-from tandemlift.rendering.aircraft import CARBON, FRONT, GUARD, JOINT, METAL, REAR, SHAPELESS, SHELL, WOOD, mean_arm
-from tandemlift.rendering.mesh import frame_along
-from tandemlift.rendering.stage import BLUR, GLASS, WALL
-from tandemlift.rendering.stage import PUSH as PUSH_COLOR
 from tandemlift.settings import Payload, Quadrotor
+from tandemlift.vehicle import Vehicle
 
-__all__ = ["PUSH_COLOR", "VisualShape", "cylinder", "payload_shapes", "quadrotor_shapes", "wall_shape"]
-
+CARBON, METAL, SHELL, WOOD = "#2b2f36", "#8d949e", "#d9dce0", "#c2853f"
+FRONT, REAR, JOINT, GUARD = "#e8641b", "#2f6fb0", "#f0b429", "#5b636e"
+PUSH_COLOR, WALL = "#d5281b", "#7f8fa3"
+BLUR, GLASS = 0.3, 0.35  # opacity of rotors and of walls
+SUN = np.array([0.35, -0.42, 0.84]) / np.linalg.norm([0.35, -0.42, 0.84])  # unit vector towards the sun
+SHAPELESS = 0.2  # m, edge of the box that represents a payload without length
 SEGMENTS = 16  # straight pieces of a guard ring
-ALONG_Y = frame_along([0.0, 1.0, 0.0])  # axes (3 × 3) of a cylinder along y
 LEVEL = np.eye(3)
 SHORTEST = 1e-6  # m, a shorter cylinder is left out
+
+
+def mean_arm(quadrotor: Quadrotor) -> float:
+    """Mean distance of the rotors from the quadrotor's centre [m], a measure of its size."""
+    return float(np.linalg.norm(quadrotor.rotors, axis=1).mean())
+
+
+def frame_along(direction: ArrayLike) -> Array:
+    """A rotation (3 × 3) whose third column points along a direction."""
+    z = np.asarray(direction, dtype=float)
+    z = z / np.linalg.norm(z)
+    x = np.cross([0.0, 1.0, 0.0] if abs(z[1]) < 0.9 else [1.0, 0.0, 0.0], z)
+    x /= np.linalg.norm(x)
+    return np.column_stack([x, np.cross(z, x), z])
 
 
 class VisualShape(NamedTuple):
@@ -77,6 +92,15 @@ def payload_shapes(payload: Payload, quadrotors: tuple[Quadrotor, ...]) -> list[
         joint = q.joint_position
         shapes += cylinder(f"strut_{i}", [0.0, np.clip(joint[1], -half, half), 0.0], joint, 0.072 * mean_arm(q), METAL)
     return shapes
+
+
+def vehicle_shapes(vehicle: Vehicle) -> list[VisualShape]:
+    """A whole vehicle; positions are relative to the system's centre of mass."""
+    payload, depth = -vehicle.center_of_mass, vehicle.payload.radius or 0.0
+    placed = [(shape, payload) for shape in payload_shapes(vehicle.payload, tuple(vehicle.quadrotors))]
+    for q, center in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):
+        placed += [(shape, center) for shape in quadrotor_shapes(q, depth)]
+    return [shape._replace(position=shape.position + at) for shape, at in placed]
 
 
 def quadrotor_shapes(q: Quadrotor, depth: float) -> list[VisualShape]:

@@ -17,13 +17,13 @@ from tandemlift.common.errors import InputError
 from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Array, Progress
 from tandemlift.flight.record import Flight
-from tandemlift.rendering.camera import CAMERAS, Camera, View, look_at
+from tandemlift.models.camera import ANGLE, CAMERAS, Camera
+from tandemlift.rendering.ground import View
 from tandemlift.rendering.stage import FlightStage
-from tandemlift.rendering.studio import render_scene
+from tandemlift.rendering.studio import Studio
 from tandemlift.rendering.video import check_size, ffmpeg, write_mp4
 
 SIZES = {".png": (1280, 720), ".gif": (640, 360), ".mp4": (1280, 720)}  # pixels
-SAMPLES = {".png": 3, ".gif": 2, ".mp4": 2}  # each way, of a pixel
 LONGEST = 20.0  # s, length of an animation: a longer flight is shown faster, unless a speed is given
 PALETTE = ((Image.Quantize.MEDIANCUT, 160), (Image.Quantize.MAXCOVERAGE, 90))  # for fine shades, and for rare colours
 CLOSE, LOWER = 3.7, 0.07  # distance / vehicle's reach; offset of the target below the vehicle / distance
@@ -62,15 +62,15 @@ SHOT = Shot()
 class Film:
     """Pictures of a flight from one camera."""
 
-    def __init__(self, flight: Flight, camera: Camera, size: tuple[int, int], samples: int) -> None:
+    def __init__(self, flight: Flight, camera: Camera, size: tuple[int, int]) -> None:
         if not (min(size) >= 16 and size[0] * size[1] <= LARGEST):
             raise InputError(f"size {size[0]}x{size[1]} must be at least 16x16 and of at most 3840x2160 pixels")
         self.stage, self._camera = FlightStage(flight), camera
-        self._size, self._samples = size, samples
+        self._size, self._studio = size, Studio(self.stage, size)
         self._smooth = _smoothed(self.stage.time, self.stage.path)
 
-    def _view(self, time: float) -> tuple[View, float]:
-        """The view at a time [s], and the distance of its target [m]."""
+    def view(self, time: float) -> View:
+        """The view at a time [s]."""
         stage, camera = self.stage, self._camera
         azimuth, elevation = np.radians(camera.azimuth), np.radians(camera.elevation)
         if not camera.follows:
@@ -81,26 +81,28 @@ class Film:
         lowest = np.arcsin(
             np.clip((stage.floor + 0.1 - target[2]) / distance, -1.0, 1.0)
         )  # keeps the camera above the floor
-        return look_at(target, azimuth, max(elevation, lowest), distance, *self._size), distance
+        return look_at(target, azimuth, max(elevation, lowest), distance, *self._size)
 
-    def _whole(self, azimuth: float, elevation: float) -> tuple[View, float]:
-        """The view of the whole path from a direction, and its distance [m], the smallest at which the path fits."""
+    def _whole(self, azimuth: float, elevation: float) -> View:
+        """The view of the whole path from a direction, at the smallest distance at which the path fits."""
         stage = self.stage
         low, high = stage.path.min(axis=0) - stage.reach, stage.path.max(axis=0) + stage.reach
         target = (low + high) / 2.0
         view = look_at(target, azimuth, elevation, 1.0, *self._size)
-        across, up, ahead = np.moveaxis((stage.path - target) @ view.axes.T, 1, 0)
+        back = view.eye - target
+        axes = np.array([np.cross(view.up, back), view.up, -back])
+        across, up, ahead = np.moveaxis((stage.path - target) @ axes.T, 1, 0)
         half = FILLED * np.array(self._size) / 2.0 / view.focal
         needed = [(np.abs(across) + stage.reach) / half[0] - ahead, (np.abs(up) + stage.reach) / half[1] - ahead]
         distance = float(np.max(needed))
-        return look_at(target, azimuth, elevation, distance, *self._size), distance
+        return look_at(target, azimuth, elevation, distance, *self._size)
 
     def picture(self, time: float, note: str = "") -> Image.Image:
         """The picture at a time [s]; `note` is written after the time."""
-        view, distance = self._view(time)
+        view = self.view(time)
+        distance = view.distance
         cell = 1.0 if distance < 30.0 else 10.0 ** np.floor(np.log10(distance / 3.0))
-        scene = self.stage.scene(time, distance / view.focal, cell)
-        image = Image.fromarray(render_scene(scene, view, distance, self._samples))
+        image = Image.fromarray(self._studio.picture(time, view, cell))
         push = float(np.linalg.norm(self.stage.push(time)))
         notes = [self.stage.name, f"{time:.2f} s{note}", f"grid {cell:g} m"]
         notes += [f"push {push:.1f} N"] if self.stage.is_push_shown(push) else []
@@ -113,6 +115,15 @@ class Film:
 @lru_cache(maxsize=4)
 def _font(height: int) -> Any:
     return ImageFont.truetype(str(Path(matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), height)
+
+
+def look_at(target: Array, azimuth: float, elevation: float, distance: float, width: int, height: int) -> View:
+    """The view of a target (3) [m] from a direction (azimuth, elevation [rad]) at a distance [m]."""
+    c, s = np.cos(elevation), np.sin(elevation)
+    back = np.array([c * np.cos(azimuth), c * np.sin(azimuth), s])
+    up = np.cross(back, [-np.sin(azimuth), np.cos(azimuth), 0.0])
+    focal = min(height, 0.75 * width) / 2.0 / np.tan(ANGLE / 2.0)
+    return View(target + distance * back, target, up, float(focal), distance)
 
 
 def _smoothed(time: Array, path: Array) -> Array:
@@ -132,7 +143,7 @@ def picture(flight: Flight, shot: Shot = SHOT) -> Image.Image:
     Raises:
         InputError: the flight has no sample that can be drawn, or not at that time.
     """
-    film = Film(flight, shot.camera, shot.size or SIZES[".png"], SAMPLES[".png"])
+    film = Film(flight, shot.camera, shot.size or SIZES[".png"])
     return film.picture(
         film.stage.strongest_push_time if shot.time is None else film.stage.checked_time("time", shot.time)
     )
@@ -156,7 +167,7 @@ class Animation:
         if kind == ".mp4":
             check_size(self.size)
             ffmpeg()
-        self.film = Film(flight, shot.camera, self.size, SAMPLES[kind])
+        self.film = Film(flight, shot.camera, self.size)
         stage = self.film.stage
         start = float(stage.time[0]) if shot.start is None else stage.checked_time("from", shot.start)
         end = float(stage.time[-1]) if shot.end is None else stage.checked_time("to", shot.end)
@@ -231,7 +242,7 @@ def render(flight: Flight, out: str | os.PathLike[str], shot: Shot = SHOT, progr
     """
     path = Path(out)
     kind = path.suffix.lower()
-    if kind not in SAMPLES:
+    if kind not in SIZES:
         raise InputError(f"{path}: the name must end in .png (picture), .gif or .mp4 (animation)")
     drawn = picture(flight, shot) if kind == ".png" else Animation(flight, shot, kind)
     with atomic_write(path) as partial:

@@ -1,8 +1,7 @@
-"""The scene of a flight at any time: the vehicle, its path, the push, the walls and the floor."""
+"""Where everything of a flight is at any time: the vehicle, its path, the push, the walls and the floor."""
 
 from __future__ import annotations
 
-import itertools
 from typing import Any
 
 import numpy as np
@@ -12,23 +11,16 @@ from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.rendering.aircraft import aircraft
-from tandemlift.rendering.mesh import Mesh, cylinder, linear, merged, panel
-from tandemlift.rendering.studio import Pane, Scene, SceneLine
+from tandemlift.models.visuals import vehicle_shapes
 from tandemlift.settings import wall_tables
 from tandemlift.vehicle import Vehicle
 
-PUSH, PATH, AHEAD, GROUND = "#d5281b", "#1f5fbf", "#9db7d6", "#8a9097"
-WALL, FRAME = "#7f8fa3", "#4d5a6b"
-ARROW = 0.9  # m, length of the arrow for the strongest push of the flight
+ARROW, SHORTEST = 0.9, 0.18  # m, length of the arrow for the strongest push of the flight, and for the faintest
 FAINTEST = 0.03  # fraction of the strongest push below which a push is not drawn
-SHAFT = 0.022  # m, radius of an arrow
-PANEL = 1.0  # m, longest edge of a panel of a wall
-BLUR, GLASS = 0.3, 0.35  # opacity of rotors and of walls
 
 
 class FlightStage:
-    """The scenes of a flight.
+    """A flight as it is drawn.
 
     Attributes:
         time: of the samples that can be drawn [s].
@@ -37,6 +29,7 @@ class FlightStage:
         floor: height z of the floor [m].
         vehicle: the vehicle of the flight.
         reach: largest distance of a part of the vehicle from its centre of mass [m].
+        walls: tables of the mission's walls.
 
     Raises:
         InputError: the flight has no sample that can be drawn.
@@ -53,10 +46,9 @@ class FlightStage:
         self._pushes, self._moments = flight["push_force"][sound], flight["push_moment"][sound]
         self._strongest = float(np.linalg.norm(self._pushes, axis=1).max())
         self.vehicle = Vehicle.from_mission(flight.mission)
-        self._aircraft = aircraft(self.vehicle)
-        self.reach = self._aircraft.reach
+        self.reach = max(float(np.linalg.norm(s.position)) + max(s.size) / 2.0 for s in vehicle_shapes(self.vehicle))
         self.floor = self._floor_of(flight.mission, self.vehicle)
-        self._walls = [_wall(w, self.floor) for w in wall_tables(flight.mission)]
+        self.walls = wall_tables(flight.mission)
 
     def _floor_of(self, mission: dict[str, Any], vehicle: Vehicle) -> float:
         """Height of the floor [m]; where the mission gives none, that of the lowest foot."""
@@ -77,6 +69,10 @@ class FlightStage:
     def _at(self, time: float, values: Array) -> Array:
         """Values (n) of a channel (T, n), interpolated at a time [s]."""
         return np.array([np.interp(time, self.time, column) for column in values.T])
+
+    def rotation(self, time: float) -> Array:
+        """The vehicle's rotation (3 × 3) from body to world axes at a time [s]."""
+        return _rotation(self._at(time, self._attitudes))
 
     def position(self, time: float) -> Array:
         """Position of the centre of mass (3) [m] at a time [s]."""
@@ -106,48 +102,17 @@ class FlightStage:
         """Whether a push of this strength [N] is large enough to be drawn."""
         return strength > FAINTEST * self._strongest
 
-    def scene(self, time: float, per_pixel: float, cell: float = 1.0) -> Scene:
-        """The scene at a time [s].
-
-        Args:
-            time: of the flight [s].
-            per_pixel: width of a pixel at the vehicle [m].
-            cell: size of a grid cell [m].
-        """
-        position, R = self.position(time), _rotation(self._at(time, self._attitudes))
-        parts = self._aircraft
-        solid = [merged([parts.solid, parts.blades(time)]).placed(position, R), self._arrow(time, position, R)]
-        panes = [Pane(Mesh(*blur).placed(position, R), BLUR) for blur in parts.blurs]
-        walls = [Pane(panel, GLASS) for panels, _ in self._walls for panel in panels]
-        edges = [edge for _, frame in self._walls for edge in frame]
-        lines = [*self._path_lines(time, position, per_pixel), *edges]
-        return Scene(merged(solid), lines, panes + walls, self.floor, cell)
-
-    def _path_lines(self, time: float, position: Array, per_pixel: float) -> list[SceneLine]:
-        """The path so far, the path to come, and the vertical projection of the path so far on the floor."""
-        flown = self.time < time
-        past = np.vstack([_resampled(self.path[flown], 2.0 * per_pixel), position])
-        future = np.vstack([position, _resampled(self.path[~flown], 2.0 * per_pixel)])
-        lines = [
-            SceneLine(past, 3.0, _uniform_color(PATH, past)),
-            SceneLine(future, 1.2, _uniform_color(AHEAD, future)),
-        ]
-        fall = np.column_stack([past[:, :2], np.full(len(past), self.floor)])
-        return [*lines, SceneLine(fall, 1.6, _uniform_color(GROUND, fall))]
-
-    def _arrow(self, time: float, position: Array, R: Array) -> Mesh:
-        """An arrow from the push's point of application, its length in proportion to the force."""
+    def arrow(self, time: float) -> tuple[Array, Array] | None:
+        """Start (3) and tip (3) [m] of the arrow that shows the push at a time [s]; None without a push to show."""
         force = self.push(time)
         size = float(np.linalg.norm(force))
         if not self.is_push_shown(size):
-            return merged([])
-        along = force / size
+            return None
+        R = self.rotation(time)
         # the point nearest to the centre of mass on the force's line of action
         arm = np.cross(R.T @ force, self._at(time, self._moments)) / size**2
-        start = position + R @ arm
-        length = max(ARROW * size / self._strongest, 8.0 * SHAFT)
-        neck, tip = start + (length - 7.0 * SHAFT) * along, start + length * along
-        return merged([cylinder(start, neck, SHAFT, PUSH), cylinder(neck, tip, 2.6 * SHAFT, PUSH, 0.0)])
+        start = self.position(time) + R @ arm
+        return start, start + max(ARROW * size / self._strongest, SHORTEST) * force / size
 
 
 def _rotation(attitude: Array) -> Array:
@@ -159,29 +124,3 @@ def _continuous(attitudes: Array) -> Array:
     """Quaternions (T, 4) with signs such that they are continuous over time."""
     turned = (attitudes[1:] * attitudes[:-1]).sum(axis=1) < 0.0
     return attitudes * np.where(np.concatenate([[0], np.cumsum(turned)]) % 2, -1.0, 1.0)[:, None]
-
-
-def _resampled(points: Array, step: float) -> Array:
-    """Points of a path at a spacing of about `step` [m]."""
-    if len(points) < 3:
-        return points
-    way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    first = np.unique(np.searchsorted(way, np.arange(0.0, way[-1], step)))
-    return points[np.append(first, len(points) - 1)]
-
-
-def _uniform_color(color: str, points: Array) -> Array:
-    return np.tile(linear(color), (len(points), 1))
-
-
-def _wall(wall: dict[str, Any], floor: float) -> tuple[list[Mesh], list[SceneLine]]:
-    """The panels of a wall, and its outline."""
-    foot = [np.array([*wall[end], floor]) for end in ("start", "end")]
-    head = [np.array([*wall[end], wall["top"]]) for end in ("start", "end")]
-    frame = np.array([foot[0], head[0], head[1], foot[1], foot[0]])
-    count = [max(1, int(np.ceil(np.linalg.norm(v) / PANEL))) for v in (foot[1] - foot[0], head[0] - foot[0])]
-    along, up = (foot[1] - foot[0]) / count[0], (head[0] - foot[0]) / count[1]
-    corners = [foot[0] + i * along + j * up for i in range(count[0]) for j in range(count[1])]
-    # in short segments, as a segment that begins behind the camera is not drawn
-    pieces = [a + (b - a) * np.linspace(0.0, 1.0, 9)[:, None] for a, b in itertools.pairwise(frame)]
-    return [panel(c, along, up, WALL) for c in corners], [SceneLine(p, 2.0, _uniform_color(FRAME, p)) for p in pieces]

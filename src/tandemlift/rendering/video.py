@@ -1,12 +1,12 @@
 """Pictures as a video: H.264 in MP4, which every browser plays, written by the program ffmpeg.
 
-Each picture goes to ffmpeg as it is drawn. Colours are those of ITU-R BT.709, with every second sample of colour each
-way (yuv420p), so width and height are even. The index of the file stands first: a page can play it while it loads.
+Each picture goes to ffmpeg as it is drawn. (The writer of imageio_ffmpeg does not look at its exit code.) Colours are
+those of ITU-R BT.709, with every second sample of colour each way (yuv420p), so width and height are even. The index of
+the file stands first: a page can play it while it loads.
 """
 
 from __future__ import annotations
 
-import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterable
@@ -17,37 +17,26 @@ from typing import IO
 from PIL import Image
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 
 ENCODER = "libx264"
 QUALITY = 20  # of x264: a constant rate factor, lower is better
 COLOURS = "bt709"
-MISSING = "an MP4 needs ffmpeg with {}: apt-get install ffmpeg, or pip install 'tandemlift[video]'"
 
 
 @cache
 def ffmpeg() -> str:
-    """The program ffmpeg: the installed one if it writes H.264, else that of the package imageio-ffmpeg.
+    """The program ffmpeg that the package imageio-ffmpeg brings or finds; IMAGEIO_FFMPEG_EXE names another.
 
     Raises:
-        InputError: there is neither.
+        InputError: the package is not installed, or has no program for this machine.
     """
-    installed = shutil.which("ffmpeg")
-    if installed and _can_encode(installed):
-        return installed
-    try:
+    with extra("video", "an MP4"):
         import imageio_ffmpeg
-
-        return str(imageio_ffmpeg.get_ffmpeg_exe())
-    except (ModuleNotFoundError, RuntimeError):
-        raise InputError(MISSING.format(ENCODER)) from None
-
-
-def _can_encode(program: str) -> bool:
     try:
-        said = subprocess.run([program, "-hide_banner", "-encoders"], capture_output=True, text=True, timeout=60.0)
-    except (OSError, subprocess.SubprocessError):
-        return False
-    return ENCODER in said.stdout
+        return str(imageio_ffmpeg.get_ffmpeg_exe())
+    except RuntimeError as error:
+        raise InputError(f"an MP4 needs ffmpeg: {error}") from None
 
 
 def check_size(size: tuple[int, int]) -> None:

@@ -11,7 +11,7 @@ from tandemlift.common.types import Array
 from tandemlift.export.coordinate_frames import ALIGNED, BASE, WORLD, quaternions, to_world
 from tandemlift.export.messages import MessageTypes
 from tandemlift.live.session.frame_values import points_of
-from tandemlift.models.visuals import PUSH_COLOR, VisualShape, payload_shapes, quadrotor_shapes, wall_shape
+from tandemlift.models.visuals import PUSH_COLOR, VisualShape, payload_shapes, vehicle_shapes, wall_shape
 from tandemlift.ros.markers import MARKERS, MarkerWriter
 from tandemlift.vehicle import Vehicle
 
@@ -31,7 +31,7 @@ def still(types: MessageTypes, scene: Mapping[str, Any], vehicle: Vehicle) -> An
         MarkerWriter(types, BASE, "vehicle", locked=True),
         MarkerWriter(types, WORLD, "surroundings", locked=True),
     )
-    made = [body.shape(i, shape) for i, shape in enumerate(_vehicle(vehicle))]
+    made = [body.shape(i, shape) for i, shape in enumerate(vehicle_shapes(vehicle))]
     low, high = _around(scene)
     floor = np.array([*(low + high) / 2.0, scene["floor"] - THICK / 2.0])
     shapes = [
@@ -41,19 +41,6 @@ def still(types: MessageTypes, scene: Mapping[str, Any], vehicle: Vehicle) -> An
     made += [world.shape(i, shape) for i, shape in enumerate(shapes)]
     made.append(world.lines(len(shapes), _grid(low, high, scene["floor"] + THICK / 10.0), LINE, 0.01))
     return types[MARKERS](markers=made)
-
-
-def _vehicle(vehicle: Vehicle) -> list[VisualShape]:
-    """Its shapes, from the centre of mass of the system."""
-    payload, depth = 0.0 - vehicle.center_of_mass, vehicle.payload.radius or 0.0
-    shapes = [_moved(s, payload) for s in payload_shapes(vehicle.payload, tuple(vehicle.quadrotors))]
-    for q, center in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):
-        shapes += [_moved(s, center) for s in quadrotor_shapes(q, depth)]
-    return shapes
-
-
-def _moved(shape: VisualShape, by: Array) -> VisualShape:
-    return shape._replace(position=shape.position + by)
 
 
 def _around(scene: Mapping[str, Any]) -> tuple[Array, Array]:

@@ -12,8 +12,8 @@ from xml.etree import ElementTree
 import numpy as np
 
 from tandemlift.common.types import Array
+from tandemlift.models.camera import ANGLE, NEAR
 from tandemlift.models.sdf_elements import numbers
-from tandemlift.rendering.camera import ANGLE, NEAR
 from tandemlift.vehicle import Vehicle
 
 FAR = 300.0  # m, distance of the far clipping plane
