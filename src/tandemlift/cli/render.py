@@ -81,7 +81,7 @@ def _check_options(path: Path, given: list[str]) -> None:
     """Refuse options that do not fit the kind of file, and what cannot be drawn here, before anything is flown.
 
     Raises:
-        InputError: an option does not fit the kind of file, the kind is unknown, or a package or library that draws is missing.
+        InputError: an option does not fit the kind of file, the kind is unknown, or nothing here can draw it.
     """
     from tandemlift.rendering.studio import pyvista
     from tandemlift.rendering.video import ffmpeg
