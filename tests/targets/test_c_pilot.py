@@ -177,7 +177,7 @@ def test_in_single_precision_it_flies_within_a_thousandth_of_the_range_of_thrust
 def test_eight_quadrotors_are_written_out_in_short_functions_with_the_same_bits(tmp_path):
     need("gcc")
     one = tl.load_mission("iris").vehicle.quadrotors[0].model_dump(mode="json")
-    many = [{**one, "position": [0.0, float(y), 0.075]} for y in np.linspace(1.0, -1.0, 8)]
+    many = [{**one, "position": [0.0, float(y), 0.075]} for y in np.linspace(2.8, -2.8, 8)]
     mission = unfused(tl.load_mission("iris", {"vehicle.quadrotors": many, "mission.duration": 20.0}))
     files = write_c(mission, tmp_path)
     for part in ("pilot", "flight"):

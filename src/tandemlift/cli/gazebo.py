@@ -116,7 +116,7 @@ def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool)
     views, step = views_from(fly(mission)) if pictures else [], mission.mission.step
     with running_gazebo(mission, views, window=window, real_time=real_time) as gazebo:
         _print_how_to_push(mission, gazebo)
-        with progress_bar("Flying", mission.mission.steps) as progress:
+        with progress_bar("Flying", "steps") as progress:
 
             def take_photographs(done: int, total: int) -> None:
                 gazebo.take_due_photographs(done * step)

@@ -52,7 +52,7 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
     with results_folder(str(path.parent), path.parent, (path.name,)):
         flights = fly_paper()
         folder = path.with_name(f"{path.stem}-files")
-        with progress_bar("Drawing", 1) as progress:
+        with progress_bar("Drawing", "figures") as progress:
             write_paper_files(flights, folder, _command(out, style, no_pdf), gazebo_sentence(), progress)
         echo(f"figures, tables and source: {folder}")
         if not no_pdf:
@@ -89,7 +89,7 @@ def fly_paper() -> PaperFlights:
 
     changes = [setting.changes for setting in open_settings()]
     total = 2 + len(changes)
-    with progress_bar("Flying", total) as progress:
+    with progress_bar("Flying", "flights") as progress:
 
         def count(done: int) -> None:
             if progress:

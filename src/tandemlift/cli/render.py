@@ -120,7 +120,7 @@ def _fly(mission: str, settings: tuple[str, ...], engine: str) -> Flight:
 
     engine_named(engine)
     loaded = load(mission, settings)
-    with progress_bar("Flying", loaded.mission.steps, shown=sys.stderr.isatty()) as progress:
+    with progress_bar("Flying", "steps", shown=sys.stderr.isatty()) as progress:
         return fly(loaded, engine, progress=progress)
 
 
@@ -130,7 +130,6 @@ def _draw(flight: Flight, path: Path, shot: Shot) -> None:
     if path.suffix.lower() == ".png":
         rendering.render(flight, path, shot)
     else:
-        count = len(rendering.Animation(flight, shot, path.suffix.lower()))
-        with progress_bar("Drawing", count, shown=sys.stderr.isatty()) as progress:
+        with progress_bar("Drawing", "pictures", shown=sys.stderr.isatty()) as progress:
             rendering.render(flight, path, shot, progress)
     echo(f"{flight.name}: {path}")

@@ -157,7 +157,7 @@ def _fly(mission: Mission, engine: str | None, controller: Controller | None) ->
     from tandemlift.simulation.plan import takes_long
 
     try:
-        with progress_bar("Flying", mission.mission.steps, shown=takes_long(mission)) as progress:
+        with progress_bar("Flying", "steps", shown=takes_long(mission)) as progress:
             return fly(mission, engine, progress=progress)
     except InputError:
         raise

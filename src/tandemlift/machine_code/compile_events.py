@@ -8,9 +8,9 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from tandemlift.common.progress import NotebookOutput, in_notebook
+from tandemlift.common.progress import in_notebook
 
 NOTICE = "Compiling for this machine; the machine code is kept for next time …"
 
@@ -48,19 +48,20 @@ class NotebookNotice:
 
     def __init__(self) -> None:
         self._lock, self._running = threading.Lock(), 0
-        self._output = NotebookOutput()
+        self._handle: Any = None
 
     def __call__(self, what: Compiled | None) -> None:
         """Handle an event: a compilation begins (None) or has ended."""
         if not in_notebook():
             return
+        from IPython.display import display
+
         with self._lock:
             self._running += 1 if what is None else -1
             if what is None and self._running == 1:
-                self._output = NotebookOutput()
-                self._output.show(f"<div>{NOTICE}</div>", NOTICE)
-            elif not self._running:
-                self._output.show("", "")
+                self._handle = display({"text/plain": NOTICE}, raw=True, display_id=True)
+            elif not self._running and self._handle is not None:
+                self._handle.update({"text/plain": ""}, raw=True)
 
 
 _watchers: list[Watcher] = [NotebookNotice()]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tandemlift.cli.terminal.completion import CONTROLLERS, MISSIONS, names, separated
-from tandemlift.cli.terminal.console import compile_notices, echo, progress_bar
+from tandemlift.cli.terminal.console import echo, progress_bar
 from tandemlift.cli.terminal.findings import exit_if_found, print_findings, strict_option
 from tandemlift.cli.terminal.mission_options import (
     FAILED,
@@ -152,8 +152,7 @@ def _names(option: str, given: str, example: str) -> list[str]:
 def _fly(entered: Sequence[Entrant], engine: str) -> list[Entry]:
     from tandemlift.studies.controller_comparison import compare
 
-    count = sum(e.mission is not None for e in entered)
-    with compile_notices.together(), progress_bar("Flying", count, shown=sys.stderr.isatty()) as progress:
+    with progress_bar("Flying", "flights", shown=sys.stderr.isatty()) as progress:
         return compare(entered, engine, progress)
 
 
@@ -247,7 +246,7 @@ def _compare_engines(
 
     loaded = load(mission, settings)
     with results_folder(out, Path("out") / loaded.mission.name, ENGINE_FILES) as folder:
-        with compile_notices.together(), progress_bar("Flying", len(names), shown=sys.stderr.isatty()) as progress:
+        with progress_bar("Flying", "flights", shown=sys.stderr.isatty()) as progress:
             flights = fly_in(loaded, names, progress)
         found = summary_of(flights)
         _print_differences(loaded.mission.name, found)

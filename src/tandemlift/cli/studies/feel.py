@@ -54,7 +54,7 @@ def feel(mission: str, settings: tuple[str, ...], out: str | None, strict: bool)
         loaded = load(mission, settings)
     name = loaded.mission.name
     with results_folder(out, Path("out") / name, FILES) as folder:
-        with progress_bar("Flying", 3, shown=sys.stderr.isatty()) as progress:
+        with progress_bar("Flying", "rows", shown=sys.stderr.isatty()) as progress:
             report = studied(loaded, progress=progress)
         echo(f"{name}: the response to a standard push, closed form → flown")
         for line in report.lines():

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tandemlift.cli.terminal.completion import names
-from tandemlift.cli.terminal.console import compile_notices, echo
+from tandemlift.cli.terminal.console import compile_notices, echo, progress_bar
 from tandemlift.cli.terminal.mission_options import parse_setting
 
 if TYPE_CHECKING:
@@ -104,14 +104,13 @@ def study(
 
 
 def _fly(plan: StudyPlan, out: str | None, part: str, **where: Any) -> StudyFolder:
-    from tandemlift.common.progress import shown_progress
     from tandemlift.studies.units.anywhere import fly_study
     from tandemlift.studies.units.running import part_from
     from tandemlift.studies.units.store import open_folder
 
     chosen = part_from(part)
     folder = open_folder(plan, Path("out") / plan.settings.study.name if out is None else Path(out))
-    with compile_notices.together(), shown_progress(plan.settings.study.name) as progress:
+    with progress_bar(plan.settings.study.name, "rows") as progress:
         fly_study(plan, folder, part=chosen, progress=progress, say=lambda line: click.echo(line, err=True), **where)
     return folder
 

@@ -8,13 +8,17 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from tandemlift.common.progress import shown_progress
 from tandemlift.machine_code.compile_events import Compiled
+
+if TYPE_CHECKING:
+    from tandemlift.common.types import Progress
 
 PATIENCE = 2.0  # s of compiling, after which a notice appears before the end
 LEAST = 0.1  # s, less than which no notice appears
@@ -30,24 +34,19 @@ def echo(text: str, *, nl: bool = True) -> None:
 
 
 @contextmanager
-def progress_bar(label: str, length: int, *, shown: bool = True) -> Iterator[Callable[[int, int], None] | None]:
+def progress_bar(label: str, unit: str, *, shown: bool = True) -> Iterator[Progress | None]:
     """A progress bar on standard error as a callback of (done, total), or None if it is not shown.
 
     Args:
         label: text before the bar.
-        length: the total as far as it is known; the callback sets it anew.
+        unit: of the work.
         shown: whether to show the bar.
     """
     if not shown:
         yield None
         return
-    with compile_notices.together(), click.progressbar(length=length, label=label, file=sys.stderr) as bar:
-
-        def update(done: int, total: int) -> None:
-            bar.length = total
-            bar.update(done - bar.pos)
-
-        yield update
+    with compile_notices.together(), shown_progress(label, unit) as progress:
+        yield progress
 
 
 class CompileNotices:

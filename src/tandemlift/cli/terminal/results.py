@@ -74,7 +74,7 @@ def write_flight(flight: Flight, folder: Path, *, figures: bool, photographs: Se
     """Write the files of a flight into the folder, with a progress bar for the figures."""
     from tandemlift.report.flight_files import write_flight_files
 
-    with progress_bar("Drawing", 1, shown=figures and sys.stderr.isatty()) as progress:
+    with progress_bar("Drawing", "figures", shown=figures and sys.stderr.isatty()) as progress:
         write_flight_files(flight, folder, figures=figures, photographs=photographs, progress=progress)
 
 
