@@ -9,7 +9,7 @@ import threading
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 if TYPE_CHECKING:
     from tandemlift.common.types import Progress  # which imports NumPy; a shell that completes words cannot wait
@@ -46,7 +46,7 @@ def shown_progress(label: str, unit: str = "rows", stream: TextIO | None = None)
         warnings.simplefilter("ignore")  # a notebook without ipywidgets has a bar of characters
         from tqdm.auto import tqdm
     out = stream or sys.stderr
-    look = {"desc": label, "unit": f" {unit}"}
+    look: dict[str, Any] = {"desc": label, "unit": f" {unit}"}
     if stream is None and in_notebook():
         look |= {"delay": 0.5}
     elif out.isatty():  # one that does not say how large it is counts as 80 × 24; tqdm would show nothing
