@@ -37,7 +37,7 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
     \b
     Files, for FILE.pdf:
       FILE.pdf                 claims, tables, figures, open settings and errata; fonts embedded, figures as vectors
-      FILE-files/figures/      the figures, one PDF each
+      FILE-files/figures/      the figures, one PDF each; diagrams as SVG, in colours of their own
       FILE-files/tables/       Tables II and III beside our numbers, as CSV and LaTeX
       FILE-files/report.typ    the source of the PDF, with its text and numbers in report.json
 

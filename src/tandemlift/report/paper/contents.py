@@ -6,6 +6,7 @@ import tomllib
 from functools import cache
 from typing import Any, NamedTuple
 
+from tandemlift.figures.drawing.figure import Caption
 from tandemlift.report.paper.errata import DATA
 
 
@@ -18,7 +19,7 @@ class PaperFigure(NamedTuple):
         shows: what the paper's figure shows, in our words.
         differs: what differs in ours, and why.
         command: that draws ours.
-        parts: the name of each drawing, what it draws (`paper`, `paper flight` or `zigzag flight`), and what stands
+        parts: the name of each drawing, what it draws (`mission`, `paper flight` or `zigzag flight`), and what stands
             behind the number.
     """
 
@@ -46,6 +47,11 @@ def _contents() -> dict[str, Any]:
 def paper_figures() -> list[PaperFigure]:
     """The paper's figures, in its order."""
     return [PaperFigure(**table) for table in _contents()["figures"]]
+
+
+def diagram_captions() -> dict[str, Caption]:
+    """The captions of the diagrams of the mission `paper`, by the names of their files in `data/paper/diagrams/`."""
+    return {name: Caption(**table) for name, table in _contents()["diagrams"].items()}
 
 
 def open_settings() -> list[OpenSetting]:

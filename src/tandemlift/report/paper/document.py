@@ -10,7 +10,7 @@ import numpy as np
 from tandemlift.flight.record import Flight
 from tandemlift.report.paper.claims import claims
 from tandemlift.report.paper.contents import PaperFigure, open_settings, paper_figures
-from tandemlift.report.paper.drawings import drawing_for, file_of
+from tandemlift.report.paper.drawings import caption_of, file_of
 from tandemlift.report.paper.errata import errata
 from tandemlift.report.paper.tables import nomenclature, paper_tables, value_at
 
@@ -57,7 +57,7 @@ def document(flights: PaperFlights, command: str, gazebo: str) -> dict[str, Any]
 def _figure(figure: PaperFigure, gazebo: str) -> dict[str, Any]:
     parts = []
     for name, _, behind in figure.parts:
-        caption = drawing_for(name).CAPTION
+        caption = caption_of(name)
         text = f"{caption.title}. {caption.text}"
         parts.append({"file": file_of(figure, name), "behind": behind, "caption": text, "alt": caption.alt})
     about = [{"about": e.about, "title": e.title} for e in errata() if figure.number in e.figures]

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from tandemlift.common.errors import InputError
 from tandemlift.common.extras import extra
 from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Progress
-from tandemlift.figures.registry import save_figure
 from tandemlift.report.paper.contents import paper_figures
 from tandemlift.report.paper.document import PaperFlights, document
-from tandemlift.report.paper.drawings import drawing_for, file_of
+from tandemlift.report.paper.drawings import file_of, write_drawing
 from tandemlift.report.paper.errata import DATA
 from tandemlift.report.paper.table_files import as_csv, as_latex
 from tandemlift.report.paper.tables import paper_tables
@@ -25,7 +22,7 @@ SOURCE = "report.typ"
 def write_paper_files(
     flights: PaperFlights, folder: Path, command: str, gazebo: str, progress: Progress | None = None
 ) -> None:
-    """Write figures (PDF), tables (CSV, LaTeX), report.json and report.typ into a folder.
+    """Write figures (PDF, SVG), tables (CSV, LaTeX), report.json and report.typ into a folder.
 
     Args:
         flights: what the report shows.
@@ -34,14 +31,10 @@ def write_paper_files(
         gazebo: whether Gazebo can fly the corridor on this machine, as a sentence.
         progress: called after each drawing with (drawings done, drawings in all).
     """
-    given: Mapping[str, Any] = {
-        "paper": flights.paper.mission,
-        "paper flight": flights.paper,
-        "zigzag flight": flights.corridor,
-    }
+    given = {"mission": None, "paper flight": flights.paper, "zigzag flight": flights.corridor}
     parts = [(figure, name, of) for figure in paper_figures() for name, of, _ in figure.parts]
     for done, (figure, name, of) in enumerate(parts, 1):
-        save_figure(drawing_for(name).draw(given[of]), folder / file_of(figure, name))
+        write_drawing(name, given[of], folder / file_of(figure, name))
         if progress:
             progress(done, len(parts))
     for table in paper_tables(flights.paper.mission):
