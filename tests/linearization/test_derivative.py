@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
 import pytest
+from for_all import for_all
 
 from tandemlift.algebra.ops import absolute, atan2, clip, cos, exp, log, power, sin, sqrt, tanh, where
 from tandemlift.laws.sensors.noise_bias_drift import displayed
@@ -38,9 +40,9 @@ def derivative_of(function, x):
     return d.rows_of([made.node], 1)[0, 0]
 
 
-@pytest.mark.parametrize("name", ELEMENTARY)
-@pytest.mark.parametrize("x", PLACES)
-def test_an_operation_has_the_derivative_of_calculus(name, x):
+@for_all(list(itertools.product(ELEMENTARY, PLACES)))
+def test_each_operation_has_the_derivative_of_calculus(case):
+    name, x = case
     function, expected = ELEMENTARY[name]
     assert derivative_of(function, x) == pytest.approx(expected(x), rel=1e-11, abs=1e-13)
 

@@ -9,6 +9,7 @@ from typing import Literal, get_args, get_origin
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from for_all import for_all
 from listings import LISTINGS
 from mission_schema import BEYOND, EVERYTHING, SCHEMA
 from repository import ROOT
@@ -43,8 +44,8 @@ def test_the_sections_have_every_key_of_a_mission():
     assert ours == set(SCHEMA)
 
 
-@pytest.mark.parametrize("key", KEYS, ids=[f"{i}-{key.name}" for i, key in enumerate(KEYS)])
-def test_a_key_says_its_unit_its_meaning_its_choices_and_where_its_default_is_from(key):
+@for_all(KEYS, lambda key: key.name)
+def test_each_key_says_its_unit_its_meaning_its_choices_and_where_its_default_is_from(key):
     facts = key.facts
     assert len(facts.meaning) > 3
     assert not facts.meaning.endswith(".")
@@ -61,8 +62,8 @@ def test_a_key_says_its_unit_its_meaning_its_choices_and_where_its_default_is_fr
         assert facts.unset
 
 
-@pytest.mark.parametrize("name", sorted({key.name for key in KEYS}))
-def test_explain_tells_a_key_in_one_to_three_lines(name):
+@for_all(sorted({key.name for key in KEYS}))
+def test_explain_tells_each_key_in_one_to_three_lines(name):
     text = explained(name)
     for said in text.split("\n  Of ")[0:1]:
         lines = said.splitlines()
@@ -76,8 +77,8 @@ def test_explain_tells_a_key_in_one_to_three_lines(name):
     assert explained(plain_name(name)) == explained(name.replace(".0.", "[].")) == text
 
 
-@pytest.mark.parametrize("section", [s for s in sections() if not s.controller], ids=lambda s: s.name)
-def test_explain_tells_a_table_and_its_keys(section):
+@for_all([s for s in sections() if not s.controller], lambda s: s.name)
+def test_explain_tells_each_table_and_its_keys(section):
     text = explained(section.name)
     assert text.startswith(f"{section.header}: {section.text[0]}")
     assert all(f"\n  {key.name} " in text for key in section.keys)
@@ -150,8 +151,8 @@ def test_the_template_s_lines_are_short():
     assert "…" not in TEMPLATE
 
 
-@pytest.mark.parametrize("name", SCHEMA)
-def test_the_template_tells_what_a_key_is_and_its_default(name):
+@for_all(SCHEMA)
+def test_the_template_tells_what_each_key_is_and_its_default(name):
     value, comment, is_left_out = STATEMENTS[plain_name(name)]
     key = next(k for k in KEYS if k.name == name)
     assert key.facts.meaning in comment
@@ -181,7 +182,7 @@ def resolved(key, value):
     return value_at(Mission.model_validate(tables).model_dump(mode="json"), place)
 
 
-@pytest.mark.parametrize("key", [key for key in SCHEMA if not SCHEMA[key].is_required()])
+@for_all([key for key in SCHEMA if not SCHEMA[key].is_required()])
 def test_the_default_that_is_told_is_the_default(key):
     field, told = SCHEMA[key], next(k for k in KEYS if k.name == key).default
     if field.default is None:

@@ -6,6 +6,7 @@ import tomllib
 
 import pytest
 from click.testing import CliRunner
+from for_all import for_all
 from jsonschema import Draft7Validator
 from mission_schema import BEYOND, EVERYTHING, SCHEMA
 from pydantic import ValidationError
@@ -83,8 +84,8 @@ def at(key):
     return tuple(int(part) if part.isdigit() else part for part in key.split("."))
 
 
-@pytest.mark.parametrize("key", [key for key in SCHEMA if not key.startswith("controller.")])
-def test_it_takes_for_a_key_whatever_the_key_s_table_takes_and_knows_wrong_types(key):
+@for_all([key for key in SCHEMA if not key.startswith("controller.")])
+def test_it_takes_for_each_key_whatever_its_table_takes_and_knows_wrong_types(key):
     whole = merge(tables_of(load_mission("iris", EVERYTHING)), BEYOND)
     if key in ("admittance.mass", "admittance.damping"):
         del whole["admittance"]["feel"]  # in place of which they are
@@ -102,8 +103,8 @@ def test_it_takes_for_a_key_whatever_the_key_s_table_takes_and_knows_wrong_types
             assert not is_valid(tables), value
 
 
-@pytest.mark.parametrize("key", SCHEMA)
-def test_an_editor_shows_what_a_key_is(key):
+@for_all(SCHEMA)
+def test_an_editor_shows_what_each_key_is(key):
     node = SAID
     for part in at(key):
         node = node["items"] if part == 0 else (node.get("properties") or {})[part]
