@@ -10,11 +10,10 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from tandemlift.common.files import atomic_write
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.report.flight_report import DASH, html_figure, html_table, number
-from tandemlift.report.page import COMPARISON, STYLE
+from tandemlift.report.page import html, write_page
 from tandemlift.report.setup_section import setup_rows
 from tandemlift.studies.controller_comparison import (
     LEAST,
@@ -146,9 +145,9 @@ def html_setup(flight: Flight, without: Sequence[str] = ()) -> str:
     return html_table("", rows, "setup")
 
 
-def html_versions(flight: Flight) -> str:
+def versions_of(flight: Flight) -> str:
     """What a flight was flown with, but for its engine."""
-    return escape(", ".join(f"{name} {version}" for name, version in flight.version.items() if name != "engine"))
+    return ", ".join(f"{name} {version}" for name, version in flight.version.items() if name != "engine")
 
 
 def _settings(flights: Mapping[str, Flight]) -> str:
@@ -176,23 +175,22 @@ def write_comparison(entries: Sequence[Entry], path: str | os.PathLike[str], fig
     """
     from tandemlift.report import controller_figures
 
-    path, flights = Path(path), {e.name: e.flight for e in entries if e.flight}
+    flights = {e.name: e.flight for e in entries if e.flight}
     first = next(iter(flights.values()))
     counts, *others = parts_of(flights.values())
     tables = [_of_flights(entries, counts), *(_of_part(flights, part) for part in others)]
-    text = COMPARISON.format(
-        name=escape(first.name),
-        style=STYLE,
-        what="controllers",
-        kind="Controllers",
-        where=f"engine <b>{escape(first.version.get('engine', ''))}</b>",
-        note=NOTE.format(when=counts.words),
-        table="\n".join(tables),
-        figures=html_figures(controller_figures.drawn_figures(flights), controller_figures.CAPTIONS, figures),
-        setup=html_setup(first, without=["Pilot"]),
-        settings=_settings(flights),
-        versions=html_versions(first),
+    return write_page(
+        path,
+        "comparison",
+        name=first.name,
+        kind="Controllers compared",
+        title="controllers compared",
+        about=html(f"Flown in engine <b>{escape(first.version.get('engine', ''))}</b>"),
+        verdict="",
+        note=html(NOTE.format(when=counts.words)),
+        table=html("\n".join(tables)),
+        figures=html(html_figures(controller_figures.drawn_figures(flights), controller_figures.CAPTIONS, figures)),
+        setup=html(html_setup(first, without=["Pilot"])),
+        settings=html(_settings(flights)),
+        versions=f"Flown with {versions_of(first)}.",
     )
-    with atomic_write(path) as partial:
-        partial.write_text(text, "utf-8")
-    return path

@@ -7,11 +7,10 @@ from collections.abc import Mapping
 from html import escape
 from pathlib import Path
 
-from tandemlift.common.files import atomic_write
 from tandemlift.flight.record import Flight
-from tandemlift.report.controller_comparison import html_figures, html_setup, html_versions
+from tandemlift.report.controller_comparison import html_figures, html_setup, versions_of
 from tandemlift.report.flight_report import DASH, html_table, number
-from tandemlift.report.page import COMPARISON, STYLE
+from tandemlift.report.page import html, write_page
 from tandemlift.studies.engine_comparison import QUANTITIES, SETTLED, engine_summary, largest_differences, speed
 
 NOTE = f"""The same mission, pilot and random numbers; only the engine of the body differs. Differences are the largest
@@ -56,20 +55,19 @@ def write_engines(flights: Mapping[str, Flight], path: str | os.PathLike[str], f
     """
     from tandemlift.report import engine_figures
 
-    path, first = Path(path), next(iter(flights.values()))
-    text = COMPARISON.format(
-        name=escape(first.name),
-        style=STYLE,
-        what="engines",
-        kind="Engines",
-        where=f"engines <b>{escape(', '.join(flights))}</b>",
-        note=NOTE,
-        table=_table(flights),
-        figures=html_figures(engine_figures.drawn_figures(flights), engine_figures.CAPTIONS, figures),
-        setup=html_setup(first),
-        settings=_engines(flights),
-        versions=html_versions(first),
+    first = next(iter(flights.values()))
+    return write_page(
+        path,
+        "comparison",
+        name=first.name,
+        kind="Engines compared",
+        title="engines compared",
+        about=html(f"Flown in engines <b>{escape(', '.join(flights))}</b>"),
+        verdict="",
+        note=html(NOTE),
+        table=html(_table(flights)),
+        figures=html(html_figures(engine_figures.drawn_figures(flights), engine_figures.CAPTIONS, figures)),
+        setup=html(html_setup(first)),
+        settings=html(_engines(flights)),
+        versions=f"Flown with {versions_of(first)}.",
     )
-    with atomic_write(path) as partial:
-        partial.write_text(text, "utf-8")
-    return path

@@ -12,14 +12,13 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tandemlift.common.files import atomic_write
 from tandemlift.figures.drawing.figure_style import DARK, current_style
 from tandemlift.figures.registry import VIEWS, captions, figures_for
 from tandemlift.flight.metric_descriptions import metric_of
 from tandemlift.flight.record import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
 from tandemlift.report.findings_section import html_findings, html_place
-from tandemlift.report.page import PAGE, STYLE
+from tandemlift.report.page import html, write_page
 from tandemlift.report.setup_section import setup_rows
 
 if TYPE_CHECKING:
@@ -193,20 +192,18 @@ def write_report(
     Returns:
         The path.
     """
-    path, words = Path(path), captions()
+    words = captions()
     shown = [html_figure(i, name, png, words[name]) for i, (name, png) in enumerate(_pngs(flight, figures).items(), 1)]
-    text = PAGE.format(
-        name=escape(flight.name),
-        style=STYLE,
-        engine=_engine(flight),
-        verdict=_verdict(flight) + html_findings(flight),
-        setup=_setup(flight),
-        figures=f"<section>\n<h2>Figures</h2>\n{chr(10).join(shown)}\n</section>" if shown else "",
-        metrics=_metrics(flight.metrics()),
-        mission=escape(format_toml(flight.mission)),
-        again=_again(flight),
-        versions=escape(", ".join(f"{name} {version}" for name, version in flight.version.items())),
+    return write_page(
+        path,
+        "flight",
+        name=flight.name,
+        about=html(_engine(flight)),
+        verdict=html(_verdict(flight) + html_findings(flight)),
+        setup=html(_setup(flight)),
+        figures=html("\n".join(shown)),
+        metrics=html(_metrics(flight.metrics())),
+        mission=format_toml(flight.mission),
+        again=html(_again(flight)),
+        versions=f"Flown with {', '.join(f'{name} {version}' for name, version in flight.version.items())}.",
     )
-    with atomic_write(path) as partial:
-        partial.write_text(text, "utf-8")
-    return path

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tandemlift.common.errors import InputError
-from tandemlift.common.files import atomic_write
 from tandemlift.missions import format_toml
 from tandemlift.report.controller_comparison import html_figures
-from tandemlift.report.page import STYLE
+from tandemlift.report.page import html, write_page
 from tandemlift.report.study import distributions, maps, sections, sensitivity
 from tandemlift.report.study.commands import html_command
-from tandemlift.report.study.frame import SCRIPT, STUDY, STYLE_OF_STUDIES
 from tandemlift.report.study.outcome_tables import write_outcomes
 from tandemlift.report.study.worst_table import html_worst
 from tandemlift.studies.reading.study_rows import StudyRows
@@ -69,23 +66,19 @@ def write_study_report(
     path, rows = Path(path), StudyRows(study, metrics)
     varies = bool(rows.varied)
     found = sensitivity.analysed(rows) if varies else []
-    text = STUDY.format(
-        name=escape(study.name),
-        style=STYLE + STYLE_OF_STUDIES,
-        size=f"{sections.count(len(study))} rows",
-        verdict=sections.verdict(rows),
-        flown=sections.what_was_flown(study),
-        outcomes=sections.outcomes(rows),
-        findings=sections.findings(rows),
-        measured=sections.measured(rows),
-        figures=_figures(rows, found, figures),
-        worst=html_worst(rows),
-        settings=escape(format_toml(study.settings.model_dump(mode="json", exclude_none=True))),
-        again=html_command("study", study.folder / "study.toml", "--out", study.folder),
-        versions=escape(", ".join(f"{name} {value}" for name, value in study.versions.items())),
-        script=SCRIPT,
-    )
+    values = {
+        "name": study.name,
+        "about": f"{sections.count(len(study))} rows",
+        "verdict": html(sections.verdict(rows)),
+        "flown": html(sections.what_was_flown(study)),
+        "outcomes": html(sections.outcomes(rows)),
+        "findings": html(sections.findings(rows)),
+        "measured": html(sections.measured(rows)),
+        "figures": html(_figures(rows, found, figures)),
+        "worst": html(html_worst(rows)),
+        "settings": format_toml(study.settings.model_dump(mode="json", exclude_none=True)),
+        "again": html(html_command("study", study.folder / "study.toml", "--out", study.folder)),
+        "versions": ", ".join(f"{name} {value}" for name, value in study.versions.items()),
+    }
     write_outcomes(rows, path.parent)
-    with atomic_write(path) as partial:
-        partial.write_text(text, "utf-8")
-    return path
+    return write_page(path, "study", **values)

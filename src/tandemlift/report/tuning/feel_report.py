@@ -13,9 +13,9 @@ from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Progress
 from tandemlift.missions import Mission, format_toml, tables_of
 from tandemlift.missions.flight_checks.result import FAILS, CheckResult
-from tandemlift.report.controller_comparison import html_figures, html_versions
+from tandemlift.report.controller_comparison import html_figures, versions_of
 from tandemlift.report.flight_report import DASH, NO_BREAK, html_table
-from tandemlift.report.page import FEEL, STYLE
+from tandemlift.report.page import html, write_page
 from tandemlift.studies.feel.feel_study import HEADS, FeelStudy, gate_text, study_feel, table_of
 
 if TYPE_CHECKING:
@@ -79,22 +79,23 @@ class FeelReport:
         folder.mkdir(parents=True, exist_ok=True)
         files = [folder / f"{FIGURE}.json", folder / f"{FIGURE}.html"]
         _write(files[0], json.dumps(_plain(self.summary()), indent=1, ensure_ascii=False, allow_nan=False))
-        _write(files[1], self._page(html_figures({FIGURE: figure}, {FIGURE: CAPTION})))
+        self._write_page(files[1], html_figures({FIGURE: figure}, {FIGURE: CAPTION}))
         return [*files, *(save_figure(figure, folder / f"{FIGURE}.{kind}") for kind in ("png", "pdf"))]
 
-    def _page(self, figures: str) -> str:
+    def _write_page(self, path: Path, figures: str) -> None:
         tables = {"admittance": tables_of(self.study.mission)["admittance"]}
-        return FEEL.format(
-            name=escape(self.study.mission.mission.name),
-            style=STYLE,
-            verdict=_verdict(self.checks),
-            note=NOTE,
-            table=_axes(table_of(self.study)),
-            gate=escape(gate_text(self.study)),
-            figures=figures,
-            checks=_checks(self.checks),
-            admittance=escape(format_toml(tables)),
-            versions=html_versions(self.study.pushed[0].flight),
+        write_page(
+            path,
+            "feel",
+            name=self.study.mission.mission.name,
+            verdict=html(_verdict(self.checks)),
+            note=html(NOTE),
+            table=html(_axes(table_of(self.study))),
+            gate=gate_text(self.study),
+            figures=html(figures),
+            checks=html(_checks(self.checks)),
+            admittance=format_toml(tables),
+            versions=f"Flown with {versions_of(self.study.pushed[0].flight)}.",
         )
 
 

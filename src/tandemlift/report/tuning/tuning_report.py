@@ -9,55 +9,16 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from tandemlift.common.files import atomic_write
 from tandemlift.missions.values import shown
 from tandemlift.report.controller_comparison import html_figures
 from tandemlift.report.flight_report import DASH, html_table, number
-from tandemlift.report.page import STYLE
+from tandemlift.report.page import html, write_page
 from tandemlift.report.tuning import tuning_figures
 from tandemlift.report.tuning.tuning_figures import axis_label, shown_scale
 from tandemlift.simulation.results import versions
 from tandemlift.studies.tuning.candidates import Cost
 from tandemlift.studies.tuning.result import MISSION_FILE, Tuning
 
-PAGE = """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{name}: tuning</title>
-<style>{style}</style>
-</head>
-<body>
-<main>
-<header>
-<p class="kind">Tuning</p>
-<h1>{name}</h1>
-<p class="kind">{what}</p>
-{verdict}
-</header>
-{evidence}
-{figures}
-{front}
-<section>
-<h2>Values</h2>
-{values}
-</section>
-<section>
-<h2>Draws</h2>
-{draws}
-</section>
-<section>
-<h2>Mission</h2>
-<p>Save it as <code>{file}</code> (the search writes it beside this page), and</p>
-<pre><code>tandemlift run {file}</code></pre>
-<pre><code>{mission}</code></pre>
-</section>
-<footer class="soft">Searched with {versions}.</footer>
-</main>
-</body>
-</html>
-"""
 METHODS = {"cma": "CMA-ES", "optuna": "Optuna's tree-structured Parzen estimator"}
 FEW_DRAWS = 12  # draws whose changes are listed
 
@@ -73,23 +34,21 @@ def write_tuning(found: Tuning, path: str | os.PathLike[str]) -> Path:
         The path.
     """
     path, drawn = Path(path), tuning_figures.drawn_figures(found)
-    text = PAGE.format(
-        name=escape(found.name),
-        style=STYLE,
-        what=escape(what_was_done(found)),
-        verdict=_verdict(found),
-        evidence=_evidence(found),
-        figures=html_figures(drawn, tuning_figures.CAPTIONS) if drawn else "",
-        front=_front(found),
-        values=_values(found),
-        draws=_draws(found),
+    return write_page(
+        path,
+        "tuning",
+        name=found.name,
+        about=what_was_done(found),
+        verdict=html(_verdict(found)),
+        evidence=html(_evidence(found)),
+        figures=html(html_figures(drawn, tuning_figures.CAPTIONS) if drawn else ""),
+        front=html(_front(found)),
+        values=html(_values(found)),
+        draws=html(_draws(found)),
         file=MISSION_FILE,
-        mission=escape(found.to_toml(path.parent)),
-        versions=escape(", ".join(f"{name} {version}" for name, version in versions("compiled").items())),
+        mission=found.to_toml(path.parent),
+        versions=f"Searched with {', '.join(f'{name} {version}' for name, version in versions('compiled').items())}.",
     )
-    with atomic_write(path) as partial:
-        partial.write_text(text, "utf-8")
-    return path
 
 
 def what_was_done(found: Tuning) -> str:
