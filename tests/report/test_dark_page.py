@@ -8,7 +8,9 @@ from colour_contrast import contrast, inverted, on_screen
 from tandemlift.figures.drawing.figure_style import IEEE, figure_style
 from tandemlift.figures.registry import captions
 from tandemlift.report.flight_report import html_figure
-from tandemlift.report.page import STYLE
+from tandemlift.report.page import TEMPLATES
+
+STYLE = (TEMPLATES / "style.css").read_text("utf-8")
 
 DARK = re.search(r"prefers-color-scheme: dark\) \{ :root \{(.*?)\} \}", STYLE, re.DOTALL)[1]
 VALUES = dict(re.findall(r"--(\w+): ([^;]+);", DARK))
