@@ -16,7 +16,7 @@ EXTRAS = PROJECT["optional-dependencies"]
 WITHOUT_IMPORT = {"bokeh", "casadi", "jax"}  # Dask's dashboard; laws take arrays of these as they are given
 COMES_WITH = {  # an import's package, where it has another name
     **{"dask": "distributed", "lz4": "rosbags", "pydantic_core": "pydantic", "mpl_toolkits": "matplotlib"},
-    **{"PIL": "pillow", "cycler": "matplotlib"},
+    **{"PIL": "pillow", "cycler": "matplotlib", "markupsafe": "jinja2"},
 }
 OF_NOTEBOOKS = {"IPython"}  # imported only where it runs
 OF_ROS_1 = {"rosgraph", "rospy"}  # from Debian
