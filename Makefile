@@ -58,7 +58,7 @@ test-distributions: .venv/dev  ## build the wheel and the source distribution; t
 test-gazebo: .venv/dev  ## flights in a real Gazebo 11, ROS 1, ROS 2's DDS and RViz; installs them, as root
 	tools/gazebo-root $(GAZEBO_ROOT)
 	tools/test-packages --ros
-	TANDEMLIFT_GAZEBO_ROOT=$(GAZEBO_ROOT) TANDEMLIFT_REQUIRE_ALL=1 $(BIN)/pytest -m '' tests/gazebo tests/ros
+	TANDEMLIFT_GAZEBO_ROOT=$(GAZEBO_ROOT) TANDEMLIFT_REQUIRE_ALL=1 $(BIN)/pytest -m '' tests/gazebo tests/apps/ros
 
 test-targets: .venv/dev  ## every target on every mission: cross compilers, QEMU, sanitizers, Firefox; installs them, as root
 	tools/test-packages --targets

@@ -42,14 +42,14 @@ class ShippedData(BuildHookInterface):  # type: ignore[type-arg]
         """Form the words, and compile the flights on all cores, where the package looks for them."""
         root = Path(self.root)
         sys.path.insert(0, str(root / "src"))
-        from tandemlift.cli.terminal.words import formed_words
+        from tandemlift.apps.cli.terminal.words import formed_words
 
         (root / WORDS).parent.mkdir(exist_ok=True)
         (root / WORDS).write_text(json.dumps(formed_words(), ensure_ascii=False), "utf-8")
         build_data["extra_metadata"][WORDS] = "words.json"
         if version == "editable":
             return
-        from tandemlift.live.offline.page_modules import MISSIONS, build_modules
+        from tandemlift.apps.live.offline.page_modules import MISSIONS, build_modules
 
         self.app.display_info("Compiling the flights of the page: about a minute on one core …")
         shutil.rmtree(root / FLIGHTS, ignore_errors=True)  # an older build may have had others

@@ -18,18 +18,18 @@ import numpy as np
 from machine import describe, heading, number, pin, save, table
 
 import tandemlift as tl
-from tandemlift.algebra.layout import flat, leaves
-from tandemlift.algebra.vector import Vec3, each
-from tandemlift.kernels.compiled_limit_solver import write_solver
-from tandemlift.kernels.traced_step import TracedSolver
-from tandemlift.laws.mechanics.rigid_body import Wrench
-from tandemlift.laws.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
-from tandemlift.laws.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
-from tandemlift.machine_code.functions import compiled
-from tandemlift.machine_code.machine import BEST, Loaded
-from tandemlift.machine_code.machine import compiled as machine_code
-from tandemlift.trace import Function, Module, double
-from tandemlift.vehicle import Vehicle
+from tandemlift.compiler.machine_code.functions import compiled
+from tandemlift.compiler.machine_code.machine import BEST, Loaded
+from tandemlift.compiler.machine_code.machine import compiled as machine_code
+from tandemlift.compiler.trace import Function, Module, double
+from tandemlift.core.algebra.layout import flat, leaves
+from tandemlift.core.algebra.vector import Vec3, each
+from tandemlift.parts.mechanics.rigid_body import Wrench
+from tandemlift.parts.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
+from tandemlift.parts.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
+from tandemlift.parts.vehicle import Vehicle
+from tandemlift.simulation.kernels.compiled_limit_solver import write_solver
+from tandemlift.simulation.kernels.traced_step import TracedSolver
 
 PLACES = {
     1: [(0.0, 0.0)],

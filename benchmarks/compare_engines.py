@@ -15,15 +15,15 @@ import numpy as np
 from machine import describe, heading, table
 
 import tandemlift as tl
-from tandemlift.algebra.layout import flat, unflat
-from tandemlift.algebra.vector import ZERO, Nothing, each
+from tandemlift.analysis.studies.engine_comparison import angles_between, differences, fly_in
+from tandemlift.compiler.machine_code.functions import compiled
+from tandemlift.compiler.trace import traced
+from tandemlift.core.algebra.layout import flat, unflat
+from tandemlift.core.algebra.vector import ZERO, Nothing, each
 from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.engines.registry import engine_named
-from tandemlift.laws.mechanics.push import CentralPush, PushSamples
-from tandemlift.machine_code.functions import compiled
-from tandemlift.studies.engine_comparison import angles_between, differences, fly_in
-from tandemlift.trace import traced
-from tandemlift.vehicle import Vehicle
+from tandemlift.parts.mechanics.push import CentralPush, PushSamples
+from tandemlift.parts.vehicle import Vehicle
 
 NONE, NO_AIR, NO_PUSH = Nothing(), np.zeros(0), np.zeros(3)
 HALF_MINUTE = {"mission.duration": 30.0}

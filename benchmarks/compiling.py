@@ -56,7 +56,7 @@ except ImportError:  # a base of before this folder
 FIRST = f"{LOAD}tl.fly(mission, progress=first)"
 BEST = f"""{LOAD}
 import importlib.util
-if importlib.util.find_spec("tandemlift.trace"):
+if importlib.util.find_spec("tandemlift.compiler.trace"):
     exec({PLAN!r})
     code = FlightPlan(mission).kernels.loop(1)
     while not code.is_best: tl.fly(mission)
@@ -189,7 +189,7 @@ def flown(address: str) -> None:
     """Wait until the flight of a live page has begun."""
     from websockets.sync.client import connect
 
-    from tandemlift.live.wire.frames import read_frames
+    from tandemlift.apps.live.wire.frames import read_frames
 
     fields: tuple[tuple[str, int], ...] = ()
     with connect(address.replace("http", "ws") + "ws", origin=address.rstrip("/"), ping_timeout=None) as socket:

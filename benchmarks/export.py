@@ -12,7 +12,7 @@ from pathlib import Path
 from machine import describe, heading, number, table
 
 import tandemlift as tl
-from tandemlift.export.write import FORMATS, export
+from tandemlift.apps.export.write import FORMATS, export
 
 SECONDS, ROUNDS = 60.0, 5
 NAMES = {".mcap": "ROS 2 bag", ".bag": "ROS 1 bag", ".csv": "table"}

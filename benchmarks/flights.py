@@ -19,8 +19,8 @@ from typing import Any
 import numpy as np
 
 import tandemlift as tl
-from tandemlift.kernels import LANES, FlightMemory
-from tandemlift.machine_code.code import Code
+from tandemlift.compiler.machine_code.code import Code
+from tandemlift.simulation.kernels import LANES, FlightMemory
 from tandemlift.simulation.plan import FlightPlan
 
 DURATION = 90.0  # s, of each
@@ -145,7 +145,7 @@ def mujoco_speed(duration: float = 30.0, rounds: int = 5) -> dict[str, float]:
     import mujoco
 
     from tandemlift.engines.mujoco import MuJoCoBody
-    from tandemlift.vehicle import Vehicle
+    from tandemlift.parts.vehicle import Vehicle
 
     mission = tl.load_mission("paper", {"mission.duration": duration})
     body = MuJoCoBody(mission, Vehicle.from_settings(mission.vehicle))

@@ -31,8 +31,8 @@ from waiting import PATIENCE, ended, said
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from tandemlift.live.page_files import page_files
-from tandemlift.live.wire.frames import read_frames
+from tandemlift.apps.live.page_files import page_files
+from tandemlift.apps.live.wire.frames import read_frames
 
 CHROMIUM = "/usr/bin/chromium"
 FLAGS = ("--no-sandbox", "--enable-unsafe-swiftshader", "--disable-background-networking")

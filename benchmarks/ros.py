@@ -73,9 +73,9 @@ class Listener:
 def listen(version: str, *, everything: bool) -> Listener:
     """Listen to odometry, or to every topic."""
     if version == "1":
-        from tandemlift.ros.ros1 import Ros1 as Ros
+        from tandemlift.apps.ros.ros1 import Ros1 as Ros
     else:
-        from tandemlift.ros.ros2 import Ros2 as Ros
+        from tandemlift.apps.ros.ros2 import Ros2 as Ros
     listener, middleware = Listener(), Ros(["__name:=listener"]) if version == "1" else Ros()
     middleware.subscribe(TOPIC, KIND, listener.hear)
     if everything:
@@ -86,11 +86,11 @@ def listen(version: str, *, everything: bool) -> Listener:
 
 def topics() -> dict[str, str]:
     """Every topic that has a message for each sample, but odometry."""
-    from tandemlift.export.topics import recipes_for
-    from tandemlift.live.session.session import Session
+    from tandemlift.apps.export.topics import recipes_for
+    from tandemlift.apps.live.session.session import Session
+    from tandemlift.apps.ros.sample_queue import SampleQueue, as_flight
     from tandemlift.missions import load_mission
-    from tandemlift.ros.sample_queue import SampleQueue, as_flight
-    from tandemlift.vehicle import Vehicle
+    from tandemlift.parts.vehicle import Vehicle
 
     session, feed = Session(load_mission("zigzag")), SampleQueue(1, lambda step: 0)
     session.prepare()

@@ -40,7 +40,7 @@ from statistics import median
 warnings.simplefilter("ignore")
 import numpy as np
 import tandemlift as tl
-traced = importlib.util.find_spec("tandemlift.trace")
+traced = importlib.util.find_spec("tandemlift.compiler.trace")
 
 def best(code):
     code.optimise()

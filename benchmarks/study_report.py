@@ -13,11 +13,11 @@ import numpy as np
 import pyarrow as pa
 
 import tandemlift as tl
-from tandemlift.report.study.study_report import write_study_report
-from tandemlift.studies.design.study_files import load_plan
-from tandemlift.studies.reading.table import Study
-from tandemlift.studies.units.checked_file import write_checked
-from tandemlift.studies.units.store import open_folder
+from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.reading.table import Study
+from tandemlift.analysis.studies.units.checked_file import write_checked
+from tandemlift.analysis.studies.units.store import open_folder
+from tandemlift.pictures.report.study.study_report import write_study_report
 
 KEYS = ("plant.mass_scale", "admittance.damping", "admittance.mass", "admittance.threshold", "wind.turbulence")
 METRICS = 40  # columns, besides those that the report shows

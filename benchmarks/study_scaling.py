@@ -35,17 +35,17 @@ import pyarrow.parquet as pq
 from machine import describe, heading, number, save, table
 
 import tandemlift as tl
-from tandemlift.common.errors import InputError
-from tandemlift.studies.design.plan import StudyPlan
-from tandemlift.studies.design.study_files import load_plan
-from tandemlift.studies.units.anywhere import fly_study
-from tandemlift.studies.units.columns import write_columns
-from tandemlift.studies.units.dask import cluster_workers
-from tandemlift.studies.units.files import UnitFiles
-from tandemlift.studies.units.flying import fly_unit
-from tandemlift.studies.units.running import StudyWork, run_units
-from tandemlift.studies.units.store import StudyFolder, open_folder
-from tandemlift.studies.units.unit import unit_of
+from tandemlift.analysis.studies.design.plan import StudyPlan
+from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.units.anywhere import fly_study
+from tandemlift.analysis.studies.units.columns import write_columns
+from tandemlift.analysis.studies.units.dask import cluster_workers
+from tandemlift.analysis.studies.units.files import UnitFiles
+from tandemlift.analysis.studies.units.flying import fly_unit
+from tandemlift.analysis.studies.units.running import StudyWork, run_units
+from tandemlift.analysis.studies.units.store import StudyFolder, open_folder
+from tandemlift.analysis.studies.units.unit import unit_of
+from tandemlift.core.errors import InputError
 
 PACKAGES = ("tandemlift", "numpy", "llvmlite", "pyarrow", "distributed")
 SEED = 17

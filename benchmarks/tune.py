@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 import tandemlift as tl
+from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.missions import format_toml, tables_of
-from tandemlift.studies.design.study_files import load_plan
 
 TRIAL, SCENES = Path(__file__).parent / "trial.toml", Path(__file__).parent / "trial-scenes.toml"
 METRIC = "position_rmse_after_10s_m"

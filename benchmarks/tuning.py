@@ -17,8 +17,8 @@ from typing import Any
 from machine import describe, heading
 
 import tandemlift as tl
+from tandemlift.analysis.studies.tuning.source import MissionSource
 from tandemlift.missions import tables_of
-from tandemlift.studies.tuning.source import MissionSource
 
 DRAWS = Path(__file__).parent / "flight-ready-draws.toml"
 METRIC, FRESH = "position_rmse_after_10s_m", 200

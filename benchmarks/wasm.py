@@ -21,8 +21,8 @@ from machine import describe, heading, number, table
 from playwright.sync_api import Page, sync_playwright
 
 import tandemlift as tl
+from tandemlift.codegen.mission_module import module_of
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.targets.mission_module import module_of
 
 HERE = Path(__file__).resolve().parent
 SCRIPT = (HERE.parent / "examples" / "fly_module.js").read_text() + (HERE / "wasm_steps.js").read_text()

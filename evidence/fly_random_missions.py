@@ -27,9 +27,9 @@ from random_missions.generate import UNPUSHED, shortened
 from random_missions.judged import BAD, Families, Judged
 
 import tandemlift as tl
-from tandemlift.studies.units.files import UnitFiles
-from tandemlift.studies.units.running import run_units
-from tandemlift.studies.units.workers import ExecutorWorkers
+from tandemlift.analysis.studies.units.files import UnitFiles
+from tandemlift.analysis.studies.units.running import run_units
+from tandemlift.analysis.studies.units.workers import ExecutorWorkers
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "validation.md"
 MARK, END = (f"<!-- {edge} of what `make random-missions` prints -->" for edge in ("begin", "end"))

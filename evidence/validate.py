@@ -15,9 +15,9 @@ from pathlib import Path
 from validation.census import Census
 from validation.chapters import CHAPTERS, Bench, rows_of, table
 
-from tandemlift.cli.terminal.console import compile_notices
+from tandemlift.apps.cli.terminal.console import compile_notices
+from tandemlift.compiler.machine_code.compile_events import watching
 from tandemlift.engines.registry import ENGINES
-from tandemlift.machine_code.compile_events import watching
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -7,8 +7,8 @@ import numpy as np
 from rosbags.highlevel import AnyReader
 
 import tandemlift as tl
-from tandemlift.export.reading import read_bag
-from tandemlift.export.write import export
+from tandemlift.apps.export.reading import read_bag
+from tandemlift.apps.export.write import export
 
 flight = tl.fly(tl.load_mission("iris", {"mission.duration": 30.0}))
 export(flight, "iris.mcap")

@@ -2,9 +2,9 @@
 
 from typing import NamedTuple
 
-import tandemlift.controllers as tc
-from tandemlift.algebra import Vec3, vec3
-from tandemlift.settings import Positive3, key
+import tandemlift.parts.controllers as tc
+from tandemlift.core.algebra import Vec3, vec3
+from tandemlift.core.settings import Positive3, key
 
 
 class Settings(tc.CascadeTable):

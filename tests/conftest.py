@@ -7,7 +7,7 @@ import signal
 import hypothesis
 import pytest
 
-from tandemlift.controllers import CONTROLLERS
+from tandemlift.parts.controllers import CONTROLLERS
 
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # of a job in the background: processes of tests would inherit it
     signal.signal(signal.SIGINT, lambda *_: None)

@@ -1,6 +1,6 @@
 """Mutation testing: make small mistakes in the source, one at a time, and see whether a test fails for each.
 
-python tools/mutation_check.py [--count 320] [--seed 25] [--jobs 2] [--rooms laws studies] [--tests "tests/laws/*"]
+python tools/mutation_check.py [--count 320] [--seed 25] [--jobs 2] [--rooms laws studies] [--tests "tests/parts/*"]
 
 A mistake (mutant) is made in a copy of the repository under out/mutants, never in the source. First, each test file
 runs once, to learn which functions each of its tests calls, and what it costs. Then each mutant runs against the tests
@@ -34,11 +34,9 @@ from mutants.trials import Chosen, Copy, Exchanging, share
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE, OUT, REASONS = ROOT / "src" / "tandemlift", ROOT / "out" / "mutants", ROOT / "tools/equivalent_mutants.toml"
 ROOMS = {  # share of the mutants, and folders of tests: laws and loops that survive their own tests fly in simulation/
-    "laws": (0.47, ["tests/laws", "tests/simulation"]),
-    "controllers": (0.125, ["tests/controllers", "tests/simulation"]),
-    "loop": (0.125, ["tests/loop", "tests/simulation"]),
-    "simulation": (0.125, ["tests/simulation"]),
-    "studies": (0.155, ["tests/studies"]),
+    "parts": (0.595, ["tests/parts", "tests/simulation"]),
+    "simulation": (0.25, ["tests/simulation"]),
+    "analysis/studies": (0.155, ["tests/analysis/studies"]),
 }
 BLIND = [
     "*/test_one_source*.py",

@@ -20,7 +20,7 @@ from docutils import nodes
 from PIL import Image
 from sphinx.util.docutils import SphinxDirective
 
-from tandemlift.figures.registry import captions
+from tandemlift.pictures.figures.registry import captions
 
 FOLDER = Path(__file__).resolve().parents[2] / "out" / "gallery"
 WIDTH = 1600  # px, at most

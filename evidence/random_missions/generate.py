@@ -13,13 +13,13 @@ from typing import Any, Literal, NamedTuple, get_args, get_origin
 import numpy as np
 
 from random_missions.values import varied
-from tandemlift.common.errors import FlightWarning, InputError
-from tandemlift.controllers import CONTROLLERS
+from tandemlift.core.errors import FlightWarning, InputError
+from tandemlift.core.settings import Mission
 from tandemlift.missions import load_mission, tables_of
 from tandemlift.missions.bounds import plain
 from tandemlift.missions.files import built_in
 from tandemlift.missions.key_reference.sections import Key, is_of_the_package, sections
-from tandemlift.settings import Mission
+from tandemlift.parts.controllers import CONTROLLERS
 
 Changes = dict[str, Any]
 

@@ -18,12 +18,12 @@ from pyarrow import parquet
 
 import tandemlift as tl
 from random_missions.generate import UNPUSHED, RandomMission, random_family
+from tandemlift.analysis.studies.units.columns import Columns
+from tandemlift.analysis.studies.units.files import UnitFiles
+from tandemlift.analysis.studies.units.unit import sources_digest
 from tandemlift.flight.record import Flight
 from tandemlift.missions.files import built_in, path_of
 from tandemlift.simulation.many import fly_each
-from tandemlift.studies.units.columns import Columns
-from tandemlift.studies.units.files import UnitFiles
-from tandemlift.studies.units.unit import sources_digest
 
 BAD = ("not-lifted", "crashed", "diverged")
 SAME_TIME = 0.02  # s, within which record and judge must see a crash
@@ -155,7 +155,7 @@ def _complaint(outcome: str, kind: str, verdict: Any) -> str:
 
 
 class Families:
-    """Families of missions as units of work: what `tandemlift.studies.units.running.run_units` flies.
+    """Families of missions as units of work: what `tandemlift.analysis.studies.units.running.run_units` flies.
 
     Args:
         seed: of all missions.

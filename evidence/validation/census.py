@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from tandemlift.common.findings import FINDING_NAMES
-from tandemlift.common.outcomes import OUTCOMES
+from tandemlift.core.findings import FINDING_NAMES
+from tandemlift.core.outcomes import OUTCOMES
 
 
 class Census:

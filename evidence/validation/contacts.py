@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.common.faults import ALARM_TEXTS, FAULTS
-from tandemlift.common.phases import CONTACT, GUIDED, HOLD
+from tandemlift.core.faults import ALARM_TEXTS, FAULTS
+from tandemlift.core.phases import CONTACT, GUIDED, HOLD
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
 from validation.persons import random_persons

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.algebra.constants import GRAVITY
+from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.missions import Mission, load_mission
-from tandemlift.studies.design.study_files import load_plan
 from validation.rows import Row
 from validation.scenarios import Bench, Changes
 

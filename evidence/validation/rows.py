@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.common.types import Array
+from tandemlift.core.types import Array
 from tandemlift.flight.record import LATE, Flight
 
 

@@ -11,48 +11,48 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from tandemlift.common.version import __version__ as __version__
+from tandemlift.core.version import __version__ as __version__
 
 if TYPE_CHECKING:
-    from tandemlift.common.errors import FlightWarning, InputError
-    from tandemlift.controllers.user_controller import load_controller
+    from tandemlift.analysis.linearization.linear_model import LinearModel
+    from tandemlift.analysis.linearization.linearize import linearize
+    from tandemlift.analysis.linearization.mission_check import check
+    from tandemlift.analysis.studies.reading.table import Study, load_study
+    from tandemlift.analysis.studies.study import study
+    from tandemlift.analysis.studies.tuning.tune import tune
+    from tandemlift.codegen.compiling import compile_mission
+    from tandemlift.core.errors import FlightWarning, InputError
+    from tandemlift.core.settings import Mission
     from tandemlift.flight.record import Flight
-    from tandemlift.interactive.simulation import Simulation
-    from tandemlift.linearization.linear_model import LinearModel
-    from tandemlift.linearization.linearize import linearize
-    from tandemlift.linearization.mission_check import check
     from tandemlift.missions import load_mission
-    from tandemlift.report.tuning.feel_report import feel
-    from tandemlift.settings import Mission
+    from tandemlift.parts.controllers.user_controller import load_controller
+    from tandemlift.parts.vehicle import Vehicle
+    from tandemlift.pictures.report.tuning.feel_report import feel
     from tandemlift.simulation.fly import fly, fly_many
+    from tandemlift.simulation.interactive.simulation import Simulation
     from tandemlift.simulation.pilot_api import Pilot
-    from tandemlift.studies.reading.table import Study, load_study
-    from tandemlift.studies.study import study
-    from tandemlift.studies.tuning.tune import tune
-    from tandemlift.targets.compiling import compile_mission
-    from tandemlift.vehicle import Vehicle
 
 _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Flight": "flight.record",
-    "FlightWarning": "common.errors",
-    "InputError": "common.errors",
-    "LinearModel": "linearization.linear_model",
-    "Mission": "settings",
+    "FlightWarning": "core.errors",
+    "InputError": "core.errors",
+    "LinearModel": "analysis.linearization.linear_model",
+    "Mission": "core.settings",
     "Pilot": "simulation.pilot_api",
-    "Simulation": "interactive.simulation",
-    "Study": "studies.reading.table",
-    "Vehicle": "vehicle",
-    "check": "linearization.mission_check",
-    "compile_mission": "targets.compiling",
-    "feel": "report.tuning.feel_report",
+    "Simulation": "simulation.interactive.simulation",
+    "Study": "analysis.studies.reading.table",
+    "Vehicle": "parts.vehicle",
+    "check": "analysis.linearization.mission_check",
+    "compile_mission": "codegen.compiling",
+    "feel": "pictures.report.tuning.feel_report",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
-    "linearize": "linearization.linearize",
-    "load_controller": "controllers.user_controller",
+    "linearize": "analysis.linearization.linearize",
+    "load_controller": "parts.controllers.user_controller",
     "load_mission": "missions",
-    "load_study": "studies.reading.table",
-    "study": "studies.study",
-    "tune": "studies.tuning.tune",
+    "load_study": "analysis.studies.reading.table",
+    "study": "analysis.studies.study",
+    "tune": "analysis.studies.tuning.tune",
 }
 
 __all__ = [

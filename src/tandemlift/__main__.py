@@ -10,7 +10,7 @@ import sys
 def main() -> None:
     """Run the command line; Ctrl-C ends it by one line also while it is being loaded."""
     try:
-        from tandemlift.cli.main import main as run
+        from tandemlift.apps.cli.main import main as run
     except KeyboardInterrupt:
         sys.stderr.write("\nstopped; nothing more is written\n")
         sys.stderr.flush()

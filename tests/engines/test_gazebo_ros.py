@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.apps.export.write import export
 from tandemlift.engines.gazebo import world_from
+from tandemlift.engines.models.sdf import rotors_of
 from tandemlift.engines.ros_master import RosMaster, joined
-from tandemlift.export.write import export
-from tandemlift.models.sdf import rotors_of
 
 
 @pytest.fixture

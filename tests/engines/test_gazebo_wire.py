@@ -19,7 +19,7 @@ import tandemlift as tl
 from tandemlift.engines.gazebo import GazeboBody, start_state_from, world_from
 from tandemlift.engines.gazebo_server import free_port, shell_command_for_user
 from tandemlift.engines.gazebo_wire import Wire
-from tandemlift.models.sdf import rotors_of
+from tandemlift.engines.models.sdf import rotors_of
 
 DT = 1e-3
 MISSION = {

@@ -11,13 +11,13 @@ from ros_processes import SETTINGS
 from ros_trial import GUIDED, Middleware
 
 import tandemlift as tl
-from tandemlift.cli.main import main
+from tandemlift.apps.cli.main import main
+from tandemlift.apps.live.session.interactive_mission import interactive_mission
+from tandemlift.apps.live.session.session import Session
+from tandemlift.apps.live.wire.page_messages import ResetMessage
 from tandemlift.engines import gazebo
 from tandemlift.engines.registry import EngineLost
-from tandemlift.interactive.recorded_flight import RecordedFlight
-from tandemlift.live.session.interactive_mission import interactive_mission
-from tandemlift.live.session.session import Session
-from tandemlift.live.wire.page_messages import ResetMessage
+from tandemlift.simulation.interactive.recorded_flight import RecordedFlight
 from tandemlift.simulation.many import fly_each
 
 DT, LAST = 1e-3, 150  # s; the last step that the plugin takes
@@ -207,7 +207,7 @@ class Server:
 def test_the_command_gazebo_writes_what_was_flown_and_names_the_end_of_its_server(
     options, command, tmp_path, monkeypatch
 ):
-    monkeypatch.setattr("tandemlift.gazebo_app.flying.GazeboServer", Server)
+    monkeypatch.setattr("tandemlift.apps.gazebo_app.flying.GazeboServer", Server)
     monkeypatch.setattr("tandemlift.engines.gazebo_server.root", lambda: None)
     words = ["--no-window", "--no-figures", "--out", "out", "--set=mission.log_interval=0.001"]
     code, errors = command("gazebo", "hover", *options, *words)
@@ -220,7 +220,7 @@ def test_the_command_gazebo_writes_what_was_flown_and_names_the_end_of_its_serve
 def middleware(monkeypatch):
     """What `tandemlift ros` connects to."""
     one = Middleware()
-    monkeypatch.setattr("tandemlift.ros.selection.middleware_for", lambda *_, **__: one)
+    monkeypatch.setattr("tandemlift.apps.ros.selection.middleware_for", lambda *_, **__: one)
     return one
 
 

@@ -24,12 +24,12 @@ from random_missions.generate import (
 from random_missions.judged import Families, Judged, judged
 
 import tandemlift as tl
+from tandemlift.analysis.studies.units.files import UnitFiles
+from tandemlift.analysis.studies.units.running import StudyPart, run_units
+from tandemlift.analysis.studies.units.workers import thread_workers
+from tandemlift.core.settings import CorridorTable
 from tandemlift.missions import tables_of
-from tandemlift.settings import CorridorTable
-from tandemlift.studies.units.files import UnitFiles
-from tandemlift.studies.units.running import StudyPart, run_units
-from tandemlift.studies.units.workers import thread_workers
-from tandemlift.vehicle import Vehicle
+from tandemlift.parts.vehicle import Vehicle
 
 FAMILIES = range(10)  # five missions each
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from random_missions.generate import shortened
 
 import tandemlift as tl
-from tandemlift.common.outcomes import FAILURES
+from tandemlift.core.outcomes import FAILURES
 from tandemlift.simulation.many import fly_each
 
 AXES = st.integers(0, 2)

@@ -14,8 +14,8 @@ VALUE = """
 PROGRAM = """
 import numpy as np
 import tandemlift as tl
-from tandemlift.export.reading import read_bag
-from tandemlift.export.write import export
+from tandemlift.apps.export.reading import read_bag
+from tandemlift.apps.export.write import export
 from reference_tables.channels import channel_tables
 
 wind = {"wind.model": "air", "wind.velocity": [3.0, -4.0, 0.0], "wind.turbulence": 6.0}
@@ -36,7 +36,9 @@ print("followed")
 def test_a_channel_is_added_by_its_record_and_the_law_that_logs_it(tmp_path):
     package = EditedPackage(tmp_path)
     package.insert("flight/channels.py", 'Channel("N", "world", "force of the air on all parts together"),', RECORD)
-    package.insert("loop/log_sample.py", "    wind_force: Vec3", FIELD)
-    package.insert("loop/log_sample.py", "wind_velocity=velocity,", VALUE)
-    package.insert("loop/log_sample.py", "from tandemlift.algebra.ops import clip, greatest, minimum,", " sqrt,")
+    package.insert("simulation/loop/log_sample.py", "    wind_force: Vec3", FIELD)
+    package.insert("simulation/loop/log_sample.py", "wind_velocity=velocity,", VALUE)
+    package.insert(
+        "simulation/loop/log_sample.py", "from tandemlift.core.algebra.ops import clip, greatest, minimum,", " sqrt,"
+    )
     assert package.run(PROGRAM) == "followed\n"

@@ -5,14 +5,14 @@ import pytest
 from reference_tables.channels import channel_tables
 
 import tandemlift as tl
-from tandemlift.algebra.layout import leaves
-from tandemlift.algebra.vector import Nothing
+from tandemlift.core.algebra.layout import leaves
+from tandemlift.core.algebra.vector import Nothing
 from tandemlift.flight.channels import CHANNELS, DERIVED
 from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
-from tandemlift.laws.guidance.hand_guidance import HandGuidanceChannels
-from tandemlift.laws.guidance.supervision import SupervisionChannels
-from tandemlift.loop.estimate_channels import ContactEstimateChannels, EstimatedChannels, MeasuredChannels
-from tandemlift.loop.log_sample import (
+from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
+from tandemlift.parts.guidance.supervision import SupervisionChannels
+from tandemlift.simulation.loop.estimate_channels import ContactEstimateChannels, EstimatedChannels, MeasuredChannels
+from tandemlift.simulation.loop.log_sample import (
     ActuatorChannels,
     ContactChannels,
     DetectionChannels,
@@ -20,7 +20,7 @@ from tandemlift.loop.log_sample import (
     Sample,
     WindChannels,
 )
-from tandemlift.loop.running_metrics import EMPTY
+from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, flight_of
 

@@ -21,8 +21,8 @@ from tandemlift.engines.gazebo_server import (
     with_gazebo_environment,
 )
 from tandemlift.engines.gazebo_wire import Wire
+from tandemlift.engines.models.sdf import rotors_of
 from tandemlift.engines.ros_master import node, ros_environment
-from tandemlift.models.sdf import rotors_of
 
 SILENT, SILENT_OVER_ROS = 1.5, 3.0  # s, after which a pilot is given up
 

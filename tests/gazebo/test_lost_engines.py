@@ -14,7 +14,7 @@ from patience import COMPILING, completed, ended, until
 from ros_processes import node, started
 
 import tandemlift as tl
-from tandemlift.cli.main import main
+from tandemlift.apps.cli.main import main
 from tandemlift.engines.gazebo import world_from
 from tandemlift.engines.gazebo_server import GazeboServer, free_port
 from tandemlift.simulation.stepping import Stepper

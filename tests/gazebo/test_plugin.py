@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from patience import ended, said
 
-from tandemlift.algebra.constants import GRAVITY
+from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.engines.gazebo import GazeboBody
 from tandemlift.engines.gazebo_wire import HEADER, MAGIC, VERSION, Wire
-from tandemlift.models.sdf import rotors_of
+from tandemlift.engines.models.sdf import rotors_of
 
 from .conftest import SILENT, fly, rest_and_fly
 

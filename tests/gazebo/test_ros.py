@@ -15,12 +15,12 @@ import pytest
 from patience import ended, said, until
 from repository import ROOT as REPOSITORY
 
-from tandemlift.algebra.constants import GRAVITY
-from tandemlift.algebra.vector import Quat
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.algebra.vector import Quat
 from tandemlift.engines.gazebo_ros import ROOT
 from tandemlift.engines.ros_master import node
 from tandemlift.engines.rospy import message_type
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 from .conftest import SILENT_OVER_ROS, fly
 

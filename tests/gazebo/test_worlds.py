@@ -8,8 +8,8 @@ import pytest
 from patience import completed
 
 import tandemlift as tl
+from tandemlift.apps.export.write import export
 from tandemlift.engines.gazebo_server import root, shell_command, with_gazebo_environment
-from tandemlift.export.write import export
 
 pytestmark = pytest.mark.gazebo
 
@@ -28,7 +28,7 @@ def check(seen):
     return completed(shell_command(root(), script), capture_output=True, text=True, check=False).stdout
 
 
-@pytest.mark.parametrize("name", ["paper", "four", "heavy-payload", "zigzag"])  # all are read in tests/models
+@pytest.mark.parametrize("name", ["paper", "four", "heavy-payload", "zigzag"])  # all are read in tests/engines/models
 @pytest.mark.parametrize("plugin", [None, 19110, "ros"])
 def test_gazebo_finds_no_fault_with_a_world(name, plugin, folder):
     path, seen = folder

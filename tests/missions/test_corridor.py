@@ -8,12 +8,12 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import tandemlift as tl
-from tandemlift.algebra.layout import unflat
-from tandemlift.assembly.assemble import assemble
-from tandemlift.laws.person.person import PATH_LEG
+from tandemlift.core.algebra.layout import unflat
+from tandemlift.core.settings import wall_tables
+from tandemlift.core.settings.corridor import CorridorTable
 from tandemlift.missions import check, tables_of
-from tandemlift.settings import wall_tables
-from tandemlift.settings.corridor import CorridorTable
+from tandemlift.parts.person.person import PATH_LEG
+from tandemlift.simulation.assembly.assemble import assemble
 
 LINE = ((0.0, 0.0), (5.0, 0.0), (10.0, 3.0), (15.0, 0.0))
 WALKED = {"ground.model": "floor", "initial.euler": 0.0, "phases.rotors": "always"}

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.live.session.interactive_mission import interactive_mission
+from tandemlift.apps.live.session.interactive_mission import interactive_mission
+from tandemlift.core.settings.admittance import FEELS
 from tandemlift.missions import changed, check, tables_of
-from tandemlift.settings.admittance import FEELS
 from tandemlift.simulation.portable_mission import portable_mission
 
 

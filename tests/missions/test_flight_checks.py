@@ -8,11 +8,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.algebra.vector import ZERO, vec3
-from tandemlift.assembly.assemble import assemble
-from tandemlift.laws.mechanics.air_drag import air_loads
-from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.rotation import quaternion_from_euler
+from tandemlift.core.algebra.vector import ZERO, vec3
 from tandemlift.missions import built_in, load_mission, tables_of
 from tandemlift.missions.flight_checks.authority import CONTROL, authority_of
 from tandemlift.missions.flight_checks.loads import SIGMAS, WindOnParts, loads_of, turbulence_of
@@ -23,7 +19,11 @@ from tandemlift.missions.flight_checks.schedule import heights_of, landing_durat
 from tandemlift.missions.flight_checks.sensing import noise_of
 from tandemlift.missions.flight_checks.table import CHECKS, flight_checks
 from tandemlift.missions.flight_checks.weight import weight_of
-from tandemlift.vehicle import Vehicle
+from tandemlift.parts.mechanics.air_drag import air_loads
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import quaternion_from_euler
+from tandemlift.parts.vehicle import Vehicle
+from tandemlift.simulation.assembly.assemble import assemble
 
 IRIS = tables_of(load_mission("iris"))["vehicle"]["quadrotors"]
 

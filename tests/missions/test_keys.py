@@ -15,7 +15,8 @@ from mission_schema import BEYOND, EVERYTHING, SCHEMA
 from repository import ROOT
 
 import tandemlift as tl
-from tandemlift.cli.main import cli
+from tandemlift.apps.cli.main import cli
+from tandemlift.core.settings import Mission
 from tandemlift.missions import check, load_mission, merge, tables_of
 from tandemlift.missions.bounds import plain
 from tandemlift.missions.key_reference.explaining import explained, index, plain_name
@@ -24,7 +25,6 @@ from tandemlift.missions.key_reference.sections import is_of_the_package, sectio
 from tandemlift.missions.key_reference.template import template_text
 from tandemlift.missions.surroundings_checks import standing_of
 from tandemlift.missions.values import value_at
-from tandemlift.settings import Mission
 
 LEVEL = {"initial.euler": 0.0, "ground.model": "floor"}
 KEYS = [key for s in sections() if is_of_the_package(s.controller) for key in s.keys]

@@ -9,8 +9,8 @@ from bombs import memory_below, zeros_archive
 from click.testing import CliRunner
 
 import tandemlift as tl
-from tandemlift.cli.main import cli
-from tandemlift.common.toml import MAX_PARTS
+from tandemlift.apps.cli.main import cli
+from tandemlift.core.toml import MAX_PARTS
 from tandemlift.missions.recording import MAX_UNPACKED, WIDTH, Recording, read_recording, write_recording
 
 LONG = ".".join("a" * 5_000)

@@ -12,12 +12,12 @@ from mission_schema import BEYOND, EVERYTHING, SCHEMA
 from pydantic import ValidationError
 
 import tandemlift as tl
-from tandemlift.cli.main import cli
+from tandemlift.apps.cli.main import cli
+from tandemlift.core.settings import Mission
 from tandemlift.missions import DATA, built_in, load_mission, merge, tables_of
 from tandemlift.missions.key_reference.schema import mission_schema
 from tandemlift.missions.key_reference.template import template_text
 from tandemlift.missions.values import MISSING, value_at
-from tandemlift.settings import Mission
 
 SAID = mission_schema()
 VALIDATOR = Draft7Validator(SAID)

@@ -4,7 +4,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.missions import load_mission
-from tandemlift.pilot.supervision import start_requests
+from tandemlift.parts.pilot.supervision import start_requests
 
 BY_HAND = {"pilot.guidance": "hand"}
 WATCHED = {**BY_HAND, "supervision.model": "watch"}

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import pytest
 
-from tandemlift.common.errors import FlightWarning, InputError
-from tandemlift.controllers import CONTROLLERS
+from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.missions import MissionTemplate, built_in, load_mission, tables_of
+from tandemlift.parts.controllers import CONTROLLERS
 
 VALUES = (0.3, 1, 2.5, 0.0, -1.0, float("nan"), True, "soft", "lqr", [1.0, 0.0, 0.2], [1], [[1.0, 1.0]], {}, None, 1e12)
 KEYS = (  # good ones, and some that no mission has

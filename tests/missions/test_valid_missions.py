@@ -10,10 +10,10 @@ from mission_schema import EVERYTHING, SCHEMA
 from patience import completed
 
 import tandemlift as tl
+from tandemlift.core.settings import Mission
 from tandemlift.missions import DATA, built_in, format_toml, load_mission, merge, tables_of, to_toml
 from tandemlift.missions.bounds import allowed
 from tandemlift.missions.values import value_at
-from tandemlift.settings import Mission
 
 BUILT_IN = [
     *("doorway", "flight-ready", "four", "gusts", "heavy-payload", "hover", "iris", "narrow-zigzag", "narrow"),

@@ -8,13 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import tandemlift as tl
-from tandemlift.algebra.layout import leaves
-from tandemlift.assembly.assemble import assemble
-from tandemlift.laws.contact.feet import sinkage_of, standing_height
+from tandemlift.core.algebra.layout import leaves
 from tandemlift.missions import built_in, load_mission
 from tandemlift.missions.checks import sample_size
 from tandemlift.missions.flight_checks.weight import lift_of, weight_of
 from tandemlift.missions.surroundings_checks import standing_of
+from tandemlift.parts.contact.feet import sinkage_of, standing_height
+from tandemlift.simulation.assembly.assemble import assemble
 from tandemlift.simulation.plan import FlightPlan
 
 WEAK = [{"quadrotor": 1, "rotor": r, "time": 1.0, "efficiency": 0.1, "known_after": 0.0} for r in (1, 2, 3)]

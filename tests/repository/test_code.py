@@ -89,20 +89,20 @@ def test_a_copy_by_position_is_found_however_it_is_written(line, found):
 @pytest.mark.parametrize(
     ("line", "found"),
     [
-        ("importlib.import_module('tandemlift.models.sdf')", [1]),
+        ("importlib.import_module('tandemlift.engines.models.sdf')", [1]),
         ("import_module(f'tandemlift.{name}')", [1]),
         ("__import__('tandemlift.' + name)", [1]),
         ("import_module('.sdf', __package__)", [1]),
-        ("NAMES = ['tandemlift.models.sdf']", [1]),
-        ("import tandemlift.models.sdf", []),
+        ("NAMES = ['tandemlift.engines.models.sdf']", [1]),
+        ("import tandemlift.engines.models.sdf", []),
         ("import_module(f'rosbags.{part}')", []),
         ("prog = 'tandemlift'", []),
         ("find_spec(f'{package}.{part}')", []),
-        ("run([sys.executable, '-m', 'tandemlift.models.mjcf'])", []),
+        ("run([sys.executable, '-m', 'tandemlift.engines.models.mjcf'])", []),
     ],
 )
 def test_an_import_in_a_string_is_found(line, found):
-    assert hidden_imports(ast.parse(line), MODULES, own="tandemlift.models.mjcf") == found
+    assert hidden_imports(ast.parse(line), MODULES, own="tandemlift.engines.models.mjcf") == found
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import pytest
 from repository import ROOT
 
 import tandemlift as tl
-from tandemlift.cli.main import cli
+from tandemlift.apps.cli.main import cli
 
 DOCUMENTS = sorted(ROOT.glob("*.md"))  # the links of docs/ are checked when the site is built
 PAGES = sorted((ROOT / "docs" / "how-to").glob("*.md"))

@@ -1,6 +1,6 @@
 """Every kind of finding has a name, a meaning and a remedy of its own, and every key that a kind names exists."""
 
-from tandemlift.common.findings import FINDING_NAMES, KINDS
+from tandemlift.core.findings import FINDING_NAMES, KINDS
 from tandemlift.missions.key_reference.sections import sections
 
 

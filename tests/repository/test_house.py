@@ -9,8 +9,8 @@ import rooms
 from house import PACKAGE, TESTS, assert_none, python_files
 from repository import ROOT
 
-MOST = {"rooms": 58, "floors": 17, "arrows": 440, "circles": 0}
-MOST_LAYERS = 18
+MOST = {"rooms": 55, "floors": 17, "arrows": 413, "circles": 0}
+MOST_LAYERS = 11
 MOST_FILES, MOST_LINES = 15, 2500  # of Python in a folder, `__init__.py` included, folders within it apart
 LONGEST_FILE = {PACKAGE: 300, TESTS: 400}  # lines
 LONGEST_FUNCTION = 60  # lines

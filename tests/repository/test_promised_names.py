@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from mission_schema import SCHEMA
 
 import tandemlift as tl
-from tandemlift.cli.main import cli, main
+from tandemlift.apps.cli.main import cli, main
 from tandemlift.missions import tables_of
 from tandemlift.missions.values import MISSING, value_at
 

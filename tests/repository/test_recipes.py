@@ -41,7 +41,7 @@ def with_edits(tmp_path) -> Callable[[Edits, str], None]:
 
 SPIN_UP = "    spin_up_time: NonNegative = key("
 NEW_KEY = '    idle_time: NonNegative = key(0.2, "s", "time of idling after a landing", source="chosen: short")\n'
-KEY: Edits = {"settings/guided.py": [(SPIN_UP, NEW_KEY + SPIN_UP)]}
+KEY: Edits = {"core/settings/guided.py": [(SPIN_UP, NEW_KEY + SPIN_UP)]}
 KEY_IS_KNOWN = """
 import tandemlift as tl
 from tandemlift.missions.key_reference.explaining import explained
@@ -95,12 +95,12 @@ ADMITTANCE = "class Admittance(NamedTuple):"
 ANCHORED = "@elementwise\ndef anchored"
 CHOICE = '"hard": "'
 LAW: Edits = {
-    "laws/compliance/admittance.py": [(ADMITTANCE, GATE + ADMITTANCE), (ANCHORED, SMOOTH + ANCHORED)],
-    "settings/admittance.py": [
+    "parts/compliance/admittance.py": [(ADMITTANCE, GATE + ADMITTANCE), (ANCHORED, SMOOTH + ANCHORED)],
+    "core/settings/admittance.py": [
         ('gate: Literal["hard", "soft"]', 'gate: Literal["hard", "soft", "smooth"]'),
         (CHOICE, '"smooth": "F³/(F² + threshold²)", ' + CHOICE),
     ],
-    "pilot/assemble.py": [
+    "parts/pilot/assemble.py": [
         ("HardGate, SoftGate", "HardGate, SmoothGate, SoftGate"),
         ("else SoftGate", 'else SmoothGate if a.gate == "smooth" else SoftGate'),
     ],
@@ -120,10 +120,10 @@ def test_a_variant_of_a_law_touches_its_law_its_key_and_where_it_is_chosen(with_
     with_edits(LAW, LAW_FLIES)
 
 
-LIST = "from tandemlift.controllers import geometric"
+LIST = "from tandemlift.parts.controllers import geometric"
 CONTROLLER: Edits = {
     "controllers/my_pd.py": [("", LISTED_CONTROLLER)],
-    "controllers/__init__.py": [(LIST, LIST.replace("geometric", "my_pd, geometric"))],
+    "parts/controllers/__init__.py": [(LIST, LIST.replace("geometric", "my_pd, geometric"))],
 }
 CONTROLLER_FLIES = """
 import tandemlift as tl
@@ -179,7 +179,7 @@ ENGINE_FLIES = """
 import numpy as np
 import tandemlift as tl
 from click.testing import CliRunner
-from tandemlift.cli.main import cli
+from tandemlift.apps.cli.main import cli
 
 assert "A point mass." in CliRunner().invoke(cli, ["engines"]).output
 mission = tl.load_mission("hover", {"mission.duration": 8.0})

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.algebra.layout import flat, leaves, unflat
-from tandemlift.controllers import CONTROLLERS, Measured, Reference, control, nftsmc, register
-from tandemlift.kernels import COMMAND
-from tandemlift.machine_code.functions import compiled
+from tandemlift.compiler.machine_code.functions import compiled
+from tandemlift.core.algebra.layout import flat, leaves, unflat
+from tandemlift.parts.controllers import CONTROLLERS, Measured, Reference, control, nftsmc, register
+from tandemlift.simulation.kernels import COMMAND
 
 SIZE = leaves(COMMAND)
 

@@ -10,17 +10,17 @@ from scipy import stats
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.algebra.constants import GRAVITY
-from tandemlift.algebra.law import law
-from tandemlift.algebra.vector import Nothing, Vec3
-from tandemlift.common.errors import InputError
-from tandemlift.common.sensors import DEVICES, SENSORS, additional, sensors_on
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.algebra.law import law
+from tandemlift.core.algebra.vector import Nothing, Vec3
+from tandemlift.core.errors import InputError
+from tandemlift.core.sensors import DEVICES, SENSORS, additional, sensors_on
 from tandemlift.flight.channels import CHANNELS
-from tandemlift.laws.mechanics.loads import PerfectReadings
-from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.sensors.health import PerSensor
-from tandemlift.laws.sensors.readings import ImuChannels, ImuReading, MotionChannels, MotionReading, Readings
-from tandemlift.laws.sensors.sensor_registry import register_sensor
+from tandemlift.parts.mechanics.loads import PerfectReadings
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.sensors.health import PerSensor
+from tandemlift.parts.sensors.readings import ImuChannels, ImuReading, MotionChannels, MotionReading, Readings
+from tandemlift.parts.sensors.sensor_registry import register_sensor
 
 SEA_LEVEL, DENSITY = 101325.0, 1.225  # Pa, kg/m³
 STEP = 1e-3

@@ -13,11 +13,11 @@ import pytest
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.algebra.law import LAWS
-from tandemlift.kernels import LANES
-from tandemlift.machine_code import machine, store
-from tandemlift.machine_code.store import key_of, sources
+from tandemlift.compiler.machine_code import machine, store
+from tandemlift.compiler.machine_code.store import key_of, sources
+from tandemlift.core.algebra.law import LAWS
 from tandemlift.missions import built_in
+from tandemlift.simulation.kernels import LANES
 from tandemlift.simulation.plan import FlightPlan
 
 PACKAGE = Path(tl.__file__).parent
@@ -49,7 +49,7 @@ def test_a_second_process_finds_the_code_and_an_edit_of_a_law_loses_it(tmp_path)
     environment = {"PYTHONPATH": str(copy), "TANDEMLIFT_CACHE": str(tmp_path / "cache"), "PYTHONSAFEPATH": "1"}
     code = """
 import tandemlift as tl
-from tandemlift.machine_code import machine
+from tandemlift.compiler.machine_code import machine
 made, compiled = [], machine.compiled
 machine.compiled = lambda *args: made.append(args) or compiled(*args)
 flight = tl.fly(tl.load_mission("one-push", {"mission.duration": 0.1}))
@@ -83,7 +83,7 @@ def test_the_key_is_of_the_sources_that_run_even_if_they_are_edited_meanwhile(tm
 import sys, tandemlift as tl
 from pathlib import Path
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.machine_code.store import key_of
+from tandemlift.compiler.machine_code.store import key_of
 model = FlightPlan(tl.load_mission("one-push")).model
 print(key_of(model))
 with (Path(tl.__file__).parent / "laws" / "mechanics" / "rotation.py").open("a") as law:

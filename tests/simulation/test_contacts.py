@@ -21,13 +21,13 @@ from validation.contacts import (
 from validation.persons import random_persons
 
 import tandemlift as tl
-from tandemlift.algebra.vector import ZERO, Vec3
-from tandemlift.common.phases import CONTACT
-from tandemlift.laws.estimation.contact_detection import ContactEstimate
-from tandemlift.laws.guidance.contact_hold import code_of
+from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.core.phases import CONTACT
+from tandemlift.parts.estimation.contact_detection import ContactEstimate
+from tandemlift.parts.guidance.contact_hold import code_of
 from tandemlift.simulation.contact_texts import contact_codes, describe_contact
 
-pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.common.errors.FlightWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.core.errors.FlightWarning")
 
 
 def lasting(mission, seconds):

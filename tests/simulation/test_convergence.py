@@ -5,12 +5,12 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, hamilton
-from tandemlift.assembly.assemble import assemble
-from tandemlift.laws.mechanics.push import CentralPush
-from tandemlift.laws.mechanics.rigid_body import State, motion
-from tandemlift.laws.rotors.allocation import wrench
-from tandemlift.pilot.pilot import PilotInput, decide
+from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, Vec3, hamilton
+from tandemlift.parts.mechanics.push import CentralPush
+from tandemlift.parts.mechanics.rigid_body import State, motion
+from tandemlift.parts.pilot.pilot import PilotInput, decide
+from tandemlift.parts.rotors.allocation import wrench
+from tandemlift.simulation.assembly.assemble import assemble
 
 DURATION = 6.0  # s: the lift of `paper`, from 2 to 8 s
 

@@ -126,7 +126,7 @@ def test_an_engine_that_is_not_known_is_refused_with_those_that_are():
 
 def test_without_the_package_the_error_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    models = [f"tandemlift.models.mujoco_{part}" for part in ("bodies", "contact", "import")]
+    models = [f"tandemlift.engines.models.mujoco_{part}" for part in ("bodies", "contact", "import")]
     for name in ("tandemlift.engines.mujoco", *models):
         monkeypatch.delitem(sys.modules, name, raising=False)
     with pytest.raises(tl.InputError, match=r"^engine 'mujoco' needs mujoco: pip install 'tandemlift\["):

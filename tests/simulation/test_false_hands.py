@@ -5,7 +5,7 @@ import pytest
 from validation.scenarios import drawn
 
 import tandemlift as tl
-from tandemlift.common.phases import IDLE, LAND
+from tandemlift.core.phases import IDLE, LAND
 
 HOVER, AWAY = 12.5, 1.0  # s, m
 

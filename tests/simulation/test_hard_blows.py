@@ -10,11 +10,11 @@ from passing import nearest_of, random_throws, thrown, upright
 from thrown import arena, random_throw
 
 import tandemlift as tl
-from tandemlift.algebra.constants import GRAVITY
-from tandemlift.laws.contact.impulses import CORE
-from tandemlift.vehicle import Vehicle
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.parts.contact.impulses import CORE
+from tandemlift.parts.vehicle import Vehicle
 
-pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.common.errors.FlightWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.core.errors.FlightWarning")
 
 RADIUS, GUARD = 0.05, 0.375  # m, of the beam of `iris` and of its guards
 LONG = {"vehicle.payload.length": 3.2}  # the beam reaches beyond the guards

@@ -6,7 +6,7 @@ from scipy.signal import lfilter
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.loop.ending import FADING
+from tandemlift.simulation.loop.ending import FADING
 
 EVERY = {"mission.log_interval": 0.001}
 WATCHED = {"pilot.guidance": "hand", "supervision.model": "watch", "mission.duration": 20.0}

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.algebra.vector import vec3
-from tandemlift.figures.drawing.clearances import clearances
-from tandemlift.kernels import leaf_offset
-from tandemlift.laws.person.person import PersonView
+from tandemlift.core.algebra.vector import vec3
 from tandemlift.missions import built_in
+from tandemlift.parts.person.person import PersonView
+from tandemlift.pictures.figures.drawing.clearances import clearances
+from tandemlift.simulation.kernels import leaf_offset
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import Stepper, fly_stepwise
 

@@ -7,19 +7,19 @@ import pytest
 from storm import COMMAND, DT, MOTION, UNIT, storm, storms
 
 import tandemlift as tl
-from tandemlift.algebra.layout import leaves, unflat
-from tandemlift.algebra.vector import ZERO
-from tandemlift.assembly.assemble import assemble
-from tandemlift.kernels import GAUSSIAN, GUST, SPAN
-from tandemlift.laws.contact.wall_geometry import WALL
-from tandemlift.laws.contact.walls import nearest_with
-from tandemlift.laws.mechanics.push import PushSamples, push_at
-from tandemlift.laws.mechanics.wind import gust_velocity
-from tandemlift.laws.rotors.allocation import AllocationState
-from tandemlift.laws.sensors.readings import Readings
-from tandemlift.laws.signals.random_numbers import normals
-from tandemlift.loop.step import StepInputs, finish_step, run_pilot, with_person
-from tandemlift.pilot.pilot import with_allocation
+from tandemlift.core.algebra.layout import leaves, unflat
+from tandemlift.core.algebra.vector import ZERO
+from tandemlift.parts.contact.wall_geometry import WALL
+from tandemlift.parts.contact.walls import nearest_with
+from tandemlift.parts.mechanics.push import PushSamples, push_at
+from tandemlift.parts.mechanics.wind import gust_velocity
+from tandemlift.parts.pilot.pilot import with_allocation
+from tandemlift.parts.rotors.allocation import AllocationState
+from tandemlift.parts.sensors.readings import Readings
+from tandemlift.parts.signals.random_numbers import normals
+from tandemlift.simulation.assembly.assemble import assemble
+from tandemlift.simulation.kernels import GAUSSIAN, GUST, SPAN
+from tandemlift.simulation.loop.step import StepInputs, finish_step, run_pilot, with_person
 
 
 def different(a: tl.Flight, b: tl.Flight) -> list[str]:

@@ -8,14 +8,14 @@ from reference_tables.faults import fault_rows
 from repository import ROOT
 
 import tandemlift as tl
-from tandemlift.algebra.vector import ZERO, Nothing
-from tandemlift.assembly.assemble import assemble
-from tandemlift.common.faults import ALARM_TEXTS
-from tandemlift.common.phases import PHASE_NAMES
-from tandemlift.laws.estimation.disturbance_observer import NONE
-from tandemlift.laws.guidance.guidance import PilotInput, checked_input, guide
-from tandemlift.laws.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
+from tandemlift.core.algebra.vector import ZERO, Nothing
+from tandemlift.core.faults import ALARM_TEXTS
+from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.missions.key_reference.sections import sections
+from tandemlift.parts.estimation.disturbance_observer import NONE
+from tandemlift.parts.guidance.guidance import PilotInput, checked_input, guide
+from tandemlift.parts.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
+from tandemlift.simulation.assembly.assemble import assemble
 
 AT, STANDS = 8.5, 0.03  # s, when sensors fail; m, height of the standing vehicle
 QUIET = [{"sensor": "position", "kind": "bias", "time": 1000.0}]  # no fault, in the same compiled loop

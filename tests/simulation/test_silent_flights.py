@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.common.phases import LIMITED, REASONS
+from tandemlift.core.phases import LIMITED, REASONS
 
 NEAR = 0.1  # m, largest distance from the reference along each axis of a flight that goes well
 WATCHED = {"supervision.model": "watch"}

@@ -10,11 +10,11 @@ from scipy.integrate import quad, solve_ivp
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.algebra.constants import GRAVITY
-from tandemlift.algebra.vector import ZERO
-from tandemlift.controllers import CONTROLLERS, Command, control, register
-from tandemlift.laws.mechanics.rigid_body import Wrench
-from tandemlift.settings import ControllerTable
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.algebra.vector import ZERO
+from tandemlift.core.settings import ControllerTable
+from tandemlift.parts.controllers import CONTROLLERS, Command, control, register
+from tandemlift.parts.mechanics.rigid_body import Wrench
 
 FREE = {"vehicle.drag.force": 0.0, "vehicle.drag.moment": 0.0, "mission.log_interval": 0.001}
 CHANGES = [

@@ -5,8 +5,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.algebra.constants import GRAVITY
-from tandemlift.assembly.assemble import assemble
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.simulation.assembly.assemble import assemble
 
 DT = 0.001
 STOPPED = {"phases.lift_start": 100.0, "phases.land_start": 200.0, "estimator.tare_start": 300.0, "pushes": []}

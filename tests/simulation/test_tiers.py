@@ -8,10 +8,10 @@ from flights import different, lanes
 from patience import COMPILING
 
 import tandemlift as tl
-from tandemlift.algebra.layout import leaves
-from tandemlift.kernels import LANES, FlightMemory
-from tandemlift.machine_code import code, store
+from tandemlift.compiler.machine_code import code, store
+from tandemlift.core.algebra.layout import leaves
 from tandemlift.simulation import fly, plan
+from tandemlift.simulation.kernels import LANES, FlightMemory
 from tandemlift.simulation.plan import FlightPlan
 
 

@@ -9,8 +9,8 @@ import pytest
 from ten_crashes import HELD, THROWN, crash_mission, crashed_in
 
 import tandemlift as tl
-from tandemlift.algebra.vector import Nothing, Vec3, each
-from tandemlift.laws.contact.touches import (
+from tandemlift.core.algebra.vector import Nothing, Vec3, each
+from tandemlift.parts.contact.touches import (
     UNTOUCHED,
     PartContacts,
     SurfaceContacts,

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.algebra.vector import ZERO, Vec3
-from tandemlift.common.faults import CHECKS
-from tandemlift.common.phases import GUIDED, IDLE, LIFT, REASONS
-from tandemlift.controllers import CONTROLLERS, Command, control, register
-from tandemlift.laws.guidance.supervision import PHASE
-from tandemlift.laws.mechanics.rigid_body import Wrench
-from tandemlift.settings import ControllerTable
+from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.core.faults import CHECKS
+from tandemlift.core.phases import GUIDED, IDLE, LIFT, REASONS
+from tandemlift.core.settings import ControllerTable
+from tandemlift.parts.controllers import CONTROLLERS, Command, control, register
+from tandemlift.parts.guidance.supervision import PHASE
+from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.outcome import outcome_of
 from tandemlift.simulation.parameter_changes import ParameterRamp

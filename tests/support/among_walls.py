@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from law_values import BEAM, paper_vehicle, quadrotor
 
-from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
-from tandemlift.laws.contact.wall_geometry import Wall, wall
-from tandemlift.laws.contact.walls import Walls, near_wall_loads, nearest_with, no_walls_near, walls
-from tandemlift.laws.mechanics.loads import PartLoads, PartsLayout
-from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.models.parts_layout import parts_layout_from
-from tandemlift.vehicle import Vehicle
+from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.parts.contact.wall_geometry import Wall, wall
+from tandemlift.parts.contact.walls import Walls, near_wall_loads, nearest_with, no_walls_near, walls
+from tandemlift.parts.mechanics.loads import PartLoads, PartsLayout
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.vehicle import Vehicle
 
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
 LENGTH, RADIUS, GUARD = 2.0, 0.05, 0.375

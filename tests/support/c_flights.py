@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from tandemlift.algebra.layout import leaves
-from tandemlift.kernels import FlightMemory, leaf_offset
+from tandemlift.codegen.c.write import code_texts, written
+from tandemlift.core.algebra.layout import leaves
 from tandemlift.missions import changed
+from tandemlift.simulation.kernels import FlightMemory, leaf_offset
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.targets.c.write import code_texts, written
 
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-ffp-contract=off")
 HARNESS = """#include "{p}_flight.h"

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 
 import tandemlift as tl
-from tandemlift.algebra.layout import leaves
+from tandemlift.codegen.c.language.literals import number
+from tandemlift.codegen.c.write import code_texts, written
+from tandemlift.core.algebra.layout import leaves
 from tandemlift.simulation.pilot_api import INPUT
-from tandemlift.targets.c.language.literals import number
-from tandemlift.targets.c.write import code_texts, written
 
 HERE = Path(__file__).parents[1] / "targets" / "cortex_m7"
 MACHINE = ("-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard")

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.assembly.mission_numbers import numbers_of_mission, with_numbers
-from tandemlift.settings import Mission
+from tandemlift.core.settings import Mission
+from tandemlift.simulation.assembly.mission_numbers import numbers_of_mission, with_numbers
 
 SCALED = (  # key, or its beginning; largest relative change
     ("vehicle.payload.mass", 0.1),

@@ -7,13 +7,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from hypothesis import strategies as st
 
-from tandemlift.algebra.vector import ZERO, Mat3, Quat, Vec3, vec3
-from tandemlift.laws.mechanics.air_drag import AirDrag
-from tandemlift.laws.mechanics.inertia import inertia_value
-from tandemlift.laws.mechanics.rigid_body import RigidBody, State
-from tandemlift.models.parts_layout import parts_layout_from
-from tandemlift.settings import Payload, Quadrotor
-from tandemlift.vehicle import Vehicle
+from tandemlift.core.algebra.vector import ZERO, Mat3, Quat, Vec3, vec3
+from tandemlift.core.settings import Payload, Quadrotor
+from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.parts.mechanics.air_drag import AirDrag
+from tandemlift.parts.mechanics.inertia import inertia_value
+from tandemlift.parts.mechanics.rigid_body import RigidBody, State
+from tandemlift.parts.vehicle import Vehicle
 
 IRIS = {
     "mass": 1.5,

@@ -8,13 +8,13 @@ import numpy as np
 from law_values import flat, rebuilt
 
 import tandemlift as tl
-from tandemlift.linearization.delay_lines import values_under_way
-from tandemlift.linearization.linearize import linearization_plan
-from tandemlift.linearization.model_inputs import given_at
-from tandemlift.linearization.operating_point import flown_to
-from tandemlift.linearization.period import LinearizationPlan, PeriodDerivative, differentiate
-from tandemlift.linearization.step_graph import NO_PUSH
-from tandemlift.loop.step import step_flight
+from tandemlift.analysis.linearization.delay_lines import values_under_way
+from tandemlift.analysis.linearization.linearize import linearization_plan
+from tandemlift.analysis.linearization.model_inputs import given_at
+from tandemlift.analysis.linearization.operating_point import flown_to
+from tandemlift.analysis.linearization.period import LinearizationPlan, PeriodDerivative, differentiate
+from tandemlift.analysis.linearization.step_graph import NO_PUSH
+from tandemlift.simulation.loop.step import step_flight
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import Stepper
 

@@ -20,7 +20,7 @@ from urllib.parse import urlsplit
 from patience import PATIENCE, joined, until
 from websockets.sync.client import ClientConnection, connect
 
-from tandemlift.live.server import PageServer, serve_until_stopped
+from tandemlift.apps.live.server import PageServer, serve_until_stopped
 
 PAGE = {
     "index.html": b"""<!doctype html><html><head><meta charset="utf-8"><title>page</title>

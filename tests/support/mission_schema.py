@@ -1,9 +1,9 @@
 """All keys of a mission, by walking its tables."""
 
-from tandemlift.controllers import CONTROLLERS
+from tandemlift.core.settings import Mission
 from tandemlift.missions.bounds import table_in
 from tandemlift.missions.refusals import keys_of
-from tandemlift.settings import Mission
+from tandemlift.parts.controllers import CONTROLLERS
 
 
 def schema_keys():

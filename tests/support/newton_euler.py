@@ -8,10 +8,10 @@ import numpy as np
 from law_values import flat
 from scipy.spatial.transform import Rotation
 
-from tandemlift.algebra.vector import ZERO, Quat, spread, vec3
-from tandemlift.laws.mechanics.loads import PerfectReadings
-from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.sensors.readings import ImuReading
+from tandemlift.core.algebra.vector import ZERO, Quat, spread, vec3
+from tandemlift.parts.mechanics.loads import PerfectReadings
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.sensors.readings import ImuReading
 
 G = 9.81
 UP = np.array([0.0, 0.0, 1.0])

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tandemlift.common.types import Array
+from tandemlift.core.types import Array
 
 PROGRAM = Path(__file__).parent / "object_flight.c"
 TABLES = ("pushes", "gusts", "walls", "legs")

@@ -13,11 +13,11 @@ from scipy.spatial.transform import Rotation, Slerp
 from ten_crashes import THROWN
 
 import tandemlift as tl
-from tandemlift.algebra.vector import vec3
+from tandemlift.core.algebra.vector import vec3
+from tandemlift.core.settings import Mission, WallTable
 from tandemlift.flight.record import Flight
-from tandemlift.laws.mechanics.rotation import quaternion_from_euler
-from tandemlift.settings import Mission, WallTable
-from tandemlift.vehicle import Vehicle
+from tandemlift.parts.mechanics.rotation import quaternion_from_euler
+from tandemlift.parts.vehicle import Vehicle
 
 BELOW = -100.0  # m, where a wall ends
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from patience import PATIENCE
 
-from tandemlift.live import server, viewers
+from tandemlift.apps.live import server, viewers
 
 
 def make_patient(put: Callable[[Any, str, Any], None] = setattr) -> None:
@@ -21,7 +21,7 @@ def make_patient(put: Callable[[Any, str, Any], None] = setattr) -> None:
 
 
 if __name__ == "__main__":
-    from tandemlift.cli.main import main
+    from tandemlift.apps.cli.main import main
 
     make_patient()
     main()

@@ -8,13 +8,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from machine_code import Loop
 
-from tandemlift.algebra.layout import leaves, unflat
-from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
-from tandemlift.laws.estimation.navigation import NavigationState, Navigator, navigate, navigator, start_navigation
-from tandemlift.laws.estimation.push_estimate import PushEstimate, PushEstimator, estimate, push_estimator, start_push
-from tandemlift.laws.mechanics.loads import PerfectReadings
-from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.sensors.readings import Readings, Sensors, readings_of, sense, sensors, start_sensing, zero_noise
+from tandemlift.core.algebra.layout import leaves, unflat
+from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.parts.estimation.navigation import NavigationState, Navigator, navigate, navigator, start_navigation
+from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, estimate, push_estimator, start_push
+from tandemlift.parts.mechanics.loads import PerfectReadings
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.sensors.readings import Readings, Sensors, readings_of, sense, sensors, start_sensing, zero_noise
 
 STEP = 1e-3
 SETS = Vec3(*[each(2)(0.0, 0.0)] * 3)

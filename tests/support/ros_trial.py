@@ -5,9 +5,9 @@ from collections import defaultdict
 
 from rosbags.typesys import Stores, get_typestore
 
-from tandemlift.export.messages import MessageTypes, modern
-from tandemlift.live.session.session import Session
-from tandemlift.ros.node import FlightNode
+from tandemlift.apps.export.messages import MessageTypes, modern
+from tandemlift.apps.live.session.session import Session
+from tandemlift.apps.ros.node import FlightNode
 
 STORE = get_typestore(Stores.ROS2_HUMBLE)
 

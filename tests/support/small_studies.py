@@ -3,12 +3,12 @@
 import shutil
 from pathlib import Path
 
-from tandemlift.studies.design.keys import columns_of
-from tandemlift.studies.design.plan import SEED
-from tandemlift.studies.design.study_files import load_plan
-from tandemlift.studies.reading.table import load_study
-from tandemlift.studies.units.anywhere import fly_study
-from tandemlift.studies.units.store import open_folder
+from tandemlift.analysis.studies.design.keys import columns_of
+from tandemlift.analysis.studies.design.plan import SEED
+from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.reading.table import load_study
+from tandemlift.analysis.studies.units.anywhere import fly_study
+from tandemlift.analysis.studies.units.store import open_folder
 
 WHO = ("mission", "controller", "engine")
 DRAWN = {"distribution": "uniform", "low": 0.9, "high": 1.2}

@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 from patience import PATIENCE, joined
 
-from tandemlift.common.errors import InputError
-from tandemlift.live.session.scene_builder import SPRING, scene_of
-from tandemlift.live.wire.frames import layout_for, pack_frames
-from tandemlift.live.wire.page_messages import (
+from tandemlift.apps.live.session.scene_builder import SPRING, scene_of
+from tandemlift.apps.live.wire.frames import layout_for, pack_frames
+from tandemlift.apps.live.wire.page_messages import (
     ForceMessage,
     GrabMessage,
     MoveMessage,
@@ -23,6 +22,7 @@ from tandemlift.live.wire.page_messages import (
     SaveMessage,
     SetMessage,
 )
+from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
 
 STEP, MASS, DAMPING = 0.002, 2.0, 6.0

@@ -6,9 +6,9 @@ import sys
 
 import pyarrow.parquet as pq
 
-from tandemlift.studies.design.study_files import load_plan
-from tandemlift.studies.units.anywhere import fly_study
-from tandemlift.studies.units.store import open_folder
+from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.units.anywhere import fly_study
+from tandemlift.analysis.studies.units.store import open_folder
 
 TWELVE = {
     "study": {"name": "twelve", "missions": ["one-push"], "draws": 48, "rows_per_unit": 4},
@@ -23,9 +23,9 @@ LONGER = TWELVE | {"set": {"mission.duration": 60.0}}
 PROGRAM = """
 import json, sys
 from pathlib import Path
-from tandemlift.studies.design.study_files import load_plan
-from tandemlift.studies.units.anywhere import fly_study
-from tandemlift.studies.units.store import open_folder
+from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.units.anywhere import fly_study
+from tandemlift.analysis.studies.units.store import open_folder
 
 if __name__ == "__main__":
     plan = load_plan(json.loads(sys.argv[1]))

@@ -10,20 +10,20 @@ from machine_code import Loop
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.algebra.constants import GRAVITY
-from tandemlift.algebra.law import law
-from tandemlift.algebra.vector import ZERO, Nothing, Quat, each, total, vec3
+from tandemlift.compiler.machine_code.machine import QUICK
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.algebra.law import law
+from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, each, total, vec3
+from tandemlift.core.settings import Mission
 from tandemlift.engines.compiled import advance, plant_from
 from tandemlift.engines.compiled_contact import CompiledPlant, hull_contact_with
 from tandemlift.engines.compiled_touches import wall_contact_with
-from tandemlift.laws.contact.feet import start_foot_grip
-from tandemlift.laws.contact.wall_geometry import wall
-from tandemlift.laws.contact.walls import nearest_with, no_walls_near
-from tandemlift.laws.mechanics.push import CentralPush, PushSamples
-from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.machine_code.machine import QUICK
-from tandemlift.settings import Mission
-from tandemlift.vehicle import Vehicle
+from tandemlift.parts.contact.feet import start_foot_grip
+from tandemlift.parts.contact.wall_geometry import wall
+from tandemlift.parts.contact.walls import nearest_with, no_walls_near
+from tandemlift.parts.mechanics.push import CentralPush, PushSamples
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.vehicle import Vehicle
 
 NO_PUSH = PushSamples(*[CentralPush(ZERO)] * 3)
 START = State(vec3([0.0, 0.0, 2.0]), ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)

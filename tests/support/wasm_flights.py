@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from tandemlift.common.types import Array
+from tandemlift.core.types import Array
 
 HERE = Path(__file__).parent
 CALLER = HERE.parents[1] / "examples" / "fly_module.js"

@@ -91,8 +91,8 @@ class Touched:
 
     def _watch_compiled_code(self) -> None:
         """Once the package is imported: whoever asks for compiled code has called what was traced for it."""
-        from tandemlift.kernels.compiled_flight import Kernels
-        from tandemlift.machine_code.code import Code
+        from tandemlift.compiler.machine_code.code import Code
+        from tandemlift.simulation.kernels.compiled_flight import Kernels
 
         if hasattr(Code, "touched"):
             return

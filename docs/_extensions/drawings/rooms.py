@@ -62,9 +62,9 @@ def package() -> str:
 
 def laws() -> str:
     """The rooms of the laws."""
-    return drawn("tandemlift.laws")
+    return drawn("tandemlift.parts")
 
 
 def studies() -> str:
     """The rooms of the studies."""
-    return drawn("tandemlift.studies")
+    return drawn("tandemlift.analysis.studies")

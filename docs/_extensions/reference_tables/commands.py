@@ -10,7 +10,7 @@ from collections.abc import Iterator
 import click
 
 from reference_tables.markdown import linked, table
-from tandemlift.cli.main import cli
+from tandemlift.apps.cli.main import cli
 
 LISTED = re.compile(r"(?!tandemlift )(\S+(?: \S+)*) {2,}(\S.*)")
 CODE = re.compile(r"`([^`]+)`|(?<![\w`])(--?[a-z][\w-]*)")

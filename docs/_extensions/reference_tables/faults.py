@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from reference_tables.markdown import codes, table
-from tandemlift.common.faults import CHECKS, FAULTS, REACTION_MEANINGS
-from tandemlift.common.phases import PHASES, REASONS
+from tandemlift.core.faults import CHECKS, FAULTS, REACTION_MEANINGS
+from tandemlift.core.phases import PHASES, REASONS
 
 
 class FaultRow(NamedTuple):

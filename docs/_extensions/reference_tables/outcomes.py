@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from reference_tables.markdown import codes, linked, table
-from tandemlift.common.findings import KINDS
-from tandemlift.common.outcomes import ENDINGS, OUTCOMES
+from tandemlift.core.findings import KINDS
+from tandemlift.core.outcomes import ENDINGS, OUTCOMES
 
 
 def outcomes() -> str:

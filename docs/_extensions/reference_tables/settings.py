@@ -1,4 +1,4 @@
-"""The tables of `tandemlift.settings`: the types that a value of a key may have, and the tables of a mission."""
+"""The tables of `tandemlift.core.settings`: the types that a value of a key may have, and the tables of a mission."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from typing import get_origin
 from pydantic import BaseModel
 
 from reference_tables.markdown import table
-from tandemlift import settings
-from tandemlift.controllers import CascadeTable
+from tandemlift.core import settings
 from tandemlift.missions.bounds import allowed
 from tandemlift.missions.values import shown
+from tandemlift.parts.controllers import CascadeTable
 
 
 def value_types() -> str:

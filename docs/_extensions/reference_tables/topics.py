@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from reference_tables.markdown import codes, table
-from tandemlift.export.coordinate_frames import FRAMES
-from tandemlift.export.recipes import Recipe
-from tandemlift.export.topics import NOT_SAMPLES, ROOT, OtherTopic, all_recipes
+from tandemlift.apps.export.coordinate_frames import FRAMES
+from tandemlift.apps.export.recipes import Recipe
+from tandemlift.apps.export.topics import NOT_SAMPLES, ROOT, OtherTopic, all_recipes
+from tandemlift.apps.live.session.tunable_parameters import CHOICES, TUNABLE
+from tandemlift.apps.ros.parameters import RATIO, SPRING
+from tandemlift.apps.ros.requests import REQUESTS
+from tandemlift.apps.ros.ros2 import ONLY_ROS2
+from tandemlift.apps.ros.topics import ONLY_LIVE
 from tandemlift.flight.channels import CHANNELS
-from tandemlift.live.session.tunable_parameters import CHOICES, TUNABLE
 from tandemlift.missions import load_mission
-from tandemlift.ros.parameters import RATIO, SPRING
-from tandemlift.ros.requests import REQUESTS
-from tandemlift.ros.ros2 import ONLY_ROS2
-from tandemlift.ros.topics import ONLY_LIVE
-from tandemlift.vehicle import Vehicle
+from tandemlift.parts.vehicle import Vehicle
 
 HEAD = ("topic", "type, and frame", "what")
 SEVERAL = 4  # channels that a cell names

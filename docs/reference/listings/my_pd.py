@@ -2,13 +2,13 @@
 
 from typing import NamedTuple
 
-from tandemlift.algebra import GRAVITY, ZERO, Mat3, Number, Vec3, clip, law, vec3
-from tandemlift.controllers import Command, control, register
-from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
-from tandemlift.laws.mechanics.rigid_body import UP, Wrench
-from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates
-from tandemlift.laws.mechanics.tilt import TiltZXY, desired_orientation, total_thrust
-from tandemlift.settings import ControllerTable, NonNegative3, Positive3, key
+from tandemlift.core.algebra import GRAVITY, ZERO, Mat3, Number, Vec3, clip, law, vec3
+from tandemlift.core.settings import ControllerTable, NonNegative3, Positive3, key
+from tandemlift.parts.controllers import Command, control, register
+from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
+from tandemlift.parts.mechanics.rigid_body import UP, Wrench
+from tandemlift.parts.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates
+from tandemlift.parts.mechanics.tilt import TiltZXY, desired_orientation, total_thrust
 
 
 class Settings(ControllerTable):

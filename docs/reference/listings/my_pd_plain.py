@@ -4,12 +4,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.algebra import GRAVITY, Vec3
-from tandemlift.controllers import Command, control, register
-from tandemlift.laws.mechanics.rigid_body import Wrench
-from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates
-from tandemlift.laws.mechanics.tilt import TiltZXY, desired_orientation, total_thrust
-from tandemlift.settings import ControllerTable, NonNegative3, Positive3, key
+from tandemlift.core.algebra import GRAVITY, Vec3
+from tandemlift.core.settings import ControllerTable, NonNegative3, Positive3, key
+from tandemlift.parts.controllers import Command, control, register
+from tandemlift.parts.mechanics.rigid_body import Wrench
+from tandemlift.parts.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates
+from tandemlift.parts.mechanics.tilt import TiltZXY, desired_orientation, total_thrust
 
 
 class Settings(ControllerTable):

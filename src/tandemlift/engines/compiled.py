@@ -10,10 +10,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.algebra.arrays import array, inverse, square_roots
-from tandemlift.algebra.law import law
-from tandemlift.algebra.vector import Nothing, vec3
-from tandemlift.common.caching import kept
+from tandemlift.core.algebra.arrays import array, inverse, square_roots
+from tandemlift.core.algebra.law import law
+from tandemlift.core.algebra.vector import Nothing, vec3
+from tandemlift.core.caching import kept
+from tandemlift.core.settings import Mission, VehicleTable
+from tandemlift.core.settings.world import DisturbanceTable, InitialTable, PlantTable
 from tandemlift.engines.compiled_contact import (
     BodySurroundings,
     CompiledPlant,
@@ -27,18 +29,16 @@ from tandemlift.engines.compiled_contact import (
     with_contact_force,
     with_load,
 )
-from tandemlift.laws.mechanics.inertia import Inertia, inertia_value
-from tandemlift.laws.mechanics.loads import PerfectReadings, perfect_readings, readings_with_load
-from tandemlift.laws.mechanics.parts import Acceleration
-from tandemlift.laws.mechanics.push import PushSamples
-from tandemlift.laws.mechanics.rigid_body import RigidBody, State, motion, rigid_body_motion, rk4
-from tandemlift.laws.mechanics.rotation import quaternion_from_euler
-from tandemlift.laws.rotors.allocation import Mixer, mixer_from, wrench
-from tandemlift.models.parts_layout import parts_layout_from
-from tandemlift.models.surroundings import floor_from, walls_from
-from tandemlift.settings import Mission, VehicleTable
-from tandemlift.settings.world import DisturbanceTable, InitialTable, PlantTable
-from tandemlift.vehicle import Vehicle
+from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.engines.models.surroundings import floor_from, walls_from
+from tandemlift.parts.mechanics.inertia import Inertia, inertia_value
+from tandemlift.parts.mechanics.loads import PerfectReadings, perfect_readings, readings_with_load
+from tandemlift.parts.mechanics.parts import Acceleration
+from tandemlift.parts.mechanics.push import PushSamples
+from tandemlift.parts.mechanics.rigid_body import RigidBody, State, motion, rigid_body_motion, rk4
+from tandemlift.parts.mechanics.rotation import quaternion_from_euler
+from tandemlift.parts.rotors.allocation import Mixer, mixer_from, wrench
+from tandemlift.parts.vehicle import Vehicle
 
 
 class BodyStep(NamedTuple):

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.algebra.law import choice, law
-from tandemlift.algebra.vector import ZERO, Nothing
-from tandemlift.laws.contact.feet import Floor, feet_load, grips_after_step
-from tandemlift.laws.contact.hull import Hull, HullContact, hull_contact, hull_loads
-from tandemlift.laws.contact.impulses import WallImpulses, impulses_of_walls
-from tandemlift.laws.contact.walls import Walls, near_wall_contact, near_wall_loads
-from tandemlift.laws.mechanics.inertia import apply_inertia
-from tandemlift.laws.mechanics.loads import (
+from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.vector import ZERO, Nothing
+from tandemlift.parts.contact.feet import Floor, feet_load, grips_after_step
+from tandemlift.parts.contact.hull import Hull, HullContact, hull_contact, hull_loads
+from tandemlift.parts.contact.impulses import WallImpulses, impulses_of_walls
+from tandemlift.parts.contact.walls import Walls, near_wall_contact, near_wall_loads
+from tandemlift.parts.mechanics.inertia import apply_inertia
+from tandemlift.parts.mechanics.loads import (
     PartLoad,
     PartLoads,
     PartsLayout,
@@ -25,9 +25,9 @@ from tandemlift.laws.mechanics.loads import (
     resultant_of_quadrotors,
     without_negative_zero,
 )
-from tandemlift.laws.mechanics.rigid_body import RigidBody, State, motion
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.rotors.allocation import Mixer
+from tandemlift.parts.mechanics.rigid_body import RigidBody, State, motion
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.rotors.allocation import Mixer
 
 NO_LOAD = PartLoad(ZERO, ZERO)
 

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from typing import Any
 
-from tandemlift.algebra.law import choice
-from tandemlift.algebra.vector import Nothing
+from tandemlift.core.algebra.law import choice
+from tandemlift.core.algebra.vector import Nothing
 from tandemlift.engines.compiled_contact import CompiledPlant, DistantWalls, hull_contact_with
-from tandemlift.laws.contact.hull import HullContact
-from tandemlift.laws.contact.touches import (
+from tandemlift.parts.contact.hull import HullContact
+from tandemlift.parts.contact.touches import (
     SurfaceContacts,
     Touches,
     floor_contacts,
     touches_after,
     wall_contacts,
 )
-from tandemlift.laws.contact.walls import NearWallContact, Walls, near_wall_contact
-from tandemlift.laws.mechanics.loads import PartsLayout
-from tandemlift.laws.mechanics.rigid_body import State
+from tandemlift.parts.contact.walls import NearWallContact, Walls, near_wall_contact
+from tandemlift.parts.mechanics.loads import PartsLayout
+from tandemlift.parts.mechanics.rigid_body import State
 
 
 @choice(absent="walls")

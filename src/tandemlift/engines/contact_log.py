@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.algebra.layout import flat
-from tandemlift.algebra.vector import Nothing, Vec3, set_of
-from tandemlift.common.types import Array
-from tandemlift.laws.contact.touches import PartContacts, SurfaceContacts, start_touches, touches_after
+from tandemlift.core.algebra.layout import flat
+from tandemlift.core.algebra.vector import Nothing, Vec3, set_of
+from tandemlift.core.types import Array
+from tandemlift.parts.contact.touches import PartContacts, SurfaceContacts, start_touches, touches_after
 
 SURFACES, KINDS = ("floor", "wall"), ("rotor", "guard", "beam")
 
@@ -19,13 +19,13 @@ class ContactLog:
     """Touches of a body, step by step.
 
     Args:
-        floor: a `laws.contact.feet.Floor`, or `Nothing`.
-        walls: a `laws.contact.walls.Walls`, or `Nothing`.
+        floor: a `parts.contact.feet.Floor`, or `Nothing`.
+        walls: a `parts.contact.walls.Walls`, or `Nothing`.
         quadrotors: how many.
         step: [s].
 
     Attributes:
-        numbers: of a `laws.contact.touches.Touches`; empty if there is nothing to touch.
+        numbers: of a `parts.contact.touches.Touches`; empty if there is nothing to touch.
     """
 
     def __init__(self, floor: Any, walls: Any, quadrotors: int, step: float) -> None:

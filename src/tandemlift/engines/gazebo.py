@@ -21,16 +21,16 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from tandemlift.algebra.vector import Nothing, vec3
-from tandemlift.common.errors import InputError
-from tandemlift.common.types import Array
+from tandemlift.core.algebra.vector import Nothing, vec3
+from tandemlift.core.errors import InputError
+from tandemlift.core.settings import Mission
+from tandemlift.core.types import Array
 from tandemlift.engines.contact_log import KINDS, SURFACES, ContactLog
 from tandemlift.engines.gazebo_server import GazeboServer, free_port
 from tandemlift.engines.gazebo_wire import STATE, PluginAnswer, Wire
-from tandemlift.laws.mechanics.rotation import quaternion_from_euler
-from tandemlift.models import sdf
-from tandemlift.settings import Mission
-from tandemlift.vehicle import Vehicle
+from tandemlift.engines.models import sdf
+from tandemlift.parts.mechanics.rotation import quaternion_from_euler
+from tandemlift.parts.vehicle import Vehicle
 
 NONE = Nothing()
 UNSOUND = 1e8  # N, beyond which the flight has diverged
@@ -76,8 +76,8 @@ class GazeboBody:
     Args:
         mission: its step, `initial`, `plant`, `disturbance`, `ground` and `walls` are the body's.
         vehicle: the vehicle that the pilot knows.
-        floor: a `laws.contact.feet.Floor` to stand on, or `Nothing`.
-        walls: a `laws.contact.walls.Walls` that says how the mission's walls press, or `Nothing`.
+        floor: a `parts.contact.feet.Floor` to stand on, or `Nothing`.
+        walls: a `parts.contact.walls.Walls` that says how the mission's walls press, or `Nothing`.
         connect: finds or starts a server, and connects to its plugin.
 
     Attributes:

@@ -16,15 +16,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.common.errors import InputError
-from tandemlift.common.types import Array
+from tandemlift.core.errors import InputError
+from tandemlift.core.settings import Mission
+from tandemlift.core.types import Array
 from tandemlift.engines.gazebo import NONE, STEPPING, GazeboBody, world_from
 from tandemlift.engines.gazebo_server import GazeboServer
 from tandemlift.engines.gazebo_wire import PluginAnswer
 from tandemlift.engines.ros_master import joined, node, ros_environment
 from tandemlift.engines.rospy import message_type
-from tandemlift.settings import Mission
-from tandemlift.vehicle import Vehicle
+from tandemlift.parts.vehicle import Vehicle
 
 Stamp = tuple[int, int]  # s, ns
 ROOT = "/tandemlift/gazebo"

@@ -19,7 +19,7 @@ from enum import IntEnum, IntFlag
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.common.errors import InputError
+from tandemlift.core.errors import InputError
 
 MAGIC, VERSION = 0x5A474C54, 2
 HEADER = struct.Struct("<IHHIIQ")

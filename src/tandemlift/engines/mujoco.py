@@ -10,15 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.algebra.vector import Nothing, vec3
-from tandemlift.common.types import Array
+from tandemlift.core.algebra.vector import Nothing, vec3
+from tandemlift.core.settings import Mission
+from tandemlift.core.types import Array
 from tandemlift.engines.contact_log import ContactLog
-from tandemlift.laws.mechanics.rotation import quaternion_from_euler
-from tandemlift.models.mujoco_bodies import model_of
-from tandemlift.models.mujoco_contact import touching_parts
-from tandemlift.models.mujoco_import import mujoco
-from tandemlift.settings import Mission
-from tandemlift.vehicle import Vehicle
+from tandemlift.engines.models.mujoco_bodies import model_of
+from tandemlift.engines.models.mujoco_contact import touching_parts
+from tandemlift.engines.models.mujoco_import import mujoco
+from tandemlift.parts.mechanics.rotation import quaternion_from_euler
+from tandemlift.parts.vehicle import Vehicle
 
 NONE = Nothing()
 UNSOUND = 1e8  # N, beyond which the flight has diverged; MuJoCo takes a command beyond 1e10 for zero
@@ -30,8 +30,8 @@ class MuJoCoBody:
     Args:
         mission: its step, `initial`, `plant`, `disturbance` and `walls` are the body's.
         vehicle: the vehicle that the pilot knows.
-        floor: a `laws.contact.feet.Floor` to stand on, or `Nothing`.
-        walls: a `laws.contact.walls.Walls` that says how the mission's walls press, or `Nothing`.
+        floor: a `parts.contact.feet.Floor` to stand on, or `Nothing`.
+        walls: a `parts.contact.walls.Walls` that says how the mission's walls press, or `Nothing`.
     """
 
     def __init__(self, mission: Mission, vehicle: Vehicle, floor: Any = NONE, walls: Any = NONE) -> None:

@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
-from tandemlift.common.errors import unknown
-from tandemlift.common.types import Array
-from tandemlift.settings import Mission
-from tandemlift.vehicle import Vehicle
+from tandemlift.core.errors import unknown
+from tandemlift.core.settings import Mission
+from tandemlift.core.types import Array
+from tandemlift.parts.vehicle import Vehicle
 
 
 class EngineLost(ConnectionError):
@@ -39,7 +39,7 @@ class EngineBody(Protocol):
 
         Args:
             thrusts: of every rotor [N] (4N,).
-            loads: (6 + 6N,) the numbers of a `laws.mechanics.loads.PartLoads`, held in world axes; empty without wind.
+            loads: (6 + 6N,) the numbers of a `parts.mechanics.loads.PartLoads`, held in world axes; empty without wind.
             force: of the person [N, world axes] (3,), the mean over the step.
             moment: of the person about the centre of mass [N m, body axes] (3,), at the start of the step.
 
@@ -53,7 +53,7 @@ class TouchingBody(Protocol):
     """A body that keeps the record of touches; without it nothing is ever touched, and no rotor stops.
 
     Attributes:
-        touches: the numbers of a `laws.contact.touches.Touches` after the last step (`contact_log`).
+        touches: the numbers of a `parts.contact.touches.Touches` after the last step (`contact_log`).
     """
 
     touches: Array

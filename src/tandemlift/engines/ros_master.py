@@ -21,7 +21,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
-from tandemlift.common.errors import InputError
+from tandemlift.core.errors import InputError
 from tandemlift.engines.gazebo_server import export_lines, free_port, root, shell_command
 from tandemlift.engines.rospy import import_rospy
 

@@ -15,7 +15,7 @@ import warnings
 from pathlib import Path
 from types import ModuleType
 
-from tandemlift.common.errors import InputError
+from tandemlift.core.errors import InputError
 
 FOLDERS = ("/usr/lib/python3/dist-packages", "/opt/ros/noetic/lib/python3/dist-packages")  # Debian, Ubuntu 20.04
 

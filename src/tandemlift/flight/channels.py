@@ -1,7 +1,7 @@
 """The channels of a flight: what each holds, its unit, its frame, its width, and the missions that have it.
 
 This is the only list of channels. Data frames, bags, CSV files and docs/reference/channels.md are made from it. The
-laws in `loop.log_sample` give the values, in the same order. CONTRIBUTING.md says how to add a channel.
+laws in `simulation.loop.log_sample` give the values, in the same order. CONTRIBUTING.md says how to add a channel.
 
 Frames: `world` is inertial with z up; `body` is fixed to the vehicle; `zxy` are Euler angles roll, pitch, yaw.
 """
@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.common.phases import PHASE_NUMBERS, REASON_NUMBERS
-from tandemlift.common.sensors import ADDITIONAL
+from tandemlift.core.phases import PHASE_NUMBERS, REASON_NUMBERS
+from tandemlift.core.sensors import ADDITIONAL
 
 
 class Channel(NamedTuple):

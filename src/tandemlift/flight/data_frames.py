@@ -9,8 +9,8 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from tandemlift.common.extras import extra
-from tandemlift.common.types import Array
+from tandemlift.core.extras import extra
+from tandemlift.core.types import Array
 from tandemlift.flight.channels import Channel
 
 NUMBERED = ("rotor", "quadrotor")  # dimensions whose labels are numbers that say nothing alone

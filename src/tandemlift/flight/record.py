@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 import numpy as np
 
-from tandemlift.common.errors import InputError, suggestion, unknown
-from tandemlift.common.files import atomic_write, unpacked_size
-from tandemlift.common.findings import Finding, finding_from
-from tandemlift.common.outcomes import FAILURES, INTERRUPTED
-from tandemlift.common.types import Array
+from tandemlift.core.errors import InputError, suggestion, unknown
+from tandemlift.core.files import atomic_write, unpacked_size
+from tandemlift.core.findings import Finding, finding_from
+from tandemlift.core.outcomes import FAILURES, INTERRUPTED
+from tandemlift.core.settings.mission import check_keys
+from tandemlift.core.types import Array
 from tandemlift.flight.channels import CHANNELS, DERIVED, OTHER, Channel, channel_of
 from tandemlift.flight.data_frames import to_pandas, to_xarray
-from tandemlift.settings.mission import check_keys
 
 if TYPE_CHECKING:
     import pandas
@@ -85,7 +85,7 @@ class Flight(Mapping[str, Array]):
 
     @property
     def outcome(self) -> str:
-        """How it ended, one of `common.outcomes.OUTCOMES`; "unknown" for a flight that was read from a bag."""
+        """How it ended, one of `core.outcomes.OUTCOMES`; "unknown" for a flight that was read from a bag."""
         return self.results.get("outcome", "unknown")
 
     @property

@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.common.errors import InputError
-from tandemlift.common.toml import parts_of
-from tandemlift.controllers import CONTROLLERS
+from tandemlift.core.errors import InputError
+from tandemlift.core.settings import Mission, PerAxis
+from tandemlift.core.settings.admittance import with_feel
+from tandemlift.core.settings.value_types import is_number
+from tandemlift.core.toml import parts_of
 from tandemlift.missions.bounds import table_in
 from tandemlift.missions.values import Tables, merge, shown, value_at
-from tandemlift.settings import Mission, PerAxis
-from tandemlift.settings.admittance import with_feel
-from tandemlift.settings.value_types import is_number
+from tandemlift.parts.controllers import CONTROLLERS
 
 
 def _with(at: Any, parts: list[str], value: Any, key: str) -> Any:

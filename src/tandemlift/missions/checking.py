@@ -8,15 +8,15 @@ from typing import Any, NamedTuple
 
 from pydantic import BaseModel, ValidationError
 
-from tandemlift.common.errors import FlightWarning, InputError, suggestion
-from tandemlift.controllers import CONTROLLERS
+from tandemlift.core.errors import FlightWarning, InputError, suggestion
+from tandemlift.core.settings import ControllerTable, Mission
 from tandemlift.missions.changes import changed_tables
 from tandemlift.missions.checks import check_flyable, warn
 from tandemlift.missions.files import Layer
 from tandemlift.missions.refusals import Problem, problems_in
 from tandemlift.missions.values import MISSING, Place, Tables, shown, value_at
 from tandemlift.missions.writing import tables_of
-from tandemlift.settings import ControllerTable, Mission
+from tandemlift.parts.controllers import CONTROLLERS
 
 MAX_PROBLEMS = 8  # reported at once
 

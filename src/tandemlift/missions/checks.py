@@ -8,9 +8,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tandemlift.common.caching import kept
-from tandemlift.common.errors import FlightWarning, InputError
-from tandemlift.common.sensors import ADDITIONAL
+from tandemlift.core.caching import kept
+from tandemlift.core.errors import FlightWarning, InputError
+from tandemlift.core.sensors import ADDITIONAL
+from tandemlift.core.settings import Mission, VehicleTable
+from tandemlift.core.settings.outcomes import promise_of
 from tandemlift.missions.flight_checks.schedule import check_heights
 from tandemlift.missions.flight_checks.table import flight_warnings
 from tandemlift.missions.hardware_checks import check_hardware, hardware_warnings
@@ -18,9 +20,7 @@ from tandemlift.missions.person_checks import check_person, person_warnings
 from tandemlift.missions.supervision_checks import check_supervision
 from tandemlift.missions.surroundings_checks import check_surroundings, surroundings_warnings
 from tandemlift.missions.values import shown
-from tandemlift.settings import Mission, VehicleTable
-from tandemlift.settings.outcomes import promise_of
-from tandemlift.vehicle import Vehicle
+from tandemlift.parts.vehicle import Vehicle
 
 MAX_STEPS = 1_000_000_000
 MAX_LOG = 4_000_000_000  # bytes

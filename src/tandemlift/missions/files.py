@@ -9,12 +9,12 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from tandemlift.common.errors import InputError, suggestion, unknown
-from tandemlift.common.toml import toml_tables
+from tandemlift.core.errors import InputError, suggestion, unknown
+from tandemlift.core.files import DATA
+from tandemlift.core.toml import toml_tables
 from tandemlift.missions.recording import unpacked_recording
 from tandemlift.missions.values import MISSING, Tables, merge, shown, value_at
 
-DATA = Path(__file__).resolve().parent.parent / "data"
 MAX_FILE = 1_000_000  # bytes
 _parsed = functools.lru_cache(maxsize=32)(toml_tables)  # for sweeps of one mission; not to be modified
 

@@ -7,13 +7,13 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.algebra.constants import GRAVITY
-from tandemlift.common.errors import InputError, suggestion
-from tandemlift.common.sensors import ADDITIONAL
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.errors import InputError, suggestion
+from tandemlift.core.sensors import ADDITIONAL
+from tandemlift.core.settings import Mission
 from tandemlift.missions.flight_checks.weight import lift_of, weight_of
 from tandemlift.missions.values import shown
-from tandemlift.settings import Mission
-from tandemlift.vehicle import Vehicle
+from tandemlift.parts.vehicle import Vehicle
 
 MAX_DELAY = 10_000  # steps
 WIDTH = 3.0  # of a push, in standard deviations

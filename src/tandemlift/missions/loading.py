@@ -9,13 +9,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from tandemlift.common.errors import InputError
-from tandemlift.controllers import CONTROLLERS, Controller
+from tandemlift.core.errors import InputError
+from tandemlift.core.settings import Mission
 from tandemlift.missions.changes import changed_tables
 from tandemlift.missions.checking import as_checked, check
 from tandemlift.missions.files import Layer, layers_of, overlay, path_of
 from tandemlift.missions.values import Tables, value_at
-from tandemlift.settings import Mission
+from tandemlift.parts.controllers import CONTROLLERS, Controller
 
 
 def _last_said_of(controller: str, folded: Sequence[Tables]) -> Any:

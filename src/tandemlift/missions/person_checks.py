@@ -6,11 +6,11 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from tandemlift.common.errors import InputError
+from tandemlift.core.errors import InputError
+from tandemlift.core.settings import Mission
 from tandemlift.missions.recording import read_recording
 from tandemlift.missions.values import shown
-from tandemlift.settings import Mission
-from tandemlift.vehicle import Vehicle
+from tandemlift.parts.vehicle import Vehicle
 
 GRIP = slice(1, 4)  # of a recorded hand
 FARTHEST = 0.5  # m, of a push from the box of all parts

@@ -20,9 +20,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.common.errors import InputError
-from tandemlift.common.files import atomic_write, unpacked_size
-from tandemlift.settings import Mission
+from tandemlift.core.errors import InputError
+from tandemlift.core.files import atomic_write, unpacked_size
+from tandemlift.core.settings import Mission
 
 WIDTH = 14  # numbers of a `VirtualHandInput`
 ENGINE = "compiled"  # the default engine

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, get_args, get_origin
 
 from pydantic import ValidationError
 
-from tandemlift.common.errors import nearest
+from tandemlift.core.errors import nearest
 from tandemlift.missions.bounds import Model, allowed, plain, table_in
 from tandemlift.missions.values import MISSING, Place, dotted, shown, value_at
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tandemlift.common.errors import InputError, suggestion
-from tandemlift.common.sensors import DEVICES, SENSORS, sensors_named
+from tandemlift.core.errors import InputError, suggestion
+from tandemlift.core.sensors import DEVICES, SENSORS, sensors_named
+from tandemlift.core.settings import Mission
 from tandemlift.missions.values import shown
-from tandemlift.settings import Mission
 
 
 def check_supervision(m: Mission) -> None:

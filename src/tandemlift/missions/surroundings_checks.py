@@ -8,21 +8,21 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.algebra.constants import GRAVITY
-from tandemlift.algebra.vector import vec3
-from tandemlift.common.caching import kept
-from tandemlift.common.errors import InputError
-from tandemlift.common.outcomes import HARD
-from tandemlift.laws.contact.feet import Floor, floor, sinkage_of, sole_positions, standing_height
-from tandemlift.laws.contact.hull import hull, lowest_of_hull
-from tandemlift.laws.contact.wall_geometry import offset, wall
-from tandemlift.laws.mechanics.rotation import rotation_from_euler
-from tandemlift.laws.mechanics.turbulence import FOOT, HIGHEST, LOWEST
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.algebra.vector import vec3
+from tandemlift.core.caching import kept
+from tandemlift.core.errors import InputError
+from tandemlift.core.outcomes import HARD
+from tandemlift.core.settings import Mission, VehicleTable
+from tandemlift.core.settings.corridor import SHORTEST
+from tandemlift.core.settings.surroundings import GroundTable
 from tandemlift.missions.values import shown
-from tandemlift.settings import Mission, VehicleTable
-from tandemlift.settings.corridor import SHORTEST
-from tandemlift.settings.surroundings import GroundTable
-from tandemlift.vehicle import Vehicle
+from tandemlift.parts.contact.feet import Floor, floor, sinkage_of, sole_positions, standing_height
+from tandemlift.parts.contact.hull import hull, lowest_of_hull
+from tandemlift.parts.contact.wall_geometry import offset, wall
+from tandemlift.parts.mechanics.rotation import rotation_from_euler
+from tandemlift.parts.mechanics.turbulence import FOOT, HIGHEST, LOWEST
+from tandemlift.parts.vehicle import Vehicle
 
 DEEP = 0.02  # m, of feet in the floor at the start
 FAR_DOWN, FAR_UP = 0.02, 0.3  # m, of the landed reference above and below where the vehicle stands

@@ -8,8 +8,8 @@ from typing import Any
 
 import tomli_w
 
+from tandemlift.core.settings import Mission
 from tandemlift.missions.values import Tables
-from tandemlift.settings import Mission
 
 
 def tables_of(mission: Mission) -> Tables:

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.common.errors import InputError
-from tandemlift.common.types import Array
+from tandemlift.core.errors import InputError
+from tandemlift.core.settings import Mission
+from tandemlift.core.types import Array
 from tandemlift.missions.values import shown
-from tandemlift.settings import Mission
 
 MOST_SEED = 10**18  # as `mission.seed`
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from tandemlift.algebra.vector import ZERO, Vec3
+from tandemlift.core.algebra.vector import ZERO, Vec3
 from tandemlift.flight.record import Flight
-from tandemlift.laws.estimation.contact_detection import ContactEstimate
-from tandemlift.laws.guidance.contact_hold import BEAM, DIRECTIONS, HALF_PLACES, PLACES, code_of
+from tandemlift.parts.estimation.contact_detection import ContactEstimate
+from tandemlift.parts.guidance.contact_hold import BEAM, DIRECTIONS, HALF_PLACES, PLACES, code_of
 
 SIDES = ("−", "", "+")
 

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.algebra.law import choice, law
-from tandemlift.algebra.ops import atan2, maximum, sqrt, where
-from tandemlift.algebra.selection import chosen
-from tandemlift.algebra.vector import Vec3, dot
-from tandemlift.common.outcomes import LEFT_FENCE, STRUCK, TURNED_OVER
-from tandemlift.laws.guidance.fault_detection import distance_outside
-from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.rotation import body_z_axis
-from tandemlift.loop.ending import CrashLimits, CrashMemory, OuterFence, Strike
+from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.ops import atan2, maximum, sqrt, where
+from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.vector import Vec3, dot
+from tandemlift.core.outcomes import LEFT_FENCE, STRUCK, TURNED_OVER
+from tandemlift.parts.guidance.fault_detection import distance_outside
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import body_z_axis
+from tandemlift.simulation.loop.ending import CrashLimits, CrashMemory, OuterFence, Strike
 
 DEGREE = 57.29577951308232  # 180/π
 
 
 class EndingMoment(NamedTuple):
-    """The moment of an ending: its number in `common.outcomes`, 0 for none; time [s]; state; impulse [N·s]."""
+    """The moment of an ending: its number in `core.outcomes`, 0 for none; time [s]; state; impulse [N·s]."""
 
     number: Any
     time: Any

@@ -6,22 +6,22 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from tandemlift.algebra.vector import Nothing, dot, total
-from tandemlift.common.faults import ALARM_TEXTS, CHECKS
-from tandemlift.common.findings import Finding, FindingName, finding
-from tandemlift.common.phases import IDLE, LAND, LIFT, REASONS, STOPPED
-from tandemlift.laws.compliance.following import FollowingState
-from tandemlift.laws.guidance.supervision import ALARM, PHASE, SupervisionState
-from tandemlift.loop.excess import Excess
-from tandemlift.loop.oscillation import HalfPeriods
-from tandemlift.loop.step import FlightState
-from tandemlift.settings import Mission
-from tandemlift.settings.outcomes import Promise, promise_of
+from tandemlift.core.algebra.vector import Nothing, dot, total
+from tandemlift.core.faults import ALARM_TEXTS, CHECKS
+from tandemlift.core.findings import Finding, FindingName, finding
+from tandemlift.core.phases import IDLE, LAND, LIFT, REASONS, STOPPED
+from tandemlift.core.settings import Mission
+from tandemlift.core.settings.outcomes import Promise, promise_of
+from tandemlift.parts.compliance.following import FollowingState
+from tandemlift.parts.guidance.supervision import ALARM, PHASE, SupervisionState
+from tandemlift.simulation.loop.excess import Excess
+from tandemlift.simulation.loop.oscillation import HalfPeriods
+from tandemlift.simulation.loop.step import FlightState
 from tandemlift.simulation.outcome import landing_time
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.touches import touches_of
 
-SIGNALS = {  # of `loop.oscillation.Swings`: name, unit
+SIGNALS = {  # of `simulation.loop.oscillation.Swings`: name, unit
     "roll": ("roll rate", "rad/s"),
     "pitch": ("pitch rate", "rad/s"),
     "yaw": ("yaw rate", "rad/s"),

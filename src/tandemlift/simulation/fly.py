@@ -11,17 +11,17 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any, Literal, NamedTuple
 from weakref import WeakKeyDictionary
 
-from tandemlift.algebra.layout import leaves, unflat
-from tandemlift.common.errors import InputError
-from tandemlift.common.progress import progress_or_own
-from tandemlift.common.types import Progress
+from tandemlift.compiler.machine_code.code import Code
+from tandemlift.compiler.machine_code.compile_events import Stopped, always
+from tandemlift.core.algebra.layout import leaves, unflat
+from tandemlift.core.errors import InputError
+from tandemlift.core.progress import progress_or_own
+from tandemlift.core.settings import Mission
+from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
-from tandemlift.kernels import LANES, FlightMemory
-from tandemlift.loop.running_metrics import EMPTY
-from tandemlift.machine_code.code import Code
-from tandemlift.machine_code.compile_events import Stopped, always
 from tandemlift.missions.recording import engine_of
-from tandemlift.settings import Mission
+from tandemlift.simulation.kernels import LANES, FlightMemory
+from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.parameter_changes import changes_in_flight
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any, Literal
 
-from tandemlift.common.errors import InputError
-from tandemlift.common.outcomes import INTERRUPTED
-from tandemlift.common.types import Progress
+from tandemlift.core.errors import InputError
+from tandemlift.core.outcomes import INTERRUPTED
+from tandemlift.core.settings import Mission
+from tandemlift.core.types import Progress
 from tandemlift.engines.registry import EngineLost, engine_named
-from tandemlift.settings import Mission
 from tandemlift.simulation.fly import fly, fly_many
 
 Keep = Literal["flights", "metrics"]

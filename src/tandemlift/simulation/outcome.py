@@ -1,17 +1,17 @@
-"""The outcome of a flight, by the definitions of `common.outcomes`, and why it was stopped before its end."""
+"""The outcome of a flight, by the definitions of `core.outcomes`, and why it was stopped before its end."""
 
 from __future__ import annotations
 
 import math
 from typing import Any
 
-from tandemlift.algebra.vector import ZERO, Nothing, Vec3
-from tandemlift.common.outcomes import ENDING_OF, FAR, LEFT_FENCE, STRUCK, TURNED_OVER
+from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3
+from tandemlift.core.outcomes import ENDING_OF, FAR, LEFT_FENCE, STRUCK, TURNED_OVER
+from tandemlift.core.settings import Mission
 from tandemlift.flight.record import Ending
-from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.loop.step import FlightState
-from tandemlift.settings import Mission
+from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.simulation.ending_numbers import EndingMoment, ending_numbers
+from tandemlift.simulation.loop.step import FlightState
 from tandemlift.simulation.plan import FlightPlan
 
 NOT_FINITE = "must be finite"

@@ -13,14 +13,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.algebra.layout import flat, leaves
-from tandemlift.algebra.vector import Nothing, layout
-from tandemlift.common.errors import InputError
-from tandemlift.common.types import Array
-from tandemlift.kernels import leaf_offset
+from tandemlift.core.algebra.layout import flat, leaves
+from tandemlift.core.algebra.vector import Nothing, layout
+from tandemlift.core.errors import InputError
+from tandemlift.core.settings import Mission
+from tandemlift.core.types import Array
 from tandemlift.missions import in_turn
 from tandemlift.missions.recording import read_recording
-from tandemlift.settings import Mission
+from tandemlift.simulation.kernels import leaf_offset
 from tandemlift.simulation.plan import FlightPlan
 
 STEADY = {"changes": ()}

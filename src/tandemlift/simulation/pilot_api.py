@@ -8,24 +8,24 @@ from functools import cached_property
 
 import numpy as np
 
-from tandemlift.algebra.layout import flat, leaves, unflat
-from tandemlift.algebra.vector import ZERO, Nothing, Quat
-from tandemlift.assembly.traced_assembly import assembled_by_graph
-from tandemlift.common.errors import InputError
-from tandemlift.common.refusals import Refusals
-from tandemlift.common.types import Array
-from tandemlift.controllers import control
-from tandemlift.kernels.context import aligned
-from tandemlift.kernels.pilot_sampling import PilotData, PilotSampler
-from tandemlift.laws.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
-from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.machine_code.code import Code
-from tandemlift.machine_code.store import key_of
-from tandemlift.pilot.assemble import start_pilot
-from tandemlift.pilot.pilot import PilotInput
-from tandemlift.pilot.refusals import refusals_of
-from tandemlift.settings import Mission
-from tandemlift.vehicle import Vehicle
+from tandemlift.compiler.machine_code.code import Code
+from tandemlift.compiler.machine_code.store import key_of
+from tandemlift.core.algebra.layout import flat, leaves, unflat
+from tandemlift.core.algebra.vector import ZERO, Nothing, Quat
+from tandemlift.core.errors import InputError
+from tandemlift.core.refusals import Refusals
+from tandemlift.core.settings import Mission
+from tandemlift.core.types import Array
+from tandemlift.parts.controllers import control
+from tandemlift.parts.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.pilot.assemble import start_pilot
+from tandemlift.parts.pilot.pilot import PilotInput
+from tandemlift.parts.pilot.refusals import refusals_of
+from tandemlift.parts.vehicle import Vehicle
+from tandemlift.simulation.assembly.traced_assembly import assembled_by_graph
+from tandemlift.simulation.kernels.context import aligned
+from tandemlift.simulation.kernels.pilot_sampling import PilotData, PilotSampler
 
 INPUT = PilotInput(
     State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Nothing(), NO_REQUEST, UNKNOWN_STATUS

@@ -8,16 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.algebra.layout import layout_and_numbers
-from tandemlift.algebra.vector import ZERO, each, layout
-from tandemlift.assembly.traced_assembly import assembled_flight
-from tandemlift.controllers import NoMemory, control
+from tandemlift.core.algebra.layout import layout_and_numbers
+from tandemlift.core.algebra.vector import ZERO, each, layout
+from tandemlift.core.settings import Mission
 from tandemlift.engines.registry import engine_named
 from tandemlift.flight.record import LATE
-from tandemlift.kernels import FlightStart, Kernels, PythonController, TimeGrid
-from tandemlift.laws.person.caller_inputs import CallerInput
-from tandemlift.laws.person.outside_push import OutsidePush
-from tandemlift.settings import Mission
+from tandemlift.parts.controllers import NoMemory, control
+from tandemlift.parts.person.caller_inputs import CallerInput
+from tandemlift.parts.person.outside_push import OutsidePush
+from tandemlift.simulation.assembly.traced_assembly import assembled_flight
+from tandemlift.simulation.kernels import FlightStart, Kernels, PythonController, TimeGrid
 
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second
 
@@ -30,7 +30,7 @@ class FlightPlan:
     Args:
         mission: from `load_mission`.
         engine: name of the body's engine.
-        interactive: whether the caller of a step may add a push and replace thrusts (`laws.person.caller_inputs`).
+        interactive: whether the caller of a step may add a push and replace thrusts (`parts.person.caller_inputs`).
 
     Raises:
         InputError: the engine is unknown, or the mission cannot be built.

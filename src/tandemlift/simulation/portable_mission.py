@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from tandemlift.common.errors import InputError
-from tandemlift.controllers import control
+from tandemlift.core.errors import InputError
+from tandemlift.core.settings import Mission
 from tandemlift.missions import changed
-from tandemlift.settings import Mission
+from tandemlift.parts.controllers import control
 from tandemlift.simulation.pilot_api import pilot_at_start
 
 

@@ -11,23 +11,23 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.algebra.layout import flat, leaves, unflat
-from tandemlift.algebra.vector import Nothing, Vec3, dot
-from tandemlift.common.faults import ALARM_TEXTS, CHECKS
-from tandemlift.common.outcomes import FAILURES
-from tandemlift.common.phases import CONTACT as PHASE_CONTACT
-from tandemlift.common.phases import IDLE, PHASE_NAMES
-from tandemlift.common.types import Array
-from tandemlift.common.version import __version__
+from tandemlift.core.algebra.layout import flat, leaves, unflat
+from tandemlift.core.algebra.vector import Nothing, Vec3, dot
+from tandemlift.core.faults import ALARM_TEXTS, CHECKS
+from tandemlift.core.outcomes import FAILURES
+from tandemlift.core.phases import CONTACT as PHASE_CONTACT
+from tandemlift.core.phases import IDLE, PHASE_NAMES
+from tandemlift.core.types import Array
+from tandemlift.core.version import __version__
 from tandemlift.flight.record import Ending, Flight
-from tandemlift.kernels import leaf_offset
-from tandemlift.laws.guidance.supervision import ALARM, CONTACT, PHASE, SupervisionState
-from tandemlift.loop.running_metrics import EMPTY, RunningMetrics, summary
-from tandemlift.loop.step import FlightModel, FlightState
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
+from tandemlift.parts.guidance.supervision import ALARM, CONTACT, PHASE, SupervisionState
 from tandemlift.simulation.contact_texts import describe_contact
 from tandemlift.simulation.findings import findings_of
+from tandemlift.simulation.kernels import leaf_offset
+from tandemlift.simulation.loop.running_metrics import EMPTY, RunningMetrics, summary
+from tandemlift.simulation.loop.step import FlightModel, FlightState
 from tandemlift.simulation.outcome import ending_of, outcome_of
 from tandemlift.simulation.plan import FlightPlan
 

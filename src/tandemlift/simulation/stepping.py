@@ -12,21 +12,21 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.algebra.layout import flat, leaves, unflat
-from tandemlift.algebra.vector import layout
-from tandemlift.common.refusals import Refusals
-from tandemlift.common.types import Array, Progress
-from tandemlift.controllers import control
+from tandemlift.compiler.machine_code.compile_events import Stopped, always
+from tandemlift.core.algebra.layout import flat, leaves, unflat
+from tandemlift.core.algebra.vector import layout
+from tandemlift.core.refusals import Refusals
+from tandemlift.core.types import Array, Progress
 from tandemlift.engines.registry import EngineBody, EngineLost, PushedBody, TouchingBody, WaitingBody, engine_named
 from tandemlift.flight.record import interruption
-from tandemlift.kernels import GIVEN, FlightMemory, leaf_offset
-from tandemlift.loop.running_metrics import EMPTY
-from tandemlift.machine_code.compile_events import Stopped, always
-from tandemlift.pilot.refusals import refusals_of
+from tandemlift.parts.controllers import control
+from tandemlift.parts.pilot.refusals import refusals_of
+from tandemlift.parts.vehicle import Vehicle
+from tandemlift.simulation.kernels import GIVEN, FlightMemory, leaf_offset
+from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.parameter_changes import ParameterChanges, ScheduledChange, hand_place
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, take_metrics
-from tandemlift.vehicle import Vehicle
 
 PROGRESS_EVERY = 1000  # steps
 STATE = 13  # numbers of a state
@@ -118,7 +118,7 @@ class Stepper:
         self.row[:] = row
 
     def move_hand(self, hand: np.ndarray) -> None:
-        """Move the virtual hand: the numbers of its input, see `laws.person.virtual_hand`."""
+        """Move the virtual hand: the numbers of its input, see `parts.person.virtual_hand`."""
         self.a[self.hand] = hand
         self.memory.put("fresh", 1)
 
@@ -137,7 +137,7 @@ class Stepper:
         Args:
             k: the step.
             final: whether only the sample is taken; a body in another engine moves nevertheless.
-            external: the numbers of a `laws.person.caller_inputs.CallerInput`, if the plan is interactive.
+            external: the numbers of a `parts.person.caller_inputs.CallerInput`, if the plan is interactive.
 
         Raises:
             EngineLost: the engine took no step; the flight's numbers are those before it.

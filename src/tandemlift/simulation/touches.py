@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.laws.contact.touches import SurfaceTouches, Touches, TouchRecord
-from tandemlift.loop.step import FlightState
+from tandemlift.parts.contact.touches import SurfaceTouches, Touches, TouchRecord
+from tandemlift.simulation.loop.step import FlightState
 
 
 class TouchReport(NamedTuple):

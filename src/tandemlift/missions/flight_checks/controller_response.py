@@ -10,17 +10,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.algebra.layout import flat, unflat
-from tandemlift.algebra.vector import ZERO, vec3
-from tandemlift.common.caching import kept
-from tandemlift.common.types import Array
-from tandemlift.controllers import CONTROLLERS, control
-from tandemlift.controllers.interface import NO_DISTURBANCE, Measured
-from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.rotation import quaternion_from_euler
-from tandemlift.laws.signals.trajectories import Reference, Trajectory
-from tandemlift.settings import ControllerTable, Mission, VehicleTable
-from tandemlift.vehicle import Vehicle
+from tandemlift.core.algebra.layout import flat, unflat
+from tandemlift.core.algebra.vector import ZERO, vec3
+from tandemlift.core.caching import kept
+from tandemlift.core.settings import ControllerTable, Mission, VehicleTable
+from tandemlift.core.types import Array
+from tandemlift.parts.controllers import CONTROLLERS, control
+from tandemlift.parts.controllers.interface import NO_DISTURBANCE, Measured
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import quaternion_from_euler
+from tandemlift.parts.signals.trajectories import Reference, Trajectory
+from tandemlift.parts.vehicle import Vehicle
 
 INPUTS = 5  # position, velocity, angles, rates, push: vectors
 CHANGE = 1e-6  # of an input or a memory, in its unit

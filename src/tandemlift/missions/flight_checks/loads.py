@@ -13,12 +13,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.algebra.vector import vec3
-from tandemlift.common.types import Array
-from tandemlift.laws.mechanics.turbulence import dryden
-from tandemlift.laws.mechanics.wind import Gust, gust_velocity
-from tandemlift.settings import Mission
-from tandemlift.vehicle import Vehicle
+from tandemlift.core.algebra.vector import vec3
+from tandemlift.core.settings import Mission
+from tandemlift.core.types import Array
+from tandemlift.parts.mechanics.turbulence import dryden
+from tandemlift.parts.mechanics.wind import Gust, gust_velocity
+from tandemlift.parts.vehicle import Vehicle
 
 SIGMAS = 2.0  # standard deviations of turbulence
 ALWAYS = "always"  # when loads act that neither pushes nor gusts make

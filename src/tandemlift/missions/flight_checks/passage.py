@@ -14,10 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.common.types import Array
+from tandemlift.core.settings import Mission
+from tandemlift.core.types import Array
 from tandemlift.missions.flight_checks.result import CheckResult, judged
-from tandemlift.settings import Mission
-from tandemlift.vehicle import Vehicle
+from tandemlift.parts.vehicle import Vehicle
 
 APART = 0.1  # m, between places on the way
 MOST = 4000  # places

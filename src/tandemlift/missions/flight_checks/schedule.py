@@ -6,12 +6,12 @@ import itertools
 import math
 from collections.abc import Iterator
 
-from tandemlift.algebra.constants import GRAVITY
-from tandemlift.common.errors import InputError
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.errors import InputError
+from tandemlift.core.settings import Mission
+from tandemlift.core.settings.world import PushTable
 from tandemlift.missions.flight_checks.result import CLOSE, FAILS, CheckResult, judged, noted
 from tandemlift.missions.flight_checks.weight import lift_of, weight_of
-from tandemlift.settings import Mission
-from tandemlift.settings.world import PushTable
 
 STEEPEST = 1.875  # of the quintic smooth step: its largest slope
 SHARPEST = 10.0 / math.sqrt(3.0)  # and its largest second derivative

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tandemlift.core.settings import Mission
 from tandemlift.missions.flight_checks.authority import authority_checks
 from tandemlift.missions.flight_checks.loops import loop_checks
 from tandemlift.missions.flight_checks.passage import passage_checks
@@ -16,7 +17,6 @@ from tandemlift.missions.flight_checks.schedule import schedule_checks
 from tandemlift.missions.flight_checks.sensing import sensing_checks
 from tandemlift.missions.flight_checks.start import start_checks
 from tandemlift.missions.flight_checks.stiffness import stiffness_checks
-from tandemlift.settings import Mission
 
 
 class FlightCheck(NamedTuple):

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from tandemlift.settings import Mission
-from tandemlift.vehicle import Vehicle
+from tandemlift.core.settings import Mission
+from tandemlift.parts.vehicle import Vehicle
 
 
 def weight_of(m: Mission) -> float:

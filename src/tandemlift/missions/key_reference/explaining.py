@@ -5,8 +5,8 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
-from tandemlift.common.errors import InputError
-from tandemlift.common.toml import parts_of
+from tandemlift.core.errors import InputError
+from tandemlift.core.toml import parts_of
 from tandemlift.missions.key_reference.sections import EXTENDS, Key, Section, default_words, sections
 from tandemlift.missions.values import shown
 

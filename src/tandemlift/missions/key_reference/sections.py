@@ -8,10 +8,10 @@ from typing import Any, NamedTuple, get_origin
 
 from pydantic.fields import FieldInfo
 
-from tandemlift.controllers import CONTROLLERS
+from tandemlift.core.settings import ControllerTable, KeyDescription, Mission, description_of
 from tandemlift.missions.bounds import Model, allowed, table_in
 from tandemlift.missions.values import written
-from tandemlift.settings import ControllerTable, KeyDescription, Mission, description_of
+from tandemlift.parts.controllers import CONTROLLERS
 
 PAPER = "nftsmc"  # whose keys stand for `[controller]` in the template
 EXTENDS = KeyDescription(

@@ -1,0 +1,229 @@
+"""Values of a graph's nodes with their derivatives, node by node: forward differentiation in double precision.
+
+A node's derivative is a row with an entry for each seed; None where the node depends on no seed. Rounding to an
+integer, comparisons and truths have none. A selection has that of the branch that is chosen. A sensor's resolution is
+taken as a straight line: its steps have the slope 0 almost everywhere, and nothing would depend on the sensor.
+
+The elementary functions split a double into exponent and mantissa by its bits. So an integer made of the bits of x
+carries dx / x: a change of the exponent alone keeps it, and `bitcast_f` multiplies it by the new number.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.compiler.trace import LEAVES, Graph
+from tandemlift.compiler.trace.valued_graph import OPERATIONS
+from tandemlift.core.types import Array
+from tandemlift.parts.sensors.noise_bias_drift import displayed
+
+ROUNDS = 2.0**52  # adding a constant at least so large rounds to an integer
+ROUNDED = 1e-9  # relative, of values that are equal
+CURVED = 100.0  # by how much more than its derivative says a value changes on a short way
+LARGEST = 1e150  # of a factor whose product is split exactly
+SMOOTH = ("fadd", "fsub", "fmul", "fdiv", "fneg", "fabs", "fma", "sqrt", "bitcast_f")
+FIRST_ONLY = ("bitcast_i", "add", "sub")  # of the bits of a number
+
+
+def is_rounding(graph: Graph, node: int) -> bool:
+    """Whether a sum rounds to an integer, by a constant so large that no digit after the point is left."""
+    op, args = graph.ops[node], graph.args[node]
+    if op not in ("fadd", "fma") or graph.laws[node] is displayed.scalar:
+        return False
+    ends = args if op == "fadd" else args[2:]
+    constants = [graph.args[a][0] for a in ends if graph.ops[a] == "const" and graph.types[a] == "f"]
+    return any(abs(struct.unpack("<d", c)[0]) >= ROUNDS for c in constants)
+
+
+def smooth_arguments(graph: Graph, node: int) -> Sequence[int]:
+    """The arguments of a node by which its derivative can pass, both branches of a selection among them."""
+    op, args = graph.ops[node], graph.args[node]
+    if op == "select":
+        return args[1:]
+    if op in SMOOTH:
+        return () if is_rounding(graph, node) else args
+    return args[:1] if op in FIRST_ONLY else ()
+
+
+def once_rounded(a: float, b: float, c: float) -> float:
+    """a b + c as machine code rounds it: once, by exact products and sums of halves (Dekker, Numer. Math. 18, 1971)."""
+    p = a * b
+    s = p + c
+    if not (abs(a) < LARGEST and abs(b) < LARGEST and math.isfinite(s)):
+        return s
+    u, v = 134217729.0 * a, 134217729.0 * b
+    a1, b1 = u - (u - a), v - (v - b)
+    a2, b2 = a - a1, b - b1
+    e = ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2
+    t = s - p
+    return s + (((p - (s - t)) + (c - t)) + e)
+
+
+VALUE: dict[str, Callable[..., Any]] = {**OPERATIONS, "fma": once_rounded}
+
+
+def _sum(a: Any, b: Any) -> Any:
+    return b if a is None else a if b is None else a + b
+
+
+def _difference(a: Any, b: Any) -> Any:
+    return a if b is None else -b if a is None else a - b
+
+
+def _scaled(row: Any, factor: float) -> Any:
+    return None if row is None else row * factor
+
+
+def _quotient(x: Sequence[Any], d: Sequence[Any], v: Any) -> Any:
+    top = _difference(d[0], _scaled(d[1], v))
+    return None if top is None else top / np.float64(x[1])
+
+
+def _root(x: Sequence[Any], d: Sequence[Any], v: float) -> Any:
+    """Of a root at 0 whose argument has no derivative either, as that of a sum of squares, 0 is taken."""
+    if d[0] is None or (v == 0.0 and not d[0].any()):
+        return d[0]
+    return d[0] * (0.5 / np.float64(v))
+
+
+ROW: dict[str, Callable[[Sequence[Any], Sequence[Any], Any], Any]] = {  # of values, rows and the result's value
+    "fadd": lambda x, d, v: _sum(*d),
+    "fsub": lambda x, d, v: _difference(*d),
+    "fmul": lambda x, d, v: _sum(_scaled(d[0], x[1]), _scaled(d[1], x[0])),
+    "fdiv": _quotient,
+    "fneg": lambda x, d, v: _scaled(d[0], -1.0),
+    "fabs": lambda x, d, v: _scaled(d[0], -1.0) if x[0] < 0.0 else d[0],
+    "fma": lambda x, d, v: _sum(_sum(_scaled(d[0], x[1]), _scaled(d[1], x[0])), d[2]),
+    "sqrt": _root,
+    "select": lambda x, d, v: d[1] if x[0] else d[2],
+    "bitcast_i": lambda x, d, v: None if d[0] is None or not x[0] else d[0] / x[0],
+    "add": lambda x, d, v: d[0],
+    "sub": lambda x, d, v: d[0],
+    "bitcast_f": lambda x, d, v: _scaled(d[0], v),
+}
+
+
+class Sides(NamedTuple):
+    """Truths of comparisons, and whether an absolute value is of a positive number, against those that hold, by node.
+
+    A selection then has the derivative of the other branch. It has its value only if the branches do not meet at the
+    edge, so that what is continuous does not change by the `distance` from the edge.
+    """
+
+    of: Mapping[int, bool]
+    distance: float
+
+
+def meet(x: Sequence[float], d: Sequence[Any], distance: float) -> bool:
+    """Whether two branches of a selection have one value at an edge at a distance; `d`: their derivatives."""
+    if x[0] == x[1]:
+        return True
+    steepest = max([1.0, *[np.abs(row).max() for row in d if row is not None]])
+    return bool(abs(x[0] - x[1]) <= ROUNDED * abs(x[0]) + CURVED * distance * steepest)
+
+
+class Derivative:
+    """The values of nodes of a graph and their derivatives, computed when they are first asked for.
+
+    Args:
+        graph: without large sets.
+        sides: taken instead of those that hold.
+
+    Attributes:
+        values: of the nodes computed so far, by node.
+        rows: their derivatives by each seed, by node; None for a node that depends on no seed.
+    """
+
+    def __init__(self, graph: Graph, sides: Sides | None = None) -> None:
+        self.graph, self.sides = graph, sides or Sides({}, 0.0)
+        self.values: dict[int, Any] = {}
+        self.rows: dict[int, Any] = {}
+        self._inputs: dict[str, tuple[Sequence[float], Sequence[Any] | None]] = {}
+        self._truths: dict[int, bool] = {}  # that choose derivatives, where they are not those that choose values
+
+    def reuse(self, other: Derivative, changed: set[int]) -> None:
+        """Take over what another one has computed, but for nodes that have changed."""
+        self.values |= {n: v for n, v in other.values.items() if n not in changed}
+        self.rows |= {n: row for n, row in other.rows.items() if n not in changed}
+
+    def bind(self, kind: str, values: Sequence[float], rows: Sequence[Any] | None = None) -> None:
+        """Set the inputs of a kind: their values and derivatives; without derivatives they depend on no seed."""
+        self._inputs[kind] = values, rows
+
+    def fix_row(self, node: int, row: Any) -> None:
+        """Replace the derivative of a node, as if the node were an input."""
+        self.compute([node])
+        self.rows[node] = row
+
+    def add_row(self, node: int, row: Any) -> None:
+        """Add to the derivative of a node, as if an input were added to its value."""
+        self.compute([node])
+        self.rows[node] = _sum(self.rows[node], row)
+
+    def compute(self, nodes: Iterable[int]) -> None:
+        """Compute nodes and all that they depend on."""
+        g, values, rows, sides = self.graph, self.values, self.rows, self.sides.of
+        with np.errstate(all="ignore"):  # of branches that are not chosen, too
+            for node in g.needed(nodes, values):
+                op, args = g.ops[node], g.args[node]
+                if op in LEAVES:
+                    values[node], rows[node] = self._leaf(node)
+                    continue
+                x = [values[a] for a in args]
+                values[node] = v = VALUE[op](*x)
+                d = [rows[a] for a in args]
+                row = ROW.get(op)
+                if row is None or all(r is None for r in d) or is_rounding(g, node):
+                    rows[node] = None
+                else:
+                    rows[node] = row(x, d, v)
+                if sides:
+                    self._take_side(node, op, args, x, d)
+
+    def truth(self, node: int) -> bool:
+        """The truth of a node that counts for derivatives."""
+        return self._truths.get(node, self.values[node])
+
+    def _take_side(self, node: int, op: str, args: Sequence[int], x: list[Any], d: list[Any]) -> None:
+        truths, side = self._truths, self.sides.of.get(node)
+        if op == "fabs":
+            if side is not None:
+                self.rows[node] = _scaled(d[0], 1.0 if side else -1.0)
+        elif side is not None:
+            truths[node] = side
+        elif any(a in truths for a in args):
+            chosen = [truths.get(a, value) for a, value in zip(args, x, strict=True)]
+            if self.graph.types[node] == "b":
+                truths[node] = VALUE[op](*chosen)
+            elif op == "select":
+                branch = 1 if chosen[0] else 2
+                self.rows[node] = d[branch]
+                if not meet(x[1:], d[1:], self.sides.distance):
+                    self.values[node] = x[branch]
+
+    def _leaf(self, node: int) -> tuple[Any, Any]:
+        op, args = self.graph.ops[node], self.graph.args[node]
+        if op == "const":
+            value = args[0]
+            return (struct.unpack("<d", value)[0] if isinstance(value, bytes) else value), None
+        values, rows = self._inputs[args[0]]
+        return float(values[args[1]]), None if rows is None else rows[args[1]]
+
+    def values_of(self, nodes: Sequence[int]) -> Array:
+        """The values of nodes."""
+        self.compute(nodes)
+        return np.array([self.values[n] for n in nodes], dtype=float)
+
+    def rows_of(self, nodes: Sequence[int], seeds: int) -> Array:
+        """The derivatives (len(nodes), seeds) of nodes."""
+        self.compute(nodes)
+        made = np.zeros((len(nodes), seeds))
+        for i, node in enumerate(nodes):
+            if self.rows[node] is not None:
+                made[i] = self.rows[node]
+        return made

@@ -1,0 +1,236 @@
+"""The loops of a mission as linear models, cut at the rotors: margins, and the delay and the lag that they bear.
+
+The mission is flown calmly to a hover after its tare, with rotors that neither delay nor lag: no noise, no wind, no
+push, nobody. There the closed step is linearized with offsets d of the thrusts as inputs. The wrench that acts is
+w = S d, so the loop is L = S⁻¹ − I (4 × 4: thrust, roll, pitch, yaw). What the real rotors do multiplies it: L G with
+G = e^(−jωT)/(1 + jωτ), τ the mean of the lags up and down.
+
+Delay T and lag τ change the number of unstable poles by the turns of det(I + L G)/det(I + L) about 0 (Nyquist); without
+both, the poles are the eigenvalues of the model.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.analysis.linearization.analysis import Mode, frequency_response, modes_of
+from tandemlift.analysis.linearization.linear_model import LinearModel
+from tandemlift.analysis.linearization.linearize import linearize
+from tandemlift.core.errors import FlightWarning
+from tandemlift.core.settings import Mission
+from tandemlift.core.types import Array
+from tandemlift.missions import check, tables_of
+from tandemlift.parts.vehicle import Vehicle
+
+AXES = ("z", "roll", "pitch", "yaw")
+LOWEST, HIGHEST, POINTS = 0.1, 3000.0, 240  # rad/s
+LIFT, SETTLED = 4.0, 2.0  # s, of the calm flight's lift, and after it and after the tare
+WAITS = (0.0, 20.0)  # s, beyond that, for a vehicle that calms down slowly
+NO_KINK = -1.0  # a distance: none is looked for
+ON_CIRCLE = 1e-6  # beyond 1, of an eigenvalue that does not grow
+FASTER = 10.0  # times the largest speed of the rotors, so that no thrust is limited
+RESTING = 0.02  # m/s and rad/s, of a calm hover
+FIRST, MOST = 1e-4, 100.0  # s, the shortest and the longest delay and lag that are tried
+RELATIVE = 1e-4  # accuracy of what is found
+
+
+class OpenLoop(NamedTuple):
+    """The loop cut at the rotors, without their delay and lag.
+
+    Attributes:
+        w: frequencies [rad/s] (F).
+        L: its response (F, 4, 4) in thrust, roll, pitch, yaw.
+        stable: whether the loop is stable without delay and lag.
+    """
+
+    w: Array
+    L: Any
+    stable: bool
+
+
+class AxisMargins(NamedTuple):
+    """Margins of one axis with the other loops closed.
+
+    Attributes:
+        axis: "z", "roll", "pitch" or "yaw".
+        gain: by which the loop's gain may grow, a factor above 1; infinite if it never matters.
+        least_gain: to which it may fall, a factor below 1; 0 if it never matters.
+        phase: the least that is left at a crossing of |L| = 1 [deg]; NaN without a crossing.
+        crossover: of that crossing [rad/s].
+    """
+
+    axis: str
+    gain: float
+    least_gain: float
+    phase: float
+    crossover: float
+
+    @property
+    def nearest_gain(self) -> float:
+        """That of both limits of the gain which the smaller change reaches, a factor."""
+        return self.least_gain if 1.0 / self.gain <= self.least_gain else self.gain
+
+
+def calm_tables(mission: Mission, *, lag: float | None, wait: float) -> tuple[dict[str, Any], float]:
+    """(The tables of a mission that hovers calmly, the time at which it does [s]).
+
+    Args:
+        mission: what is to be made calm.
+        lag: of all rotors [s], with the mission's delay; None for rotors without delay and lag.
+        wait: for how much longer it hovers until then [s].
+    """
+    t = tables_of(mission)
+    for name in ("pushes", "requests", "changes", "faults", "sensor_faults", "walls"):
+        t.pop(name, None)
+    for name in ("wind", "person", "corridor", "supervision", "detection"):
+        t.pop(name, None)
+    start, floor, by_hand = mission.initial, mission.ground.model == "floor", mission.pilot.guidance == "hand"
+    place = [*(start.position[:2] if by_hand else (0.0, 0.0)), start.position[2] if floor else 0.0]
+    t["initial"] = {"position": place, "euler": [0.0, 0.0, start.euler[2] if by_hand else 0.0]}
+    t["disturbance"] = {"force": [0.0, 0.0, mission.disturbance.force[2]]}
+    t["ground"]["effect"] = False
+    t["actuators"] |= {"model": "rotors", "delay": 0.0 if lag is None else mission.actuators.delay}
+    for q in t["vehicle"]["quadrotors"]:
+        q |= {"lag_up": lag or 0.0, "lag_down": lag or 0.0, "max_speed": FASTER * q["max_speed"]}
+    t["sensors"] = _without_errors(t["sensors"])
+    height = max(mission.phases.height, 0.5) if floor else mission.phases.height
+    t["phases"] |= {"lift_start": 1.0, "lift_duration": LIFT, "height": height}
+    t["phases"].pop("land_start", None)
+    at, e = 1.0 + LIFT + SETTLED, t["estimator"]
+    if mission.estimator.tare == "hover" or mission.estimator.tare_start is not None:
+        if mission.estimator.tare == "clock":
+            e["tare_start"] = at
+        at += SETTLED + mission.estimator.tare_duration + (SETTLED if mission.estimator.tare == "hover" else 0.0)
+    t["mission"]["duration"] = at + wait + 1.0
+    return t, at + wait
+
+
+def _without_errors(sensors: dict[str, Any]) -> dict[str, Any]:
+    """Sensors without noise, bias, drift and misalignment."""
+    wrong = ("noise", "bias", "drift", "misalignment")
+
+    def clean(name: str, value: Any) -> Any:
+        return 0.0 if name.endswith(wrong) and not isinstance(value, dict) else value
+
+    kept = {
+        k: {n: clean(n, v) for n, v in part.items()} if isinstance(part, dict) else part for k, part in sensors.items()
+    }
+    return {k: v for k, v in kept.items() if k != "additional"}
+
+
+def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.0) -> tuple[Mission, float]:
+    """(A mission that hovers calmly, when); arguments as for `calm_tables`."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FlightWarning)
+        tables, at = calm_tables(mission, lag=lag, wait=wait)
+        return check(tables, mission.mission.name), at
+
+
+def open_loop(mission: Mission) -> OpenLoop:
+    """The loop of a mission cut at the rotors.
+
+    Raises:
+        InputError: the controller is plain Python, or the calm flight is lost.
+    """
+    for wait in WAITS:
+        calm, at = calm_mission(mission, wait=wait)
+        model = linearize(calm, at, inputs=["thrust_offsets"], outputs=["rotor_thrusts"], kink_tolerance=NO_KINK)
+        if is_calm(model):
+            break
+    vehicle, few = Vehicle.from_settings(calm.vehicle), model.connected()
+    radius = float(np.abs(np.linalg.eigvals(few.A)).max())
+    in_axes = replace(few, B=few.B @ vehicle.allocation(calm.allocation.weights), C=vehicle.effect @ few.C)
+    in_axes = replace(in_axes, D=vehicle.effect @ few.D @ vehicle.allocation(calm.allocation.weights))
+    w = np.geomspace(LOWEST, min(HIGHEST, 0.9 * math.pi / model.step), POINTS)
+    T, h, s, eye = calm.mission.step, model.step, 1j * w, np.eye(4)
+    held = (np.expm1(-s * T) * h) / (np.expm1(-s * h) * T)  # an offset acts for a sample, a rotor's thrust for a step
+    S = eye + (frequency_response(in_axes, w / (2.0 * math.pi)) - eye) * held[:, None, None]
+    return OpenLoop(w, np.linalg.inv(S) - eye, radius <= 1.0 + ON_CIRCLE and is_calm(model))
+
+
+def is_calm(model: LinearModel) -> bool:
+    """Whether the body is at rest at the point of a model: else it has left the hover, and the hover is not stable."""
+    motion = {v.name: x for v, x in zip(model.states, model.point.x0, strict=True)}
+    names = [f"{what}.{axis}" for what in ("velocity", "rates") for axis in "xyz"]
+    return all(abs(motion.get(name, 0.0)) < RESTING for name in names)
+
+
+def slowest_modes(mission: Mission, lag: float, count: int = 5) -> list[Mode]:
+    """The least damped modes of the closed step with the mission's delay and a lag of the rotors [s].
+
+    Raises:
+        InputError: the flight is lost.
+    """
+    calm, at = calm_mission(mission, lag=lag)
+    modes = modes_of(linearize(calm, at, kink_tolerance=NO_KINK).connected()).modes
+    return sorted((mode for mode in modes if mode.frequency > 0.0), key=lambda mode: mode.damping)[:count]
+
+
+def rotors_response(w: Array, delay: float, lag: float) -> Any:
+    """G (F) of rotors with a delay and a lag [s] at frequencies [rad/s]."""
+    return np.exp(-1j * w * delay) / (1.0 + 1j * w * lag)
+
+
+def is_stable(loop: OpenLoop, delay: float, lag: float) -> bool:
+    """Whether the loop is stable with a delay and a lag of the rotors [s]."""
+    if not loop.stable:
+        return False
+    eye, G = np.eye(4), rotors_response(loop.w, delay, lag)[:, None, None]
+    ratio = np.linalg.det(eye + loop.L * G) / np.linalg.det(eye + loop.L)
+    turned = np.unwrap(np.angle(ratio))
+    return bool(abs(turned[-1] - turned[0]) < math.pi)
+
+
+def largest(stable: Callable[[float], bool]) -> float:
+    """The smallest number above 0 at which what is stable at 0 no longer is, by bisection; infinite beyond `MOST`."""
+    low, high = 0.0, FIRST
+    while stable(high):
+        low, high = high, 1.5 * high
+        if high > MOST:
+            return math.inf
+    while high - low > RELATIVE * high:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if stable(middle) else (low, middle)
+    return 0.5 * (low + high)
+
+
+def axis_margins(w: Array, L: Any) -> list[AxisMargins]:
+    """Margins of each axis of a loop (F, 4, 4) with the others closed."""
+    return [margins_of(axis, w, single_loop(L, i)) for i, axis in enumerate(AXES)]
+
+
+def single_loop(L: Any, i: int) -> Any:
+    """The loop of axis i (F) with the others closed: L_ii − L_ir (I + L_rr)⁻¹ L_ri."""
+    rest = [j for j in range(4) if j != i]
+    others = np.eye(3) + L[:, rest][:, :, rest]
+    back = np.linalg.solve(others, L[:, rest, i][:, :, None])[:, :, 0]
+    return L[:, i, i] - np.sum(L[:, i][:, rest] * back, axis=1)
+
+
+def margins_of(axis: str, w: Array, L: Any) -> AxisMargins:
+    """Gain and phase margins of one loop; one that is stable only because its gain is large has a least gain."""
+    size, phase = np.log(np.abs(L)), np.unwrap(np.angle(L))
+    gain, least_gain, least, crossover = math.inf, 0.0, math.nan, math.nan
+    for k in np.flatnonzero((size[:-1] >= 0.0) != (size[1:] >= 0.0)):
+        part = size[k] / (size[k] - size[k + 1])
+        left = _wrapped(math.degrees((1.0 - part) * phase[k] + part * phase[k + 1]) + 180.0)
+        if math.isnan(least) or abs(left) < abs(least):
+            least, crossover = left, math.exp((1.0 - part) * math.log(w[k]) + part * math.log(w[k + 1]))
+    turns = (phase + math.pi) / (2.0 * math.pi)
+    for k in np.flatnonzero(np.floor(turns[:-1]) != np.floor(turns[1:])):
+        edge = max(math.floor(turns[k]), math.floor(turns[k + 1]))
+        part = (edge - turns[k]) / (turns[k + 1] - turns[k])
+        factor = math.exp(-((1.0 - part) * size[k] + part * size[k + 1]))
+        gain, least_gain = (min(gain, factor), least_gain) if factor > 1.0 else (gain, max(least_gain, factor))
+    return AxisMargins(axis, gain, least_gain, least, crossover)
+
+
+def _wrapped(angle: float) -> float:
+    """An angle [deg] within ±180."""
+    return (angle + 180.0) % 360.0 - 180.0

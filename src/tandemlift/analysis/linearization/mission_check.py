@@ -1,0 +1,135 @@
+"""`tl.check`: all checks of a mission before its flight, with the margins of its loops by their linear model."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from tandemlift.analysis.linearization.loop_margins import (
+    OpenLoop,
+    axis_margins,
+    is_stable,
+    largest,
+    open_loop,
+    rotors_response,
+    slowest_modes,
+)
+from tandemlift.core.errors import InputError
+from tandemlift.core.settings import Mission
+from tandemlift.missions.checks import setting_warnings
+from tandemlift.missions.flight_checks.loops import lag_of
+from tandemlift.missions.flight_checks.result import CLOSE, FAILS, CheckResult, judged, noted
+from tandemlift.missions.flight_checks.table import FlightCheck, flight_checks
+
+NEAR_PHASE = 1.0 / 6.0  # of 180 deg: less than 30 deg of phase left is close
+NEAR_GAIN = 0.4  # a gain that may grow by less than a factor of 1.7, or fall by less, is close
+NEAR_DELAY = 0.3
+
+LOOP_CHECKS = (
+    FlightCheck("loop phase", "phase lag of an axis where its loop's gain is 1", "180°", "deg", "", "the gains"),
+    FlightCheck(
+        "loop gain",
+        "1 for *most*; the factor to which the gain of an axis may fall, for *least*",
+        "the factor by which the gain may grow; 1. The limit that the smaller change reaches is the *nearer*",
+        "1",
+        "",
+        "the gains",
+    ),
+    FlightCheck(
+        "loop delay",
+        "delay of the rotors",
+        "the delay at which the linear model oscillates, by bisection",
+        "ms",
+        "",
+        "`actuators.delay`",
+    ),
+    FlightCheck(
+        "loop lag",
+        "lag of the rotors, the mean of up and down",
+        "the lag at which the linear model oscillates, by bisection",
+        "ms",
+        "",
+        "`vehicle.quadrotors.*.lag_up` and `lag_down`",
+    ),
+    FlightCheck("loop mode", "less the damping ratio of each of the least damped modes", "0", "1", "", "the gains"),
+)
+
+
+def check(mission: Mission) -> tuple[CheckResult, ...]:
+    """All checks of a mission: closed forms, settings that do not fit, and its loops by their linear model.
+
+    Args:
+        mission: flown calmly to a hover, to be linearized there.
+
+    Returns:
+        A result for each check; its verdict is "ok", "close" or "fails".
+    """
+    settings = [noted("settings", text, verdict=FAILS) for text in setting_warnings(mission)]
+    return (*flight_checks(mission), *settings, *loop_results(mission))
+
+
+def loop_results(mission: Mission) -> Iterator[CheckResult]:
+    """Margins of the loops, and what delay and lag they bear."""
+    try:
+        loop = open_loop(mission)
+    except InputError as error:
+        yield noted("loop", f"there is no linear model: {error}", verdict=CLOSE)
+        return
+    real = mission.actuators.model == "rotors"
+    delay, lag = (mission.actuators.delay, lag_of(mission)) if real else (0.0, 0.0)
+    if not loop.stable:
+        text = (
+            "the hover is unstable even without delay and lag of the rotors: see what fails above, or lower the gains"
+        )
+        yield noted("loop", text, verdict=FAILS)
+        return
+    yield from borne(loop, delay, lag)
+    if is_stable(loop, delay, lag):
+        yield from margins(loop, delay, lag)
+        yield from modes(mission, lag)
+
+
+def borne(loop: OpenLoop, delay: float, lag: float) -> Iterator[CheckResult]:
+    """The delay that the loop bears with the rotors' lag, and the lag with their delay."""
+    bears_lag, bears_delay = is_stable(loop, 0.0, lag), is_stable(loop, delay, 0.0)
+    if bears_lag:
+        most = 1e3 * largest(lambda x: is_stable(loop, x, lag))
+        text = (
+            f"with a lag of {1e3 * lag:.3g} ms the loops oscillate from a delay of {most:.3g} ms on, and "
+            f"actuators.delay is {1e3 * delay:.3g} ms: lower it, or the gains of [controller]"
+        )
+        yield judged("loop delay", 1e3 * delay, most, "ms", text, near=NEAR_DELAY)
+    if bears_delay:
+        most = 1e3 * largest(lambda x: is_stable(loop, delay, x))
+        text = (
+            f"with a delay of {1e3 * delay:.3g} ms the loops oscillate from a lag of {most:.3g} ms on, and that of the "
+            f"rotors is {1e3 * lag:.3g} ms: lower their lag_up and lag_down, or the gains of [controller]"
+        )
+        yield judged("loop lag", 1e3 * lag, most, "ms", text, near=NEAR_DELAY)
+    if not bears_lag and not bears_delay:
+        text = (
+            f"the loops oscillate with a delay of {1e3 * delay:.3g} ms alone and with a lag of {1e3 * lag:.3g} ms "
+            "alone: lower both, or the gains of [controller]"
+        )
+        yield noted("loop", text, verdict=FAILS)
+
+
+def margins(loop: OpenLoop, delay: float, lag: float) -> Iterator[CheckResult]:
+    """Phase and gain margin of each axis, with the other loops closed."""
+    G = rotors_response(loop.w, delay, lag)[:, None, None]
+    for found in axis_margins(loop.w, loop.L * G):
+        if not math.isnan(found.phase):
+            text = f"the {found.axis} loop lacks {-found.phase:.3g} deg of phase at {found.crossover:.3g} rad/s"
+            yield judged("loop phase", 180.0 - found.phase, 180.0, "deg", text, subject=found.axis, near=NEAR_PHASE)
+        for name, value, limit in (("most", 1.0, found.gain), ("least", found.least_gain, 1.0)):
+            nearer = found.nearest_gain in (value, limit)
+            subject = f"{found.axis}, {name}{' (nearer)' if nearer else ''}"
+            yield judged("loop gain", value, limit, "1", "", subject=subject, near=NEAR_GAIN)
+
+
+def modes(mission: Mission, lag: float) -> Iterator[CheckResult]:
+    """The least damped modes of the closed step with the rotors' delay and lag."""
+    for mode in slowest_modes(mission, lag):
+        names = ", ".join(name for name, _ in mode.states[:2])
+        text = f"a mode of {mode.frequency:.3g} Hz grows: {names}"
+        yield judged("loop mode", -mode.damping, 0.0, "1", text, subject=f"{mode.frequency:.3g} Hz: {names}")

@@ -1,0 +1,128 @@
+"""The inputs of a linear model: groups of numbers of a step's inputs, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.analysis.linearization.step_graph import NO_PUSH
+from tandemlift.analysis.linearization.variables import Variable
+from tandemlift.core.algebra.layout import flat, unflat
+from tandemlift.core.algebra.vector import Nothing, Quat, Vec3
+from tandemlift.core.errors import InputError, unknown
+from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_at
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.wind import gust_velocity
+from tandemlift.simulation.kernels import GAUSSIAN, GUST, InputTables
+from tandemlift.simulation.kernels.offsets import leaf_offset
+from tandemlift.simulation.plan import FlightPlan
+
+LOOP = ("push_force", "push_moment", "disturbance_force", "disturbance_moment", "wind_velocity")
+BODY = ("rotor_thrusts", *LOOP)
+ON_REQUEST = ("thrust_offsets",)  # inputs of the loop that are not taken by default
+UNITS = {"push_moment": "N m", "disturbance_moment": "N m", "wind_velocity": "m/s"}  # the others: N
+SPREAD, HAND = 3, 12  # of a `PointPush`: where Σ F rᵀ begins, and its numbers
+
+
+class InputColumn(NamedTuple):
+    """An input: what it is, and the derivatives of the step's numbers by it, as (kind, index, derivative)."""
+
+    variable: Variable
+    seeds: tuple[tuple[str, int, float], ...]
+
+
+def input_columns(p: FlightPlan, chosen: Sequence[str] | None, of: str, attitude: Quat) -> list[InputColumn]:
+    """The inputs of a model.
+
+    Args:
+        p: the plan of the flight.
+        chosen: names of groups; None for all.
+        of: "loop" or "body".
+        attitude: of the body at the point.
+
+    Raises:
+        InputError: there is no such input, or the mission has none.
+    """
+    known = BODY if of == "body" else LOOP
+    allowed = known if of == "body" else (*known, *ON_REQUEST)
+    windless = isinstance(p.model.wind, Nothing)
+    for name in chosen or ():
+        if name not in allowed:
+            raise unknown(f"input of the {of}", name, allowed)
+        if name == "wind_velocity" and windless:
+            raise InputError('input wind_velocity: the mission has no wind; wind.model = "air" gives it one')
+        if name == "thrust_offsets" and p.mission.actuators.model != "rotors":
+            raise InputError(
+                'input thrust_offsets: actuators.model must be "rotors", whose thrusts are not the commands'
+            )
+    names = [name for name in known if not (windless and name == "wind_velocity")] if chosen is None else chosen
+    return [column for name in names for column in _columns(p, name, attitude)]
+
+
+def _columns(p: FlightPlan, name: str, attitude: Quat) -> list[InputColumn]:
+    unit = UNITS.get(name, "N")
+    if name in ("rotor_thrusts", *ON_REQUEST):
+        rotors, kind = 4 * len(p.mission.vehicle.quadrotors), "thrust" if name == "rotor_thrusts" else "offset"
+        return [InputColumn(Variable(f"{name}_rotor_{i + 1}", unit), ((kind, i, 1.0),)) for i in range(rotors)]
+    return [
+        InputColumn(Variable(f"{name}_{axis}", unit), tuple(_seeds(p, name, i, attitude)))
+        for i, axis in enumerate("xyz")
+    ]
+
+
+def _seeds(p: FlightPlan, name: str, i: int, attitude: Quat) -> list[tuple[str, int, float]]:
+    if name == "push_force":
+        return [("hand", HAND * part + i, 1.0) for part in range(3)]
+    if name == "push_moment":
+        return [
+            ("hand", HAND * part + SPREAD + j, weight)
+            for part in range(3)
+            for j, weight in enumerate(_spread_of_moment(i, attitude))
+        ]
+    if name == "wind_velocity":
+        return [("gust", i, 1.0)]
+    at = leaf_offset(p.model, "plant", "body", name.removeprefix("disturbance_")).at
+    return [("fly", at + i, 1.0)]
+
+
+def _spread_of_moment(i: int, attitude: Quat) -> list[float]:
+    """Σ F rᵀ of a unit moment about body axis i without a force: R G, where G is half its cross-product matrix."""
+    R = np.array([list(row) for row in rotation_from_quaternion(attitude)])
+    half = 0.5 * np.eye(3)[i]
+    cross = np.array([[0.0, -half[2], half[1]], [half[2], 0.0, -half[0]], [-half[1], half[0], 0.0]])
+    return (R @ cross).ravel().tolist()
+
+
+def given_at(tables: InputTables, t: float, dt: float) -> dict[str, list[float]]:
+    """The mission's pushes and gusts over the step from time t [s], and its time."""
+    times = (t, t + 0.5 * dt, t + dt)
+    gust = sum((np.array(flat(gust_velocity(unflat(row, GUST), t))) for row in tables.gusts), np.zeros(3))
+    hand = PushSamples(*[push_sum(tables, when) for when in times])
+    return {"hand": flat(hand), "gust": gust.tolist(), "t": [t], "dt": [dt]}
+
+
+def push_sum(tables: InputTables, t: float) -> PointPush:
+    """The sum of the mission's pushes at a time [s]."""
+    total: Any = NO_PUSH
+    for row in tables.pushes:
+        total = total + push_at(NO_PUSH, unflat(row, GAUSSIAN), t)
+    return total
+
+
+def operating_values(
+    columns: Sequence[InputColumn], given: Mapping[str, Sequence[float]], flight: Sequence[float], moment: Vec3
+) -> list[float]:
+    """The values of inputs at the point; NaN for a rotor's thrust, which the step decides."""
+    axes = {"x": moment.x, "y": moment.y, "z": moment.z}
+    found = []
+    for column in columns:
+        kind, index, _ = column.seeds[0]
+        if column.variable.name.startswith("push_moment"):
+            found.append(axes[column.variable.name[-1]])
+        elif kind in ("thrust", "offset"):
+            found.append(float("nan") if kind == "thrust" else 0.0)
+        else:
+            found.append(flight[index] if kind == "fly" else given[kind][index])
+    return found

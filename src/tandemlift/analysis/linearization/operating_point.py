@@ -1,0 +1,183 @@
+"""The point about which a flight is linearized: a mission flown to a time, or a simulation as it stands."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.core.algebra.layout import flat
+from tandemlift.core.errors import InputError
+from tandemlift.core.settings import Mission
+from tandemlift.core.types import Array
+from tandemlift.missions.values import shown
+from tandemlift.parts.mechanics.push import SUPPORT
+from tandemlift.parts.rotors.rotor_lag import lag
+from tandemlift.simulation.interactive.simulation import Simulation
+from tandemlift.simulation.kernels import leaf_offset
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.stepping import GUIDANCE_MEMORY, Stepper
+
+AFTER_TARE = 0.5  # s, in which estimates settle
+
+
+class OperatingPoint(NamedTuple):
+    """A flight before a step.
+
+    Attributes:
+        plan: of the flight, with the changes made until then.
+        k: the step.
+        numbers: of the flight.
+        ring: its delay lines, a row for each step.
+    """
+
+    plan: FlightPlan
+    k: int
+    numbers: Array
+    ring: Array
+
+
+def calm_time(mission: Mission) -> float:
+    """The default time [s] of a flight that is tared: the end of the first calm after the lift.
+
+    This is before the first push, fault or landing and before a person begins; without any, it is the mission's end.
+    """
+    phases, m = mission.phases, mission.mission
+    hovers = phases.lift_start + phases.lift_duration
+    ends = [push.time - SUPPORT * push.sigma for push in mission.pushes]
+    ends += [m.duration] if phases.land_start is None else [phases.land_start, m.duration]
+    ends += [fault.time for fault in mission.faults]
+    if mission.person.model != "none":
+        ends.append(mission.person.start_time)
+    later = [end for end in ends if end > hovers]
+    return max(min([*later, m.duration]), 0.0)
+
+
+def tare_left(p: FlightPlan, numbers: Array, t: float) -> float:
+    """The time [s] until the tare of a flight at time t [s] is over, -inf without one: before, no push is heard."""
+    m, e = p.mission, p.mission.estimator
+    if m.pilot.push == "truth" or (e.tare == "clock" and e.tare_start is None):
+        return -math.inf
+    if e.tare_start is not None and e.tare == "clock":
+        return e.tare_start + e.tare_duration - t
+    return e.tare_duration - float(numbers[leaf_offset(p.model, *GUIDANCE_MEMORY, "phase", "hover_time").at])
+
+
+def is_noisy(mission: Mission) -> bool:
+    """Whether noise of sensors, turbulence or tremor moves the rotors all the time."""
+    s, w, person = mission.sensors, mission.wind, mission.person
+    read = s.model == "simulated" and (mission.pilot.state, mission.pilot.push) != ("truth", "truth")
+    parts = (s.joints, s.accelerometer, s.gyroscope, s.motion)
+    noises = [value for part in parts for name, value in part if name.endswith("noise")]
+    trembles = person.model not in ("none", "grab") and person.tremor > 0.0
+    return (read and any(noises)) or (w.model == "air" and w.turbulence > 0.0) or trembles
+
+
+def averaged_lags(mission: Mission) -> list[tuple[float, float]]:
+    """The lags of each rotor up and down [s] that a linear model takes in the mean; none where they are alike."""
+    lags = [(q.lag_up, q.lag_down) for q in mission.vehicle.quadrotors for _ in range(4)]
+    differ = any(up != down for up, down in lags) and mission.actuators.model == "rotors"
+    return lags if differ and is_noisy(mission) else []
+
+
+def with_mean_lag(point: OperatingPoint) -> OperatingPoint:
+    """A point whose rotors lag alike up and down, where noise drives them both ways within the sample time."""
+    p, lags, numbers = point.plan, averaged_lags(point.plan.mission), point.numbers.copy()
+    if not lags:
+        return point
+    for direction in ("up", "down"):
+        at, size = leaf_offset(p.model, "rotors", direction)
+        numbers[at : at + size] = flat(lag([0.5 * sum(both) for both in lags], p.dt))
+    return point._replace(numbers=numbers)
+
+
+def step_at(mission: Mission, at: float | None) -> int:
+    """The number of the step that begins at a time.
+
+    Raises:
+        InputError: the time is not within the mission.
+    """
+    m = mission.mission
+    if at is None:
+        return min(int(calm_time(mission) / m.step + 1e-9), m.steps - 1)
+    if not isinstance(at, (int, float)) or not math.isfinite(at) or not 0.0 <= at <= m.duration:
+        raise InputError(f"at = {shown(at)}: must be a time from 0 to mission.duration = {m.duration:g} s")
+    return min(round(at / m.step), m.steps - 1)
+
+
+def flown_to(mission: Mission, at: float | None) -> OperatingPoint:
+    """A mission flown to a time.
+
+    Raises:
+        InputError: the time is not within the mission, the flight is lost before, or its step has no derivative.
+    """
+    k = step_at(mission, at)
+    plan = FlightPlan(mission)
+    _check(plan)
+    stepper = Stepper(plan)
+    _fly(stepper, 0, k)
+    return _point(stepper, _after_tare(stepper, k) if at is None else k)
+
+
+def _fly(stepper: Stepper, k: int, end: int) -> None:
+    """Take the steps from k to an end.
+
+    Raises:
+        InputError: the flight is lost.
+    """
+    for i in range(k, end):
+        stepper.step(i)
+        if stepper.lost:
+            p = stepper.p
+            raise InputError(f"{p.mission.mission.name} diverges at {i * p.dt:g} s: nothing to linearize after that")
+
+
+def _after_tare(stepper: Stepper, k: int) -> int:
+    """Step k if the tare is over there, else one soon after the tare, which is flown to; at the latest the landing."""
+    p, m = stepper.p, stepper.p.mission
+    lands = math.inf if m.phases.land_start is None else m.phases.land_start
+    last = max(k, int(min(lands / p.dt, m.mission.steps - 1)))
+    over = last if tare_left(p, stepper.a, k * p.dt) > 0.0 else k
+    while k < over:
+        _fly(stepper, k, k + 1)
+        k += 1
+        if over == last and tare_left(p, stepper.a, k * p.dt) <= 0.0:
+            over = min(last, k + round(AFTER_TARE / p.dt))
+    return k
+
+
+def as_it_stands(simulation: Simulation) -> OperatingPoint:
+    """The point that a simulation has reached.
+
+    Raises:
+        InputError: it is over, flies another engine than the compiled one, or its step has no derivative.
+    """
+    stepper = simulation._stepper
+    if stepper.body is not None:
+        raise InputError(f"engine {simulation.engine!r}: only a body of engine 'compiled' can be linearized")
+    if simulation.over:
+        raise InputError("the flight is over: nothing to linearize; reset() begins anew")
+    _check(stepper.p)
+    row = stepper.row.copy()
+    point = _point(stepper, simulation.k)
+    stepper.row[:] = row
+    return point
+
+
+def _check(plan: FlightPlan) -> None:
+    if plan.interpreted is not None:
+        name = plan.mission.controller.name
+        raise InputError(
+            f"controller {name!r} is plain Python, which has no derivative: write it with the functions of "
+            "tandemlift.core.algebra and register it without compiled=False"
+        )
+
+
+def _point(stepper: Stepper, k: int) -> OperatingPoint:
+    """The flight before step k; the surroundings are those that the step would find, so only its sample is taken."""
+    external = np.zeros_like(stepper.external) if stepper.external.size else None
+    stepper.step(k, final=True, external=external)
+    ring = stepper.memory.ring
+    rows = stepper.p.start().ring.shape
+    return OperatingPoint(stepper.p, k, stepper.a.copy(), ring.reshape(rows).copy())

@@ -1,0 +1,56 @@
+"""What is drawn at random: the distribution of each key of `[draw]`, and random persons."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pydantic import ValidationError
+
+from tandemlift.analysis.studies.design.distributions import DISTRIBUTIONS, Distribution
+from tandemlift.analysis.studies.design.keys import by_key, key_at, leaves_of
+from tandemlift.core.errors import InputError, suggestion
+from tandemlift.core.types import Array
+from tandemlift.missions.refusals import problems_in
+from tandemlift.missions.values import Place, Tables, shown
+
+Drawn = dict[str, Distribution]
+
+
+def drawn_keys(tables: Tables) -> Drawn:
+    """The distribution of each key of `[draw]`, in the order of the file.
+
+    Raises:
+        InputError: an entry is no distribution, or one that holds nothing.
+    """
+    leaves = leaves_of(tables.get("draw", {}), lambda table: "distribution" in table)
+    return by_key(((place, _distribution(given, tables, ("draw", *place))) for place, given in leaves), "draw")
+
+
+def _distribution(given: Any, tables: Tables, place: Place) -> Distribution:
+    where, known = key_at(place), ", ".join(DISTRIBUTIONS)
+    name = given.get("distribution") if isinstance(given, dict) else None
+    if name is None:
+        example = '{distribution = "uniform", low = 0.9, high = 1.1}'
+        raise InputError(f"{where} = {shown(given)}: must be a table such as {example}; distributions are {known}")
+    if name not in DISTRIBUTIONS:
+        hint = suggestion(name, DISTRIBUTIONS) if isinstance(name, str) else ""
+        raise InputError(f"{where}.distribution = {shown(name)}: must be one of {known}.{hint}")
+    try:
+        return DISTRIBUTIONS[name].model_validate(given)
+    except ValidationError as error:
+        problems = problems_in(DISTRIBUTIONS[name], error, tables, place)
+        raise InputError("\n".join(problem.sentence for problem in problems)) from None
+
+
+def dimensions_of(drawn: Drawn) -> int:
+    """Numbers of a point of all draws."""
+    return sum(distribution.dimensions for distribution in drawn.values())
+
+
+def values_at(drawn: Drawn, points: Array) -> list[dict[str, Any]]:
+    """The drawn values by key at points (n, dimensions), one table for each point."""
+    columns, at = dict[str, list[Any]](), 0
+    for name, distribution in drawn.items():
+        columns[name] = distribution.values(points[:, at : at + distribution.dimensions])
+        at += distribution.dimensions
+    return [{name: column[i] for name, column in columns.items()} for i in range(len(points))]

@@ -1,0 +1,81 @@
+"""Tables of a study file by dotted mission keys, and lists of a varied key as columns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any
+
+from tandemlift.core.errors import InputError
+from tandemlift.missions.values import Place, shown
+
+
+def leaves_of(
+    tables: Mapping[str, Any], is_leaf: Callable[[Any], bool], above: Place = ()
+) -> Iterator[tuple[Place, Any]]:
+    """The entries of nested tables for which `is_leaf` holds, or that are no tables, with their places."""
+    for name, value in tables.items():
+        place = (*above, name)
+        if isinstance(value, Mapping) and not is_leaf(value) and value:
+            yield from leaves_of(value, is_leaf, place)
+        else:
+            yield place, value
+
+
+def key_at(place: Place) -> str:
+    """The dotted mission key of a place below a table of a study file; a part may itself be dotted, in quotes."""
+    return ".".join(map(str, place))
+
+
+def by_key(entries: Iterable[tuple[Place, Any]], where: str) -> dict[str, Any]:
+    """Entries of a table of a study file by dotted key; `where` names the table in messages.
+
+    Raises:
+        InputError: a key is given twice, as one name in quotes and in nested tables.
+    """
+    found: dict[str, Any] = {}
+    for place, value in entries:
+        key = key_at(place)
+        if key in found:
+            raise InputError(f"{where}.{key} = {shown(value)}: the key is given twice, also in quotes; give it once")
+        found[key] = value
+    return found
+
+
+def changes_in(tables: Mapping[str, Any], where: str = "set") -> dict[str, Any]:
+    """The changes that `[set]`, or that of a case, makes: values by dotted key.
+
+    Raises:
+        InputError: a key is given twice.
+    """
+    return by_key(leaves_of(tables, lambda _: False), where)
+
+
+def with_keys(said: Mapping[str, str], keys: Iterable[str], table: str) -> dict[str, str]:
+    """The keys that a study says, by the table that says them, with those of one more table, which is applied last.
+
+    That table may say more of a key ([draw] pushes.0.force of [set] pushes), but may not replace what was said.
+
+    Raises:
+        InputError: a key is said already, or would replace one that is.
+    """
+    found = dict(said)
+    for key in keys:
+        for other, by in found.items():
+            if other == key:
+                raise InputError(f"{table}.{key}: the key is in [{by}] already; give it once")
+            if other.startswith(f"{key}."):
+                raise InputError(f"{table}.{key}: would replace {other} of [{by}]; give one of them")
+        found[key] = table
+    return found
+
+
+def columns_of(key: str, value: Any) -> Iterator[tuple[str, Any]]:
+    """A value as scalar columns: the entries of a list by their numbers, those of a table by their names."""
+    if isinstance(value, Mapping):
+        for name, part in value.items():
+            yield from columns_of(f"{key}.{name}", part)
+    elif isinstance(value, (list, tuple)):
+        for i, part in enumerate(value):
+            yield from columns_of(f"{key}.{i}", part)
+    else:
+        yield key, value

@@ -1,0 +1,139 @@
+"""The variants of a study: each mission with each controller in each engine, with all files that they need in them.
+
+A variant can be sent to another machine and kept in the folder of the study: it holds the mission's tables, the source
+of a user's controller and the bytes of a recording.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import warnings
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tandemlift.analysis.studies.design.settings import StudyTable
+from tandemlift.core.errors import FlightWarning, InputError, unknown
+from tandemlift.engines.registry import engine_named
+from tandemlift.missions import check
+from tandemlift.missions.files import Layer
+from tandemlift.missions.loading import MissionTemplate, read_tables
+from tandemlift.missions.recording import hold_recording
+from tandemlift.missions.values import Tables, merge, value_at
+from tandemlift.parts.controllers import CONTROLLERS, controller, file_of, load_controller
+from tandemlift.parts.controllers.user_controller import controller_text, run_controller
+
+RECORDING = ("person", "recording")
+
+
+def variant_from(said: Mapping[str, Any]) -> Variant:
+    """A variant from what JSON makes of it."""
+    files: dict[str, Any] = {key: tuple(said[key]) for key in ("controller_file", "recording")}
+    return Variant(said["mission"], said["controller"], said["engine"], said["tables"], **files)
+
+
+class Variant(NamedTuple):
+    """A mission, a controller and an engine.
+
+    Attributes:
+        mission: name of the mission.
+        controller: name of the controller.
+        engine: name of the engine.
+        tables: the mission's tables as its files say them, unchecked.
+        controller_file: name and source of a user's controller; empty for a registered one.
+        recording: name and base64 text of the mission's recording; empty without one.
+    """
+
+    mission: str
+    controller: str
+    engine: str
+    tables: Tables
+    controller_file: tuple[str, ...] = ()
+    recording: tuple[str, ...] = ()
+
+    def template(self, changes: Mapping[str, Any] | None = None) -> MissionTemplate:
+        """Forms missions of this variant, with changes that all have; without warnings, because findings are counted.
+
+        Raises:
+            InputError: the controller's file fails, or a change has no place in the mission.
+        """
+        return MissionTemplate(self._tables(), [Layer(self.mission, self.tables)], changes, quiet=True)
+
+    def _tables(self) -> Tables:
+        """The tables on this machine."""
+        if self.controller_file:
+            name, text = self.controller_file
+            digest = hashlib.sha256(text.encode()).hexdigest()[:16]
+            run_controller(text, Path("<study>", digest, Path(name).name))
+        if self.recording:
+            name, coded = self.recording
+            return merge(self.tables, {"person": {"recording": hold_recording(name, base64.b64decode(coded))}})
+        return self.tables
+
+
+def variants_of(study: StudyTable, folder: Path) -> list[Variant]:
+    """All variants of a study, engines innermost.
+
+    Args:
+        study: the table `[study]`.
+        folder: where relative paths start.
+
+    Raises:
+        InputError: a mission, controller or engine does not exist or cannot be read.
+    """
+    for engine in study.engines:
+        engine_named(engine)
+    return [
+        variant._replace(engine=engine)
+        for mission in study.missions
+        for chosen in study.controllers or (None,)
+        for variant in [_variant(mission, chosen, folder)]
+        for engine in study.engines
+    ]
+
+
+def _variant(mission: str, chosen: str | None, folder: Path) -> Variant:
+    held = None if chosen is None else _controller(chosen, folder)
+    try:
+        tables, layers = read_tables(mission, held, folder)
+    except OSError as error:
+        raise InputError(f"study.missions: {mission}: {error.strerror or error}") from None
+    except RecursionError:
+        raise InputError(f"study.missions: {mission} is not a mission: nested too deeply") from None
+    _check_known(value_at(tables, ("controller", "name")), f"study.missions: {mission}: controller.name")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FlightWarning)
+        loaded = check(tables, layers[-1].source, layers)
+    name = loaded.controller.name
+    own = controller(name)
+    file = () if _is_ours(name) else (Path(file_of(own)).name, controller_text(own))
+    return Variant(loaded.mission.name, name, "compiled", tables, file, _recording(tables))
+
+
+def _controller(chosen: str, folder: Path) -> Any:
+    if chosen.endswith(".py") or "/" in chosen:
+        return load_controller(folder / chosen)
+    _check_known(chosen, "study.controllers")
+    return controller(chosen)
+
+
+def _check_known(name: Any, key: str) -> None:
+    """Refuse the name of a controller that is not registered, and say how a study loads one."""
+    if isinstance(name, str) and name not in CONTROLLERS:
+        error = unknown("controller", name, sorted(CONTROLLERS))
+        raise InputError(f"{key}: {error} For one of your own, name its file in study.controllers.")
+
+
+def _is_ours(name: str) -> bool:
+    return controller(name).start.__module__.startswith("tandemlift.")
+
+
+def _recording(tables: Tables) -> tuple[str, ...]:
+    path = value_at(tables, RECORDING)
+    if not isinstance(path, str):
+        return ()
+    try:
+        return Path(path).name, base64.b64encode(Path(path).read_bytes()).decode()
+    except OSError as error:
+        raise InputError(f"person.recording = {path!r}: {error.strerror or error}") from None

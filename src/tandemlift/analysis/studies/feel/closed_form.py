@@ -1,0 +1,126 @@
+"""The answer of an admittance to a push that begins at once, lasts, and ends at once: M v' + C v + K x = F.
+
+F is the force beyond the gate. Without stiffness v(t) = F/C (1 − exp(−t/τ)), τ = M/C, and let go it stops within v τ.
+With a spring, x tends to F/K: with a = C/(2 M) and w² = K/M − a², which may be negative,
+x = F/K − e^(−a t) (x₁ cos(w t) + (v₁ + a x₁) sin(w t)/w) for what is left at the start, x₁ and v₁.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.core.settings import Mission
+from tandemlift.core.settings.admittance import LN_20
+from tandemlift.core.types import Array
+from tandemlift.parts.vehicle import Vehicle
+
+AXES = ("x", "y", "z")
+YAW = "yaw"
+FORCE, MOMENT = 1.0, 0.5  # N, N m: the standard push where the mission does not say one
+ABOVE = 2.0  # times the threshold, which the standard push has at least
+
+
+class AxisFeel(NamedTuple):
+    """An axis of the admittance, and the standard push along it.
+
+    Attributes:
+        axis: "x", "y", "z" or "yaw", which is in N m, rad and kg m² in place of N, m and kg.
+        mass: M [kg].
+        damping: C [N s/m].
+        stiffness: K [N/m].
+        threshold: up to which a push is ignored [N].
+        soft: whether only what exceeds the threshold acts.
+        push: the standard push [N].
+    """
+
+    axis: str
+    mass: float
+    damping: float
+    stiffness: float
+    threshold: float
+    soft: bool
+    push: float
+
+    @property
+    def beyond(self) -> float:
+        """The force that acts [N] under the standard push."""
+        return self.push - (self.threshold if self.soft else 0.0)
+
+    @property
+    def acceleration(self) -> float:
+        """With which the answer begins [m/s²]."""
+        return self.beyond / self.mass
+
+    @property
+    def final_speed(self) -> float:
+        """To which a lasting push leads [m/s]; 0 with a spring, infinite without damping."""
+        if self.stiffness > 0.0:
+            return 0.0
+        return self.beyond / self.damping if self.damping > 0.0 else math.inf
+
+    @property
+    def time_constant(self) -> float:
+        """M/C [s]: how late the answer is, too; infinite without damping."""
+        return self.mass / self.damping if self.damping > 0.0 else math.inf
+
+    @property
+    def time(self) -> float:
+        """Until 95 % of the final speed [s]; with a spring, until its motion has faded to 5 %."""
+        if self.stiffness == 0.0:
+            return LN_20 * self.time_constant
+        half = 0.5 * self.damping / self.mass
+        slowest = half - math.sqrt(max(half * half - self.stiffness / self.mass, 0.0))
+        return LN_20 / slowest if slowest > 0.0 else math.inf
+
+    @property
+    def stop_distance(self) -> float:
+        """From letting go at the final speed until rest [m]."""
+        return self.final_speed * self.time_constant if self.stiffness == 0.0 else 0.0
+
+
+def axes_of(m: Mission) -> tuple[AxisFeel, ...]:
+    """The axes of a mission's admittance; with yaw where guidance by hand yields in yaw.
+
+    The standard push is the force of `[admittance.feel]`, else 1 N (0.5 N m in yaw), and at least twice the threshold.
+    """
+    a, by_hand, found = m.admittance, m.pilot.guidance == "hand", list[AxisFeel]()
+    for i, axis in enumerate(AXES):
+        push = max(FORCE, ABOVE * a.threshold[i]) if a.feel is None else a.feel.axes[i].force
+        numbers = (a.mass[i], a.damping[i], a.stiffness[i], a.threshold[i])
+        found.append(AxisFeel(axis, *numbers, soft=by_hand or a.gate == "soft", push=push))
+    yaw = m.compliance.yaw
+    if by_hand and yaw.model == "yielding":
+        inertia = float(Vehicle.from_settings(m.vehicle).inertia[2, 2]) if yaw.inertia is None else yaw.inertia
+        push = max(MOMENT, ABOVE * yaw.threshold)
+        found.append(AxisFeel(YAW, inertia, yaw.damping, 0.0, yaw.threshold, soft=True, push=push))
+    return tuple(found)
+
+
+def speed_at(k: AxisFeel, time: Array, hold: float) -> Array:
+    """The speed [m/s] at times [s] from the beginning of the standard push (T), which is held for `hold` [s]."""
+    t = np.asarray(time, dtype=float)
+    _, speed = _free(k, np.clip(t, 0.0, hold), 0.0, 0.0, k.beyond)
+    end_place, end_speed = (float(x) for x in _free(k, np.array(hold), 0.0, 0.0, k.beyond))
+    _, after = _free(k, np.maximum(t - hold, 0.0), end_place, end_speed, 0.0)
+    return np.where(t < 0.0, 0.0, np.where(t < hold, speed, after))
+
+
+def _free(k: AxisFeel, t: Array, place: float, speed: float, force: float) -> tuple[Array, Array]:
+    """(Place [m], speed [m/s]) after times [s] under a constant force beyond the gate [N]."""
+    if k.stiffness == 0.0:
+        if k.damping == 0.0:
+            a = force / k.mass
+            return place + speed * t + 0.5 * a * t * t, speed + a * t
+        final, tau = force / k.damping, k.time_constant
+        fading = -np.expm1(-t / tau)
+        return place + final * t + (speed - final) * tau * fading, final + (speed - final) * (1.0 - fading)
+    a = 0.5 * k.damping / k.mass
+    w = np.sqrt(complex(k.stiffness / k.mass - a * a))
+    left, rest = place - force / k.stiffness, force / k.stiffness
+    decay, cosine, sine = np.exp(-a * t), np.cos(w * t), t * np.sinc(w * t / np.pi)
+    x = rest + (decay * (left * cosine + (speed + a * left) * sine)).real
+    v = (decay * (speed * cosine - (a * speed + k.stiffness / k.mass * left) * sine)).real
+    return x, v

@@ -1,0 +1,100 @@
+"""The rows of a finished study as an xarray Dataset, whose dimensions are those of the plan."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tandemlift.analysis.studies.design.plan import SEED, StudyPlan
+from tandemlift.core.extras import extra
+
+if TYPE_CHECKING:
+    import pyarrow
+    import xarray
+
+WHO = ("mission", "controller", "engine")
+SHAPED = (*WHO, "case", "draw", "seed", "row")  # columns that the dimensions say
+
+
+def to_xarray(plan: StudyPlan, table: pyarrow.Table, varied: pyarrow.Table) -> xarray.Dataset:
+    """See `Study.to_xarray`.
+
+    Args:
+        plan: of the study.
+        table: columns of all rows, to be variables.
+        varied: the columns `seed` and what varies, of all rows.
+    """
+    with extra("xarray", "to_xarray"):
+        import xarray
+    sizes, coordinates = _dimensions(plan)
+    kept = {name: size for name, size in sizes.items() if size > 1}
+    shape, dims = tuple(sizes.values()), tuple(kept)
+
+    def grid(column: Any) -> Any:
+        return column.to_numpy(zero_copy_only=False).reshape(shape).reshape(tuple(kept.values()))
+
+    found: dict[str, Any] = {name: pair for name, pair in coordinates.items() if pair[0] in kept}
+    drawn = [name for name in varied.column_names if name != "seed" and name not in coordinates]
+    for name, column in [(SEED, "seed"), *[(name, name) for name in drawn]]:
+        found[name] = _along_few(grid(varied[column]), dims)
+    variables = {name: (dims, grid(table[name])) for name in table.column_names if _measured(name, varied)}
+    about = {"name": plan.settings.study.name}
+    return xarray.Dataset(variables, found, about)
+
+
+def _measured(name: str, varied: pyarrow.Table) -> bool:
+    return name not in SHAPED and name not in varied.column_names
+
+
+def _dimensions(plan: StudyPlan) -> tuple[dict[str, int], dict[str, tuple[str, list[Any]]]]:
+    """The size of each dimension, in the order of the rows, and the coordinates along them: dimension and values."""
+    sizes, coordinates = _variants(plan)
+    axes: dict[str, list[Any]] = {"case": [case.name for case in plan.cases], **plan.grid}
+    for name, values in axes.items():
+        sizes[name] = len(values)
+        coordinates |= _axis(name, values)
+    sizes |= {"draw": plan.point_count, "seed": plan.settings.study.seeds}
+    coordinates |= {name: (name, list(range(sizes[name]))) for name in ("draw", "seed")}
+    return sizes, coordinates
+
+
+def _variants(plan: StudyPlan) -> tuple[dict[str, int], dict[str, tuple[str, list[Any]]]]:
+    """Dimensions of mission, controller and engine, if each flies with each; else one of all variants."""
+    said = [(v.mission, v.controller, v.engine) for v in plan.variants]
+    names = [list(dict.fromkeys(column)) for column in zip(*said, strict=True)]
+    if math.prod(map(len, names)) == len(said):
+        each = dict(zip(WHO, names, strict=True))
+        return {name: len(values) for name, values in each.items()}, {n: (n, v) for n, v in each.items()}
+    columns = dict(zip(WHO, map(list, zip(*said, strict=True)), strict=True))
+    return {"variant": len(said)}, {name: ("variant", values) for name, values in columns.items()}
+
+
+def _axis(name: str, values: list[Any]) -> dict[str, tuple[str, list[Any]]]:
+    """The coordinates along an axis of the grid: its values, or the entries of values that are lists."""
+    if not any(isinstance(value, (list, tuple, dict)) for value in values):
+        return {name: (name, values)}
+    if not all(isinstance(value, (list, tuple)) and len(value) == len(values[0]) for value in values):
+        return {name: (name, [str(value) for value in values])}
+    entries = {f"{name}.{i}": (name, [value[i] for value in values]) for i in range(len(values[0]))}
+    return {name: (name, list(range(len(values)))), **entries}
+
+
+def _along_few(values: Any, dims: tuple[str, ...]) -> tuple[tuple[str, ...], Any]:
+    """A coordinate along the dimensions on which it depends alone."""
+    left = list(dims)
+    for name in dims:
+        axis = left.index(name)
+        first = np.take(values, [0], axis)
+        if _equal(values, first):
+            values = np.take(values, 0, axis)
+            left.remove(name)
+    return tuple(left), values
+
+
+def _equal(values: Any, first: Any) -> bool:
+    same = values == first
+    if values.dtype.kind == "f":
+        same |= np.isnan(values) & np.isnan(first)
+    return bool(np.all(same))

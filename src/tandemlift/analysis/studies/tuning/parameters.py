@@ -1,0 +1,242 @@
+"""What a search changes: numbers and words of a mission, each with its present value and where it may lie.
+
+A positive number is searched by its logarithm, within a factor of its present value and the bounds of its key. Every
+other number is searched as it is: a negative one within ten times its size, zero within one of it. A vector is one
+number for each component. A word, or true and false, is a choice.
+"""
+
+from __future__ import annotations
+
+import fnmatch
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Literal, NamedTuple, get_args, get_origin
+
+import numpy as np
+from pydantic import BaseModel
+
+from tandemlift.core.errors import InputError, suggestion
+from tandemlift.core.settings import Mission
+from tandemlift.core.settings.value_types import is_number
+from tandemlift.missions.bounds import bounds, innermost, plain
+from tandemlift.missions.values import shown
+
+DIGITS = 3  # of a number as it is flown
+LIMITS = {"a", "max_tilt", "velocity_i_limit", "rate_i_limit", "integral_limit", "tracking"}
+"""Keys of controllers that are limits or exponents, and no gains: they stay, unless they are named."""
+JUDGING = ("mission", "outcome", "crash", "findings", "promise")  # tables that say what is flown and how it is judged
+LINEAR_SPAN = 10.0  # times the size of a negative number
+Range = Sequence[Any] | None
+Value = float | int | bool | str
+
+
+class Tunable(NamedTuple):
+    """A number or a word that a search changes.
+
+    Attributes:
+        key: dotted key of the mission.
+        place: which component of a vector; None for a key of one value.
+        present: its value now; of a key without one, the middle of its range.
+        low: its lowest value.
+        high: its highest value.
+        is_log: whether it is searched by its logarithm.
+        is_whole: whether it is a whole number.
+        choices: its values, if it is a choice; then it has no bounds.
+    """
+
+    key: str
+    place: int | None
+    present: Any
+    low: float = -math.inf
+    high: float = math.inf
+    is_log: bool = False
+    is_whole: bool = False
+    choices: tuple[Any, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """Its key, with the number of its component."""
+        return self.key if self.place is None else f"{self.key}.{self.place}"
+
+    def as_flown(self, value: Any) -> Any:
+        """A value as it is flown: a choice unchanged, a number with three digits, within its bounds."""
+        if self.choices:
+            return value
+        if self.is_whole:
+            return int(min(max(round(value), math.ceil(self.low)), math.floor(self.high)))
+        return float(min(max(float(f"{value:.{DIGITS}g}"), self.low), self.high))
+
+
+class _Leaf(NamedTuple):
+    key: str
+    annotation: Any
+    marks: tuple[Any, ...]
+    value: Any
+
+    @property
+    def is_numbers(self) -> bool:
+        """Whether it is a number, or a list of numbers."""
+        return is_number(self.value) or (
+            isinstance(self.value, tuple) and bool(self.value) and all(map(is_number, self.value))
+        )
+
+
+def _leaves(model: BaseModel, above: str) -> Iterator[_Leaf]:
+    for name, field in type(model).model_fields.items():
+        value, key = getattr(model, name), f"{above}{name}"
+        if isinstance(value, BaseModel):
+            yield from _leaves(value, f"{key}.")
+        elif isinstance(value, tuple) and value and all(isinstance(entry, BaseModel) for entry in value):
+            for i, entry in enumerate(value):
+                yield from _leaves(entry, f"{key}.{i}.")
+        else:
+            yield _Leaf(key, field.annotation, tuple(field.metadata), value)
+
+
+def parameters_of(mission: Mission, over: Mapping[str, Range], factor: float) -> tuple[Tunable, ...]:
+    """The parameters of a search.
+
+    Args:
+        mission: whose values are searched about.
+        over: dotted keys, tables, or patterns such as `controller.gains.lambda_*`, each with the range [low, high] of
+            its numbers, a list of words, or None; empty for the gains of the controller.
+        factor: by which a positive number without a range may differ from its present value.
+
+    Raises:
+        InputError: a key is unknown, is no number or choice, or its range is empty.
+    """
+    leaves = {leaf.key: leaf for leaf in _leaves(mission, "")}
+    found: dict[str, Tunable] = {}
+    for asked, limits in (over or {"controller": None}).items():
+        _check_range(asked, limits)
+        for leaf, place in _matching(asked, leaves):
+            found |= {p.name: p for p in _parameters(leaf, limits, factor) if place in (None, p.place)}
+    if not found:
+        raise InputError(f"controller {mission.controller.name!r} has no gains; name what to search by --over")
+    return tuple(found.values())
+
+
+def _matching(asked: str, leaves: Mapping[str, _Leaf]) -> list[tuple[_Leaf, int | None]]:
+    """The leaves that a key, a table or a pattern means, with the component if it names one."""
+    if asked.split(".")[0] in JUDGING:
+        raise InputError(
+            f"--over {asked}: [{asked.split('.')[0]}] says what is flown and how it is judged, so it stays"
+        )
+    if asked in leaves:
+        return [(leaves[asked], None)]
+    above, _, last = asked.rpartition(".")
+    if above in leaves and last.isdigit() and leaves[above].is_numbers:
+        values = leaves[above].value
+        if not isinstance(values, tuple) or int(last) >= len(values):
+            raise InputError(f"--over {asked}: {above} = {shown(values)} has no component {last}")
+        return [(leaves[above], int(last))]
+    below = [leaf for key, leaf in leaves.items() if key.startswith(f"{asked}.") or fnmatch.fnmatchcase(key, asked)]
+    numbers = [leaf for leaf in below if leaf.is_numbers and leaf.key.rpartition(".")[2] not in LIMITS]
+    if numbers or asked == "controller":
+        return [(leaf, None) for leaf in numbers]
+    if below:
+        raise InputError(f"--over {asked}: holds no numbers to search; it has {', '.join(leaf.key for leaf in below)}")
+    known = {*leaves, *(key.rpartition(".")[0] for key in leaves if "." in key)}
+    raise InputError(f"--over {asked}: the mission has no such key or table.{suggestion(asked, sorted(known))}")
+
+
+def _check_range(asked: str, limits: Range) -> None:
+    if limits is None:
+        return
+    is_range = len(limits) == 2 and all(map(is_number, limits)) and all(map(math.isfinite, limits))
+    is_words = len(limits) > 0 and all(isinstance(x, (str, bool)) for x in limits)
+    if not is_range and not is_words:
+        raise InputError(f"--over {asked}={shown(list(limits))}: must be [low, high], or a list of words")
+    if is_range and not limits[0] < limits[1]:
+        raise InputError(
+            f"--over {asked}={shown(list(limits))}: the range is empty; must be [low, high] with low < high"
+        )
+
+
+def _parameters(leaf: _Leaf, limits: Range, factor: float) -> Iterator[Tunable]:
+    if (choices := _choices(leaf, limits)) is not None:
+        yield Tunable(leaf.key, None, leaf.value, choices=choices)
+        return
+    whole = plain(leaf.annotation) is int
+    if leaf.value is None and limits is not None:
+        yield _number(leaf, None, None, limits, factor, whole=whole)
+        return
+    if not leaf.is_numbers:
+        what = "is left out, so a range must be given" if leaf.value is None else "is not a number"
+        raise InputError(f"--over {leaf.key}: {leaf.key} = {shown(leaf.value)} {what}, as in {leaf.key}=[0.5, 2.0]")
+    if isinstance(leaf.value, tuple):
+        for place, value in enumerate(leaf.value):
+            yield _number(leaf, place, value, limits, factor, whole=False)
+    else:
+        yield _number(leaf, None, leaf.value, limits, factor, whole=whole)
+
+
+def _choices(leaf: _Leaf, limits: Range) -> tuple[Any, ...] | None:
+    """The choices of a leaf; None if it is no choice.
+
+    Raises:
+        InputError: words are given that it may not be.
+    """
+    kind = plain(leaf.annotation)
+    allowed = (False, True) if kind is bool else get_args(kind) if get_origin(kind) is Literal else ()
+    given = () if limits is None else tuple(limits)
+    words = bool(given) and all(isinstance(x, (str, bool)) for x in given)
+    if not allowed and words:
+        raise InputError(f"--over {leaf.key}={shown(list(given))}: the key takes no words; must be [low, high]")
+    if allowed and given and not (words and set(given) <= set(allowed)):
+        raise InputError(f"--over {leaf.key}={shown(list(given))}: must be a list of {', '.join(map(shown, allowed))}")
+    if allowed and len(given or allowed) < 2:
+        raise InputError(f"--over {leaf.key}: needs at least two choices")
+    return (given or allowed) if allowed else None
+
+
+def _number(leaf: _Leaf, place: int | None, value: Any, limits: Range, factor: float, *, whole: bool) -> Tunable:
+    """A number between the bounds of its key and its range."""
+    low, high = _bounds_of(leaf)
+    if limits is not None:
+        if limits[0] < low or limits[1] > high:
+            raise InputError(f"--over {leaf.key}={shown(list(limits))}: the key must be from {low:g} to {high:g}")
+        low, high = float(limits[0]), float(limits[1])
+    elif value > 0.0:
+        low, high = max(low, value / factor), min(high, value * factor)
+    else:
+        size = LINEAR_SPAN * abs(value) or 1.0
+        low, high = max(low, value - size), min(high, value + size)
+    is_log = low > 0.0
+    if value is None:
+        value = math.sqrt(low * high) if is_log else 0.5 * (low + high)
+    return Tunable(leaf.key, place, min(max(value, low), high), low, high, is_log, whole)
+
+
+def _bounds_of(leaf: _Leaf) -> tuple[float, float]:
+    """The lowest and the highest value that the key of a leaf may have."""
+    kind, marks = leaf.annotation, list(leaf.marks)
+    for part in get_args(kind):
+        marks += getattr(part, "__metadata__", ())
+    while get_origin(kind) is not tuple and get_args(kind):
+        kind = get_args(kind)[0]
+    if get_origin(kind) is tuple:
+        marks += innermost(kind)
+    found = bounds(marks)
+    low = max(found.get("ge", -math.inf), np.nextafter(found.get("gt", -math.inf), math.inf))
+    high = min(found.get("le", math.inf), np.nextafter(found.get("lt", math.inf), -math.inf))
+    return float(low), float(high) if "lt" in found or "le" in found else math.inf
+
+
+def changes_at(parameters: Sequence[Tunable], values: Sequence[Any], mission: Mission) -> dict[str, Any]:
+    """The values of parameters as changes of the mission by dotted key; other components of a vector stay."""
+    changes: dict[str, Any] = {}
+    for p, value in zip(parameters, values, strict=True):
+        if p.place is None:
+            changes[p.key] = value
+        else:
+            changes.setdefault(p.key, list(value_of(mission, p.key)))[p.place] = value
+    return changes
+
+
+def value_of(mission: Mission, key: str) -> Any:
+    """The value of a mission's dotted key."""
+    at: Any = mission
+    for part in key.split("."):
+        at = at[int(part)] if isinstance(at, tuple) else getattr(at, part)
+    return at

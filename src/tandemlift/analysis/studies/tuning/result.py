@@ -1,0 +1,198 @@
+"""The result of a search, and its files: the mission with the new values, and the evidence."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tandemlift.analysis.studies.tuning.candidates import Cost
+from tandemlift.analysis.studies.tuning.draws import Draw
+from tandemlift.analysis.studies.tuning.evidence import Evidence, as_table
+from tandemlift.analysis.studies.tuning.parameters import value_of
+from tandemlift.analysis.studies.tuning.task import Task, Values
+from tandemlift.core.errors import InputError
+from tandemlift.core.files import atomic_write
+from tandemlift.core.settings import Mission
+from tandemlift.missions import built_in, format_toml, tables_of
+from tandemlift.missions.values import MISSING, Place, Tables, value_at
+
+MISSION_FILE, EVIDENCE_FILE = "tuned.toml", "evidence.json"
+
+
+class FrontPoint(NamedTuple):
+    """A candidate that no other one beats in all goals: its values, and its costs for each goal alone.
+
+    `costs` are those on the draws of the search, `fresh` those on fresh draws, if it was flown there.
+    """
+
+    values: Values
+    costs: tuple[Cost, ...]
+    fresh: tuple[Cost, ...] = ()
+
+
+class Tuning(NamedTuple):
+    """What a search has found.
+
+    Attributes:
+        task: by what candidates were judged.
+        optimiser: "cma" or "optuna".
+        seed: of the search and of its draws.
+        budget: candidates that were allowed.
+        draws: on which candidates were compared.
+        fresh: draws that the search never saw.
+        old: the present values.
+        new: the best values found.
+        costs: of old and new, on the draws for the choice among the best; of an interrupted search, on its own draws.
+        history: the cost of every candidate in the order of the search, the present values first.
+        apart: the same for each goal alone.
+        records: the candidates that were better than all before them, with their numbers in the history.
+        ended: why the search ended.
+        is_finished: whether it was not interrupted.
+        evidence: what fresh draws say; None of a search that was interrupted.
+        front: of several goals, what cannot be improved in one without loss in another; else empty.
+    """
+
+    task: Task
+    optimiser: str
+    seed: int
+    budget: int
+    draws: tuple[Draw, ...]
+    fresh: tuple[Draw, ...]
+    old: Values
+    new: Values
+    costs: tuple[Cost, Cost]
+    history: tuple[Cost, ...]
+    apart: tuple[tuple[Cost, ...], ...]
+    records: tuple[tuple[int, Values], ...]
+    ended: str
+    is_finished: bool
+    evidence: Evidence | None = None
+    front: tuple[FrontPoint, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """The name of the mission that was tuned."""
+        return self.task.mission.mission.name
+
+    @property
+    def changes(self) -> dict[str, Any]:
+        """The new values as changes of the mission by dotted key; none if nothing better was found."""
+        return {} if self.new == self.old else self.task.changes(self.new)
+
+    @property
+    def mission(self) -> Mission:
+        """The mission with the new values."""
+        return self.task.source.load(self.changes, {"mission.name": f"{self.name}-tuned"})
+
+    @property
+    def is_better(self) -> bool:
+        """Whether fresh draws say that the new values are better."""
+        return self.evidence is not None and self.evidence.better
+
+    def save(self, folder: str | os.PathLike[str]) -> Path:
+        """Write the mission and the evidence into a folder, each file whole or not at all; returns the mission's path.
+
+        Raises:
+            InputError: the folder cannot be made.
+        """
+        folder = Path(folder)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise InputError(f"{folder}: cannot be made: {error.strerror or error}") from None
+        with atomic_write(folder / EVIDENCE_FILE) as partial:
+            partial.write_text(json.dumps(self.as_table(), indent=1, allow_nan=False) + "\n", "utf-8")
+        with atomic_write(folder / MISSION_FILE) as partial:
+            partial.write_text(self.to_toml(folder), "utf-8")
+        return folder / MISSION_FILE
+
+    def to_toml(self, folder: Path = Path()) -> str:
+        """The mission with the new values as a file for a folder: it extends the one that was tuned."""
+        source, resolved = self.task.source, tables_of(self.mission)
+        path = source.name if source.name in built_in() else _relative(source.name, folder)
+        tables: Tables = {"extends": path}
+        for place in _places((*source.changes, *self.changes, "mission.name"), whole=source.controller is not None):
+            value = value_at(resolved, place)
+            if value is not MISSING:
+                _put(tables, place, value)
+        unfinished = "" if self.is_finished else ", unfinished"
+        return (
+            f"# {self.name}, tuned for {', '.join(g.name for g in self.task.goals)}{unfinished}\n{format_toml(tables)}"
+        )
+
+    def as_table(self) -> dict[str, Any]:
+        """All of it as JSON: what was searched and how, the values, the history, the evidence, the front."""
+        task = self.task
+        names = [p.name for p in task.parameters]
+        return {
+            "mission": task.source.name,
+            "changes": task.source.changes,
+            "controller": task.mission.controller.name,
+            "optimiser": self.optimiser,
+            "seed": self.seed,
+            "budget": self.budget,
+            "aim": task.aim,
+            "strict": task.strict,
+            "finished": self.is_finished,
+            "ended": self.ended,
+            "goals": [
+                {"metric": goal.name, "target": goal.target, "targets": dict(goal.targets), "scale": scale[0].tolist()}
+                for goal, scale in zip(task.goals, task.scales, strict=True)
+            ],
+            "parameters": [
+                {"key": p.name, "old": old, "new": new, **({"choices": p.choices} if p.choices else _bounds(p))}
+                for p, old, new in zip(task.parameters, self.old, self.new, strict=True)
+            ],
+            "choice": {"old": self.costs[0]._asdict(), "new": self.costs[1]._asdict()},
+            "search": {
+                "draws": [draw._asdict() for draw in self.draws],
+                "history": [[cost.bad, cost.ratio] for cost in self.history],
+                "records": [[number, *values] for number, values in self.records],
+            },
+            "front": [
+                {
+                    "values": dict(zip(names, point.values, strict=True)),
+                    "search": [cost._asdict() for cost in point.costs],
+                    "fresh": [cost._asdict() for cost in point.fresh],
+                }
+                for point in self.front
+            ],
+            "evidence": None if self.evidence is None else as_table(self.evidence, self.fresh, task.goals),
+        }
+
+
+def present_values(task: Task) -> Values:
+    """The present values of a task's parameters, to the last digit."""
+    found = []
+    for p in task.parameters:
+        value = value_of(task.mission, p.key)
+        found.append(value if p.place is None else value[p.place])
+    return tuple(found)
+
+
+def _bounds(p: Any) -> dict[str, Any]:
+    return {"low": p.low, "high": p.high, "scale": "log" if p.is_log else "linear"}
+
+
+def _relative(name: str, folder: Path) -> str:
+    return Path(os.path.relpath(Path(name).resolve(), folder.resolve())).as_posix()
+
+
+def _places(keys: Iterable[str], *, whole: bool) -> Iterable[Place]:
+    """The places of dotted keys; a list of tables is written whole, as is the table of another controller."""
+    found: dict[Place, None] = {("controller",): None} if whole else {}
+    for key in keys:
+        parts = key.split(".")
+        stop = next((i for i, part in enumerate(parts) if part.isdigit()), len(parts))
+        found[("controller",) if key == "controller.name" else tuple(parts[:stop])] = None
+    return [place for place in found if not any(place[:i] in found for i in range(1, len(place)))]
+
+
+def _put(tables: Tables, place: Place, value: Any) -> None:
+    *above, last = map(str, place)
+    for part in above:
+        tables = tables.setdefault(part, {})
+    tables[last] = value

@@ -1,0 +1,134 @@
+"""A task of tuning: by what candidates are judged."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.analysis.studies.design.settings import REFUSED
+from tandemlift.analysis.studies.tuning.candidates import (
+    Aim,
+    Changes,
+    Cost,
+    Trial,
+    cost_of,
+    fly_candidates,
+    joined,
+    repeated,
+)
+from tandemlift.analysis.studies.tuning.draws import Draw
+from tandemlift.analysis.studies.tuning.goals import Goal, check_goals, scales_of
+from tandemlift.analysis.studies.tuning.parameters import Tunable, Value, changes_at
+from tandemlift.analysis.studies.tuning.source import MissionSource
+from tandemlift.core.errors import InputError
+from tandemlift.core.settings import Mission
+from tandemlift.core.types import Array
+from tandemlift.simulation.loop.running_metrics import EMPTY, summary
+
+Values = tuple[Value, ...]
+FIRST = 4  # draws in which a candidate must not always fail to be flown on the others
+
+
+class Task(NamedTuple):
+    """What a search is for.
+
+    Attributes:
+        source: where missions come from.
+        mission: the mission as it is.
+        parameters: what is searched.
+        goals: what is made small.
+        sizes: components of each goal.
+        scales: what each goal is measured against, the same for every draw but for targets of cases.
+        aim: "mean" or "worst".
+        threads: that fly; None for one for each processor.
+        strict: whether a flight with findings is bad.
+    """
+
+    source: MissionSource
+    mission: Mission
+    parameters: tuple[Tunable, ...]
+    goals: tuple[Goal, ...]
+    sizes: tuple[int, ...]
+    scales: tuple[Array, ...]
+    aim: Aim
+    threads: int | None
+    strict: bool = False
+
+    def changes(self, values: Values) -> Changes:
+        """The values of parameters as changes of the mission."""
+        return changes_at(self.parameters, values, self.mission)
+
+    def fly(self, candidates: Sequence[Changes], draws: Sequence[Draw]) -> list[Trial]:
+        """The trials of candidates on draws."""
+        trials = fly_candidates(self.source, candidates, draws, self.threads)
+        return [self.judged(trial).measured(self.goals, self.sizes) for trial in trials]
+
+    def judged(self, trial: Trial) -> Trial:
+        """A trial by what this task calls bad."""
+        return trial.strictly() if self.strict else trial
+
+    def fly_while_hopeful(self, candidates: Sequence[Changes], draws: Sequence[Draw]) -> list[Trial]:
+        """As `fly`; a candidate that fails in all of the first draws flies no others, and counts as failing there."""
+        first = self.fly(candidates, draws[:FIRST])
+        hopeful = [i for i, trial in enumerate(first) if not trial.bad.all()]
+        rest = dict(zip(hopeful, self.fly([candidates[i] for i in hopeful], draws[FIRST:]), strict=True))
+        more = len(draws) - len(draws[:FIRST])
+        return [joined(trial, rest[i]) if i in rest else repeated(trial, more) for i, trial in enumerate(first)]
+
+    def cost(self, trial: Trial) -> Cost:
+        """The cost of a trial, all goals together."""
+        return cost_of(trial, self.goals, self.scales, self.aim)
+
+    def costs_apart(self, trial: Trial) -> list[Cost]:
+        """The cost of a trial for each goal alone."""
+        parts = zip(self.goals, self.scales, trial.values, strict=True)
+        return [cost_of(trial._replace(values=(values,)), [g], [scale], self.aim) for g, scale, values in parts]
+
+    def for_draws(self, draws: Sequence[Draw]) -> Task:
+        """The same task on other draws: goals without a target of the draw's case keep their scales."""
+        scales = [
+            np.array([_of_case(goal, draw.case, scale) for draw in draws])
+            for goal, scale in zip(self.goals, self.scales, strict=True)
+        ]
+        return self._replace(scales=tuple(scales))
+
+
+def _of_case(goal: Goal, case: str, scales: Array) -> Array:
+    own = goal.targets.get(case)
+    return np.median(scales, axis=0) if own is None else np.broadcast_to(np.asarray(own, float), scales[0].shape)
+
+
+def started(task: Task, draws: Sequence[Draw]) -> tuple[Task, Trial]:
+    """The task with sizes and scales of its goals, from the present values flown on all draws; and how these fare.
+
+    Raises:
+        InputError: no draw can be flown, or a goal is unknown or has no number.
+    """
+    trial = task.judged(*fly_candidates(task.source, [{}], draws, task.threads))
+    if all(outcome == REFUSED for outcome in trial.outcomes):
+        raise InputError(f"no draw can be flown; the first is refused: {trial.reasons[0]}")
+    flown = [_shapes() | {k: v for k, v in m.items() if v is not None} for m in trial.metrics if m]
+    fine = [metrics for metrics, bad in zip(trial.metrics, trial.bad, strict=True) if not bad]
+    check_goals(task.goals, fine or flown)
+    sizes = tuple(max(_size(goal, metrics) for metrics in flown) for goal in task.goals)
+    trial = trial.measured(task.goals, sizes)
+    cases = [draw.case for draw in draws]
+    scales = tuple(scales_of(goal, cases, values) for goal, values in zip(task.goals, trial.values, strict=True))
+    if len(task.goals) > 1 and trial.bad.all() and any(goal.target is None and not goal.targets for goal in task.goals):
+        raise InputError(
+            "--for: with the present values every draw ends badly, so several goals need targets to compare"
+        )
+    return task._replace(sizes=sizes, scales=scales), trial
+
+
+def _shapes() -> dict[str, Any]:
+    """Metrics that every flight has, with numbers in the place of each."""
+    one = EMPTY._replace(steps=1.0)
+    return summary(one, one, 1.0)
+
+
+def _size(goal: Goal, metrics: Any) -> int:
+    value = metrics.get(goal.metric)
+    return len(value) if isinstance(value, list) and goal.place is None else 1

@@ -1,0 +1,190 @@
+"""Tuning of a mission: the search, and the evidence on fresh draws."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from tandemlift.analysis.studies.tuning.candidates import Aim
+from tandemlift.analysis.studies.tuning.draws import CHOICE_SEED, FRESH_SEED, Draw, DrawSource, Study, default_study
+from tandemlift.analysis.studies.tuning.evidence import evidence_of
+from tandemlift.analysis.studies.tuning.finals import TIMES, choose
+from tandemlift.analysis.studies.tuning.front import front_of
+from tandemlift.analysis.studies.tuning.goals import Goal, goals_from
+from tandemlift.analysis.studies.tuning.hunt import INTERRUPTED, Hunt, TuneProgress
+from tandemlift.analysis.studies.tuning.parameters import Range, Tunable, parameters_of
+from tandemlift.analysis.studies.tuning.result import Tuning, present_values
+from tandemlift.analysis.studies.tuning.searches import FAR_STEP, FIRST_STEP, EvolutionSearch, Optimiser
+from tandemlift.analysis.studies.tuning.source import MissionSource
+from tandemlift.analysis.studies.tuning.task import Task, started
+from tandemlift.core.errors import InputError, unknown
+from tandemlift.core.progress import progress_or_own
+from tandemlift.core.settings import Mission
+
+FACTORS = {"cma": 1000.0, "optuna": 10.0}  # by which a number may differ: a search that moves can go far
+POPULATIONS = 60  # of the default budget
+MOST_DRAWS = 1_000_000
+
+
+class How(NamedTuple):
+    """How to search and to compare; see `tune`."""
+
+    over: Iterable[str] | Mapping[str, Range] = ()
+    draws: int | Study = 8
+    fresh: int = 200
+    budget: int | None = None
+    optimiser: str | None = None
+    aim: Aim = "mean"
+    seed: int = 0
+    threads: int | None = None
+    strict: bool = False
+
+
+def tune(
+    mission: str | os.PathLike[str],
+    goals: str | Goal | Mapping[str, Any] | Iterable[str | Goal],
+    *,
+    changes: Mapping[str, Any] | None = None,
+    controller: str | None = None,
+    progress: TuneProgress | None = None,
+    **how: Any,
+) -> Tuning:
+    """Search values of a mission that make metrics small, and fly them on fresh draws against the present ones.
+
+    A bad outcome counts first: of two candidates, the one with fewer draws that fail, are refused or have no number for
+    a goal is better, whatever the goals say. Then the goals count, each over its target or its present value. Ctrl-C
+    ends the search and keeps the best so far.
+
+    Args:
+        mission: name of a built-in mission, or path of a TOML file.
+        goals: metrics to make small, by their names in metrics.json, of lists also one component, such as
+            "position_rmse_m.2"; or a table of such names with their targets.
+        changes: changes of the mission by dotted key, before the search.
+        controller: name of another controller than the mission's.
+        progress: called after each population; by default, a notebook shows a bar.
+        how: any of
+
+            over: dotted keys, tables or patterns of what to search, with a range [low, high] or a list of words for
+            each if it is a table; by default the gains of the controller.
+            draws: the study whose rows compare candidates, as file or tables, or the number of draws of
+            `default_study`; 8.
+            fresh: number of draws on which old and new are compared in the end; 200.
+            budget: most candidates to try; by default 60 populations; with 0 only the present values fly.
+            optimiser: "cma", or "optuna" for choices and for the front of several goals; by default what suits.
+            aim: whether the "mean" over draws counts, or the "worst"; the mean.
+            seed: of search and draws; 0.
+            threads: that fly; by default one for each processor.
+            strict: whether a flight with findings counts as a bad outcome.
+
+    Returns:
+        What was found, whether it is better or not.
+
+    Raises:
+        InputError: bad input, a package is missing, or no draw can be flown.
+    """
+    if strange := set(how) - set(How._fields):
+        raise unknown("argument of tune", min(strange), How._fields)
+    source = MissionSource(os.fspath(mission), dict(changes or {}), controller)
+    return _tuned(source, goals_from(goals), How(**how), progress)
+
+
+def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: TuneProgress | None) -> Tuning:
+    if how.aim not in ("mean", "worst"):
+        raise unknown("aim", how.aim, ("mean", "worst"))
+    _check_count("--fresh", how.fresh)
+    loaded = source.load()
+    kind, parameters = _parameters(loaded, goals, how)
+    drawn = _drawn(loaded, source, how)
+    compared, unseen = drawn.search_draws(), drawn.other_draws(how.fresh, FRESH_SEED)
+    _check_apart(compared, parameters)
+    goals = tuple(goal.with_targets(drawn.targets) for goal in goals)
+    task, trial = started(Task(source, loaded, parameters, goals, (), (), how.aim, how.threads, how.strict), compared)
+    search = _search(kind, task, how.seed, step=FAR_STEP if trial.bad.all() else FIRST_STEP)
+    budget = POPULATIONS * search.size if how.budget is None else how.budget
+    if budget != 0 and budget < search.size:
+        raise InputError(f"--budget {budget}: must be at least {search.size}, which are tried at a time, or 0")
+    hunt = Hunt(task, compared, budget, (present_values(task), trial), progress)
+    with progress_or_own("Tuning", None, "candidates") as shown:
+        if shown and not progress:
+            hunt.progress = lambda tried, most, cost: shown(tried, most)
+        hunt.run(search, is_front=kind == "optuna")
+    new, costs = hunt.best.values, (hunt.tried[0].cost, hunt.best.cost)
+    if budget and hunt.ended != INTERRUPTED:
+        try:
+            new, costs = choose(hunt, search, drawn.other_draws(TIMES * len(compared), CHOICE_SEED))
+        except KeyboardInterrupt:
+            hunt.ended = INTERRUPTED
+    found = Tuning(
+        task=task,
+        optimiser=kind,
+        seed=how.seed,
+        budget=budget,
+        draws=tuple(compared),
+        fresh=tuple(unseen),
+        old=hunt.tried[0].values,
+        new=new,
+        costs=costs,
+        history=tuple(t.cost for t in hunt.tried),
+        apart=tuple(t.apart for t in hunt.tried),
+        records=hunt.records,
+        ended=hunt.ended,
+        is_finished=hunt.ended != INTERRUPTED,
+        front=front_of(hunt.tried, new) if kind == "optuna" and len(goals) > 1 else (),
+    )
+    return _with_evidence(found) if found.is_finished else found
+
+
+def _with_evidence(found: Tuning) -> Tuning:
+    """The result with what fresh draws say of the new values and of the front; unfinished if Ctrl-C comes."""
+    task = found.task.for_draws(found.fresh)
+    front = [task.changes(point.values) for point in found.front]
+    try:
+        old, new, *others = task.fly([{}, found.changes, *front], found.fresh)
+    except KeyboardInterrupt:
+        return found._replace(ended=INTERRUPTED, is_finished=False)
+    points = [p._replace(fresh=tuple(task.costs_apart(t))) for p, t in zip(found.front, others, strict=True)]
+    return found._replace(evidence=evidence_of(old, new, task.goals, task.scales, task.aim), front=tuple(points))
+
+
+def _parameters(mission: Mission, goals: Sequence[Goal], how: How) -> tuple[str, tuple[Tunable, ...]]:
+    """The optimiser, and the parameters that it searches."""
+    if how.optimiser is not None and how.optimiser not in FACTORS:
+        raise unknown("optimiser", how.optimiser, FACTORS)
+    over = [how.over] if isinstance(how.over, str) else how.over
+    ranges = over if isinstance(over, Mapping) else dict.fromkeys(over)
+    kind = how.optimiser or ("optuna" if len(goals) > 1 else "cma")
+    found = parameters_of(mission, ranges, FACTORS[kind])
+    if how.optimiser is None and any(p.choices for p in found):
+        return "optuna", parameters_of(mission, ranges, FACTORS["optuna"])
+    return kind, found
+
+
+def _search(kind: str, task: Task, seed: int, *, step: float) -> Optimiser:
+    if kind == "cma":
+        return EvolutionSearch(task.parameters, seed, step)
+    from tandemlift.analysis.studies.tuning.optuna_search import EstimatorSearch
+
+    return EstimatorSearch(task.parameters, seed, len(task.goals))
+
+
+def _drawn(mission: Mission, source: MissionSource, how: How) -> DrawSource:
+    """Where draws come from: the study that is given, or the default one."""
+    given = how.draws
+    if not isinstance(given, int):
+        return DrawSource(given, mission.mission.name, source.changes)
+    _check_count("--draws", given)
+    return DrawSource(default_study(mission, source, given, how.seed), mission.mission.name, source.changes)
+
+
+def _check_count(option: str, count: int) -> None:
+    if not 1 <= count <= MOST_DRAWS:
+        raise InputError(f"{option} {count}: must be from 1 to {MOST_DRAWS}")
+
+
+def _check_apart(draws: Sequence[Draw], parameters: Sequence[Tunable]) -> None:
+    """Refuse draws that change what is searched."""
+    for key in sorted({key for draw in draws for key in draw.changes}):
+        for p in parameters:
+            if f"{p.key}.".startswith(f"{key}.") or key.startswith(f"{p.key}."):
+                raise InputError(f"--over {p.key}: the draws change {key}; a key is either searched or drawn")

@@ -1,0 +1,75 @@
+"""`tandemlift template`, `explain` and `schema`: the keys of mission files."""
+
+from __future__ import annotations
+
+import json
+
+import click
+
+from tandemlift.apps.cli.terminal.completion import keys
+from tandemlift.apps.cli.terminal.console import echo
+from tandemlift.apps.cli.terminal.mission_options import chosen_controller
+
+controller_option = click.option(
+    "--controller", metavar="FILE", help="Your own controller (.py file): its keys are included."
+)
+
+
+@click.command()
+def template() -> None:
+    """Print a commented mission file with every key, its unit and its meaning.
+
+    \b
+    Examples:
+      tandemlift template > mine.toml
+      tandemlift run mine.toml
+    """
+    from tandemlift.missions.key_reference.template import template_text
+
+    echo(template_text(), nl=False)
+
+
+@click.command()
+@click.argument("key", required=False, shell_complete=keys)
+@controller_option
+@click.option("--markdown", is_flag=True, help="Print the reference of all keys in Markdown instead.")
+def explain(key: str | None, controller: str | None, markdown: bool) -> None:
+    """Explain a mission KEY: unit, meaning, bounds, default and its source.
+
+    KEY is a dotted key or a table. Without KEY, all tables are listed.
+
+    \b
+    Examples:
+      tandemlift explain compliance.input_bandwidth
+      tandemlift explain pushes.0.force
+      tandemlift explain supervision.watchdog
+      tandemlift explain controller.stiffness --controller my_pd.py
+      tandemlift explain controller --controller my_pd.py
+    """
+    from tandemlift.missions.key_reference.explaining import explained, index
+    from tandemlift.missions.key_reference.markdown import key_tables
+
+    own = "" if controller is None else chosen_controller(controller).name
+    if markdown:
+        echo(key_tables(), nl=False)
+    else:
+        echo(index() if key is None else explained(key, own))
+
+
+@click.command()
+@controller_option
+def schema(controller: str | None) -> None:
+    """Print the JSON Schema of mission files, for TOML editors.
+
+    With the schema, an editor completes keys, shows their meaning and marks errors. Editors that use Taplo (such as
+    Even Better TOML) find it by the first line of the mission file:
+
+    \b
+      tandemlift schema > mission.schema.json
+      #:schema ./mission.schema.json
+    """
+    from tandemlift.missions.key_reference.schema import mission_schema
+
+    if controller is not None:
+        chosen_controller(controller)
+    echo(json.dumps(mission_schema(), indent=2, ensure_ascii=False))

@@ -1,0 +1,199 @@
+"""`tandemlift linearize` and `check`: the closed step of a mission as a linear model; its checks before a flight."""
+
+from __future__ import annotations
+
+import json
+import sys
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tandemlift.apps.cli.terminal.completion import CONTROLLERS, MISSIONS
+from tandemlift.apps.cli.terminal.console import echo
+from tandemlift.apps.cli.terminal.mission_options import (
+    FAILED,
+    chosen_controller,
+    controller_option,
+    load,
+    set_option,
+    style_option,
+)
+from tandemlift.core.errors import FlightWarning, InputError
+from tandemlift.core.files import atomic_write
+
+if TYPE_CHECKING:
+    from tandemlift.analysis.linearization.analysis import Mode, Modes
+    from tandemlift.analysis.linearization.linear_model import LinearModel
+
+MOST_STATES = 1200  # whose eigenvalues are computed within seconds
+FIGURES = (".png", ".pdf", ".svg")
+DRAWN = {"loop": ("push_force", "position"), "body": ("disturbance_force", "position")}
+
+
+@click.command()
+@click.argument("mission", shell_complete=MISSIONS)
+@click.option("--at", type=float, metavar="S", help="Time of the point.  [default: the first calm after lift and tare]")
+@click.option(
+    "--of", type=click.Choice(["loop", "body"]), default="loop", show_default=True, help="Pilot and body, or the body."
+)
+@click.option("--inputs", metavar="NAMES", help="Inputs, separated by commas.  [default: all]")
+@click.option("--outputs", metavar="NAMES", help="Channels, separated by commas.  [default: motion, thrusts, joints]")
+@click.option("--modes", "count", type=click.IntRange(0), default=15, show_default=True, help="Modes that are printed.")
+@click.option("--out", metavar="FILE", help="Write the model to FILE.npz or FILE.json.")
+@click.option("--figure", metavar="FILE", help="Draw modes and frequency response into FILE.png, .pdf or .svg.")
+@style_option
+@set_option
+@controller_option
+def linearize(
+    mission: str,
+    at: float | None,
+    of: str,
+    inputs: str | None,
+    outputs: str | None,
+    count: int,
+    out: str | None,
+    figure: str | None,
+    settings: tuple[str, ...],
+    controller: str | None,
+) -> None:
+    """Fly MISSION to a time, and print the linear model of its step there: modes, kinks, assumptions.
+
+    The model is x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k), of deviations from the flight. Its derivatives are
+    exact. Sensors that are slower than the step are part of it: one sample is their common period.
+
+    \b
+    Examples:
+      tandemlift linearize paper
+      tandemlift linearize iris --at 9 --out iris.npz --figure iris.png
+      tandemlift linearize hover --of body --inputs rotor_thrusts --outputs position,euler
+
+    \b
+    Exit code:
+      0   the model was printed
+      2   bad input: one message, nothing is written
+    """
+    from tandemlift.analysis.linearization.linear_model import ENDINGS
+    from tandemlift.analysis.linearization.linearize import linearize as linearized
+
+    _check_endings("--out", out, ENDINGS)
+    _check_endings("--figure", figure, FIGURES)
+    chosen = None if controller is None else chosen_controller(controller)
+    names = [None if given is None else given.split(",") for given in (inputs, outputs)]
+    model = linearized(load(mission, settings, chosen), at, of=of, inputs=names[0], outputs=names[1])
+    connected = model.connected()
+    _print_model(model, connected, count)
+    if out:
+        model.save(out)
+        echo(f"model: {out}")
+    if figure:
+        _draw(connected, Path(figure))
+        echo(f"figure: {figure}")
+
+
+def _check_endings(option: str, path: str | None, endings: tuple[str, ...]) -> None:
+    if path is not None and Path(path).suffix not in endings:
+        raise InputError(f"{option} {path}: must end with {' or '.join(endings)}")
+
+
+def _print_model(model: LinearModel, connected: LinearModel, count: int) -> None:
+    n, m, p = len(model.states), len(model.inputs), len(model.outputs)
+    echo(f"{model.mission}: the {model.of} at {model.time:g} s, sample time {model.step * 1e3:g} ms")
+    echo(f"  {n} states, of which {len(connected.states)} connect the {m} inputs with the {p} outputs at this point")
+    if count:
+        _print_modes(connected, count)
+    _print_list("kinks", [kink.text for kink in model.kinks] or ["none within 1e-4 of the point"])
+    _print_list("assumptions", model.assumptions)
+
+
+def _print_modes(connected: LinearModel, count: int) -> None:
+    if len(connected.states) > MOST_STATES:
+        echo(f"  modes: not computed for more than {MOST_STATES} states; write the matrices with --out")
+        return
+    modes = _modes(connected)
+    echo(f"  modes, the slowest {min(count, len(modes.modes))} of {len(modes.modes)}:")
+    echo("    time constant  frequency  damping    |z|     states that take part")
+    for mode in modes.modes[:count]:
+        echo(f"    {_line(mode)}")
+    if modes.deadbeat:
+        echo(f"    {modes.deadbeat} more are over after a few samples")
+
+
+def _modes(model: LinearModel) -> Modes:
+    from tandemlift.analysis.linearization.analysis import modes_of
+
+    return modes_of(model)
+
+
+def _line(mode: Mode) -> str:
+    states = ", ".join(f"{name} {100.0 * share:.0f} %" for name, share in mode.states)
+    frequency = f"{mode.frequency:7.3f} Hz" if mode.frequency else " " * 10
+    return f"{mode.time_constant:11.4g} s {frequency}  {mode.damping:7.3f}  {abs(mode.z):.5f}  {states}"
+
+
+def _print_list(title: str, rows: list[str] | tuple[str, ...]) -> None:
+    echo(f"  {title}:")
+    for row in rows:
+        echo(f"    - {row}")
+
+
+def _draw(connected: LinearModel, path: Path) -> None:
+    """Draw the model.
+
+    Raises:
+        InputError: it has too many states.
+    """
+    from tandemlift.pictures.figures.drawing.style import save
+    from tandemlift.pictures.figures.linear_model import draw
+
+    if len(connected.states) > MOST_STATES:
+        raise InputError(f"--figure {path}: {len(connected.states)} states are too many to draw; at most {MOST_STATES}")
+    save(draw(connected, _modes(connected), *DRAWN[connected.of]), path)
+
+
+@click.command()
+@click.argument("mission", shell_complete=MISSIONS)
+@set_option
+@click.option(
+    "--controller",
+    metavar="NAME|FILE",
+    shell_complete=CONTROLLERS,
+    help="Controller to check: a registered one, or your own .py file.",
+)
+@click.option("--strict", is_flag=True, help="Exit with code 3 if a check fails.")
+@click.option("--json", "file", metavar="FILE", help="Write the results to FILE as well.")
+def check(mission: str, settings: tuple[str, ...], controller: str | None, strict: bool, file: str | None) -> None:
+    """Check MISSION before its flight: each number with its limit and margin, and the margins of its control loops.
+
+    What fails by a closed form is warned of whenever the mission is loaded. The loops are those of a calm hover, by a
+    linear model: phase and gain margins of each axis, and the delay and the lag of the rotors at which they oscillate.
+
+    \b
+    Examples:
+      tandemlift check iris
+      tandemlift check iris --set actuators.delay=0.1 --strict
+      tandemlift check mine.toml --json checks.json
+
+    \b
+    Exit code:
+      0   the mission was checked
+      2   bad input: one message, nothing is written
+      3   with --strict: a check fails
+    """
+    from tandemlift.analysis.linearization.mission_check import check as checked
+    from tandemlift.apps.cli.terminal.check_table import print_checks
+
+    chosen = None if controller is None else chosen_controller(controller)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FlightWarning)  # the table says the same
+        loaded = load(mission, settings, chosen)
+    results = checked(loaded)
+    print_checks(results)
+    if file:
+        rows = [{**result._asdict(), "margin": result.margin} for result in results]
+        with atomic_write(Path(file)) as partial:
+            partial.write_text(json.dumps(rows, indent=1, ensure_ascii=False), "utf-8")
+        echo(f"checks: {file}")
+    if strict and any(result.verdict == "fails" for result in results):
+        sys.exit(FAILED)

@@ -1,0 +1,156 @@
+"""The command line: its verbs, and its exit codes on errors."""
+
+from __future__ import annotations
+
+import signal
+import sys
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+import click
+
+from tandemlift.apps.cli.compile import compile
+from tandemlift.apps.cli.completion import completion
+from tandemlift.apps.cli.export import export
+from tandemlift.apps.cli.gazebo import gazebo
+from tandemlift.apps.cli.keys import explain, schema, template
+from tandemlift.apps.cli.linearize import check, linearize
+from tandemlift.apps.cli.live import live
+from tandemlift.apps.cli.pages import page, replay
+from tandemlift.apps.cli.paper import paper
+from tandemlift.apps.cli.render import render
+from tandemlift.apps.cli.report import report
+from tandemlift.apps.cli.ros import ros
+from tandemlift.apps.cli.run import run
+from tandemlift.apps.cli.studies.compare import compare
+from tandemlift.apps.cli.studies.feel import feel
+from tandemlift.apps.cli.studies.study import study
+from tandemlift.apps.cli.studies.tune import tune
+from tandemlift.apps.cli.terminal.console import compile_notices, echo, exit_now, handle_interrupts
+from tandemlift.compiler.machine_code.compile_events import watching
+from tandemlift.core.errors import FlightWarning, InputError, suggestion
+from tandemlift.core.version import __version__
+
+BAD_INPUT = 2
+INTERRUPTED = 130  # as shells report it
+
+
+class Commands(click.Group):
+    """A group that lists its verbs in the order in which they were added, and suggests the nearest one."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """The verbs as they were added."""
+        return list(self.commands)
+
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
+        """As click does; a misspelt verb is answered with the list of verbs and the nearest one."""
+        verb = args[0] if args else ""
+        if verb and not ctx.resilient_parsing and not verb.startswith("-") and self.get_command(ctx, verb) is None:
+            verbs = self.list_commands(ctx)
+            ctx.fail(f"No such command {verb!r}; there are {', '.join(verbs)}.{suggestion(verb, verbs)}")
+        return super().resolve_command(ctx, args)
+
+
+@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="tandemlift")
+def cli() -> None:
+    """Simulate quadrotors that carry a load together, steered by a person who pushes it.
+
+    \b
+    Fly a mission:    tandemlift run paper
+    Change a key:     tandemlift run paper --set controller.switching=saturation
+    Your mission:     tandemlift template > mine.toml
+                      tandemlift run mine.toml
+    Explain a key:    tandemlift explain admittance.damping
+    Your controller:  tandemlift run mine.toml --controller my_pd.py
+    """
+
+
+cli.add_command(run)
+cli.add_command(compare)
+cli.add_command(render)
+cli.add_command(live)
+cli.add_command(page)
+cli.add_command(replay)
+cli.add_command(gazebo)
+cli.add_command(ros)
+cli.add_command(study)
+cli.add_command(tune)
+cli.add_command(linearize)
+cli.add_command(check)
+cli.add_command(feel)
+cli.add_command(export)
+cli.add_command(compile)
+cli.add_command(report)
+cli.add_command(paper)
+
+
+def _print_table(rows: Mapping[str, str]) -> None:
+    width = max(map(len, rows)) + 2
+    for name, summary in rows.items():
+        echo(f"{name:{width}}{summary}")
+
+
+@cli.command()
+def missions() -> None:
+    """List the built-in missions."""
+    from tandemlift.missions import built_in
+
+    _print_table(built_in())
+
+
+cli.add_command(template)
+cli.add_command(explain)
+cli.add_command(schema)
+cli.add_command(completion)
+
+
+@cli.command()
+def controllers() -> None:
+    """List the controllers."""
+    from tandemlift.parts.controllers import CONTROLLERS
+
+    _print_table({name: c.summary for name, c in sorted(CONTROLLERS.items())})
+
+
+@cli.command()
+def engines() -> None:
+    """List the engines."""
+    from tandemlift.engines.registry import ENGINES
+
+    _print_table({name: e.summary for name, e in ENGINES.items()})
+
+
+_shown: set[str] = set()
+
+
+def _show_warning(message: Warning | str, *_: Any, **__: Any) -> None:
+    if str(message) not in _shown:
+        _shown.add(str(message))
+        click.echo(f"warning: {message}", err=True)
+
+
+def main() -> None:
+    """Run the command line: bad input ends with one message and exit code 2, never with a traceback."""
+    warnings.simplefilter("always", FlightWarning)
+    warnings.showwarning = _show_warning
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: what was started is ended too
+    if hasattr(sys.stdout, "reconfigure"):
+        sys.stdout.reconfigure(errors="replace")  # a terminal that lacks a character shows '?'
+    handle_interrupts()
+    try:
+        with watching(compile_notices):
+            sys.exit(cli.main(prog_name="tandemlift", standalone_mode=False))
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("stopped; nothing more is written", err=True)
+        exit_now(INTERRUPTED)
+    except InputError as error:
+        click.echo(f"error: {error}", err=True)
+        sys.exit(BAD_INPUT)
+    except OSError as error:
+        click.echo(f"error: {error.filename or ''}: {error.strerror or error}".replace(": : ", ": "), err=True)
+        sys.exit(BAD_INPUT)

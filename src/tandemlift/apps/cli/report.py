@@ -1,0 +1,119 @@
+"""`tandemlift report`: figures and report of a saved flight, of a bag or of a study."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tandemlift.apps.cli.terminal.completion import FLIGHTS
+from tandemlift.apps.cli.terminal.console import echo
+from tandemlift.apps.cli.terminal.mission_options import kept_style_option
+from tandemlift.apps.cli.terminal.results import FIGURES, flight_file, html_path, results_folder, write_flight
+from tandemlift.core.errors import InputError
+
+if TYPE_CHECKING:
+    from tandemlift.flight.record import Flight
+
+BAGS = (".bag", ".mcap")
+
+
+@click.command()
+@click.argument("flight", shell_complete=FLIGHTS)
+@click.option(
+    "--out",
+    metavar="PATH",
+    help="Folder for the results; of a study the HTML file.  [default: that of the flight; of a bag out/NAME; of a "
+    "study report.html in its folder]",
+)
+@click.option("--no-figures", is_flag=True, help="Draw no figures.")
+@kept_style_option
+@click.option(
+    "--for",
+    "metrics",
+    multiple=True,
+    metavar="METRIC",
+    help="Show this metric of a study, such as position_rmse_m. Can be repeated.  [default: what suits its missions]",
+)
+def report(flight: str, out: str | None, no_figures: bool, style: str | None, metrics: tuple[str, ...]) -> None:
+    """Draw the figures and write the report of a saved flight, of a bag or of a study.
+
+    FLIGHT is flight.npz or its folder, or a bag of ROS 1 (.bag) or ROS 2 (.mcap, or its folder) with the topics of
+    docs/reference/export.md: an exported one, or one recorded during a flight by `rosbag record` or `ros2 bag record`.
+    Or it is the folder of a study, which may still fly: docs/reference/studies.md says what its report shows.
+
+    \b
+    Examples:
+      tandemlift report flight.bag
+      tandemlift report out/zigzag --out out/again
+      tandemlift report out/gusts --for human_work_j
+      tandemlift report out/iris --style slides
+
+    \b
+    Files in the results folder: those of `tandemlift run`. Other files there are left alone. The metrics of a bag are
+    computed from its samples. Beside the report of a study: outcomes.csv and outcomes.tex; with --style also its
+    figures (PNG and PDF) in figures/.
+
+    \b
+    Exit code:
+      0   the report was written
+      2   bad input: one message, nothing is written
+    """
+    if _is_study(Path(flight)):
+        _report_study(Path(flight), out, metrics, no_figures=no_figures, keep=style is not None)
+        return
+    if metrics:
+        raise InputError(f"--for {metrics[0]}: {flight} is no study; the report of a flight shows all metrics")
+    loaded, default = _load(flight)
+    with results_folder(out, default) as folder:
+        echo(repr(loaded).strip("<>"))
+        write_flight(loaded, folder, figures=not no_figures)
+        echo(f"  report: {folder / 'report.html'}")
+
+
+def _is_study(path: Path) -> bool:
+    """Whether a folder is that of a study, be it damaged."""
+    from tandemlift.analysis.studies.units.store import PLAN, STUDY
+
+    return (path / PLAN).is_file() or (path / STUDY).is_file()
+
+
+def _report_study(folder: Path, out: str | None, metrics: tuple[str, ...], *, no_figures: bool, keep: bool) -> None:
+    """Write the report of a study.
+
+    Raises:
+        InputError: an option does not suit a study, or the study cannot be read.
+    """
+    if no_figures:
+        raise InputError("--no-figures: the report of a study has its figures in it")
+    path = folder / "report.html" if out is None else html_path("--out", out)
+    from tandemlift.analysis.studies.reading.table import load_study
+    from tandemlift.pictures.report.study.study_report import write_study_report
+
+    loaded = load_study(folder)
+    echo(repr(loaded).strip("<>"))
+    echo(f"  report: {write_study_report(loaded, path, metrics, path.parent / FIGURES if keep else None)}")
+
+
+def _load(given: str) -> tuple[Flight, Path]:
+    """Load the flight; the flight, and the default folder of its report.
+
+    Raises:
+        InputError: there is no such flight.
+    """
+    from tandemlift.apps.export.reading import read_bag
+    from tandemlift.flight.record import Flight
+
+    path = Path(given)
+    if path.suffix.lower() in BAGS or (path / "metadata.yaml").exists():
+        if not path.exists():
+            raise InputError(f"{given}: there is no such file")
+        return read_bag(path), Path("out") / path.stem
+    folder, saved = flight_file(given)
+    if saved is None:
+        raise InputError(
+            f"{given}: must be flight.npz, its folder, a bag (.bag, .mcap, or the folder of a ROS 2 bag), or the "
+            "folder of a study"
+        )
+    return Flight.load(saved), folder

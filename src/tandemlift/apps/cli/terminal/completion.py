@@ -1,0 +1,84 @@
+"""What shells complete in an argument or option, given to it as `shell_complete=`.
+
+It reads names and folders, and never flies, compiles or writes.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+import click
+from click.shell_completion import CompletionItem
+
+from tandemlift.apps.cli.terminal.words import known_words
+
+Completion = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
+
+
+def names(*kinds: str, files: Iterable[str] = ()) -> Completion:
+    """Completes words of some kinds (`words`), folders, and files with some endings."""
+
+    def complete(_: click.Context, __: click.Parameter, begun: str) -> list[CompletionItem]:
+        known = [item for kind in kinds for item in known_words()[kind].items()]
+        return _beginning_with(begun, known) + (_paths(begun, tuple(files)) if files else [])
+
+    return complete
+
+
+def separated(complete: Completion) -> Completion:
+    """Completes the last of several words that are separated by commas."""
+
+    def complete_last(ctx: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+        before, comma, last = begun.rpartition(",")
+        found = complete(ctx, parameter, last)
+        return [CompletionItem(f"{before}{comma}{item.value}", help=item.help) for item in found]
+
+    return complete_last
+
+
+def settings(_: click.Context, __: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Completes KEY= of a mission's keys, one table at a time."""
+    return [] if "=" in begun else _dotted(begun, "=")
+
+
+def keys(_: click.Context, __: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Completes keys and tables of missions, one table at a time."""
+    tables = {name: text for name, text in known_words()["table"].items() if name == begun}
+    return _beginning_with(begun, tables.items()) + _dotted(begun, "")
+
+
+def _beginning_with(begun: str, known: Iterable[tuple[str, str]]) -> list[CompletionItem]:
+    return [CompletionItem(name, help=text) for name, text in known if name.startswith(begun)]
+
+
+def _dotted(begun: str, end: str) -> list[CompletionItem]:
+    """Dotted keys, up to the next dot; a whole key is followed by `end`."""
+    depth, words = begun.count("."), known_words()
+    found: dict[str, str] = {}
+    for name, text in words["key"].items():
+        parts = name.split(".")
+        if name.startswith(begun) and len(parts) > depth:
+            short = ".".join(parts[: depth + 1])
+            whole = len(parts) == depth + 1
+            found.setdefault(short + (end if whole else "."), text if whole else words["table"].get(short, ""))
+    return _beginning_with("", found.items())
+
+
+def _paths(begun: str, endings: tuple[str, ...]) -> list[CompletionItem]:
+    """Folders, and files with some endings, whose path begins so; nothing of what cannot be read."""
+    folder, name = os.path.split(begun)
+    try:
+        entries = sorted(Path(os.path.expanduser(folder) or ".").iterdir())
+    except OSError:
+        return []
+    shown = [entry for entry in entries if entry.name.startswith(name) and (name or not entry.name.startswith("."))]
+    texts = [(os.path.join(folder, entry.name), entry.is_dir()) for entry in shown]
+    return [CompletionItem(text + "/" * is_folder) for text, is_folder in texts if is_folder or text.endswith(endings)]
+
+
+MISSIONS = names("mission", files=[".toml", ".zip"])
+FLIGHTS = names(files=[".npz", ".zip", ".mcap", ".bag"])
+FLIGHTS_AND_MISSIONS = names("mission", files=[".npz", ".zip", ".toml"])
+CONTROLLERS = names("controller", files=[".py"])

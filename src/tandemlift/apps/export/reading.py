@@ -1,0 +1,209 @@
+"""A flight from a bag: one that `export` wrote, or one that was recorded of our topics while it was flown.
+
+Samples are those of `/tandemlift/odometry`, by the stamps of its messages. Of another topic a sample has the message of
+the same stamp, or else, if that was lost, the last one before it.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tandemlift.apps.export.coordinate_frames import eulers
+from tandemlift.apps.export.messages import NUMBERS, SECOND
+from tandemlift.apps.export.recipes import MeasuredPose, Recipe
+from tandemlift.apps.export.topics import (
+    ALWAYS,
+    DIAGNOSTICS,
+    JOINTS,
+    MISSION,
+    PILOT,
+    ROOT,
+    SOMETIMES,
+    all_recipes,
+    topics_from,
+)
+from tandemlift.core.errors import InputError
+from tandemlift.core.extras import extra
+from tandemlift.core.settings.mission import check_keys
+from tandemlift.core.toml import toml_tables
+from tandemlift.core.types import Array
+from tandemlift.flight.channels import CHANNELS
+from tandemlift.flight.record import LATE, Flight
+from tandemlift.parts.vehicle import Vehicle
+
+BASE = f"{ROOT}/odometry"
+VALUES = f"{ROOT}/pilot"
+PILOT_SAYS = "tandemlift: pilot"  # the name in diagnostics of what happens
+Stamped = dict[int, Any]  # messages by their stamps [ns]
+
+
+def read_bag(path: str | os.PathLike[str]) -> Flight:
+    """The flight that a bag holds.
+
+    Its metrics are formed from its samples, not from every step.
+
+    Args:
+        path: of a ROS 1 bag (.bag), a ROS 2 bag in one file (.mcap), or the folder of a ROS 2 bag.
+
+    Raises:
+        InputError: it cannot be read, a package is missing, or it does not hold our topics.
+    """
+    path = Path(path)
+    try:
+        said = _messages(path)
+    except InputError:
+        raise
+    except Exception as error:  # whatever a file of any content can do to its reader
+        raise InputError(f"{path}: cannot be read as a bag ({error})") from error
+    if not said[BASE]:
+        there = ", ".join(sorted(t for t in said if said[t])) or "none"
+        raise InputError(f"{path}: has no {BASE}, whose messages are the samples; it has {there}")
+    return _flight(path, said)
+
+
+def _flight(path: Path, said: dict[str, Stamped]) -> Flight:
+    stamps = np.array(sorted(said[BASE]))
+    mission = _mission(path, said[MISSION.name])
+    time = (stamps - stamps[0]) / SECOND
+    vehicle = Vehicle.from_mission(mission)
+    channels = _channels(said, stamps, vehicle)
+    missing = [name for recipe in ALWAYS for name in recipe.needs if name not in channels]
+    if missing:
+        raise InputError(f"{path}: lacks the topics of {', '.join(missing)}, which every flight has")
+    flight = Flight(time, {name: channels[name] for name in CHANNELS if name in channels}, mission, {})
+    topics_from(flight, vehicle)  # complains of what is not whole
+    return Flight(time, flight.channels, mission, _metrics(flight, _events(said[DIAGNOSTICS.name], int(stamps[0]))))
+
+
+def _mission(path: Path, said: Stamped) -> dict[str, Any]:
+    """The mission as it was in the end."""
+    if not said:
+        raise InputError(f"{path}: has no {MISSION.name}, the mission that was flown")
+    try:
+        tables = toml_tables(said[max(said)].data)
+        check_keys(tables)
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{path}: {MISSION.name} is no mission: {error}") from error
+    return tables
+
+
+def _messages(path: Path) -> dict[str, Stamped]:
+    """The messages of all topics that are read, by topic; of those without a stamp, by when they came."""
+    found: dict[str, Stamped] = defaultdict(dict)
+    for topic, at, message in _opened(path):
+        header = getattr(message, "header", None)
+        stamp = header.stamp.sec * SECOND + header.stamp.nanosec if header else at
+        if topic == DIAGNOSTICS.name:
+            found[topic].setdefault(stamp, []).append(message)
+        else:
+            found[topic][stamp] = message
+    return found
+
+
+def _is_read(topic: str) -> bool:
+    ours = topic.startswith(f"{ROOT}/") and "/markers/" not in topic and not topic.endswith("path")
+    return ours or topic == DIAGNOSTICS.name
+
+
+def _opened(path: Path) -> Iterator[tuple[str, int, Any]]:
+    """Topic, time [ns] and message of everything that is read."""
+    with extra("export", "a bag"):
+        from rosbags import typesys
+        from rosbags.highlevel import AnyReader
+        from rosbags.rosbag2.storage_mcap import McapReader
+    store = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
+    if path.suffix.lower() == ".mcap":
+        reader = McapReader(path)
+        reader.open()
+        try:
+            wanted = [c for c in reader.connections if _is_read(c.topic)]
+            for connection, at, data in reader.messages(wanted):
+                yield connection.topic, at, store.deserialize_cdr(data, connection.msgtype)
+        finally:
+            reader.close()
+        return
+    with AnyReader([path], default_typestore=store) as reader:
+        for connection, at, data in reader.messages([c for c in reader.connections if _is_read(c.topic)]):
+            yield connection.topic, at, reader.deserialize(data, connection.msgtype)
+
+
+def _channels(said: dict[str, Stamped], stamps: Array, vehicle: Vehicle) -> dict[str, Array]:
+    """The channels of all topics that there are."""
+    there = {name for r in (*ALWAYS, *SOMETIMES) if said[f"{ROOT}/{r.name}"] for name in r.needs}
+    there |= set(JOINTS[1][1:3]) if said[f"{ROOT}/joint_1/measured"] else set()
+    there |= {name.partition(".")[0] for m in list(said[VALUES].values())[:1] for name in m.name} & {*PILOT}
+    parts: dict[str, list[Array]] = defaultdict(list)
+    seen = MeasuredPose(np.zeros((0, 4)), vehicle)
+    for recipe in all_recipes(there, vehicle):
+        if not said[f"{ROOT}/{recipe.name}"]:
+            continue
+        found = recipe.back(_rows(recipe, said[f"{ROOT}/{recipe.name}"], stamps), seen)
+        seen = seen._replace(attitude=found["attitude"]) if "attitude" in found else seen
+        for name, values in found.items():
+            parts[name].append(values)
+    return {"euler": eulers(seen.attitude)} | {
+        name: np.hstack(p) if "joint_" in name else p[0] for name, p in parts.items()
+    }
+
+
+def _rows(recipe: Recipe, said: Stamped, stamps: Array) -> Array:
+    """The numbers of a topic at some stamps; NaN before its first message."""
+    own = np.array(sorted(said))
+    numbers = np.array([_numbers(recipe, said[stamp]) for stamp in own.tolist()], dtype=np.float64)
+    last = np.searchsorted(own, stamps, side="right") - 1
+    rows = numbers[np.maximum(last, 0)]
+    rows[last < 0] = np.nan
+    return rows
+
+
+def _numbers(recipe: Recipe, message: Any) -> list[float]:
+    """The numbers of a message as its recipe takes them: those that have names by their names."""
+    numbers = NUMBERS[recipe.kind](message)
+    if not recipe.labels:
+        return numbers
+    named = dict(zip(message.name, numbers, strict=True))
+    return [named.get(label, np.nan) for label in recipe.labels]
+
+
+def _events(said: Stamped, first: int) -> list[list[Any]]:
+    """When [s] what happened: phases, refusals and alarms."""
+    return [
+        [round((stamp - first) / SECOND, 6), status.message]
+        for stamp in sorted(said)
+        for message in said[stamp]
+        for status in message.status
+        if status.name == PILOT_SAYS
+    ]
+
+
+def _metrics(flight: Flight, events: list[list[Any]]) -> dict[str, Any]:
+    """What can be said from samples alone; None where there are none."""
+    error, late = flight["position_error"], flight.time >= LATE
+    after = error[late] if flight.time[-1] > LATE else error[:0]
+
+    def over(values: Array, of: Any) -> list[float] | None:
+        return [float(v) for v in of(values)] if len(values) and np.isfinite(values).all() else None
+
+    def rms(values: Array) -> Array:
+        return np.sqrt(np.mean(values**2, axis=0))
+
+    def most(values: Array) -> Array:
+        return np.abs(values).max(axis=0)
+
+    return {
+        "position_rmse_m": over(error, rms),
+        "position_rmse_after_10s_m": over(after, rms),
+        "position_max_error_m": over(error, most),
+        "position_max_error_after_10s_m": over(after, most),
+        "attitude_rmse_rad": over(flight["attitude_error"], rms),
+        "final_position_m": over(flight["position"][-1:], lambda v: v[0]),
+        "final_reference_m": over(flight["reference_position"][-1:], lambda v: v[0]),
+        "samples": len(flight.time),
+        "events": events,
+    }

@@ -1,0 +1,118 @@
+"""A flight as a file of other tools: a ROS 2 bag (MCAP), a ROS 1 bag, or a table (CSV); a mission as a model of others.
+
+Both bags hold the same topics, `topics.py`; a table holds every channel. A mission becomes a world of Gazebo (SDF) or a
+MuJoCo model (MJCF). The same flight or mission gives the same bytes, with the same versions of the packages that write
+them.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+from tandemlift.apps.export.bags import write_bag, write_mcap
+from tandemlift.apps.export.csv_file import write_csv
+from tandemlift.core.errors import InputError
+from tandemlift.core.files import atomic_write
+from tandemlift.flight.record import Flight
+from tandemlift.missions import Mission, check
+
+FORMATS: dict[str, Callable[[Flight, Path], None]] = {".mcap": write_mcap, ".bag": write_bag, ".csv": write_csv}
+WORLD, MODEL = ".sdf", ".xml"
+OF_FLIGHT = ".mcap (ROS 2 bag), .bag (ROS 1 bag) or .csv (table)"
+OF_MISSION = ".sdf (Gazebo world) or .xml (MuJoCo model)"
+ENDINGS = f"must end in {OF_FLIGHT}, or for a mission in {OF_MISSION}"
+
+
+def export(what: Flight | Mission, path: str | os.PathLike[str], *, plugin: int | str | None = None) -> Path:
+    """Write a flight or a mission to a file whose ending tells the format; it appears whole or not at all.
+
+    Args:
+        what: a flight, also one that diverged; or a mission. Of a flight, a world and a model are those of its mission.
+        path: of the file: .mcap, .bag or .csv of a flight, .sdf or .xml of either; its folder is made if it does not
+            exist.
+        plugin: of a world, the port of Gazebo's plugin, or "ros" for the one that is led over ROS 1; without it the
+            world has no plugin.
+
+    Returns:
+        The path.
+
+    Raises:
+        InputError: the ending is none of these, a package is missing, the flight lacks a channel, the mission's vehicle
+            cannot be such a model, or the file cannot be written.
+    """
+    path = Path(path)
+    write = _writer(what, path, plugin)
+    try:
+        if path.is_dir():
+            raise IsADirectoryError(None, "it is a folder")
+        with atomic_write(path) as partial:
+            write(partial)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {error.strerror or error}") from error
+    return path
+
+
+def ending_from(path: Path) -> str:
+    """The ending of a file's name, in small letters.
+
+    Raises:
+        InputError: it is of no format that there is.
+    """
+    ending = path.suffix.lower()
+    if ending not in (*FORMATS, WORLD, MODEL):
+        raise InputError(f"{path}: {ENDINGS}")
+    return ending
+
+
+def is_model(path: Path) -> bool:
+    """Whether a file of this name is a model of a mission, or else data of a flight.
+
+    Raises:
+        InputError: its ending is of no format that there is.
+    """
+    return ending_from(path) in (WORLD, MODEL)
+
+
+def _writer(what: Flight | Mission, path: Path, plugin: int | str | None) -> Callable[[Path], None]:
+    """What writes it to a path.
+
+    Raises:
+        InputError: it cannot be such a file.
+    """
+    ending = ending_from(path)
+    _check_plugin(plugin, path)
+    if is_model(path):
+        mission = what if isinstance(what, Mission) else check(what.mission, f"flight {what.name!r}")
+        text = _model(mission, ending, plugin)
+        return lambda partial: _write_text(text, partial)
+    if isinstance(what, Mission):
+        raise InputError(f"{path}: mission {what.mission.name!r} is no flight: fly it, or write {OF_MISSION}")
+    if not len(what.time):
+        raise InputError(f"flight {what.name!r} has no sample to export")
+    return lambda partial: FORMATS[ending](what, partial)
+
+
+def _check_plugin(plugin: int | str | None, path: Path) -> None:
+    if plugin is None:
+        return
+    if ending_from(path) != WORLD:
+        raise InputError(f"{path}: only a world, {WORLD}, has a plugin")
+    if plugin != "ros" and not (isinstance(plugin, int) and 1 <= plugin <= 65535):
+        raise InputError(f"plugin = {plugin}: must be a port, from 1 to 65535, or 'ros'")
+
+
+def _model(mission: Mission, ending: str, plugin: int | str | None) -> str:
+    """The text of a mission's world or model."""
+    if ending == WORLD:
+        from tandemlift.engines.models.sdf import world
+
+        return world(mission, plugin)
+    from tandemlift.engines.models.mjcf import model_text
+
+    return model_text(mission)
+
+
+def _write_text(text: str, path: Path) -> None:
+    path.write_text(text, "utf-8", newline="\n")

@@ -1,0 +1,144 @@
+"""From a page's text to the flight and back: read, checked against who holds the beam, applied, answered."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Sequence
+from typing import Protocol
+
+from tandemlift.apps.live.viewers import Viewer, Viewers
+from tandemlift.apps.live.wire.page_messages import (
+    GrabMessage,
+    KillMessage,
+    MoveMessage,
+    PageMessage,
+    PingMessage,
+    ResetMessage,
+    RestoreMessage,
+    SaveMessage,
+    SetMessage,
+    TareMessage,
+)
+from tandemlift.apps.live.wire.reading import Refusal, read_message, subject_of
+from tandemlift.apps.live.wire.scene import FlightScene
+from tandemlift.apps.live.wire.server_messages import Answer, FlightStatus, PongMessage
+from tandemlift.core.errors import InputError
+
+MAX_WAITING = 16  # changes that wait for their turn
+SLOW = (SetMessage, RestoreMessage, TareMessage, KillMessage, ResetMessage, SaveMessage)  # may compile or write
+
+log = logging.getLogger(__name__)
+
+
+class LiveFlight(Protocol):
+    """A flight that goes on while people watch; its methods may be called from any thread.
+
+    There is a scene, a frame and a status from the beginning, also while the flight is still being prepared.
+
+    Attributes:
+        generation: grows with every reset, after which `scene` is a new one.
+    """
+
+    generation: int
+
+    @property
+    def scene(self) -> FlightScene:
+        """What a page must know before frames mean anything."""
+
+    def start(self) -> None:
+        """Begin to prepare and to fly, in a thread of its own."""
+
+    def stop(self) -> None:
+        """End that thread, at once."""
+
+    def frame(self) -> bytes:
+        """The latest frame."""
+
+    def status(self) -> FlightStatus:
+        """The state of the flight in words, and how it keeps up with the clock."""
+
+    def apply(self, message: PageMessage) -> Sequence[Answer]:
+        """Do what a message says; what to answer to its sender, or to all if parameters have changed.
+
+        Raises:
+            InputError: it cannot be done; the text says why.
+        """
+
+    def release(self) -> None:
+        """Release the beam."""
+
+
+class Dispatcher:
+    """Passes messages of viewers to a flight, and its answers to viewers.
+
+    Args:
+        flight: what is flown.
+        viewers: all who watch, and who of them holds the beam.
+    """
+
+    def __init__(self, flight: LiveFlight, viewers: Viewers) -> None:
+        self._flight, self._viewers = flight, viewers
+        self._changing, self._saving = asyncio.Lock(), asyncio.Lock()
+        self._tasks = set[asyncio.Task[None]]()
+
+    def receive(self, viewer: Viewer, text: str | bytes) -> None:
+        """Handle a text of a viewer, or say why it is refused."""
+        try:
+            message = read_message(text)
+            if isinstance(message, GrabMessage):
+                viewer.last_grab = message.seq
+            if isinstance(message, PingMessage):
+                viewer.send(PongMessage(type="pong", t=message.t))
+            elif isinstance(message, SLOW):
+                self._start_change(viewer, message)
+            elif self._viewers.admits(viewer, message):
+                self._answer(viewer, self._apply(message))
+                self._viewers.note(viewer, message)
+                if isinstance(message, MoveMessage):
+                    viewer.echo(self._flight.frame)
+        except Refusal as refusal:
+            viewer.refuse(refusal)
+
+    def cancel(self) -> None:
+        """Give up the changes that wait."""
+        for task in self._tasks:
+            task.cancel()
+
+    def _apply(self, message: PageMessage) -> Sequence[Answer]:
+        """What the flight answers.
+
+        Raises:
+            Refusal: it cannot do what the message says.
+        """
+        try:
+            return self._flight.apply(message)
+        except InputError as error:
+            raise Refusal(subject_of(message), str(error)) from error
+        except Exception as error:
+            log.exception("%s failed", subject_of(message))
+            raise Refusal(subject_of(message), f"an error in tandemlift: {error!r}"[:300]) from error
+
+    def _answer(self, viewer: Viewer, answers: Sequence[Answer]) -> None:
+        for answer in answers:
+            if answer["type"] in ("changed", "scene"):
+                self._viewers.send(answer)
+            elif answer["type"] == "refused":
+                viewer.refuse(Refusal(answer["what"], answer["reason"]))
+            else:
+                viewer.send(answer)
+
+    def _start_change(self, viewer: Viewer, message: PageMessage) -> None:
+        """Make a change that may take long in another thread, one after another; the hand does not wait for it."""
+        if len(self._tasks) >= MAX_WAITING:
+            raise Refusal(subject_of(message), f"{MAX_WAITING} changes are waiting already")
+        task = asyncio.create_task(self._change(viewer, message))
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    async def _change(self, viewer: Viewer, message: PageMessage) -> None:
+        async with self._saving if isinstance(message, SaveMessage) else self._changing:
+            try:
+                self._answer(viewer, await asyncio.to_thread(self._apply, message))
+            except Refusal as refusal:
+                viewer.refuse(refusal)

@@ -1,0 +1,73 @@
+"""A saved flight played again in the live page: its scene and frames are data in the page itself.
+
+A page that has an element with the id `flight` plays the data in it and opens no socket.
+"""
+
+from __future__ import annotations
+
+import base64
+import math
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.apps.live.self_contained import data_element, in_one_file, page_text, with_data
+from tandemlift.apps.live.session.frame_values import arrays_of, components_of, field_values, phase_times
+from tandemlift.apps.live.session.scene_builder import scene_of_tables
+from tandemlift.apps.live.session.status import scene_ending
+from tandemlift.apps.live.wire.frames import RATE, layout_for, pack_frames
+from tandemlift.apps.live.wire.scene import FlightScene, SceneReplay
+from tandemlift.core.types import Array
+from tandemlift.flight.record import Flight
+from tandemlift.pictures.rendering.stage import FlightStage
+
+MAX_FRAMES = 36_000  # ten minutes at the full rate; a longer flight has fewer frames a second
+OFFLINE = (
+    "default-src 'none'; script-src 'sha256-{script}'; style-src 'unsafe-inline'; img-src data: blob:; "
+    "media-src blob:; base-uri 'none'; form-action 'none'"
+)
+
+
+def scene_and_frames(flight: Flight) -> tuple[FlightScene, NDArray[np.float32]]:
+    """The scene of a flight and its frames (count, width): samples of its log, 60 a second at most.
+
+    Raises:
+        InputError: nothing of the flight can be shown.
+    """
+    stage = FlightStage(flight)
+    shown = np.flatnonzero(np.isin(flight.time, stage.time))
+    shown = shown[:: _stride(flight.time[shown])]
+    channels = {name: components_of(flight[name][shown]) for name in flight.channels}
+    values = arrays_of(field_values(channels, flight.time[shown], phase_times(flight.mission["phases"])))
+    frames = pack_frames(layout_for(stage.vehicle.rotor_count), values, len(shown))
+    scene = scene_of_tables(flight.mission, stage.vehicle, flight.version.get("engine", ""), stage.floor)
+    start, end = (float(flight.time[shown[i]]) for i in (0, -1))
+    ending = scene_ending(flight.ending, flight["position"][shown[-1]])
+    scene["replay"] = SceneReplay(start=start, end=end, speed=1, ending=ending)
+    return scene, frames
+
+
+def replay_files(flight: Flight, files: Mapping[str, bytes]) -> dict[str, bytes]:
+    """The files of the page, with a flight in its data element."""
+    html = with_data(page_text(files, "/index.html"), replay_element(flight)).encode()
+    return {**files, "/": html, "/index.html": html}
+
+
+def replay_html(flight: Flight, files: Mapping[str, bytes]) -> str:
+    """One self-contained page that plays a flight; its policy allows it no network."""
+    return in_one_file(with_data(page_text(files, "/index.html"), replay_element(flight)), files, OFFLINE)
+
+
+def replay_element(flight: Flight, every: int = 1) -> str:
+    """The element with scene and frames; `every`: n of 'every n-th frame'."""
+    scene, frames = scene_and_frames(flight)
+    return data_element("flight", {"scene": scene, "frames": base64.b64encode(frames[::every].tobytes()).decode()})
+
+
+def _stride(time: Array) -> int:
+    """The n of 'every n-th sample is shown'."""
+    if len(time) < 2:
+        return 1
+    interval = float(np.median(np.diff(time)))
+    return max(1, math.ceil(1.0 / (RATE * interval) - 1e-6), math.ceil(len(time) / MAX_FRAMES))

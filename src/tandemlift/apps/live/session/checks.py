@@ -1,0 +1,151 @@
+"""What is allowed in flight: touching the vehicle, asking its pilot, taring its force sensors; and which rotors failed.
+
+A tare in flight takes what the force sensors read in hover, without a push, as their bias.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+from tandemlift.apps.live.session import refusal_texts as texts
+from tandemlift.apps.live.wire.scene import SceneVehicle
+from tandemlift.core.algebra.ops import sqrt, where
+from tandemlift.core.algebra.vector import ZERO, Vec3, dot
+from tandemlift.core.errors import InputError
+from tandemlift.core.phases import CONTACT, GUIDED, HOLD, PHASE_NAMES
+from tandemlift.missions import Mission
+from tandemlift.simulation.interactive.recorded_flight import RecordedFlight
+
+TARE = "estimator.tare_start"
+HOVER_TIME = ("memory", "guidance", "phase", "hover_time")  # of a flight's state
+TARE_NOTICE = 1.0  # s, from the request until a tare begins: to prepare it, and to let go
+
+
+ALLOWED, TARED_IN_HOVER, TARED_UNTIL, BESIDE = 0.0, 1.0, 2.0, 3.0  # whether a push is, and else why not
+
+
+class TouchRule(NamedTuple):
+    """When and where a vehicle may be pushed.
+
+    Attributes:
+        reach: farthest point from the centre of mass [m].
+        tare_duration: hover that the tare of its force sensors takes, if the pilot tares by itself [s]; else 0.
+        tare_end: when a tare at a set time ends [s]; 0 without one.
+    """
+
+    reach: Any
+    tare_duration: Any
+    tare_end: Any
+
+
+def touch_rule(mission: Mission, vehicle: SceneVehicle) -> TouchRule:
+    """The rule of a mission as it is now."""
+    tare, start = mission.estimator, mission.estimator.tare_start
+    reach = max(_reaches(vehicle))
+    if mission.pilot.push == "truth" or (tare.tare != "hover" and start is None):
+        return TouchRule(reach, 0.0, 0.0)
+    if tare.tare == "hover":
+        return TouchRule(reach, tare.tare_duration, 0.0)
+    assert start is not None
+    return TouchRule(reach, 0.0, start + tare.tare_duration)
+
+
+def touch_refusal(rule: TouchRule, at: Any, hover_time: Any, point: Vec3) -> Any:
+    """Why a push is refused, as a number; `ALLOWED` if it is not.
+
+    Args:
+        rule: of the mission as it is now.
+        at: time [s].
+        hover_time: for which the vehicle has hovered [s].
+        point: of the push [m, body axes].
+    """
+    beside = where(sqrt(dot(point, point)) > rule.reach, BESIDE, ALLOWED)
+    tared_until = where(at < rule.tare_end, TARED_UNTIL, beside)
+    return where(hover_time < rule.tare_duration, TARED_IN_HOVER, tared_until)
+
+
+def touch_texts(rule: TouchRule) -> dict[float, str]:
+    """The texts of the refusals, complete but for the point."""
+    beside = texts.BESIDE.format(point="{point}", reach=rule.reach)
+    tared_until = texts.TARED_UNTIL.format(end=rule.tare_end)
+    return {TARED_IN_HOVER: texts.TARED_IN_HOVER, TARED_UNTIL: tared_until, BESIDE: beside}
+
+
+def failed_rotors(flight: RecordedFlight) -> list[int]:
+    """The rotors that have failed, counted over the whole vehicle from 0."""
+    at = flight.step * flight.dt
+    return sorted(4 * (f.quadrotor - 1) + f.rotor - 1 for f in flight.now.faults if f.time <= at)
+
+
+def check_touch(flight: RecordedFlight, vehicle: SceneVehicle, point: Sequence[float]) -> None:
+    """Refuse a push while sensors are tared, or at a point [m, body axes] beside the vehicle.
+
+    Raises:
+        InputError: it is refused.
+    """
+    rule = touch_rule(flight.now, vehicle)
+    hover_time = flight.number(*HOVER_TIME) if rule.tare_duration else 0.0
+    refusal = touch_refusal(rule, flight.step * flight.dt, hover_time, Vec3(*point))
+    if refusal != ALLOWED:
+        raise InputError(touch_texts(rule)[refusal].format(point=list(point)))
+
+
+def check_takes_requests(mission: Mission, what: str) -> None:
+    """Refuse a request to a pilot that is guided by the clock.
+
+    Raises:
+        InputError: it is.
+    """
+    if mission.pilot.guidance == "clock":
+        raise InputError(texts.NO_REQUESTS.format(what=what, mission=mission.mission.name))
+
+
+def check_may_tare(flight: RecordedFlight, vehicle: SceneVehicle, phase: str) -> None:
+    """Refuse a tare except in hover and without a push; `phase`: of the flight.
+
+    Raises:
+        InputError: it does not hover, the beam is held, or a tare is under way.
+    """
+    if flight.now.estimator.tare == "clock":
+        check_touch(flight, vehicle, ZERO)
+    if phase not in [PHASE_NAMES[int(number)] for number in (GUIDED, HOLD, CONTACT)]:
+        raise InputError(f"tare: only in the air, hovering; the phase is {phase}")
+    if flight.hand.held or any(flight.hand.force):
+        raise InputError("tare: hands off first")
+
+
+def tare_start_for(flight: RecordedFlight) -> float:
+    """When a tare that is requested now may begin [s].
+
+    Raises:
+        InputError: the mission has no tare, or begins it by itself.
+    """
+    mission = flight.now
+    if mission.pilot.push == "truth":
+        raise InputError("tare: the pilot is given the true push, and reads no sensor that could be tared")
+    if mission.estimator.tare == "hover":
+        raise InputError("tare: the pilot tares by itself, in steady hover (estimator.tare)")
+    if mission.estimator.tare_start is None:
+        raise InputError(f"tare: the mission has none ({TARE})")
+    return round(flight.step * flight.dt + TARE_NOTICE, 3)
+
+
+def check_in_time(flight: RecordedFlight, start: float) -> None:
+    """Refuse a tare whose start has passed while it was prepared: it would continue where the last one ended.
+
+    Raises:
+        InputError: it has.
+    """
+    if flight.step * flight.dt > start - 2.0 * flight.dt:
+        raise InputError("tare: it took too long to prepare; ask again")
+
+
+def _reaches(vehicle: SceneVehicle) -> Iterator[float]:
+    """Distances of the ends of the payload and of the rotors from the centre of mass [m]."""
+    payload = vehicle["payload"]
+    yield math.hypot(*payload["position"]) + math.hypot(payload["length"], payload["width"], payload["height"]) / 2.0
+    for quadrotor in vehicle["quadrotors"]:
+        for rotor in quadrotor["rotors"]:
+            yield math.hypot(*rotor["position"]) + rotor["radius"]

@@ -1,0 +1,56 @@
+"""The frames of a flight in progress, and the frame that is shown before it begins."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tandemlift.apps.live.session.frame_values import Components, channel_columns, field_values, phase_times
+from tandemlift.apps.live.session.scene_builder import scene_of
+from tandemlift.apps.live.wire.frames import layout_for, pack_frames
+from tandemlift.core.types import Array
+from tandemlift.missions import Mission, tables_of
+from tandemlift.parts.vehicle import Vehicle
+from tandemlift.simulation.interactive.recorded_flight import FlightSetup
+
+
+class FrameBuilder:
+    """Builds the frames of a mission's flight.
+
+    Args:
+        mission: what is flown.
+        engine: name of the body's engine.
+        setup: of the same mission.
+
+    Attributes:
+        scene: what a page must know before frames mean anything.
+    """
+
+    def __init__(self, mission: Mission, engine: str, setup: FlightSetup) -> None:
+        self.scene = scene_of(mission, engine)
+        self._layout = layout_for(Vehicle.from_settings(mission.vehicle).rotor_count)
+        self._phases, self._columns = phase_times(tables_of(mission)["phases"]), channel_columns(setup.plan.sample)
+        self._start = setup.plan.model.flight_state.state
+
+    def values(self, sample: Array, at: float) -> dict[str, Components]:
+        """The values of the fields in a sample, at a time [s], component by component."""
+        channels = {name: tuple(map(float, sample[columns])) for name, columns in self._columns.items()}
+        return field_values(channels, at, self._phases)
+
+    def frame(self, values: Mapping[str, ArrayLike]) -> bytes:
+        """The frame of some values."""
+        return pack_frames(self._layout, values).tobytes()
+
+    def first(self) -> bytes:
+        """The frame of a flight that has not begun."""
+        s = self._start
+        at: dict[str, Any] = {
+            "position": s.position,
+            "attitude": s.attitude,
+            "velocity": s.velocity,
+            "reference": s.position,
+        }
+        return self.frame({name: np.array(value) for name, value in at.items()})

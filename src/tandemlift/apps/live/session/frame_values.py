@@ -1,0 +1,148 @@
+"""The values of a frame's fields, from the channels of a flight or of one sample.
+
+The formulas are written once: over arrays for a whole flight, over numbers for a session, and traced for a page that
+flies without a server (`apps.live.offline`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.core.algebra.layout import is_value, leaves
+from tandemlift.core.algebra.ops import absolute, maximum, where
+from tandemlift.core.algebra.vector import Quat, Vec3, cross, dot
+from tandemlift.core.phases import GUIDED, LAND, LIFT
+from tandemlift.core.types import Array
+from tandemlift.simulation.results import channels_of
+
+AGES = 1e300  # s, the time of a landing that never comes
+MIN_PUSH = 1e-9  # N, below which a push has no point of action
+CHANNELS = {  # of each field: the channels that it may come from, the best first
+    "position": ("position",),
+    "attitude": ("attitude",),
+    "velocity": ("velocity",),
+    "reference": ("reference_position",),
+    "push": ("push_force",),
+    "pilot_push": ("push_filtered", "push_estimate", "push_force"),
+    "disturbance": ("disturbance_force",),
+    "wind": ("wind_velocity",),
+    "alarm": ("alarm",),
+    "contact_part": ("contact_part",),
+    "contact_point": ("contact_point_estimate",),
+    "contact_normal": ("contact_normal",),
+    "thrusts": ("rotor_thrusts",),
+}
+USED = {"reference_euler", "push_moment", "phase"}.union(*CHANNELS.values())
+
+Components = tuple[Any, ...]  # of a channel or of a field: numbers, arrays (T,) or symbols
+
+
+def channel_columns(layout: Any) -> dict[str, NDArray[np.intp]]:
+    """The columns of a sample that hold each channel which `field_values` reads; `layout`: of the sample."""
+    row = np.arange(leaves(layout), dtype=np.float64)[None, :]
+    return {name: at.astype(np.intp).ravel() for name, at in channels_of(layout, row) if name in USED}
+
+
+def components_of(channel: Array) -> Components:
+    """The components of a channel (T,) or (T, n)."""
+    return tuple(channel.reshape(len(channel), -1).T)
+
+
+class PhaseTimes(NamedTuple):
+    """When a flight that is guided by the clock begins and ends to lift, and begins to land [s]."""
+
+    lift_start: Any
+    lift_end: Any
+    land_start: Any
+
+
+def phase_times(phases: Mapping[str, Any]) -> PhaseTimes:
+    """The times of a mission; `phases`: that table of it."""
+    start, land = phases["lift_start"], phases.get("land_start")
+    end = start + phases["lift_duration"] if phases["height"] != 0.0 else start
+    return PhaseTimes(start, end, AGES if land is None else land)
+
+
+def field_values(channels: Mapping[str, Components], time: Any, phases: PhaseTimes) -> dict[str, Components]:
+    """The values of the fields, component by component, 0 where they are not a number.
+
+    Args:
+        channels: components of each channel.
+        time: [s].
+        phases: of a flight that is guided by the clock.
+    """
+    found = {field: next((channels[n] for n in names if n in channels), None) for field, names in CHANNELS.items()}
+    values = {field: channel for field, channel in found.items() if channel is not None}
+    moment, attitude = Vec3(*channels["push_moment"]), Quat(*values["attitude"])
+    values["time"] = (time,)
+    values["reference_yaw"] = channels["reference_euler"][2:3]
+    values["push_point"] = point_of(Vec3(*values["push"]), moment, attitude)
+    values["phase"] = channels["phase"] if "phase" in channels else (_phase_by_clock(time, phases),)
+    return {field: tuple(map(_number_or_zero, parts)) for field, parts in values.items()}
+
+
+def fields_of_samples(layout: Any) -> Callable[[Any, Any, PhaseTimes], dict[str, Components]]:
+    """The function from a sample laid out like this, its time [s] and the phases to the values of the fields."""
+    columns = channel_columns(layout)
+
+    def fields_of(sample: Any, time: Any, phases: PhaseTimes) -> dict[str, Components]:
+        numbers = list(_numbers(sample))
+        return field_values({name: tuple(numbers[i] for i in at) for name, at in columns.items()}, time, phases)
+
+    return fields_of
+
+
+def frame_of_samples(layout: Any) -> Callable[[Any, Any, PhaseTimes], Components]:
+    """The same with all values in one row."""
+    fields_of = fields_of_samples(layout)
+
+    def frame(sample: Any, time: Any, phases: PhaseTimes) -> Components:
+        return tuple(part for parts in fields_of(sample, time, phases).values() for part in parts)
+
+    return frame
+
+
+def arrays_of(values: Mapping[str, Components]) -> dict[str, Array]:
+    """The values of fields as arrays, their components along the last axis."""
+    return {field: np.stack(parts, axis=-1) for field, parts in values.items()}
+
+
+def point_of(force: Vec3, moment: Vec3, attitude: Quat) -> Vec3:
+    """The point of action of a push nearest to the centre of mass [m, body].
+
+    Args:
+        force: [N, world].
+        moment: about the centre of mass [N m, body].
+        attitude: body to world.
+    """
+    axis = Vec3(-attitude.x, -attitude.y, -attitude.z)
+    turned = cross(axis, force) * 2.0
+    body = force + turned * attitude.w + cross(axis, turned)
+    square = dot(body, body)
+    point = cross(body, moment) / maximum(square, MIN_PUSH**2)
+    return Vec3(*[where(square > MIN_PUSH**2, along, 0.0) for along in point])
+
+
+def points_of(forces: Array, moments: Array, attitudes: Array) -> Array:
+    """Points of action (T, 3) of pushes; forces (T, 3), moments (T, 3) and attitudes (T, 4) as for `point_of`."""
+    return np.stack(point_of(Vec3(*forces.T), Vec3(*moments.T), Quat(*attitudes.T)), axis=1)
+
+
+def _number_or_zero(x: Any) -> Any:
+    return where(absolute(x) >= 0.0, x, 0.0)
+
+
+def _numbers(value: Any) -> Iterator[Any]:
+    """The numbers of a nested value, depth first, as they are."""
+    for part in value:
+        yield from _numbers(part) if is_value(part) else (part,)
+
+
+def _phase_by_clock(time: Any, phases: PhaseTimes) -> Any:
+    """The phase of a flight that is guided by the clock."""
+    lifting = where(time >= phases.lift_start, where(time < phases.lift_end, LIFT, GUIDED), GUIDED)
+    return where(time >= phases.land_start, LAND, lifting)

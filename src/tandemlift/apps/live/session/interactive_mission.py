@@ -1,0 +1,63 @@
+"""A mission prepared for interactive flight: people push instead of the mission's pushes, and nothing ends it early."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+from typing import Any
+
+from tandemlift.core.errors import FlightWarning, InputError
+from tandemlift.missions import Mission, changed
+
+MAX_DURATION = 3600.0  # s
+NEVER = 1e6  # s
+SPRING = {"model": "grab", "stiffness": 6.0, "damping": 2.0, "lag": 0.08, "max_force": 4.0}  # N/m, N s/m, s, N
+FAINT_TURBULENCE = 1e-3  # m/s: the mission has a wind, which can be raised in flight
+
+
+def interactive_mission(mission: Mission) -> Mission:
+    """The mission with a virtual hand in place of its pushes and its person, and without a landing at a set time.
+
+    Where the mission allows it, it also gets a wind, rotors that can fail, rotor-failure detection and supervision.
+    """
+    with warnings.catch_warnings():  # rotors that may fail raise warnings of their own
+        warnings.simplefilter("ignore", FlightWarning)
+        return _interactive(mission)
+
+
+def with_whole_rotors(now: Mission, first: Mission) -> Mission:
+    """The mission as it is now, with the rotor faults of the first one."""
+    return now.model_copy(update={"faults": first.faults})
+
+
+def _interactive(mission: Mission) -> Mission:
+    hand = SPRING if mission.person.model != "grab" else {}
+    mission = changed(mission, "person", {**hand, "recording": None})
+    for key, value in _always(mission):
+        mission = changed(mission, key, value)
+    for key, value in _if_possible(mission):
+        try:
+            mission = changed(mission, key, value)
+        except InputError:
+            continue
+    return mission
+
+
+def _always(mission: Mission) -> Iterator[tuple[str, Any]]:
+    yield "pushes", []
+    yield "mission.duration", MAX_DURATION
+    yield "phases.land_start", NEVER
+    yield "admittance.feel", None  # mass and damping, which it comes to, are changed in flight
+
+
+def _if_possible(mission: Mission) -> Iterator[tuple[str, Any]]:
+    failing = {(f.quadrotor, f.rotor) for f in mission.faults}
+    rotors = [(q + 1, r + 1) for q in range(len(mission.vehicle.quadrotors)) for r in range(4)]
+    faults = [{"quadrotor": q, "rotor": r, "time": NEVER} for q, r in rotors if (q, r) not in failing]
+    kept = [f.model_dump(mode="json", exclude_none=True) for f in mission.faults]
+    yield "faults", [*kept, *faults]
+    yield "detection.model", "residual"
+    yield "supervision.model", "watch"
+    yield "contact.model", "watch"
+    if mission.wind.model == "none":
+        yield "wind", {"model": "air", "turbulence": FAINT_TURBULENCE}

@@ -1,0 +1,44 @@
+"""The preparation of a flight before its first step, and its status for the page."""
+
+from __future__ import annotations
+
+import time
+
+from tandemlift.apps.live.session.status import NO_REFUSALS
+from tandemlift.apps.live.wire.quantities import PREPARING
+from tandemlift.apps.live.wire.server_messages import FlightStatus
+
+
+class Preparation:
+    """How far the preparation of a flight is.
+
+    Attributes:
+        step: what is being done.
+        failure: why the mission cannot be flown; "" unless that is so.
+    """
+
+    def __init__(self) -> None:
+        self.step, self.failure, self._began = "putting the flight together", "", time.perf_counter()
+
+    def status(self) -> FlightStatus:
+        """The status of a flight that has not begun."""
+        seconds = round(time.perf_counter() - self._began, 1)
+        return FlightStatus(
+            phase="failed" if self.failure else PREPARING,
+            alarm="",
+            enabled=True,
+            paused=False,
+            speed=1.0,
+            factor=0.0,
+            behind_ms=0.0,
+            recorded_s=0.0,
+            failed_rotors=[],
+            refusals=NO_REFUSALS,
+            ending=None,
+            preparing={"step": self.step, "seconds": seconds, "failure": self.failure},
+        )
+
+    @property
+    def refusal(self) -> str:
+        """Why every message is refused."""
+        return f"the flight cannot be flown: {self.failure}" if self.failure else "the flight is still being prepared"

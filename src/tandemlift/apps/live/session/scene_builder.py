@@ -1,0 +1,145 @@
+"""The scene of a mission, built from its settings or from the tables that a saved flight carries."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from tandemlift.apps.live.wire.frames import RATE, layout_for
+from tandemlift.apps.live.wire.scene import (
+    FlightScene,
+    SceneCorridor,
+    SceneParameter,
+    ScenePayload,
+    SceneQuadrotor,
+    SceneRotor,
+    SceneSpring,
+    SceneVehicle,
+    SceneWall,
+)
+from tandemlift.core.algebra.vector import Nothing
+from tandemlift.core.faults import ALARM_TEXTS
+from tandemlift.core.phases import PHASE_NAMES
+from tandemlift.core.settings import Mission, Quadrotor, wall_tables
+from tandemlift.core.types import Array
+from tandemlift.core.version import __version__
+from tandemlift.engines.models.surroundings import floor_from
+from tandemlift.missions import tables_of
+from tandemlift.parts.contact.feet import sole_positions
+from tandemlift.parts.vehicle import Vehicle
+
+SPRING = SceneSpring(stiffness=8.0, damping=2.0, max_force=8.0)  # of a page's hand, where a mission has none
+WALL_THICKNESS = 0.02  # m, as drawn; walls have none
+SHORT = 0.2  # m, length and width drawn for a payload without length
+BEAM_RADIUS = 0.03  # m, drawn for a beam without a radius
+
+
+def scene_of(
+    mission: Mission,
+    engine: str,
+    *,
+    parameters: Sequence[SceneParameter] = (),
+    spring: SceneSpring = SPRING,
+) -> FlightScene:
+    """The scene of a mission.
+
+    Args:
+        mission: what is flown.
+        engine: name of the body's engine.
+        parameters: what may be changed in flight.
+        spring: the virtual hand by which a page pulls.
+    """
+    vehicle = Vehicle.from_settings(mission.vehicle)
+    floor = floor_from(mission, vehicle)
+    height = _lowest(mission, vehicle) if isinstance(floor, Nothing) else float(floor.height)
+    scene = scene_of_tables(tables_of(mission), vehicle, engine, height)
+    scene["spring"], scene["parameters"] = spring, list(parameters)
+    return scene
+
+
+def scene_of_tables(tables: Mapping[str, Any], vehicle: Vehicle, engine: str, floor: float) -> FlightScene:
+    """The scene of a mission given as nested tables; `floor` [m] is the height of the floor, or of the level drawn."""
+    return FlightScene(
+        mission=tables["mission"]["name"],
+        engine=engine,
+        version=__version__,
+        step=tables["mission"]["step"],
+        rate=RATE,
+        vehicle=_vehicle(vehicle),
+        ground=tables.get("ground", {}).get("model", "none") != "none",
+        floor=floor,
+        walls=[_wall(w, floor) for w in wall_tables(tables) if w["top"] > floor],
+        corridor=_corridor(tables.get("corridor", {})),
+        threshold=list(tables["admittance"]["threshold"]),
+        spring=SPRING,
+        phases=list(PHASE_NAMES),
+        alarms=list(ALARM_TEXTS),
+        fields=list(layout_for(vehicle.rotor_count)),
+        parameters=[],
+    )
+
+
+def _lowest(mission: Mission, vehicle: Vehicle) -> float:
+    """Height of the soles at the start of a level flight [m]."""
+    fleet = vehicle.quadrotors
+    soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
+    return float(mission.initial.position[2] + np.min(soles[:, 2]))
+
+
+def _vehicle(vehicle: Vehicle) -> SceneVehicle:
+    payload = vehicle.payload
+    if payload.length:
+        length, across = payload.length, 2.0 * (payload.radius or BEAM_RADIUS)
+    else:
+        length, across = SHORT, SHORT
+    position = -vehicle.center_of_mass
+    parts = zip(vehicle.quadrotors, vehicle.lever_arms, strict=True)
+    return SceneVehicle(
+        quadrotors=[_quadrotor(q, center, position) for q, center in parts],
+        payload=ScenePayload(position=_list(position), length=length, width=across, height=across),
+        mass=vehicle.mass,
+    )
+
+
+def _quadrotor(quadrotor: Quadrotor, center: Array, payload: Array) -> SceneQuadrotor:
+    """A quadrotor at `center`; `payload`: where the payload is."""
+    rotors = [
+        SceneRotor(
+            position=_list(center + np.array([x, y, 0.0])),
+            spin=int(spin),
+            radius=quadrotor.rotor_radius,
+            max_thrust=quadrotor.max_thrust,
+        )
+        for (x, y), spin in zip(quadrotor.rotors, quadrotor.spins, strict=True)
+    ]
+    return SceneQuadrotor(
+        position=_list(center),
+        joint=_list(payload + np.array(quadrotor.joint_position)),
+        arm=float(np.linalg.norm(quadrotor.rotors, axis=1).mean()),
+        guard=quadrotor.guard_radius,
+        feet={"spread": quadrotor.feet_spread, "depth": quadrotor.feet_depth},
+        rotors=rotors,
+    )
+
+
+def _wall(wall: Mapping[str, Any], floor: float) -> SceneWall:
+    """A wall from the floor to its top."""
+    (x, y), (end_x, end_y), top = wall["start"], wall["end"], wall["top"]
+    return SceneWall(
+        center=[(x + end_x) / 2.0, (y + end_y) / 2.0, (floor + top) / 2.0],
+        size=[math.hypot(end_x - x, end_y - y), WALL_THICKNESS, top - floor],
+        heading=math.atan2(end_y - y, end_x - x),
+    )
+
+
+def _corridor(corridor: Mapping[str, Any]) -> SceneCorridor | None:
+    if not corridor.get("centreline"):
+        return None
+    return SceneCorridor(centreline=corridor["centreline"], width=corridor["width"], height=corridor["height"])
+
+
+def _list(values: Array) -> list[float]:
+    return [float(v) + 0.0 for v in values]

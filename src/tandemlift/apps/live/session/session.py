@@ -1,0 +1,281 @@
+"""One flight in real time, in a thread of its own, pushed by whoever holds the beam.
+
+Every method may be called from any thread. Scene and status are available before the flight is compiled. The
+flight never waits: a change that takes long is prepared in another thread.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Callable
+from functools import singledispatchmethod
+from pathlib import Path
+from typing import Any
+
+from tandemlift.apps.live.session.checks import check_may_tare, check_takes_requests
+from tandemlift.apps.live.session.frame_builder import FrameBuilder
+from tandemlift.apps.live.session.hand_control import HandControl
+from tandemlift.apps.live.session.interactive_mission import interactive_mission, with_whole_rotors
+from tandemlift.apps.live.session.pacing import Pacer, RealTimeThread
+from tandemlift.apps.live.session.parameter_control import ParameterControl
+from tandemlift.apps.live.session.preparation import Preparation
+from tandemlift.apps.live.session.saving import save_in_process
+from tandemlift.apps.live.session.status import FlightFindings, phase_of, refusals_now, status_of
+from tandemlift.apps.live.session.tunable_parameters import CHOICES, parameters_of
+from tandemlift.apps.live.wire import page_messages as page
+from tandemlift.apps.live.wire.scene import FlightScene, SceneSpring
+from tandemlift.apps.live.wire.server_messages import Answer, DoneMessage, FlightStatus, RefusedMessage, SceneMessage
+from tandemlift.core.algebra.vector import Quat
+from tandemlift.core.errors import InputError
+from tandemlift.core.refusals import Refusals
+from tandemlift.missions import Mission
+from tandemlift.parts.person.virtual_hand import HAND_RELEASED
+from tandemlift.simulation.interactive.recorded_flight import FlightSetup, RecordedFlight, setup_flight
+from tandemlift.simulation.results import channels_of
+
+log = logging.getLogger(__name__)
+
+
+class Session:
+    """Flies a mission in real time; `server.LiveFlight` says what a server needs of it.
+
+    Args:
+        mission: what is flown, without its pushes and its person.
+        engine: name of the body's engine.
+        out: folder of saved flights, each in a folder of its name.
+
+    Attributes:
+        is_ready: whether the flight is compiled; until then the vehicle is shown where it stands.
+        watchers: called after every step, in the flight's thread.
+        pacer: how the flight keeps up with the clock.
+
+    Raises:
+        InputError: the mission cannot be flown interactively, or cannot be built.
+    """
+
+    def __init__(self, mission: Mission, engine: str = "compiled", out: Path = Path("out/live")) -> None:
+        self._mission, self._engine, self._out = interactive_mission(mission), engine, out
+        self._lock, self.pacer = threading.RLock(), Pacer(mission.mission.step)
+        self._thread = RealTimeThread(self.pacer, self._lock, self._is_prepared, self._fly)
+        self._parameters = ParameterControl(self._mission, self._lock)
+        self._failed, self._findings = False, FlightFindings()
+        self.generation, self.watchers = 1, list[Callable[[RecordedFlight], None]]()
+        self._flight: RecordedFlight
+        self._hand: HandControl
+        self._preparation, self.is_ready = Preparation(), False
+        self._first = setup_flight(self._mission, engine)
+        self._frames = FrameBuilder(self._mission, engine, self._first)
+
+    def prepare(self) -> None:
+        """Compile the flight, and take its first step; once."""
+        if not self.is_ready:
+            self._preparation.step = "compiling the flight loop"
+            self._begin(self._mission, self._first, self._frames)
+            self.is_ready = True
+
+    def _begin(self, mission: Mission, setup: FlightSetup, frames: FrameBuilder) -> None:
+        flight = RecordedFlight(mission, self._engine, setup)
+        flight.hold(HAND_RELEASED)
+        flight.advance()
+        with self._lock:
+            self._flight, self._frames = flight, frames
+            self._hand, self._failed = HandControl(flight, frames.scene["vehicle"]), False
+
+    @property
+    def flight(self) -> RecordedFlight:
+        """The flight in progress, once it is ready; a reset begins another."""
+        return self._flight
+
+    # the thread
+
+    def start(self) -> None:
+        """Prepare the flight, and fly, in a thread of its own."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End the flight's thread, without waiting for the compiler."""
+        self._thread.stop(wait=self.is_ready)
+
+    def _is_prepared(self) -> bool:
+        """Prepare the flight, and begin to optimise its code; whether that worked."""
+        try:
+            self.prepare()
+            self._flight.optimise()
+        except Exception as error:
+            told = isinstance(error, InputError | OSError)  # the latter of an engine that is lost, or a file
+            log.error("error: the flight cannot be flown: %s", error, exc_info=not told)
+            self._preparation.failure = str(error) if told else repr(error)
+            return False
+        return True
+
+    def _fly(self, steps: int) -> int:
+        """Fly some steps, at most to the end of the flight; how many."""
+        before = self._flight.step
+        try:
+            while self._flight.step < before + steps and not self._flight.over and not self._failed:
+                self._hand.expire_requests()
+                self._flight.advance()
+                if self._flight.interruption:
+                    break
+                for watch in self.watchers:
+                    watch(self._flight)
+            if steps == 0:
+                self._flight.rest()
+        except Exception:
+            self._failed = True  # until a reset
+            log.exception("the flight ended by an error")
+        return self._flight.step - before
+
+    # what is shown
+
+    @property
+    def scene(self) -> FlightScene:
+        """What a page must know, with the parameters as they are."""
+        now = self._flight.now if self.is_ready else self._mission
+        p, scene = now.person, self._frames.scene.copy()
+        scene["threshold"] = list(now.admittance.threshold)
+        scene["spring"] = SceneSpring(stiffness=p.stiffness, damping=p.damping, max_force=p.max_force)
+        scene["parameters"] = list(parameters_of(now, self._mission))
+        return scene
+
+    def frame(self) -> bytes:
+        """The latest frame."""
+        if not self.is_ready:
+            return self._frames.first()
+        with self._lock:
+            moment, hand, seq, frames = self._flight.moment, self._flight.hand, self._hand.seq, self._frames
+        held = {"held": hand.held, "hand_point": hand.grip, "hand_target": hand.target, "push_point": hand.grip}
+        return frames.frame({**frames.values(*moment), **held, "seq": seq % 2**24})
+
+    def channels(self) -> dict[str, Any]:
+        """The channels of the latest sample (1, …)."""
+        return dict(channels_of(self._flight.layout, self._flight.sample[None, :].copy()))
+
+    def status(self) -> FlightStatus:
+        """The state of the flight in words, and how it keeps up; before it flies, what is being prepared."""
+        if not self.is_ready:
+            return self._preparation.status()
+        with self._lock:
+            status = status_of(self._flight, self.pacer, self._values(), self._failed)
+            self._findings.look(self._flight)
+        status["findings"] = self._findings.formed()
+        return status
+
+    @property
+    def refusals(self) -> Refusals:
+        """What would be refused right now: to lift, to land, to follow a push; and why, and what to do."""
+        with self._lock:
+            return refusals_now(self._flight, self._failed)
+
+    def _values(self) -> dict[str, Any]:
+        return self._frames.values(*self._flight.moment)
+
+    # messages
+
+    def apply(self, message: page.PageMessage) -> list[Answer]:
+        """Do what a message says; what to answer.
+
+        Raises:
+            InputError: it cannot be done; the text says why.
+        """
+        if not self.is_ready:
+            raise InputError(self._preparation.refusal)
+        if isinstance(message, page.BeamMessage):
+            with self._lock:
+                self._hand.seq = message.seq
+        return self._handle(message) or []
+
+    def release(self) -> None:
+        """Release the beam."""
+        if self.is_ready:
+            with self._lock:
+                self._hand.release()
+
+    @singledispatchmethod
+    def _handle(self, message: Any) -> list[Answer] | None:
+        raise InputError(f"{message.type}: cannot be handled here")
+
+    @_handle.register
+    def _grab(self, m: page.GrabMessage) -> None:
+        with self._lock:
+            self._hand.grab(m, lambda: Quat(*self._values()["attitude"]))
+
+    @_handle.register
+    def _move(self, m: page.MoveMessage) -> None:
+        with self._lock:
+            self._hand.move(m)
+
+    @_handle.register
+    def _release(self, m: page.ReleaseMessage) -> None:
+        self.release()
+
+    @_handle.register
+    def _push(self, m: page.ForceMessage) -> None:
+        with self._lock:
+            self._hand.push(m)
+
+    @_handle.register
+    def _ask(self, m: page.AskMessage) -> list[Answer]:
+        check_takes_requests(self._mission, m.what)
+        with self._lock:
+            self._hand.request(m)
+        refusal = None if m.what == "stop" else getattr(self.refusals, m.what)
+        return [RefusedMessage(type="refused", what=m.type, reason=str(refusal))] if refusal else []
+
+    @_handle.register
+    def _enable(self, m: page.EnableMessage) -> None:
+        check_takes_requests(self._mission, "enable")
+        with self._lock:
+            self._hand.enable(m.on)
+
+    @_handle.register
+    def _pause(self, m: page.PauseMessage) -> None:
+        with self._lock:
+            self.pacer.paused = m.on
+
+    @_handle.register
+    def _set_speed(self, m: page.SpeedMessage) -> None:
+        with self._lock:
+            self.pacer.speed = m.factor
+
+    @_handle.register
+    def _reset(self, m: page.ResetMessage) -> None:
+        with self._parameters.turn:
+            again = with_whole_rotors(self._flight.now, self._mission)
+            setup = setup_flight(again, self._engine)
+            self._begin(again, setup, FrameBuilder(again, self._engine, setup))
+            self.generation += 1
+
+    @_handle.register
+    def _save(self, m: page.SaveMessage) -> list[Answer]:
+        with self._lock:
+            snapshot = self._flight.snapshot()
+        folder = self._out / m.name
+        save_in_process(snapshot, folder)
+        return [DoneMessage(type="done", what="save", detail=str(folder))]
+
+    @_handle.register
+    def _tare(self, m: page.TareMessage) -> list[Answer]:
+        with self._lock:
+            phase = phase_of(self._flight, int(self._values()["phase"][0]), self._failed)
+            check_may_tare(self._flight, self._frames.scene["vehicle"], phase)
+        return [DoneMessage(type="done", what="tare", detail=self._parameters.tare(self._flight))]
+
+    @_handle.register
+    def _stop_rotor(self, m: page.KillMessage) -> None:
+        self._parameters.stop_rotor(self._flight, m.rotor)
+
+    @_handle.register
+    def _set(self, m: page.SetMessage) -> list[Answer]:
+        value = list(m.value) if isinstance(m.value, tuple) else m.value
+        return self._with_scene(self._parameters.set(self._flight, m.key, value))
+
+    @_handle.register
+    def _restore(self, m: page.RestoreMessage) -> list[Answer]:
+        return self._with_scene(self._parameters.restore(self._flight, m.key))
+
+    def _with_scene(self, answers: list[Answer]) -> list[Answer]:
+        """Answers, and after a choice the scene, as there may be other parameters now."""
+        chosen = any(one["type"] == "changed" and one["key"] in CHOICES for one in answers)
+        return [*answers, SceneMessage(type="scene", **self.scene)] if chosen else answers

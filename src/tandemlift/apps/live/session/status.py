@@ -1,0 +1,101 @@
+"""The status of a flight in progress: its state in words, how it keeps up, and what would be refused now."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from tandemlift.apps.live.session.checks import failed_rotors
+from tandemlift.apps.live.session.pacing import Pacer
+from tandemlift.apps.live.wire.quantities import LOST
+from tandemlift.apps.live.wire.scene import SceneEnding
+from tandemlift.apps.live.wire.server_messages import FlightStatus, StatusFinding, StatusRefusals
+from tandemlift.core.faults import ALARM_TEXTS
+from tandemlift.core.phases import PHASE_NAMES
+from tandemlift.core.refusals import Refusals, refusals_for
+from tandemlift.core.types import Array
+from tandemlift.flight.record import Ending
+from tandemlift.simulation.interactive.recorded_flight import RecordedFlight
+
+FINDINGS_EVERY = 1.0  # s
+NO_REFUSALS = StatusRefusals(lift="", land="", push="")
+
+
+class FlightFindings:
+    """The findings of a flight so far, formed anew once a second: that takes some milliseconds."""
+
+    def __init__(self) -> None:
+        self._of: RecordedFlight | None = None
+        self._numbers: Array | None = None
+        self._due, self._found = 0, list[StatusFinding]()
+
+    def look(self, flight: RecordedFlight) -> None:
+        """Take the numbers of a flight if they are due; while it stands still."""
+        if flight is not self._of or flight.step >= self._due:
+            self._of, self._due = flight, flight.step + round(FINDINGS_EVERY / flight.dt)
+            self._numbers = flight.numbers()
+
+    def formed(self) -> list[StatusFinding]:
+        """The findings as of the last look; the flight may go on meanwhile."""
+        flight, numbers = self._of, self._numbers
+        if flight and numbers is not None:
+            self._numbers = None
+            self._found = [StatusFinding(kind=f.kind, time=f.time, text=f.text) for f in flight.findings(numbers)]
+        return self._found
+
+
+def phase_of(flight: RecordedFlight, number: int, failed: bool) -> str:
+    """The phase of a flight by its number, or how it ended; `failed`: by an error."""
+    if failed:
+        return "failed"
+    if flight.ending:
+        return phase_after(flight.ending)
+    return "over" if flight.over else PHASE_NAMES[number]
+
+
+def phase_after(ending: Ending) -> str:
+    """The phase of a flight that was stopped before its end."""
+    return ending.outcome if ending.outcome in LOST else "failed"
+
+
+def refusals_now(flight: RecordedFlight, failed: bool) -> Refusals:
+    """What would be refused right now, and why; `failed`: whether the flight has ended by an error."""
+    if failed:
+        return refusals_for("error")
+    if flight.over:
+        return refusals_for("stopped_early" if flight.lost and not flight.interruption else "over")
+    return flight.refusals
+
+
+def scene_ending(ending: Ending | None, place: Iterable[float]) -> SceneEnding | None:
+    """Why and where [m, world] a flight was stopped before its end, as a page is told of it; None if it was not."""
+    if ending is None:
+        return None
+    at = [float(x) for x in place]
+    known = at if all(map(math.isfinite, at)) else None
+    return SceneEnding(outcome=phase_after(ending), text=str(ending), time=ending.time, place=known)
+
+
+def in_sentences(refusals: Refusals) -> StatusRefusals:
+    """Refusals as a page is told of them."""
+    lift, land, push = (str(refusal or "") for refusal in refusals)
+    return StatusRefusals(lift=lift, land=land, push=push)
+
+
+def status_of(flight: RecordedFlight, pacer: Pacer, values: Mapping[str, Any], failed: bool) -> FlightStatus:
+    """The status of a flight, without its findings; `values`: of the fields of its latest frame."""
+    most, pacer.most_behind = pacer.most_behind, 0.0
+    return FlightStatus(
+        phase=phase_of(flight, int(values["phase"][0]), failed),
+        alarm=ALARM_TEXTS[int(values["alarm"][0])] if "alarm" in values else "",
+        enabled=bool(flight.hand.enabled),
+        paused=pacer.paused,
+        speed=pacer.speed,
+        factor=round(pacer.factor, 3),
+        behind_ms=round(1e3 * most, 2),
+        recorded_s=round(flight.step * flight.dt, 3),
+        failed_rotors=failed_rotors(flight),
+        refusals=in_sentences(refusals_now(flight, failed)),
+        ending=scene_ending(flight.ending, flight.ending_place),
+    )

@@ -1,0 +1,214 @@
+"""The connected pages, one of which may hold the beam. A slow page misses frames, and does not delay others."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from time import thread_time
+from typing import Any, Literal
+
+from pydantic_core import to_json
+from websockets.asyncio.server import ServerConnection, broadcast
+
+from tandemlift.apps.live.wire.frames import ECHO, FRESH
+from tandemlift.apps.live.wire.page_messages import (
+    SILENT,
+    ForceMessage,
+    GrabMessage,
+    MoveMessage,
+    PageMessage,
+    ReleaseMessage,
+)
+from tandemlift.apps.live.wire.reading import Refusal
+from tandemlift.apps.live.wire.server_messages import FlightStatus, RefusedMessage, StatusMessage
+
+BEHIND = 4_096  # bytes not yet taken by the network, beyond which a viewer is behind
+LOST = 1_000_000  # bytes, beyond which it is cut off: it reads nothing at all
+MAX_MESSAGES = 2_000  # a second; a page sends about a hundred
+FAREWELL = 1.0  # s, for pages to close their connections
+MAX_REFUSALS = 20  # that are told in a second
+REFUSED = 10  # messages that a refused one counts as: a page is refused at the rate of its pictures, at most
+MAX_WORK = 0.05  # s of the processor in a second; the messages of a page take a hundredth of a second
+
+
+def text_of(what: Mapping[str, Any]) -> str:
+    """A JSON text; numbers that JSON does not have become null."""
+    return to_json(what, inf_nan_mode="null").decode()
+
+
+class Viewer:
+    """One page's connection.
+
+    Attributes:
+        dropped: frames that it was too slow for.
+        last_message: when its last message came, by the monotonic clock [s].
+        last_echo: when its last echo was sent, likewise.
+        last_grab: `seq` of its last grab, 0 before there is one.
+    """
+
+    def __init__(self, connection: ServerConnection) -> None:
+        self.connection = connection
+        self.dropped, self.last_message = 0, time.monotonic()
+        self.last_grab = 0
+        self._second, self._messages, self._refusals, self._work = 0, 0, 0, 0.0
+        self._echoing, self.last_echo = False, 0.0
+
+    @property
+    def behind(self) -> bool:
+        """Whether earlier data still waits to be sent."""
+        return self.connection.transport.get_write_buffer_size() > BEHIND
+
+    def send_frame(self, frame: bytes) -> None:
+        """Send a frame, unless it is behind."""
+        if self.behind:
+            self.dropped += 1
+        else:
+            broadcast([self.connection], frame)
+
+    def echo(self, frame: Callable[[], bytes]) -> None:
+        """Send a frame soon, which shows the effect of a move; the next one for all may be 17 ms away."""
+        if not self._echoing:
+            self._echoing = True
+            asyncio.get_running_loop().call_later(ECHO, self._send_echo, frame)
+
+    def _send_echo(self, frame: Callable[[], bytes]) -> None:
+        self._echoing, self.last_echo = False, time.monotonic()
+        self.send_frame(frame())
+
+    def send(self, what: Mapping[str, Any] | str) -> None:
+        """Send a message, or cut off a viewer that does not read."""
+        if self.connection.transport.get_write_buffer_size() > LOST:
+            self.connection.transport.abort()
+        else:
+            broadcast([self.connection], what if isinstance(what, str) else text_of(what))
+
+    def refuse(self, refusal: Refusal) -> None:
+        """Say why a message is refused; a few times a second at most."""
+        self._begin_second()
+        self._messages += REFUSED - 1
+        self._refusals += 1
+        if self._refusals <= MAX_REFUSALS:
+            self.send(RefusedMessage(type="refused", what=refusal.what, reason=str(refusal)))
+
+    def is_flooding(self) -> bool:
+        """Count a message; whether there are too many in this second."""
+        self._begin_second()
+        self.last_message = time.monotonic()
+        self._messages += 1
+        return self._messages > MAX_MESSAGES
+
+    @contextmanager
+    def working(self) -> Iterator[None]:
+        """Count the processor's time that a message takes; waiting for the flight is none."""
+        began = thread_time()
+        try:
+            yield
+        finally:
+            self._begin_second()
+            self._work += thread_time() - began
+
+    def rest(self) -> float:
+        """How long to wait until its next message is read [s], so that one page leaves time for the others."""
+        return 0.0 if self._work < MAX_WORK else 1.0 - time.monotonic() % 1.0
+
+    def _begin_second(self) -> None:
+        now = int(time.monotonic())
+        if now != self._second:
+            self._second, self._messages, self._refusals, self._work = now, 0, 0, 0.0
+
+
+class Viewers:
+    """All viewers.
+
+    Attributes:
+        holder: who holds the beam, or None; by a spring (`pulls`), by a force (`pushes`), or by both.
+    """
+
+    def __init__(self) -> None:
+        self._all: set[Viewer] = set()
+        self.holder: Viewer | None = None
+        self.pulls = self.pushes = False
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+    def __iter__(self) -> Iterator[Viewer]:
+        return iter(tuple(self._all))
+
+    def join(self, viewer: Viewer) -> None:
+        """Add a viewer."""
+        self._all.add(viewer)
+
+    def leave(self, viewer: Viewer) -> bool:
+        """Remove a viewer; returns whether the beam is free afterwards."""
+        self._all.discard(viewer)
+        held = self.holder is viewer
+        if held:
+            self.let_go()
+        return held or self.holder is None
+
+    def let_go(self) -> None:
+        """Release the beam."""
+        self.holder, self.pulls, self.pushes = None, False, False
+
+    def is_hung(self) -> bool:
+        """Whether the holder has been silent for too long; the page pings while it holds the beam."""
+        return self.holder is not None and time.monotonic() - self.holder.last_message > SILENT
+
+    def send_frame(self, frame: bytes) -> None:
+        """Send a frame to all who can take it."""
+        now = time.monotonic()
+        for viewer in self:
+            if now - viewer.last_echo > FRESH:
+                viewer.send_frame(frame)
+
+    def send(self, what: Mapping[str, Any]) -> None:
+        """Send a message to all."""
+        text = text_of(what)
+        for viewer in self:
+            viewer.send(text)
+
+    def send_status(self, status: FlightStatus) -> None:
+        """Send the status to all, each with who holds the beam as it sees it, and its last grab that this is after."""
+        others: Literal["none", "other"] = "none" if self.holder is None else "other"
+        for viewer in self:
+            holder: Literal["you", "other", "none"] = "you" if viewer is self.holder else others
+            message = StatusMessage(
+                type="status", **status, viewers=len(self), holder=holder, last_grab=viewer.last_grab
+            )
+            viewer.send(message)
+
+    def admits(self, viewer: Viewer, message: PageMessage) -> bool:
+        """Whether a message may go on to the flight: all of the holder's, of others those that do not touch the beam.
+
+        Raises:
+            Refusal: it needs the beam, and another viewer holds it.
+        """
+        if isinstance(message, (MoveMessage, ReleaseMessage)) or (
+            isinstance(message, ForceMessage) and not any(message.force)
+        ):
+            return self.holder is viewer
+        if isinstance(message, (GrabMessage, ForceMessage)) and self.holder not in (None, viewer):
+            raise Refusal(message.type, "another page holds the beam: wait until it is released")
+        return True
+
+    def note(self, viewer: Viewer, message: PageMessage) -> None:
+        """Note who holds the beam after a message that was applied."""
+        if isinstance(message, ReleaseMessage):
+            self.let_go()
+        elif isinstance(message, GrabMessage):
+            self.holder, self.pulls = viewer, True
+        elif isinstance(message, ForceMessage):
+            self.pushes = any(message.force)
+            self.holder = viewer if self.pulls or self.pushes else None
+
+
+async def dismiss(connection: ServerConnection) -> None:
+    """Close the connection of a page that sends too much, which may not even read why."""
+    try:
+        async with asyncio.timeout(FAREWELL):
+            await connection.close(1008, "too many messages, or too many that are refused")
+    except TimeoutError:
+        connection.transport.abort()

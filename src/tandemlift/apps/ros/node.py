@@ -1,0 +1,158 @@
+"""A flight in real time that a middleware publishes and that pushes, requests and parameters from it change."""
+
+from __future__ import annotations
+
+import threading
+import time
+from functools import partial
+
+from tandemlift.apps.export.recipes import WRENCH
+from tandemlift.apps.export.topics import ROOT
+from tandemlift.apps.live.session.session import Session
+from tandemlift.apps.live.wire.quantities import ENDS
+from tandemlift.apps.ros.diagnostics import FlightDiagnostics
+from tandemlift.apps.ros.middleware import Middleware
+from tandemlift.apps.ros.parameters import Parameters
+from tandemlift.apps.ros.pushes import Pushes
+from tandemlift.apps.ros.requests import REQUESTS, RequestServices
+from tandemlift.apps.ros.sample_queue import Clock, SampleBatch, SampleQueue, as_flight, steps_between_samples
+from tandemlift.apps.ros.topics import LatchedTopics, MarkerTopics, SampleTopics
+from tandemlift.flight.record import Flight
+from tandemlift.missions import tables_of
+from tandemlift.parts.vehicle import Vehicle
+
+PUSH = f"{ROOT}/push"
+RATE = 100.0  # Hz
+MARKERS, PATHS, STATUS, STILL, PARAMETERS = 0.05, 0.2, 1.0, 2.0, 0.2  # s, from one to the next
+PATIENCE = 0.1  # s, for a sample
+
+
+class FlightNode:
+    """Publishes a session's flight, and passes on what comes from the middleware.
+
+    Args:
+        session: what is flown; not yet started.
+        middleware: what publishes and receives.
+        rate: of samples [Hz].
+
+    Raises:
+        InputError: the rate is not possible.
+    """
+
+    def __init__(self, session: Session, middleware: Middleware, rate: float = RATE) -> None:
+        self._session, self._middleware = session, middleware
+        self._flight = session.flight
+        vehicle = Vehicle.from_settings(self._flight.now.vehicle)
+        self._tables = tables_of(self._flight.now)
+        self._clock = Clock(session)
+        self._queue = SampleQueue(steps_between_samples(rate, self._flight.dt), self._clock)
+        self.diagnostics = FlightDiagnostics(middleware)
+        self._pushes = Pushes(session, self.diagnostics.add)
+        self._parameters = Parameters(session, middleware, self.diagnostics.add)
+        self._samples, self._markers = (
+            SampleTopics(middleware, self._first(), vehicle),
+            MarkerTopics(middleware, vehicle),
+        )
+        self._once, self._vehicle = LatchedTopics(middleware), vehicle
+        self._due = dict.fromkeys((MARKERS, PATHS, STATUS, STILL), 0.0)
+        self._published, self._stopping = 0, threading.Event()
+        self._keeper = threading.Thread(target=self._keep_parameters, name="parameters", daemon=True)
+
+    def _first(self) -> Flight:
+        """The sample of the step that was taken last."""
+        taken = SampleBatch([self._flight.step - 1], [0], self._flight.sample[None])
+        return as_flight(taken, self._flight, self._tables)
+
+    def start(self) -> None:
+        """Set the parameters, subscribe, and begin to fly."""
+        self._parameters.exchange()
+        self._session.watchers += [self._queue.note, self._pushes.watch]
+        self._once.publish_vehicle(self._session.scene, self._vehicle, time.time_ns())
+        self._publish_mission()
+        self._middleware.subscribe(PUSH, WRENCH, self._pushes.handle)
+        requests = RequestServices(self._session, self.diagnostics.add)
+        for what in REQUESTS:
+            self._middleware.serve(f"{ROOT}/{what}", partial(requests.answer, what))
+        self._queue.note(self._flight)
+        self._session.start()
+        self._keeper.start()
+
+    def spin(self) -> str:
+        """Publish until the middleware is shut down, or the flight is over; the phase that it ended in."""
+        while not self._middleware.over:
+            if not self.publish() and self._session.status()["phase"] in ENDS:
+                if self._flight.interruption:
+                    self.diagnostics.add(str(self._flight.interruption))
+                    self.diagnostics.flush()
+                break
+        return self._session.status()["phase"]
+
+    def stop(self) -> None:
+        """End the flight."""
+        self._stopping.set()
+        self._session.stop()
+        if self._keeper.is_alive():
+            self._keeper.join()
+
+    def publish(self) -> bool:
+        """Publish what has been flown since the last time, and whatever else is due; whether there was a sample."""
+        taken = self._queue.take(PATIENCE)
+        if taken:
+            self._publish(taken)
+        self.diagnostics.flush()
+        return taken is not None
+
+    def _publish(self, taken: SampleBatch) -> None:
+        stamps = taken.stamps
+        flight = as_flight(taken, self._flight, self._tables)
+        self._samples.publish(flight, stamps)
+        self.diagnostics.follow(flight, stamps)
+        self._published += len(stamps)
+        if self._is_due(MARKERS):
+            self._markers.move(flight, stamps[-1])
+        if self._is_due(PATHS):
+            self._markers.extend_paths(flight, stamps[-1])
+        if self._is_due(STILL):
+            self._once.draw()
+        if self._is_due(STATUS):
+            self._report(stamps[-1])
+
+    def _is_due(self, interval: float) -> bool:
+        """Whether something that is done at an interval [s] is due."""
+        now = time.monotonic()
+        due = now >= self._due[interval]
+        if due:
+            self._due[interval] = max(self._due[interval] + interval, now - interval)
+        return due
+
+    def _report(self, stamp: int) -> None:
+        """Publish the state of the flight."""
+        status, published = self._session.status(), self._published
+        self._published = 0
+        more = {
+            "samples in the last second": f"{published}",
+            "time of the flight over time of the wall": f"{status['factor']:.3f}",
+            "behind the clock, at most [ms]": f"{status['behind_ms']:.1f}",
+            "late for good [s]": f"{self._clock.late:.3f}",
+            "alarm": status["alarm"],
+            **{f"{what} refused": str(refusal or "") for what, refusal in self._session.refusals._asdict().items()},
+            "flown [s]": f"{status['recorded_s']:.1f}",
+        }
+        self.diagnostics.report(stamp, status["phase"], not status["alarm"], more)
+
+    def _keep_parameters(self) -> None:
+        """Exchange parameters until the end, in a thread of their own: a change may take long to prepare."""
+        before = ""
+        while not self._stopping.wait(PARAMETERS):
+            said = ""
+            try:
+                if self._parameters.exchange():
+                    self._publish_mission()
+            except Exception as error:  # of a middleware that is not there for a while
+                said = f"parameters cannot be changed: {error}"[:300]
+            if said != before:
+                self.diagnostics.add(said or "parameters can be changed again")
+            before = said
+
+    def _publish_mission(self) -> None:
+        self._once.publish_mission(tables_of(self._flight.now))

@@ -1,0 +1,102 @@
+"""Parameters of a mission that are changed while it flies, by their keys in the mission.
+
+`admittance.mass`, `admittance.stiffness` and `admittance.damping_ratio` are called as ros2_controllers' admittance
+controller calls them, and mean the same; the ratio is D/(2 √(M K)) of each axis with stiffness, and 0 of one without.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from pydantic import ValidationError
+
+from tandemlift.apps.live.session.session import Session
+from tandemlift.apps.live.session.tunable_parameters import parameters_of
+from tandemlift.apps.live.wire.page_messages import SetMessage
+from tandemlift.apps.ros.diagnostics import Notify
+from tandemlift.apps.ros.middleware import Middleware
+from tandemlift.core.errors import InputError, unknown
+from tandemlift.missions import Mission
+from tandemlift.missions.values import shown
+
+DAMPING, RATIO = "admittance.damping", "admittance.damping_ratio"
+SPRING = ("person.stiffness", "person.damping")  # of a page's hand; here pushes are forces
+LAST = (DAMPING, RATIO)  # are set after mass and stiffness, of which they are formed
+
+
+class Parameters:
+    """The parameters of a session.
+
+    Args:
+        session: whose settings they are.
+        middleware: where they are kept.
+        notify: called with what is refused.
+    """
+
+    def __init__(self, session: Session, middleware: Middleware, notify: Notify) -> None:
+        self._session, self._middleware, self._notify = session, middleware, notify
+        self._first = session.flight.now
+
+    def exchange(self) -> bool:
+        """Apply what has been set since the last time, and set all to the present values; whether anything changed."""
+        wishes, before = self._middleware.parameters(), self._session.flight.now
+        for key in sorted(wishes, key=lambda key: (key in LAST, key)):
+            self._set(key, wishes[key])
+        self._middleware.keep(dict(self._values()))
+        return self._session.flight.now is not before
+
+    def _values(self) -> Iterator[tuple[str, Any]]:
+        now = self._session.flight.now
+        for parameter in parameters_of(now, self._first):
+            if parameter["key"] not in SPRING:
+                yield parameter["key"], parameter["value"]
+        yield RATIO, damping_ratio(now)
+
+    def _set(self, key: str, value: Any) -> None:
+        known = dict(self._values())
+        try:
+            if key not in known:
+                raise unknown("parameter", key, known)
+            if key == RATIO:
+                key, value = DAMPING, damping_of(self._session.flight.now, value)
+            self._session.apply(_message(key, value))
+        except InputError as error:
+            self._notify(f"parameter refused: {error}")
+
+
+def _message(key: str, value: Any) -> SetMessage:
+    """The message to a session that sets a key.
+
+    Raises:
+        InputError: the value is of no kind that a setting has.
+    """
+    try:
+        return SetMessage(seq=0, key=key, value=tuple(value) if isinstance(value, list) else value)
+    except ValidationError:
+        raise InputError(f"{key} = {shown(value)}: must be a number, a list of numbers, or a word") from None
+
+
+def damping_ratio(mission: Mission) -> list[float]:
+    """D/(2 √(M K)) of each axis of the admittance; 0 where there is no stiffness."""
+    a = mission.admittance
+    axes = zip(a.mass, a.damping, a.stiffness, strict=True)
+    return [d / (2.0 * math.sqrt(m * k)) if k > 0.0 else 0.0 for m, d, k in axes]
+
+
+def damping_of(mission: Mission, ratio: Any) -> list[float]:
+    """The damping [N s/m] of each axis that has a damping ratio; an axis without stiffness keeps its own.
+
+    Raises:
+        InputError: these are no three numbers, or one is of an axis without stiffness.
+    """
+    numbers = ratio if isinstance(ratio, list) else [ratio] * 3
+    if len(numbers) != 3 or not all(isinstance(x, (int, float)) and math.isfinite(x) for x in numbers):
+        raise InputError(f"{RATIO} = {shown(ratio)}: must be a number, or three")
+    a, found = mission.admittance, list[float]()
+    for x, m, d, k in zip(numbers, a.mass, a.damping, a.stiffness, strict=True):
+        if k == 0.0 and x != 0.0:
+            raise InputError(f"{RATIO} = {shown(ratio)}: must be 0 on an axis without stiffness; set {DAMPING} there")
+        found.append(2.0 * x * math.sqrt(m * k) if k > 0.0 else d)
+    return found

@@ -1,0 +1,143 @@
+"""The topics: samples by the recipes of exported bags, frames, paths and markers, and what is published once."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.apps.export.coordinate_frames import ALIGNED, BASE, WORLD, fixed, quaternions
+from tandemlift.apps.export.messages import Maker, MessageTypes, Transforms, message_maker
+from tandemlift.apps.export.recipes import POSE, Recipe, Source, Topic
+from tandemlift.apps.export.topics import MISSION, ROOT, TF, TF_STATIC, OtherTopic, recipes_for
+from tandemlift.apps.ros import scenery
+from tandemlift.apps.ros.markers import MARKERS
+from tandemlift.apps.ros.middleware import Middleware, TopicPublisher
+from tandemlift.flight.record import Flight
+from tandemlift.missions import format_toml
+from tandemlift.parts.vehicle import Vehicle
+
+PATH = "nav_msgs/Path"
+FLOWN = OtherTopic(f"{ROOT}/path", PATH, "path flown in the last minute, 5 times a second", (WORLD,))
+ASKED = OtherTopic(f"{ROOT}/reference/path", PATH, "path of the reference, likewise", (WORLD,))
+STILL = OtherTopic(f"{ROOT}/markers/still", MARKERS, "vehicle, floor, walls; latched", (BASE, WORLD))
+MOVING = OtherTopic(
+    f"{ROOT}/markers/moving",
+    MARKERS,
+    "push as an arrow of 0.22 m/N; reference, where it is more than 2 cm off; 20 times a second",
+    (ALIGNED, WORLD),
+)
+ONLY_LIVE = (FLOWN, ASKED, STILL, MOVING)
+SHOWN, APART = 60.0, 0.2  # s of a path that is shown, and between its points
+
+
+class SampleTopic(NamedTuple):
+    """A topic of samples: how its numbers are made, how its messages are, and where they go."""
+
+    recipe: Recipe
+    make: Maker
+    channel: TopicPublisher
+
+
+class SampleTopics:
+    """The topics that have a message for each sample.
+
+    Args:
+        middleware: where to.
+        flight: samples as they will be.
+        vehicle: what is flown.
+    """
+
+    def __init__(self, middleware: Middleware, flight: Flight, vehicle: Vehicle) -> None:
+        types, self._vehicle = middleware.types, vehicle
+        self._sent = [
+            SampleTopic(r, message_maker(types, r), middleware.advertise(r.name, r.kind))
+            for r in recipes_for(flight, vehicle)
+        ]
+        self._transform, self._tf = Transforms(types).moving, middleware.advertise(TF.name, TF.kind, depth=100)
+
+    def publish(self, flight: Flight, stamps: list[int]) -> None:
+        """Publish samples on the topics that have subscribers."""
+        take = Source(flight, self._vehicle)
+        wanted = [(s.channel, s.make, s.recipe.rows(take).tolist()) for s in self._sent if s.channel.wanted]
+        if self._tf.wanted:
+            places = np.hstack([flight["position"], flight["attitude"]])
+            wanted.append((self._tf, self._transform, places.tolist()))
+        for k, stamp in enumerate(stamps):  # one sample after another, so that none of a topic overtakes the one before
+            for channel, make, rows in wanted:
+                channel.publish(make(stamp, rows[k]))
+
+
+class LatchedTopics:
+    """What is published once; latched, so that late subscribers get it too.
+
+    Args:
+        middleware: where to.
+    """
+
+    def __init__(self, middleware: Middleware) -> None:
+        self._types, self._drawn = middleware.types, None
+        self._mission = middleware.advertise(MISSION.name, MISSION.kind, latched=True)
+        self._static = middleware.advertise(TF_STATIC.name, TF_STATIC.kind, latched=True)
+        self._still = middleware.advertise(STILL.name, STILL.kind, latched=True)
+
+    def publish_mission(self, tables: Mapping[str, Any]) -> None:
+        """Publish the mission as it is now."""
+        self._mission.publish(self._types[MISSION.kind](format_toml(tables)))
+
+    def publish_vehicle(self, scene: Mapping[str, Any], vehicle: Vehicle, stamp: int) -> None:
+        """Publish where the vehicle's parts are, and what it and its surroundings look like."""
+        self._static.publish(Transforms(self._types).fixed(stamp, list(fixed(vehicle))))
+        self._drawn = scenery.still(self._types, scene, vehicle)
+        self.draw()
+
+    def draw(self) -> None:
+        """Publish what the vehicle and its surroundings look like; RViz drops what comes before its frame."""
+        self._still.publish(self._drawn)
+
+
+class MarkerTopics:
+    """What is only displayed: moving markers, the flown path and the reference path.
+
+    Args:
+        middleware: where to.
+        vehicle: what is flown.
+    """
+
+    def __init__(self, middleware: Middleware, vehicle: Vehicle) -> None:
+        types = middleware.types
+        self._markers, self._moving = (
+            middleware.advertise(MOVING.name, MOVING.kind),
+            scenery.PushMarkers(types, vehicle),
+        )
+        self._paths = [PathTopic(types, middleware.advertise(topic.name, PATH)) for topic in (FLOWN, ASKED)]
+
+    def move(self, flight: Flight, stamp: int) -> None:
+        """Show the last sample."""
+        if self._markers.wanted:
+            last = {name: flight[name][-1:] for name in flight}
+            self._markers.publish(self._moving.of(last, stamp))
+
+    def extend_paths(self, flight: Flight, stamp: int) -> None:
+        """Extend the paths by the last sample, and publish them."""
+        poses = (flight["position"], flight["attitude"]), (flight["reference_position"], None)
+        for path, (place, attitude) in zip(self._paths, poses, strict=True):
+            turned = quaternions(flight["reference_euler"][-1:]) if attitude is None else attitude[-1:]
+            path.extend(stamp, [*place[-1].tolist(), *turned[0].tolist()])
+
+
+class PathTopic:
+    """Poses of the last minute as a `nav_msgs/Path`."""
+
+    def __init__(self, types: MessageTypes, channel: TopicPublisher) -> None:
+        self._Path, self._header, self._channel = types[PATH], types.headers(WORLD), channel
+        self._make = message_maker(types, Topic("", POSE, WORLD, np.zeros((0, 7))))
+        self._poses: deque[Any] = deque(maxlen=round(SHOWN / APART))
+
+    def extend(self, stamp: int, pose: list[float]) -> None:
+        """Add a pose, and publish them all if there is a subscriber."""
+        self._poses.append(self._make(stamp, pose))
+        if self._channel.wanted:
+            self._channel.publish(self._Path(self._header(stamp), list(self._poses)))

@@ -1,0 +1,74 @@
+"""The manifest of a module: what its numbers mean and where they stand, for a caller that knows nothing of Python."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from tandemlift.codegen.number_facts import number_facts
+from tandemlift.core.algebra.layout import leaves
+from tandemlift.flight.channels import channel_of
+from tandemlift.simulation.assembly.traced_assembly import TracedAssembly
+from tandemlift.simulation.kernels.context import POINTERS, WORDS
+from tandemlift.simulation.parameter_changes import hand_place
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import channels_of
+
+
+def manifest_of(plan: FlightPlan, traced: TracedAssembly, about: dict[str, Any]) -> dict[str, Any]:
+    """What a module's caller needs to know.
+
+    Args:
+        plan: of the flight.
+        traced: its assembly.
+        about: `prepared` (spans and work), `work` (numbers of scratch memory), and `functions` (for each further one
+            the numbers of its arguments and of its result).
+    """
+    spans, prepare_work = about["prepared"]
+    hand, start = hand_place(plan), plan.start()
+    return {
+        "numbers": [
+            {"key": key, "value": number(value), **number_facts(plan.mission, key)}
+            for key, value in zip(traced.keys, traced.values, strict=True)
+        ],
+        "fixed": traced.fixed,
+        "guards": [list(traced.keys_of(guard)) for guard in traced.guards],
+        "context": {"words": list(WORDS), "pointers": list(POINTERS)},
+        "sizes": {
+            "flight": len(start.numbers),
+            "state": leaves(plan.model.flight_state),
+            "prepared": max(at + rows * columns for at, rows, columns in spans.values()),
+            "work": about["work"],
+            "prepare_work": prepare_work,
+            "ring_rows": len(start.ring),
+            "ring_row": plan.kernels.delayed.size,
+            "sample": leaves(plan.sample),
+        },
+        "prepared": spans,
+        "delayed": [list(span) for span in plan.kernels.delayed if span.size],
+        "delays": plan.delays.tolist(),
+        "keys": [float(key) for key in plan.seeds],
+        "steps": plan.steps,
+        "every": plan.every,
+        "dt": plan.dt,
+        "hand": [hand.start, hand.stop - hand.start],
+        "functions": about["functions"],
+        "channels": _channels(plan),
+    }
+
+
+def number(value: float) -> float | str:
+    """A number for JSON, which has no infinity."""
+    return float(value) if np.isfinite(value) else str(float(value))
+
+
+def _channels(plan: FlightPlan) -> list[dict[str, Any]]:
+    row = np.arange(leaves(plan.sample), dtype=np.float64)[None, :]
+    found = []
+    for name, columns in channels_of(plan.sample, row):
+        channel = channel_of(name)
+        places = columns.ravel().astype(int).tolist()
+        facts = {"unit": channel.unit, "frame": channel.frame, "meaning": channel.meaning}
+        found.append({"name": name, "columns": places, **facts})
+    return found

@@ -1,0 +1,105 @@
+"""A mission compiled for another machine: its code, and the manifest that says how to call it."""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tandemlift.codegen.machines import Machine, machine_named, object_code
+from tandemlift.codegen.manifest import manifest_of
+from tandemlift.codegen.module_text import ValuesFunction, write_flight_loop, write_ramp, write_values_function
+from tandemlift.codegen.prepare_text import PreparedLayout, write_prepare
+from tandemlift.codegen.wasm_linker import linked
+from tandemlift.compiler.machine_code import store
+from tandemlift.core.settings import Mission
+from tandemlift.core.version import __version__
+from tandemlift.simulation.assembly.traced_assembly import TracedAssembly, trace_assembly
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.portable_mission import portable_mission
+
+FUNCTIONS = ("prepare", "fly", "ramp")
+Functions = Callable[[FlightPlan], Sequence[ValuesFunction]]
+
+
+class MissionModule(NamedTuple):
+    """A module of a mission: its code (WebAssembly, or an object), and its manifest."""
+
+    code: bytes
+    manifest: dict[str, Any]
+
+
+class WrittenModule(NamedTuple):
+    """The text of a module, and what its manifest needs: layouts, and numbers of arguments and results by function."""
+
+    text: str
+    prepared: PreparedLayout
+    work: int
+    functions: dict[str, tuple[int, int]]
+
+
+def _nothing_more(plan: FlightPlan) -> Sequence[ValuesFunction]:
+    return ()
+
+
+def module_of(mission: Mission, target: str, functions: Functions = _nothing_more) -> MissionModule:
+    """Compile a mission for a machine; what was compiled before is taken from the cache.
+
+    Args:
+        mission: from `load_mission`. The code is that of `mission.fused = false`.
+        target: a name in `MACHINES`.
+        functions: gives further functions for the module.
+
+    Raises:
+        InputError: the target is unknown, or no other machine can fly the mission.
+    """
+    machine = machine_named(target)
+    plan = FlightPlan(portable_mission(mission))
+    traced, more = trace_assembly(plan.mission), functions(plan)
+    facts = _identity(traced), _sources(more), [(f.name, f.likes) for f in more]
+    key = store.key_of((plan.model, plan.given), "module", machine, facts)
+    entry = store.read(key)
+    if entry is None:
+        written = _written(plan, traced, machine, more)
+        code = object_code(written.text, machine)
+        if target == "wasm32":
+            code = linked(code, [*FUNCTIONS, *written.functions])
+        about = {"prepared": written.prepared, "work": written.work, "functions": written.functions}
+        entry = store.StoredCode(json.loads(json.dumps(about)), code)
+        store.write(key, entry)
+    manifest = {
+        "format": 1,
+        "version": __version__,
+        "mission": mission.mission.name,
+        "target": target,
+        "sha256": hashlib.sha256(entry.code).hexdigest(),
+        **manifest_of(plan, traced, entry.about),
+    }
+    return MissionModule(entry.code, manifest)
+
+
+def _identity(traced: TracedAssembly) -> str:
+    """What identifies the graph of an assembly: its operations, its results and its guards."""
+    graph = traced.graph
+    text = repr((graph.ops, graph.args, traced.keys, [(g.condition.node, g.holds) for g in traced.guards]))
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _sources(functions: Sequence[ValuesFunction]) -> str:
+    """What identifies the sources of this folder, and of the folders that further functions are in."""
+    theirs = {Path(inspect.getfile(inspect.unwrap(f.function))).parent for f in functions}
+    files = sorted(path for folder in {*theirs, Path(__file__).parent} for path in folder.glob("*.py"))
+    return hashlib.sha256(b"".join(map(store.content, files))).hexdigest()
+
+
+def _written(
+    plan: FlightPlan, traced: TracedAssembly, machine: Machine, functions: Sequence[ValuesFunction]
+) -> WrittenModule:
+    loop = write_flight_loop(plan.kernels, machine.draw_lanes, machine.largest)
+    write_ramp(loop.module)
+    sizes = {f.name: (f.width, write_values_function(loop.module, f)) for f in functions}
+    prepared = write_prepare(loop.module, traced)
+    return WrittenModule(loop.module.text, prepared, loop.scratch.size, sizes)

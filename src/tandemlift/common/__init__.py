@@ -1,1 +1,0 @@
-"""What every other module may use: errors of bad input, files written whole, and types."""

@@ -1,0 +1,149 @@
+"""Marks that say what a function is, so that one source serves plain Python, NumPy, JAX, CasADi and machine code.
+
+Nothing here compiles anything. Each mark records the function; `tandemlift.compiler.trace` reads the records when
+something first flies, so a law can be imported, called and differentiated without a compiler.
+
+A law is a pure function of numbers and value types: no branch on data (`where`, `minimum`, `clip` instead), no state,
+no clock, no input or output, and no `math.*`. A loop over the parts of a value is unrolled when the law is traced.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeVar, overload
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+LAWS: list[Callable[..., Any]] = []
+
+
+def law(function: F) -> F:
+    """Mark a pure function of values as a law. It is returned unchanged."""
+    LAWS.append(function)
+    return function
+
+
+class Elementwise:
+    """A law of scalars that also acts on vectors, component by component. A scalar beside a vector serves all."""
+
+    def __init__(self, scalar: Callable[..., Any]) -> None:
+        self.scalar = scalar
+        functools.update_wrapper(self, scalar)
+
+    def calling(self, scalar: Callable[..., Any]) -> Elementwise:
+        """The same map over another form of the scalar law."""
+        return Elementwise(scalar)
+
+    def __call__(self, *args: Any) -> Any:
+        """The scalar law, of every component if an argument is a vector."""
+        shape = None
+        for a in args:
+            if type(a) is not float and getattr(a, "componentwise", False):
+                shape = a
+                break
+        else:
+            return self.scalar(*args)
+        rolled = next((a for a in args if getattr(a, "rolled", 0)), None)
+        if rolled is not None and getattr(type(shape), "is_set", False):  # of sets that are one symbol each
+            return self.scalar(*map(rolled.packed, args))
+        kind = type(shape)
+        columns = [a if isinstance(a, kind) else (a,) * len(shape) for a in args]
+        return kind(*map(self.scalar, *columns))
+
+
+def elementwise(scalar: Callable[..., Any]) -> Elementwise:
+    """Mark a law of scalars, written with elementary operations only, as one that also maps over vectors."""
+    return Elementwise(law(scalar))
+
+
+class Nothing(NamedTuple):
+    """Stands where a part or its memory is absent; it holds no numbers and costs nothing."""
+
+
+def _without(signature: Callable[..., Any], absent: Any) -> Callable[..., Any]:
+    """The law of a choice for `Nothing`, from the argument `absent` of `choice`."""
+    code = signature.__code__
+    names = code.co_varnames[: code.co_argcount]
+    parts = absent if type(absent) is tuple else (absent,)
+    for part in parts:
+        if isinstance(part, str) and part not in names:
+            raise TypeError(f"{signature.__name__}() has no argument {part!r}; it has {', '.join(names)}")
+    places = [names.index(part) if isinstance(part, str) else None for part in parts]
+
+    def without(*args: Any) -> Any:
+        values = [part if place is None else args[place] for part, place in zip(parts, places, strict=True)]
+        return tuple(values) if type(absent) is tuple else values[0]
+
+    return without
+
+
+class Choice:
+    """A law picked by the type of its first argument: `functools.singledispatch` that is also traced.
+
+    A setting that picks a variant is thus the type of its parameters, and costs nothing in the compiled loop.
+    """
+
+    def __init__(self, signature: Callable[..., Any]) -> None:
+        self.signature = signature
+        self.table: dict[type, Callable[..., Any]] = {}
+        self.interpreted: set[type] = set()
+        functools.update_wrapper(self, signature)
+
+    def __call__(self, *args: Any) -> Any:
+        """The law registered for the type of the first argument."""
+        return self.chosen(args[0])(*args)
+
+    def chosen(self, first: Any) -> Callable[..., Any]:
+        """The law registered for the type of a first argument."""
+        try:
+            return self.table[type(first)]
+        except KeyError:
+            known = ", ".join(sorted(c.__name__ for c in self.table))
+            raise TypeError(
+                f"{self.signature.__name__}() has no law for {type(first).__name__}; it knows {known}"
+            ) from None
+
+    def register(self, kind: type, *, compiled: bool = True) -> Callable[[F], F]:
+        """Register a law for first arguments of type `kind`; `compiled=False` for any Python function instead."""
+
+        def keep(function: F) -> F:
+            self.table[kind] = law(function) if compiled else function
+            self.interpreted.discard(kind) if compiled else self.interpreted.add(kind)
+            return function
+
+        return keep
+
+
+REQUIRED = object()
+
+
+@overload
+def choice(signature: Callable[..., Any]) -> Choice: ...
+
+
+@overload
+def choice(*, absent: Any) -> Callable[[Callable[..., Any]], Choice]: ...
+
+
+def choice(signature: Callable[..., Any] | None = None, *, absent: Any = REQUIRED) -> Any:
+    """Mark an empty function as the common signature of laws that are picked by type.
+
+    Args:
+        signature: the function: its arguments, and what the laws return.
+        absent: what is returned where the first argument is `Nothing`: the name of an argument, a value, or a tuple of
+            names and values. Without it, `Nothing` is refused unless a law is registered for it.
+
+    Raises:
+        TypeError: `absent` names an argument that the function does not have.
+    """
+    if signature is None:
+        return functools.partial(_choice, absent=absent)
+    return _choice(signature, absent)
+
+
+def _choice(signature: Callable[..., Any], absent: Any) -> Choice:
+    made = Choice(signature)
+    if absent is not REQUIRED:
+        made.register(Nothing)(_without(signature, absent))
+    return made

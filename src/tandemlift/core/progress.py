@@ -1,0 +1,92 @@
+"""Progress of long work by tqdm: a bar in a terminal or a notebook, a line from time to time in a file."""
+
+from __future__ import annotations
+
+import io
+import shutil
+import sys
+import threading
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, TextIO
+
+if TYPE_CHECKING:
+    from tandemlift.core.types import Progress  # which imports NumPy; a shell that completes words cannot wait
+
+BETWEEN_LINES = 10.0  # s, in a file, as of a job array
+KERNEL = "ipykernel"  # the package of a notebook's streams
+
+_shown = threading.Semaphore()  # a notebook's one bar
+
+
+class _Lines(io.TextIOBase):
+    """A stream in which each state of a bar is a line of its own."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+
+    def write(self, text: str) -> int:
+        if text.strip():
+            self._stream.write(text.strip() + "\n")
+            self._stream.flush()
+        return len(text)
+
+
+@contextmanager
+def shown_progress(label: str, unit: str = "rows", stream: TextIO | None = None) -> Iterator[Progress]:
+    """Progress shown as it suits a stream, by default standard error; in a notebook as a bar below the cell.
+
+    Args:
+        label: first words.
+        unit: of the work.
+        stream: where it goes.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # a notebook without ipywidgets has a bar of characters
+        from tqdm.auto import tqdm
+    out = stream or sys.stderr
+    look: dict[str, Any] = {"desc": label, "unit": f" {unit}"}
+    if stream is None and in_notebook():
+        look |= {"delay": 0.5}
+    elif out.isatty():  # one that does not say how large it is counts as 80 × 24; tqdm would show nothing
+        columns, lines = shutil.get_terminal_size()
+        look |= {"file": out, "ncols": columns, "nrows": lines}
+    else:
+        look |= {"file": _Lines(out), "mininterval": BETWEEN_LINES, "miniters": 1, "delay": BETWEEN_LINES, "ncols": 0}
+    with tqdm(total=0, **look) as bar:
+
+        def update(done: int, total: int) -> None:
+            if not bar.total:  # what was there before is no part of the rate
+                bar.initial = bar.n = bar.last_print_n = done
+            bar.total = total
+            bar.update(done - bar.n)
+
+        yield update
+
+
+@contextmanager
+def progress_or_own(label: str, progress: Progress | None, unit: str = "rows") -> Iterator[Progress | None]:
+    """Progress as the caller wants it; if nothing is said, a notebook shows one bar and a script none.
+
+    Args:
+        label: first words.
+        progress: of the caller, or None.
+        unit: of the work.
+    """
+    if not in_notebook() or not _shown.acquire(blocking=False):
+        yield progress
+        return
+    try:
+        if progress is not None:
+            yield progress
+        else:
+            with shown_progress(label, unit) as shown:
+                yield shown
+    finally:
+        _shown.release()
+
+
+def in_notebook() -> bool:
+    """Whether standard output is a cell of a notebook."""
+    return type(sys.stdout).__module__.partition(".")[0] == KERNEL

@@ -1,0 +1,199 @@
+"""Simulated sensors, and how they fail."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import AfterValidator, Field
+
+from tandemlift.core.sensors import ADDITIONAL, DEVICES, SENSORS, sensors_on
+from tandemlift.core.settings.key_description import key
+from tandemlift.core.settings.value_types import Axes3, Delay, NonNegative, Positive, Size, Table, must
+
+FINEST = 1e-9  # resolution of a sensor, in its unit
+BOUNDLESS = "without a bound"
+
+Interval = Annotated[float, Field(ge=0.0, le=10.0)]  # s
+Turn = Annotated[float, Field(ge=0.0, le=1.0)]  # rad
+
+
+def _step_of_quantisation(value: float) -> float:
+    if 0.0 < value < FINEST:
+        raise must("size", f"be 0 (for none) or at least {FINEST}")
+    return value
+
+
+Resolution = Annotated[Size, AfterValidator(_step_of_quantisation)]
+
+NOISE = "standard deviation of a sample"
+BIAS = "standard deviation of the constant error, which is drawn from the seed"
+DRIFT = "growth of the error, a random walk"
+STEP = "step of quantisation"
+RANGE = "largest reading, either way"
+FINE = f"0 for none, or at least {FINEST:g}"
+THE_SENSORS = "the sensor's unit"
+STEPS = "at most 10,000 steps"
+
+
+class JointSensors(Table):
+    """`[sensors.joints]`: the force-torque sensor at each joint, between quadrotor and payload."""
+
+    force_noise: Size = key(0.0, "N", f"force: {NOISE}")
+    force_bias: Size = key(0.0, "N", f"force: {BIAS}")
+    force_drift: Size = key(0.0, "N/√s", f"force: {DRIFT}")
+    force_resolution: Resolution = key(0.0, "N", f"force: {STEP}", rule=FINE)
+    force_range: Positive = key(1e6, "N", f"force: {RANGE}", source=BOUNDLESS)
+    torque_noise: Size = key(0.0, "N m", f"torque: {NOISE}")
+    torque_bias: Size = key(0.0, "N m", f"torque: {BIAS}")
+    torque_drift: Size = key(0.0, "N m/√s", f"torque: {DRIFT}")
+    torque_resolution: Resolution = key(0.0, "N m", f"torque: {STEP}", rule=FINE)
+    torque_range: Positive = key(1e6, "N m", f"torque: {RANGE}", source=BOUNDLESS)
+    misalignment: Turn = key(
+        0.0, "rad", "standard deviation of the sensor's rotation about each axis, which is drawn from the seed"
+    )
+
+
+class Accelerometer(Table):
+    """`[sensors.accelerometer]`: the accelerometer at the payload's centre of mass."""
+
+    noise: Size = key(0.0, "m/s²", NOISE)
+    bias: Size = key(0.0, "m/s²", BIAS)
+    drift: Size = key(0.0, "m/s²/√s", DRIFT)
+    range: Positive = key(1e6, "m/s²", RANGE, source=BOUNDLESS)
+
+
+class Gyroscope(Table):
+    """`[sensors.gyroscope]`: the gyroscope on the payload."""
+
+    noise: Size = key(0.0, "rad/s", NOISE)
+    bias: Size = key(0.0, "rad/s", BIAS)
+    drift: Size = key(0.0, "rad/s/√s", DRIFT)
+    range: Positive = key(1e6, "rad/s", RANGE, source=BOUNDLESS)
+
+
+InertialSensor = Accelerometer | Gyroscope
+
+
+class MotionSensor(Table):
+    """`[sensors.motion]`: position and velocity of the system's centre of mass, and attitude, as by motion capture."""
+
+    position_noise: Size = key(0.0, "m", f"position: {NOISE}")
+    velocity_noise: Size = key(0.0, "m/s", f"velocity: {NOISE}")
+    attitude_noise: Size = key(0.0, "rad", f"attitude: {NOISE}, about each body axis")
+    interval: Interval = key(0.0, "s", "time between samples, rounded to whole steps; 0 samples at every step")
+    delay: Delay = key(
+        0.0,
+        "s",
+        "delay of a sample beyond the one step after which any sample is known, rounded to whole steps",
+        rule=STEPS,
+    )
+
+
+AdditionalName: TypeAlias = Literal[tuple(ADDITIONAL)] | str  # type: ignore[valid-type]
+
+
+class AdditionalSensorTable(Table):
+    """`[[sensors.additional]]`: sensors beyond those that the pilot needs, one table each, with a clock of their own.
+
+    Their samples are recorded in channel `measured_NAME`. CONTRIBUTING.md tells how to add a sensor.
+    """
+
+    name: AdditionalName = key(
+        ...,
+        None,
+        "name of the sensor",
+        rule="or another one that is registered",
+        example="altimeter",
+        choices={sensor.name: sensor.meaning for sensor in ADDITIONAL.values()},
+    )
+    noise: Size = key(0.0, THE_SENSORS, NOISE)
+    bias: Size = key(0.0, THE_SENSORS, BIAS)
+    drift: Size = key(0.0, f"{THE_SENSORS}/√s", DRIFT)
+    resolution: Resolution = key(0.0, THE_SENSORS, STEP, rule=FINE)
+    range: Positive = key(1e6, THE_SENSORS, RANGE, source=BOUNDLESS)
+    interval: Interval = key(0.0, "s", "time between samples, rounded to whole steps; 0 samples at every step")
+    delay: Delay = key(
+        0.0,
+        "s",
+        "delay of a sample beyond the one step after which any sample is known, rounded to whole steps",
+        rule=STEPS,
+    )
+
+
+class SensorsTable(Table):
+    """`[sensors]`: simulated sensors; errors are independent along each axis.
+
+    There are a force-torque sensor at every joint, an accelerometer and a gyroscope, all on one clock, the inertial
+    measurement unit's (imu), and a motion measurement with a clock of its own. The pilot knows a sample one step after
+    it was taken, or later by its delay.
+    """
+
+    model: Literal["none", "simulated"] = key(
+        "none",
+        None,
+        "model of the sensors",
+        choices={"none": "no sensors: the pilot reads the truth", "simulated": "sensors with the errors of this table"},
+    )
+    interval: Interval = key(
+        0.0, "s", "time between samples of the imu and the joints, rounded to whole steps; 0 samples at every step"
+    )
+    delay: Delay = key(
+        0.0,
+        "s",
+        "delay of a sample of the imu and the joints beyond the one step after which any sample is known, rounded to "
+        "whole steps",
+        rule=STEPS,
+    )
+    joints: JointSensors = JointSensors()
+    accelerometer: Accelerometer = Accelerometer()
+    gyroscope: Gyroscope = Gyroscope()
+    motion: MotionSensor = MotionSensor()
+    additional: tuple[AdditionalSensorTable, ...] = ()
+
+
+SensorName: TypeAlias = Literal[(*DEVICES, *SENSORS)] | str  # type: ignore[valid-type]
+SENSOR_CHOICES = {
+    **{device: f"the device with {' and '.join(s.name for s in sensors_on(device))}" for device in DEVICES},
+    **{sensor.name: sensor.meaning for sensor in SENSORS.values()},
+}
+
+
+class SensorFaultTable(Table):
+    """`[[sensor_faults]]`: sensors that fail, one table each; they need `sensors.model = "simulated"`.
+
+    A sensor, or one joint of it, fails once. The devices "imu" and "motion" stand for all sensors on them.
+    """
+
+    sensor: SensorName = key(
+        ...,
+        None,
+        "the sensor or device that fails",
+        rule="or the name of an additional sensor",
+        example="joints",
+        choices=SENSOR_CHOICES,
+    )
+    quadrotor: Annotated[int, Field(ge=1, le=64)] | None = key(
+        None, "1", "number of the quadrotor whose joint fails, from 1", unset="all joints fail", example=1
+    )
+    kind: Literal["stale", "frozen", "nan", "bias", "range"] = key(
+        ...,
+        None,
+        "how the sensor fails",
+        example="frozen",
+        choices={
+            "stale": "a device sends nothing new",
+            "frozen": "it repeats its last value",
+            "nan": "its values are not numbers",
+            "bias": "it has an offset of `size`",
+            "range": "it reads `size`",
+        },
+    )
+    time: NonNegative = key(..., "s", "start of the fault", example=15.0)
+    until: NonNegative | None = key(
+        None, "s", "end of the fault", rule="after its start", unset="it lasts for good", example=20.0
+    )
+    size: Axes3 = key(
+        (0.0, 0.0, 0.0),
+        THE_SENSORS,
+        "offset, or the reading in its place; a force for joints, a rotation about body axes [rad] for the attitude",
+    )

@@ -1,0 +1,81 @@
+"""The true vehicle as rigid bodies that are fixed to each other, for the model file of another simulator.
+
+The difference between the true and the nominal vehicle (`plant`) is concentrated at the centre of mass, as in the
+engines. Here it is part of the payload.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.core.errors import InputError
+from tandemlift.core.settings import Mission
+from tandemlift.core.types import Array
+from tandemlift.parts.vehicle import Vehicle, parallel_axis_term
+
+ROUNDING = 1e-9  # relative tolerance of the triangle inequality of principal moments
+
+
+class Link(NamedTuple):
+    """A rigid body; its axes are the body axes.
+
+    Attributes:
+        name: `payload`, `quadrotor_1`, …
+        position: of its frame, from the system's centre of mass [m] (3): the part's nominal centre of mass.
+        mass: [kg].
+        center: centre of mass in its frame [m] (3).
+        inertia: about the centre of mass [kg m²] (3 × 3).
+    """
+
+    name: str
+    position: Array
+    mass: float
+    center: Array
+    inertia: Array
+
+
+def links_of(mission: Mission, vehicle: Vehicle) -> list[Link]:
+    """The bodies of a mission's true vehicle, the payload first.
+
+    Raises:
+        InputError: the difference in mass or inertia makes the payload's mass or inertia unphysical.
+    """
+    fleet = zip(vehicle.quadrotors, vehicle.lever_arms, strict=True)
+    return [
+        _payload(mission, vehicle),
+        *(Link(f"quadrotor_{i}", d, q.mass, np.zeros(3), np.diag(q.inertia)) for i, (q, d) in enumerate(fleet, 1)),
+    ]
+
+
+def _payload(mission: Mission, vehicle: Vehicle) -> Link:
+    """The payload, with the difference between the true and the nominal vehicle."""
+    own, place, plant = vehicle.payload, 0.0 - vehicle.center_of_mass, mission.plant
+    known = Link("payload", place, own.mass, np.zeros(3), np.diag(own.moments))
+    if plant.mass_scale == 1.0 and plant.inertia_scale == (1.0, 1.0, 1.0):
+        return known
+    scale, J, more = np.diag(np.sqrt(plant.inertia_scale)), vehicle.inertia, (plant.mass_scale - 1.0) * vehicle.mass
+    mass = own.mass + more
+    if mass <= 0.0:
+        raise _no_body(mission, f"a mass of {mass:g} kg")
+    center = own.mass / mass * place  # from the system's, where the difference is concentrated
+    inertia = (
+        known.inertia
+        + parallel_axis_term(own.mass, place - center)
+        + scale @ J @ scale
+        - J
+        + parallel_axis_term(more, center)
+    )
+    least, middle, most = np.linalg.eigvalsh(inertia)
+    if least <= 0.0 or least + middle < most * (1.0 - ROUNDING):
+        raise _no_body(mission, f"principal moments of {least:g}, {middle:g} and {most:g} kg m2")
+    return known._replace(mass=mass, center=center - place, inertia=inertia)
+
+
+def _no_body(mission: Mission, what: str) -> InputError:
+    plant = mission.plant
+    return InputError(
+        f"plant.mass_scale = {plant.mass_scale:g}, plant.inertia_scale = {list(plant.inertia_scale)}: the difference "
+        f"is part of the payload, which would have {what}; a model file needs a physical mass and inertia"
+    )

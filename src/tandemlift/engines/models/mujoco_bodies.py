@@ -1,0 +1,158 @@
+"""A vehicle as a MuJoCo model: the payload on a free joint, and each quadrotor as a body welded to the payload.
+
+The payload's body frame has its origin at the system's centre of mass, and its axes are the body axes. The state of
+MuJoCo's free joint then equals ours: position [m] and velocity [m/s] of the centre of mass in world axes, a quaternion
+w, x, y, z, and rates [rad/s] in body axes. Applied forces are in world axes [N], applied moments in body axes about
+the centre of mass [N·m].
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import reduce
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.settings import Mission, Quadrotor
+from tandemlift.core.types import Array
+from tandemlift.engines.models.mujoco_contact import add_floor, add_vehicle_shapes, add_walls, set_contact_stiffness
+from tandemlift.engines.models.mujoco_import import mujoco
+from tandemlift.parts.contact.feet import Floor
+from tandemlift.parts.contact.walls import Walls
+from tandemlift.parts.vehicle import Vehicle
+
+Weight = tuple[float, ArrayLike]  # kg; kg m², principal moments
+
+FRICTION_IMPEDANCE = 1e7  # MuJoCo's impratio: the inertia of friction is a thousand times the vehicle's
+NET_FORCE = 3  # MuJoCo's contact sensor: all contacts reduced to one wrench, in world axes
+
+
+def model_of(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
+    """The compiled `mujoco.MjModel` of a mission's true vehicle.
+
+    Actuator 4 i + j is rotor j of quadrotor i; its control is the thrust [N]. The sensors, in order: accelerometer at
+    the payload's centre of mass (3), force at each joint (3 N), torque at each joint (3 N), and with a floor or walls
+    the net contact force (3).
+
+    Args:
+        mission: gives step, `plant` and walls.
+        vehicle: the nominal vehicle.
+        floor: a `parts.contact.feet.Floor`, or `Nothing`.
+        walls: a `parts.contact.walls.Walls`, or `Nothing` for a mission without walls.
+
+    Raises:
+        TypeError: the mission has walls, but `walls` is not a `Walls`.
+    """
+    spec = specification(mission, vehicle, floor, walls)
+    difference = _add_difference(spec, mission, vehicle)
+    model = spec.compile()
+    quadrotors = [(q.mass, q.inertia) for q in vehicle.quadrotors]
+    _set_inertias(model, [(vehicle.payload.mass, vehicle.payload.moments), *quadrotors, *difference])
+    model.dof_damping[:] = [*vehicle.drag.force, *vehicle.drag.moment]
+    set_contact_stiffness(model, floor, walls)
+    return model
+
+
+def specification(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
+    """The `mujoco.MjSpec` of `model_of`, before inertias, drag and contact stiffness are set.
+
+    Raises:
+        TypeError: the mission has walls, but `walls` is not a `Walls`.
+    """
+    spec, standing, walled = mujoco.MjSpec(), isinstance(floor, Floor), isinstance(walls, Walls)
+    if mission.all_walls and not walled:
+        raise TypeError("a mission with walls needs a laws.contact.walls.Walls with their contact parameters")
+    _set_options(spec, mission.mission.step, touching=standing or walled)
+    _add_payload(spec, vehicle)
+    for i, (quadrotor, center) in enumerate(zip(vehicle.quadrotors, vehicle.lever_arms, strict=True), 1):
+        _add_quadrotor(spec, f"quadrotor{i}", quadrotor, center)
+    _add_sensors(spec, vehicle.count, touching=standing or walled)
+    shapes = add_vehicle_shapes(spec, floor, walls, vehicle)
+    if standing:
+        add_floor(spec, floor, shapes)
+    if walled:
+        add_walls(spec, walls, mission.all_walls, shapes)
+    return spec
+
+
+def _set_options(spec: Any, step: float, *, touching: bool) -> None:
+    """Set Runge-Kutta and gravity; disable resets, and contacts where there are no surroundings."""
+    option, disable = spec.option, mujoco.mjtDisableBit
+    option.timestep, option.gravity = step, [0.0, 0.0, -GRAVITY]
+    option.integrator = mujoco.mjtIntegrator.mjINT_RK4
+    option.cone, option.impratio = mujoco.mjtCone.mjCONE_ELLIPTIC, FRICTION_IMPEDANCE
+    flags = [disable.mjDSBL_AUTORESET] if touching else [disable.mjDSBL_AUTORESET, disable.mjDSBL_CONSTRAINT]
+    option.disableflags = reduce(int.__or__, map(int, flags))
+
+
+def _add_payload(spec: Any, vehicle: Vehicle) -> None:
+    """Add the payload, the root body, with its frame at the system's centre of mass."""
+    center = -vehicle.center_of_mass
+    body = spec.worldbody.add_body(name="payload", **_placeholder_inertia(center))
+    body.add_joint(name="free", type=mujoco.mjtJoint.mjJNT_FREE, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
+    body.add_site(name="payload", pos=center)
+
+
+def _add_quadrotor(spec: Any, name: str, quadrotor: Quadrotor, center: Array) -> None:
+    """Add a quadrotor welded to the payload, with its centre of mass at `center`; sites at its joint and rotors."""
+    body = spec.body("payload").add_body(name=name, pos=center, **_placeholder_inertia())
+    body.add_site(name=name, pos=np.subtract(quadrotor.joint_position, quadrotor.position))
+    for j, ((x, y), spin) in enumerate(zip(quadrotor.rotors, quadrotor.spins, strict=True), 1):
+        rotor = f"{name} rotor{j}"
+        body.add_site(name=rotor, pos=[x, y, 0.0])
+        gear = [0.0, 0.0, 1.0, 0.0, 0.0, quadrotor.torque_per_thrust * spin]
+        spec.add_actuator(name=rotor, target=rotor, trntype=mujoco.mjtTrn.mjTRN_SITE, gear=gear)
+
+
+def _add_difference(spec: Any, mission: Mission, vehicle: Vehicle) -> list[Weight]:
+    """Add a body at the centre of mass with the difference in inertia between true and nominal vehicle.
+
+    Its mass and principal moments may be negative. No body is added if there is no difference.
+    """
+    scale, J = np.diag(np.sqrt(mission.plant.inertia_scale)), vehicle.inertia
+    mass = (mission.plant.mass_scale - 1.0) * vehicle.mass
+    moments, axes = np.linalg.eigh(scale @ J @ scale - J)
+    if not mass and not moments.any():
+        return []
+    quat = np.empty(4)
+    mujoco.mju_mat2Quat(quat, (axes * [1.0, 1.0, np.linalg.det(axes)]).ravel())
+    spec.body("payload").add_body(name="difference", iquat=quat, **_placeholder_inertia())
+    return [(mass, moments)]
+
+
+def _placeholder_inertia(center: ArrayLike = (0.0, 0.0, 0.0)) -> dict[str, Any]:
+    """Placeholder inertia of a body, later set by `_set_inertias`; `center` of mass in the body's frame (3) [m]."""
+    return {"explicitinertial": True, "mass": 1.0, "inertia": [1.0, 1.0, 1.0], "ipos": center}
+
+
+def _set_inertias(model: Any, weights: Sequence[Weight]) -> None:
+    """Set mass and principal moments of all bodies in order, and update the constants that depend on them.
+
+    MuJoCo's compiler refuses small and negative values, and flat bodies because of rounding; its dynamics only need
+    the total to be a physical mass and inertia.
+    """
+    for index, (mass, moments) in enumerate(weights, 1):
+        model.body_mass[index], model.body_inertia[index] = mass, moments
+    mujoco.mj_setConst(model, mujoco.MjData(model))
+
+
+def _add_sensors(spec: Any, count: int, *, touching: bool) -> None:
+    """Add accelerometer, force and torque of every joint, and the net contact force in world axes."""
+    kind, at_site = mujoco.mjtSensor, mujoco.mjtObj.mjOBJ_SITE
+    spec.add_sensor(name="accelerometer", type=kind.mjSENS_ACCELEROMETER, objtype=at_site, objname="payload")
+    for label, what in (("force", kind.mjSENS_FORCE), ("torque", kind.mjSENS_TORQUE)):
+        for i in range(1, count + 1):
+            spec.add_sensor(name=f"{label}{i}", type=what, objtype=at_site, objname=f"quadrotor{i}")
+    if touching:
+        spec.add_sensor(
+            name="contact",
+            type=kind.mjSENS_CONTACT,
+            objtype=mujoco.mjtObj.mjOBJ_BODY,
+            objname="world",
+            reftype=mujoco.mjtObj.mjOBJ_XBODY,  # the body and what it carries
+            refname="payload",
+            intprm=[1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), NET_FORCE, 1],
+        )

@@ -1,0 +1,66 @@
+"""Floor and walls of a mission with their contact parameters, for laws and simulators."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.algebra.vector import Nothing
+from tandemlift.core.caching import kept
+from tandemlift.core.settings import Mission
+from tandemlift.core.settings.surroundings import GroundTable
+from tandemlift.parts.contact.feet import Floor, floor, sole_positions, standing_height
+from tandemlift.parts.contact.hull import hull
+from tandemlift.parts.contact.spheres import rotor_spheres
+from tandemlift.parts.contact.walls import Walls, walls
+from tandemlift.parts.vehicle import Vehicle
+
+
+def floor_from(mission: Mission, vehicle: Vehicle) -> Any:
+    """The floor of a mission, or `Nothing`."""
+    return Nothing() if mission.ground.model == "none" else feet_and_floor_from(mission, vehicle)
+
+
+def feet_and_floor_from(mission: Mission, vehicle: Vehicle) -> Floor:
+    """The floor of a mission, its feet and its hull, even if `ground.model` is "none"."""
+    start = mission.initial.position[2] if mission.ground.height is None else 0.0
+    return _floor(vehicle, mission.ground, mission.plant.mass_scale, mission.mission.step, start)
+
+
+@kept
+def _floor(vehicle: Vehicle, g: GroundTable, mass_scale: float, step: float, start: float) -> Floor:
+    """The floor under a vehicle; unless its height is given, the vehicle stands on it with its centre at `start`."""
+    fleet, mass = vehicle.quadrotors, vehicle.mass * mass_scale
+    soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
+    shapes = hull(**vehicle.hull_shapes, mass=mass, inertia=vehicle.inertia, step=step)
+    at_zero = floor(soles, mass, vehicle.inertia, step, friction=g.friction, sinkage=g.sinkage, hull=shapes)
+    if g.height is not None:
+        return at_zero._replace(height=g.height)
+    return at_zero._replace(height=start - standing_height(at_zero, mass * GRAVITY))
+
+
+def walls_from(mission: Mission, vehicle: Vehicle) -> Any:
+    """The contact shapes and parameters for a mission's walls, or `Nothing` without walls."""
+    return wall_contact_from(mission, vehicle) if mission.all_walls else Nothing()
+
+
+def wall_contact_from(mission: Mission, vehicle: Vehicle) -> Walls:
+    """The contact shapes and parameters for walls, even if the mission has none."""
+    return _walls(vehicle, mission.ground.friction, mission.plant.mass_scale, mission.mission.step)
+
+
+@kept
+def _walls(vehicle: Vehicle, friction: float, mass_scale: float, step: float) -> Walls:
+    fleet, hubs = vehicle.quadrotors, vehicle.rotor_hubs
+    guards = [q.guard_radius for q in fleet]
+    return walls(
+        vehicle.lever_arms,
+        guards,
+        vehicle.mass * mass_scale,
+        vehicle.inertia,
+        step,
+        friction=friction,
+        rotors=rotor_spheres(vehicle.lever_arms, hubs, [q.rotor_radius for q in fleet], guards),
+        beam=vehicle.beam,
+        payload=-vehicle.center_of_mass,
+    )

@@ -1,5 +1,0 @@
-"""The paper's equations as laws: pure functions of values, one topic a file, each with the paper's label beside it.
-
-SI units, z up. World axes are inertial, body axes are fixed to the vehicle. Attitude maps body axes to world axes, and
-Euler angles (φ, θ, ψ) are Z-X-Y: R = Rz(ψ) Rx(φ) Ry(θ). docs/reference/equation-map.md maps every label to a law.
-"""

@@ -1,5 +1,0 @@
-"""Sensors: their readings and errors, their faults, their health, and the watchdogs over them."""
-
-from tandemlift.laws.sensors import additional_sensors  # registers its sensors
-
-__all__ = ["additional_sensors"]

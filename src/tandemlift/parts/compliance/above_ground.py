@@ -1,0 +1,42 @@
+"""The reference of a guidance by hand stays above the ground from which it was lifted.
+
+A push downwards, or wind on the beam that looks like one, would else carry the reference into the floor. The feet then
+press, what presses back is taken for a disturbance, and the vehicle may turn over.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice
+from tandemlift.core.algebra.ops import clip, where
+from tandemlift.parts.compliance.compliance import Compliance, ComplianceState, with_speed
+
+APPROACH_GAIN = 2.0  # 1/s: largest speed downwards over the height that is left
+
+
+class GroundClearance(NamedTuple):
+    """Where there is a floor: height above it [m] below which a push does not move the reference further down."""
+
+    height: Any
+
+
+@choice(absent=0.0)
+def has_floor(k: Any) -> Any:
+    """1 where there is a floor, else 0."""
+
+
+@has_floor.register(GroundClearance)
+def _floor(k: GroundClearance) -> Any:
+    return 1.0
+
+
+@choice(absent="compliance")
+def above_ground(k: Any, compliance: Compliance, m: ComplianceState, height: Any) -> Any:
+    """The compliance with a limit of the speed downwards; `height` [m] of the reference above the ground."""
+
+
+@above_ground.register(GroundClearance)
+def _above(k: GroundClearance, compliance: Compliance, m: ComplianceState, height: Any) -> Compliance:
+    speed, pull = compliance.limits.speed, m.output.value.z
+    down = where(pull == 0.0, m.velocity.z, pull)
+    slower = clip(APPROACH_GAIN * (height - k.height), 0.0, speed.z)
+    return with_speed(compliance, speed._replace(z=where(down < 0.0, slower, speed.z)))

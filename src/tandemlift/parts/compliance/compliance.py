@@ -1,0 +1,211 @@
+"""Compliance to a person's push: from the measured push to a trajectory that the vehicle can follow.
+
+measured push → low-pass → less its bias → soft dead-band with hysteresis and dwell → low-pass → admittance → limits
+
+Per world axis, M a + C v + K (p − p_d) = F with F the push beyond the threshold. Both low-passes are of second order,
+so the rate of the acceleration is known too, and the reference can lead by the response time of the vehicle. Speed,
+acceleration and jerk are bounded, also by the thrust that is left; every start and stop is smooth. While nobody pushes,
+a slow mean of the measured push becomes its bias.
+
+Passivity: `parts.compliance.energy_tank`. Yaw: `parts.guidance.yaw_compliance`.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.ops import absolute, clip, maximum, minimum, sqrt, where
+from tandemlift.core.algebra.vector import Vec3
+from tandemlift.parts.compliance.admittance import Admittance, anchored, soft
+from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
+
+QUIET_TIME = 2.0  # s without a push, after which the bias is estimated
+BIAS_CLIP = 0.3  # of the threshold: the largest deviation from the mean that counts for the bias
+BIAS_RATE = 0.5  # 1/s, at which the bias follows the mean: two seconds late
+
+
+class DeadBand(NamedTuple):
+    """Threshold [N] above which a push is active, and `release` [N] below which it ends; `dwell` [s] before it starts.
+
+    `bias_rate` [1/s]: of the mean that becomes the bias, while no push was active for `QUIET_TIME`.
+    """
+
+    threshold: Any
+    release: Any
+    dwell: Any
+    bias_rate: Any
+
+
+class DeadBandState(NamedTuple):
+    """Memory: 1 while a push is active, else 0; for how long it has been above the threshold, and not active [s]; bias.
+
+    The bias follows the `mean` late, and the mean returns to it if it was the beginning of a push.
+    """
+
+    active: Any
+    above_time: Any
+    inactive_time: Any
+    mean: Any
+    bias: Any
+
+
+class MotionLimits(NamedTuple):
+    """Largest speed [m/s], acceleration [m/s²] and jerk [m/s³] along each axis; gain of the braking [1/s]."""
+
+    speed: Vec3
+    acceleration: Vec3
+    jerk: Vec3
+    braking_gain: Any
+
+
+class Compliance(NamedTuple):
+    """Low-pass of the push, dead-band, low-pass after it, M, C, K and T_d, limits.
+
+    `force_lead` [s]: lead time of the push that the controller compensates. `reference_lead` [s]: lead time of the
+    reference's acceleration.
+    """
+
+    input_filter: LowPass
+    band: DeadBand
+    output_filter: LowPass
+    admittance: Admittance
+    limits: MotionLimits
+    force_lead: Any
+    reference_lead: Any
+
+
+class ComplianceState(NamedTuple):
+    """Memory: the push [N] after the first low-pass, the dead-band's, the force [N] after the second; T_r, and T_d."""
+
+    filtered: LowPassState
+    band: DeadBandState
+    output: LowPassState
+    position: Vec3
+    velocity: Vec3
+    acceleration: Vec3
+    jerk: Vec3
+    anchor: Vec3
+
+
+@elementwise
+def is_active(active: Any, above_time: Any, force: Any, threshold: Any, release: Any, dwell: Any) -> Any:
+    """1 while a push is active: once it was above the threshold for the dwell, until it is below the release."""
+    begins = where(absolute(force) > threshold, where(above_time < dwell, 0.0, 1.0), 0.0)
+    return where(active > 0.0, where(absolute(force) < release, 0.0, 1.0), begins)
+
+
+@elementwise
+def time_above(above_time: Any, force: Any, threshold: Any, dt: Any) -> Any:
+    """For how long a push has been above the threshold [s]."""
+    return where(absolute(force) > threshold, above_time + dt, 0.0)
+
+
+@elementwise
+def time_inactive(inactive_time: Any, active: Any, dt: Any) -> Any:
+    """For how long no push has been active [s]."""
+    return (inactive_time + dt) * (1.0 - active)
+
+
+@elementwise
+def bias_input(force: Any, bound: Any, inactive_time: Any) -> Any:
+    """What the mean follows: the force within a bound, once no push was active for `QUIET_TIME`."""
+    return where(inactive_time < QUIET_TIME, 0.0, clip(force, -bound, bound))
+
+
+@elementwise
+def unless_active(active: Any, old: Any, new: Any) -> Any:
+    """The old value while a push is active, else the new one."""
+    return where(active > 0.0, old, new)
+
+
+@law
+def dead_band(k: DeadBand, m: DeadBandState, force: Any, enabled: Any, dt: Any) -> Any:
+    """(the part of an active force beyond the threshold, the new memory); while `enabled` is 0, no push is active."""
+    f = force - m.bias
+    above = time_above(m.above_time, f, k.threshold, dt) * enabled
+    active = is_active(m.active, above, f, k.threshold, k.release, k.dwell) * enabled
+    inactive = time_inactive(m.inactive_time, active, dt) * enabled
+    deviation = bias_input(force - m.mean, k.threshold * BIAS_CLIP, inactive)
+    mean = unless_active(active, m.bias, m.mean + deviation * (k.bias_rate * dt))
+    bias = m.bias + (mean - m.bias) * (BIAS_RATE * dt)
+    return soft(f, k.threshold) * active, DeadBandState(active, above, inactive, mean, bias)
+
+
+@elementwise
+def speed_limited(acceleration: Any, velocity: Any, max_speed: Any, gain: Any) -> Any:
+    """An acceleration that does not carry the speed beyond a limit: it brakes towards the limit."""
+    return clip(acceleration, -gain * (max_speed + velocity), gain * (max_speed - velocity))
+
+
+@elementwise
+def moved_towards(value: Any, target: Any, step: Any) -> Any:
+    """A value moved towards its target by at most a step."""
+    return value + clip(target - value, -step, step)
+
+
+@law
+def with_horizontal_limit(a: Vec3, limit: Any) -> Vec3:
+    """An acceleration whose horizontal part is at most `limit` [m/s²]."""
+    size = sqrt(maximum(a.x * a.x + a.y * a.y, 1e-24))
+    factor = minimum(limit / size, 1.0)
+    return Vec3(a.x * factor, a.y * factor, a.z)
+
+
+@law
+def admittance_acceleration(k: Compliance, m: ComplianceState, force: Vec3, damping: Any, horizontal: Any) -> Vec3:
+    """The admittance's response [m/s²] to a force beyond the threshold, within limits."""
+    a = k.admittance
+    pull = force - (a.damping + Vec3(damping, damping, damping)) * m.velocity - a.stiffness * (m.position - m.anchor)
+    free = clip(pull * a.inverse_mass, -k.limits.acceleration, k.limits.acceleration)
+    return with_horizontal_limit(speed_limited(free, m.velocity, k.limits.speed, k.limits.braking_gain), horizontal)
+
+
+@choice(absent="acceleration")
+def within(boundary: Any, acceleration: Vec3) -> Any:
+    """An acceleration of the reference [m/s²] that does not carry it across a boundary."""
+
+
+@law
+def compliance_step(
+    k: Compliance, m: ComplianceState, push: Vec3, enabled: Any, damping: Any, horizontal: Any, boundary: Any, dt: Any
+) -> ComplianceState:
+    """The memory after a step.
+
+    Args:
+        k: the compliance.
+        m: its memory.
+        push: as measured [N, world axes].
+        enabled: 1 while the vehicle follows pushes, else 0.
+        damping: to be added to C [N·s/m].
+        horizontal: the largest horizontal acceleration that the rotors can still give [m/s²].
+        boundary: which the reference must not cross, or `Nothing`.
+        dt: of the step [s].
+    """
+    filtered = low_pass_step(k.input_filter, m.filtered, push)
+    beyond, band = dead_band(k.band, m.band, filtered.value, enabled, dt)
+    output = low_pass_step(k.output_filter, m.output, beyond)
+    target = within(boundary, admittance_acceleration(k, m, output.value, damping, horizontal))
+    acceleration = moved_towards(m.acceleration, target, k.limits.jerk * dt)
+    position = m.position + m.velocity * dt + acceleration * (0.5 * dt * dt)
+    velocity = m.velocity + acceleration * dt
+    return ComplianceState(
+        filtered=filtered,
+        band=band,
+        output=output,
+        position=position,
+        velocity=velocity,
+        acceleration=acceleration,
+        jerk=(acceleration - m.acceleration) * (1.0 / dt),
+        anchor=anchored(m.anchor, position, velocity, output.value, k.admittance.reanchor),
+    )
+
+
+@law
+def with_speed(k: Compliance, speed: Vec3) -> Compliance:
+    """A compliance with another largest speed along each axis [m/s]."""
+    return k._replace(limits=k.limits._replace(speed=speed))
+
+
+@law
+def compensated_push(k: Compliance, m: ComplianceState) -> Vec3:
+    """The push that the controller compensates [N, world axes]: the filtered one, by its lead time ahead."""
+    return m.filtered.value + m.filtered.rate * k.force_lead

@@ -1,0 +1,116 @@
+"""Whether the vehicle can follow its reference: if not, for which reason (`core.phases.REASONS`).
+
+The force that the rotors must give is n = m g e_z − d − p, with the observed disturbance d and the push p that is
+compensated. The vehicle cannot follow where |n| is above the thrust that may be used, where the horizontal part of n
+takes more tilt than allowed, where the heading cannot be held, or where it stays too far from its reference. Each must
+last for a time; and all must be over for a longer time before pushes are followed again. Until then the reason only
+changes to one of higher priority. A vehicle that has lost its heading turns faster and faster, so it lands in the end.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import law
+from tandemlift.core.algebra.ops import absolute, maximum, minimum, where
+from tandemlift.core.algebra.vector import Vec3, dot
+from tandemlift.core.phases import REASONS
+
+
+class FollowingLimits(NamedTuple):
+    """Limits, the time [s] for which one must be exceeded, and that without any [s] after which all is well again.
+
+    `side_force` [N]: what the largest tilt gives under the nominal weight; `heading_error` [rad]; `position_error` [m].
+    `heading_timeout` [s]: for which the heading may be lost before a landing.
+    """
+
+    side_force: Any
+    heading_error: Any
+    position_error: Any
+    time: Any
+    recovery_time: Any
+    heading_timeout: Any
+
+
+class Following(NamedTuple):
+    """What is compared with the limits.
+
+    The force that the rotors must give [N, world axes], the largest that may be used [N], the reference less the
+    position [m] and heading [rad]; `active` is 1 in the phases that have such limits, else 0.
+    """
+
+    needed: Vec3
+    max_thrust: Any
+    error: Vec3
+    heading_error: Any
+    active: Any
+
+
+class FollowingState(NamedTuple):
+    """Memory: for how long each limit has been exceeded, and none of them [s]; the number of the reason, or 0.
+
+    For findings: the time `first` of a reason [s]; for how long there was one in all [s], `lasted`; the most urgent
+    one; and for how long the heading was lost at a stretch [s].
+    """
+
+    thrust: Any
+    tilt: Any
+    heading: Any
+    position: Any
+    clear_time: Any
+    reason: Any
+    first: Any
+    lasted: Any
+    most_urgent: Any
+    longest_lost: Any
+
+
+AT_REST = FollowingState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@law
+def exceeded_for(time: Any, value: Any, limit: Any, active: Any, dt: Any) -> Any:
+    """For how long a value has been above its limit [s]."""
+    return (time + dt) * where(value > limit, active, 0.0)
+
+
+@law
+def first_reason(k: FollowingLimits, m: FollowingState) -> Any:
+    """The number of the first limit that has been exceeded for its time, or 0."""
+    number = 0.0
+    for i, reason in reversed(list(enumerate(REASONS, start=1))):
+        number = where(getattr(m, reason.key) > k.time, float(i), number)
+    return number
+
+
+@law
+def more_urgent(reason: Any, other: Any) -> Any:
+    """The first of two reasons, of which any may be 0 for none."""
+    return where(reason > 0.0, where(other > 0.0, minimum(reason, other), reason), other)
+
+
+@law
+def update_following(k: FollowingLimits, m: FollowingState, f: Following, t: Any, dt: Any) -> FollowingState:
+    """The memory after a sample at time t [s] that is held for dt [s]."""
+    n = f.needed
+    after = m._replace(
+        thrust=exceeded_for(m.thrust, dot(n, n), f.max_thrust * f.max_thrust, f.active, dt),
+        tilt=exceeded_for(m.tilt, n.x * n.x + n.y * n.y, k.side_force * k.side_force, f.active, dt),
+        heading=exceeded_for(m.heading, absolute(f.heading_error), k.heading_error, f.active, dt),
+        position=exceeded_for(m.position, dot(f.error, f.error), k.position_error * k.position_error, f.active, dt),
+    )
+    clear = where(after.thrust + after.tilt + after.heading + after.position > 0.0, 0.0, m.clear_time + dt)
+    kept = where(clear > k.recovery_time, 0.0, m.reason)
+    reason = more_urgent(first_reason(k, after), kept) * f.active
+    return after._replace(
+        clear_time=clear,
+        reason=reason,
+        first=where(m.lasted + reason > 0.0, where(m.lasted > 0.0, m.first, t), 0.0),
+        lasted=m.lasted + where(reason > 0.0, dt, 0.0),
+        most_urgent=more_urgent(m.most_urgent, reason),
+        longest_lost=maximum(m.longest_lost, after.heading),
+    )
+
+
+@law
+def must_land(k: FollowingLimits, m: FollowingState) -> Any:
+    """1 once the heading has been lost for too long, else 0."""
+    return where(m.heading > k.heading_timeout, 1.0, 0.0)

@@ -1,0 +1,163 @@
+"""Clearance of the vehicle from walls: of the guards around its quadrotors, of rotors out of them, and of its beam.
+
+It is exact in every state: the walls near each part are known, and the distance to these is measured. The point of a
+straight beam nearest to an upright wall is one of its ends, or lies at one of the wall's edges, or at its top.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.ops import least, minimum, sqrt
+from tandemlift.core.algebra.types import Condition, Number, PerQuadrotor, PerRotor
+from tandemlift.core.algebra.vector import Nothing, Vec3, apply, dot
+from tandemlift.parts.contact.beam_axis import beam_axis, beam_point, point_by_edge, point_by_top
+from tandemlift.parts.contact.spheres import NearRotors, RotorSpheres
+from tandemlift.parts.contact.wall_geometry import offset, offset_from_top
+from tandemlift.parts.contact.walls import Beam, NearBeam, NearWalls, Walls
+from tandemlift.parts.mechanics.loads import PartsLayout, translated
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+
+FAR = 1000.0  # m
+STALE = 0.05  # m, by which the vehicle may move before the nearest walls are found anew
+
+
+class Clearance(NamedTuple):
+    """The smallest distance from walls [m], negative in contact: of every guard (a set), of rotors, of the beam.
+
+    `rotors`: a `RotorClearance`, or `Nothing` if all rotors are in their guard.
+    """
+
+    guards: PerQuadrotor
+    rotors: Any
+    beam: "BeamClearance | Nothing"
+
+
+class RotorClearance(NamedTuple):
+    """The smallest distance of every rotor [m], a set; that of a rotor in its guard is its hub's."""
+
+    rims: PerRotor
+
+
+class BeamClearance(NamedTuple):
+    """The smallest distance of the beam [m]: of its ends (a set), and along its length."""
+
+    ends: Any
+    length: Number
+
+
+@elementwise
+def surface_distance(square: Number, radius: Number) -> Number:
+    """Distance of a surface [m] whose axis is at a distance √square."""
+    return sqrt(square) - radius
+
+
+@law
+def gap(o: Vec3, radius: Number) -> Number:
+    """Distance of a surface [m] whose centre is at the offset o, which may be of sets."""
+    return surface_distance(dot(o, o), radius)
+
+
+@choice(absent="rotors")
+def rotor_clearance(rotors: RotorSpheres | Nothing, near: NearRotors | Nothing, s: State) -> Any:
+    """Clearance of the rotors from the walls near them."""
+
+
+@rotor_clearance.register(RotorSpheres)
+def _spheres(rotors: RotorSpheres, near: NearRotors, s: State) -> RotorClearance:
+    p = translated(s.position, apply(rotation_from_quaternion(s.attitude), rotors.hub))
+    first, second = gap(offset(near.first, p), rotors.radius), gap(offset(near.second, p), rotors.radius)
+    return RotorClearance(minimum(first, second))
+
+
+@choice(absent="beam")
+def beam_clearance(beam: Beam | Nothing, w: Walls, near: NearBeam | Nothing, frame: PartsLayout, s: State) -> Any:
+    """Clearance of the beam from the walls near it."""
+
+
+@beam_clearance.register(Beam)
+def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State) -> BeamClearance:
+    a, half = beam_axis(frame.payload, s), beam.ends[1]
+    edge = offset(near.edge, beam_point(a, point_by_edge(a, half, near.edge)))
+    other = offset(near.other_edge, beam_point(a, point_by_edge(a, half, near.other_edge)))
+    top = offset_from_top(near.topped, beam_point(a, point_by_top(a, half, near.topped)))
+    length = minimum(minimum(gap(edge, beam.radius), gap(other, beam.radius)), gap(top, beam.radius))
+    return BeamClearance(gap(offset(near.ends, beam_point(a, beam.ends)), beam.radius), length)
+
+
+@choice(absent="w")
+def clearance(w: Walls | Nothing, near: NearWalls | Nothing, frame: PartsLayout, s: State) -> Any:
+    """Clearance of the vehicle from the walls near it."""
+
+
+@clearance.register(Walls)
+def _walls(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> Clearance:
+    p = translated(s.position, apply(rotation_from_quaternion(s.attitude), frame.quadrotors))
+    guards = minimum(gap(offset(near.first, p), w.guards), gap(offset(near.second, p), w.guards))
+    rotors = rotor_clearance(w.rotors, near.rotors, s)
+    return Clearance(guards, rotors, beam_clearance(w.beam, w, near.beam, frame, s))
+
+
+@choice(absent=FAR)
+def least_clearance(c: Clearance | RotorClearance | BeamClearance | Nothing) -> Number:
+    """The smallest distance of a clearance [m]."""
+
+
+@least_clearance.register(RotorClearance)
+def _rotor_clearance(c: RotorClearance) -> Number:
+    return least(c.rims)
+
+
+@least_clearance.register(BeamClearance)
+def _beam_clearance(c: BeamClearance) -> Number:
+    return minimum(least(c.ends), c.length)
+
+
+@least_clearance.register(Clearance)
+def _vehicle_clearance(c: Clearance) -> Number:
+    return minimum(minimum(least(c.guards), least_clearance(c.rotors)), least_clearance(c.beam))
+
+
+@law
+def speed_bound(w: Walls, s: State) -> Number:
+    """An upper bound on the speed of every point of the vehicle [m/s]; on its acceleration, if `s` is the motion."""
+    return sqrt(dot(s.velocity, s.velocity)) + w.reach * sqrt(dot(s.rates, s.rates))
+
+
+@law
+def is_fast(w: Walls, s: State, span: Number) -> Condition:
+    """Whether the vehicle may move so far within a span [s] that other walls may be the nearest by then."""
+    return speed_bound(w, s) * span > STALE
+
+
+@law
+def may_touch_wall(w: Walls, c: Clearance, s: State, rate: State, dt: Number) -> Condition:
+    """Whether anything may touch a wall in a step of dt [s] from state `s`, whose motion without walls is `rate`.
+
+    Every point moves at no more than |v| + r |ω|, r the vehicle's reach, and accelerates by no more than the same bound
+    on `rate`. The distance so covered is doubled for safety.
+    """
+    fast, faster = speed_bound(w, s), speed_bound(w, rate)
+    return least_clearance(c) < 2.0 * dt * (fast + faster * dt)
+
+
+@choice(absent="a")
+def smaller_clearance(a: Any, b: Any) -> Any:
+    """The smaller of two clearances, part by part."""
+
+
+@smaller_clearance.register(RotorClearance)
+def _smaller_of_rotors(a: RotorClearance, b: RotorClearance) -> RotorClearance:
+    return RotorClearance(minimum(a.rims, b.rims))
+
+
+@smaller_clearance.register(BeamClearance)
+def _smaller_of_beams(a: BeamClearance, b: BeamClearance) -> BeamClearance:
+    return BeamClearance(minimum(a.ends, b.ends), minimum(a.length, b.length))
+
+
+@smaller_clearance.register(Clearance)
+def _smaller_of_vehicles(a: Clearance, b: Clearance) -> Clearance:
+    return Clearance(
+        minimum(a.guards, b.guards), smaller_clearance(a.rotors, b.rotors), smaller_clearance(a.beam, b.beam)
+    )

@@ -1,0 +1,260 @@
+"""Contact of a vehicle's feet with a level floor: normal force, and friction with stiction.
+
+Every quadrotor has four feet. A foot is a pad on a ball joint, so its force acts at the joint's centre, ρ above the
+pad. With the penetration δ of the pad and the displacement e of the joint from its anchor, in world axes,
+
+    N = max(0, k δ + c δ̇) if δ > 0, else 0         F = −(k_t e + c_t ė), shortened to the length μ N if it is longer.
+
+Both forces are passive. In N, k δ is a spring and the rest dissipates c δ̇², or −k δ δ̇ where N is cut to 0, which
+happens only for δ̇ < −k δ/c. In F, k_t e is a spring and the rest dissipates power as long as |k_t e| ≤ μ N.
+`grips_after_step` enforces that at the end of every step, with the smaller N of its start and its end, so that a foot
+that has just landed stores no energy. Below μ N the anchor does not move: a vehicle at rest stays where it is.
+
+A step evaluates `feet_load` at every stage with the anchors held, then `grips_after_step`. Other parts meet the floor
+by their own law (`hull`).
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tandemlift.core.algebra.arrays import array, largest, lengths
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.algebra.law import elementwise, law
+from tandemlift.core.algebra.ops import absolute, greatest, maximum, minimum, sqrt, where
+from tandemlift.core.algebra.types import Condition, Number, PerQuadrotor, number
+from tandemlift.core.algebra.vector import (
+    Mat3,
+    Nothing,
+    Quarters,
+    Vec3,
+    apply,
+    apply_transposed,
+    cross,
+    dot,
+    spread,
+    vec3,
+)
+from tandemlift.parts.contact.hull import MAX_ACCELERATION, MAX_ANGULAR_ACCELERATION, Ellipsoids, Hull
+from tandemlift.parts.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
+from tandemlift.parts.mechanics.loads import PartLoad, PartsLayout, add_to_each
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion, world_z_in_body
+
+NO_HULL = Nothing()
+
+
+class Floor(NamedTuple):
+    """A level floor, and what of the vehicle meets it: its feet, and its `hull`, a `pads.Hull` or `Nothing`.
+
+    `height` z of the floor [m]; of one foot `stiffness` k [N/m] and `damping` c [N·s/m], `tangential_stiffness` k_t and
+    `tangential_damping` c_t; `friction` μ; `radius` ρ [m]; `feet`: centre of foot j of every quadrotor from the
+    system's centre of mass [m, body axes], vectors of sets. From there [m], `extent`: how far feet and hull are along
+    each body axis; `reach`: how far any point of them can be.
+    """
+
+    height: Number
+    stiffness: Number
+    damping: Number
+    friction: Number
+    tangential_stiffness: Number
+    tangential_damping: Number
+    radius: Number
+    feet: Quarters
+    extent: Vec3
+    reach: Number
+    hull: Any
+
+
+class FootGrip(NamedTuple):
+    """Memory of one foot of every quadrotor, as sets: its anchor [m, world axes], and N [N] at the last step.
+
+    The memory of a vehicle is `Quarters` of it.
+    """
+
+    x: PerQuadrotor
+    y: PerQuadrotor
+    normal: PerQuadrotor
+
+
+class Foot(NamedTuple):
+    """One foot of every quadrotor, world axes: lever arm from the centre of mass, position, velocity, and N."""
+
+    arm: Vec3
+    x: PerQuadrotor
+    y: PerQuadrotor
+    velocity_x: PerQuadrotor
+    velocity_y: PerQuadrotor
+    normal: PerQuadrotor
+
+
+@elementwise
+def drawn_towards(anchor: Number, place: Number, factor: Number) -> Number:
+    """The anchor drawn towards a place, to `factor` times its distance; unchanged at a factor of 1."""
+    return where(factor < 1.0, place + (anchor - place) * factor, anchor)
+
+
+@law
+def foot_at(floor: Floor, s: State, R: Mat3, spin: Vec3, f: Vec3) -> Foot:
+    """The feet at f [m, body axes] of a vehicle that turns at `spin` [rad/s, world axes]."""
+    arm = apply(R, f)
+    turn = cross(spin, arm)
+    depth = add_to_each(-arm.z, floor.radius + floor.height - s.position.z)
+    return Foot(
+        arm,
+        add_to_each(arm.x, s.position.x),
+        add_to_each(arm.y, s.position.y),
+        add_to_each(turn.x, s.velocity.x),
+        add_to_each(turn.y, s.velocity.y),
+        spring_damper(depth, add_to_each(-turn.z, -s.velocity.z), floor.stiffness, floor.damping),
+    )
+
+
+@law
+def feet_at(floor: Floor, s: State, R: Mat3) -> Quarters:
+    """The four feet of every quadrotor; R of the state's attitude."""
+    spin, feet = apply(R, s.rates), floor.feet
+    return Quarters(
+        foot_at(floor, s, R, spin, feet.first),
+        foot_at(floor, s, R, spin, feet.second),
+        foot_at(floor, s, R, spin, feet.third),
+        foot_at(floor, s, R, spin, feet.fourth),
+    )
+
+
+@law
+def foot_force(floor: Floor, foot: Foot, grip: FootGrip) -> Vec3:
+    """Force of the floor [N, world axes] on a foot of every quadrotor."""
+    pull_x = (foot.x - grip.x) * floor.tangential_stiffness + foot.velocity_x * floor.tangential_damping
+    pull_y = (foot.y - grip.y) * floor.tangential_stiffness + foot.velocity_y * floor.tangential_damping
+    factor = friction_factor(pull_x * pull_x + pull_y * pull_y, foot.normal * floor.friction)
+    return Vec3(-(pull_x * factor), -(pull_y * factor), foot.normal)
+
+
+@law
+def slide_grip(floor: Floor, foot: Foot, grip: FootGrip) -> FootGrip:
+    """The anchor drawn after the foot until friction holds the spring, under the smaller N of now and before."""
+    x, y = (foot.x - grip.x) * floor.tangential_stiffness, (foot.y - grip.y) * floor.tangential_stiffness
+    factor = friction_factor(x * x + y * y, minimum(foot.normal, grip.normal) * floor.friction)
+    return FootGrip(drawn_towards(grip.x, foot.x, factor), drawn_towards(grip.y, foot.y, factor), foot.normal)
+
+
+@law
+def feet_load(floor: Floor, grip: Quarters, frame: PartsLayout, s: State) -> PartLoad:
+    """Load of the floor on every quadrotor, as sets: force, and moment about each quadrotor's centre of mass."""
+    R = rotation_from_quaternion(s.attitude)
+    a, b, c, d = feet_at(floor, s, R)
+    f, g, h, i = (
+        foot_force(floor, a, grip[0]),
+        foot_force(floor, b, grip[1]),
+        foot_force(floor, c, grip[2]),
+        foot_force(floor, d, grip[3]),
+    )
+    force = f + g + h + i
+    moment = cross(a.arm, f) + cross(b.arm, g) + cross(c.arm, h) + cross(d.arm, i)
+    return PartLoad(force, apply_transposed(R, moment - cross(apply(R, frame.quadrotors), force)))
+
+
+@law
+def grips_after_step(floor: Floor, grip: Quarters, s: State) -> Quarters:
+    """The memory after a step that ends in state `s`: feet in the air and sliding feet get new anchors."""
+    a, b, c, d = feet_at(floor, s, rotation_from_quaternion(s.attitude))
+    return Quarters(
+        slide_grip(floor, a, grip[0]),
+        slide_grip(floor, b, grip[1]),
+        slide_grip(floor, c, grip[2]),
+        slide_grip(floor, d, grip[3]),
+    )
+
+
+@law
+def may_touch(floor: Floor, s: State, time: Number) -> Condition:
+    """Whether a foot or any other part may touch the floor within `time` [s] of state `s`."""
+    hangs = dot(absolute(world_z_in_body(s.attitude)), floor.extent) + floor.radius
+    swings = floor.reach * (sqrt(dot(s.rates, s.rates)) + MAX_ANGULAR_ACCELERATION * time) * time
+    fall = (minimum(s.velocity.z, 0.0) - 0.5 * MAX_ACCELERATION * time) * time
+    return s.position.z + fall - minimum(hangs + swings, floor.reach) < floor.height
+
+
+def sole_positions(centers: ArrayLike, span: ArrayLike, depth: ArrayLike) -> NDArray[np.float64]:
+    """Four soles under each quadrotor, N × 4 × 3 [m, body axes], from the same point as the centres.
+
+    Args:
+        centers: centres of mass of the quadrotors, N × 3 [m].
+        span: of a foot along x and along y from there [m], one number or N.
+        depth: of the soles below there [m], one number or N.
+    """
+    d = array(centers)
+    size = np.stack([np.broadcast_to(v, len(d)) for v in (span, span, depth)], axis=1)
+    return d[:, None] + size[:, None] * [[1.0, 1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, -1.0], [1.0, -1.0, -1.0]]
+
+
+def floor(
+    soles: ArrayLike,
+    mass: float,
+    inertia: ArrayLike,
+    step: float,
+    *,
+    friction: float,
+    height: float = 0.0,
+    radius: float = 0.01,
+    sinkage: float = 5e-4,
+    damping_ratio: float = 1.0,
+    hull: Any = NO_HULL,
+) -> Floor:
+    """A floor for a vehicle: feet so stiff that it sinks by `sinkage` at rest, softer if the step demands it.
+
+    Args:
+        soles: N × 4 × 3, of the level vehicle, from its centre of mass [m, body axes].
+        mass: of the vehicle [kg].
+        inertia: 3 × 3 about its centre of mass [kg·m²].
+        step: of the Runge-Kutta method [s].
+        friction: μ of the pads on the floor.
+        height: of the floor, z [m].
+        radius: ρ, of the ball joint above the sole [m].
+        sinkage: of the vehicle at rest on all its feet [m]; `sinkage_of` gives the actual one after softening.
+        damping_ratio: of the heave oscillation on all its feet.
+        hull: a `Hull` that meets the floor, too, or `Nothing`.
+    """
+    places = np.add(soles, [0.0, 0.0, radius])
+    points = places.reshape(-1, 3)
+    share = mass / len(points)
+    wanted = share * GRAVITY / sinkage
+    body_mobility = mobility(points, mass, array(inertia))
+    k, c = softened_for_step(wanted, 2.0 * damping_ratio * sqrt(wanted * share), body_mobility, step)
+    reach = number(greatest(lengths(points))) + radius
+    feet = Quarters(*[spread(places[:, j]) for j in range(4)])
+    extent = vec3(largest(np.abs(points), axis=0))
+    if isinstance(hull, Hull):
+        extent, reach = maximum(extent, absolute(hull.middle) + hull.half), maximum(reach, hull.reach)
+    return Floor(number(height), k, c, number(friction), k, c, float(radius), feet, extent, reach, hull)
+
+
+def standing_height(floor: Floor, weight: float) -> float:
+    """Height of the level vehicle's centre of mass above the floor where feet and beam bear its weight [N], in m."""
+    springs = [(floor.radius - z, 1.0) for foot in floor.feet for z in foot.z]
+    if isinstance(floor.hull, Hull) and isinstance(floor.hull.beam, Ellipsoids):
+        ends, ratio = floor.hull.beam, floor.hull.stiffness / floor.stiffness
+        springs += [(radius - z, ratio) for z, radius in zip(ends.center.z, ends.radius, strict=True)]
+    return greatest([_height_on(springs, lowest, weight / floor.stiffness) for lowest, _ in springs])
+
+
+def _height_on(springs: list[tuple[Number, Number]], lowest: Number, load: Number) -> Number:
+    """Height [m] at which the springs that touch no later than one of them bear a load over a foot's stiffness [m].
+
+    A spring is the height at which it touches [m], and its stiffness over that of a foot.
+    """
+    bears = [where(touch >= lowest, ratio, 0.0) for touch, ratio in springs]
+    return (sum(share * touch for share, (touch, _) in zip(bears, springs, strict=True)) - load) / sum(bears)
+
+
+def sinkage_of(floor: Floor, weight: float) -> float:
+    """How deep a vehicle of this weight [N] sinks at rest on all its feet [m]."""
+    return weight / (floor.stiffness * 4 * len(floor.feet.first.x))
+
+
+def start_foot_grip(floor: Floor, s: State) -> Quarters:
+    """The memory of feet whose anchors are where the feet are in state `s`."""
+    none = floor.feet.first.x * 0.0
+    return grips_after_step(floor, Quarters(*[FootGrip(none, none, none)] * 4), s)

@@ -1,0 +1,282 @@
+"""Contact of rotors, guards and beam with a level floor, in every attitude.
+
+Rotor discs and the quadrotors' guards are flat ellipsoids: radius r across body z, half thickness c along it. The ends
+of the beam are spheres (r = c), as the lowest point of a capsule is always at one of its ends. With body z at b, and
+with the part of the vertical n that lies in the disc, u = n − (b·n) b, a shape reaches below its centre by
+
+    h = √(r² |u|² + c² (b·n)²),        at its point        −(c² n + (r² − c²) u)/h.
+
+That point is −∂h/∂n, so δ = z_floor − z + h changes at the rate at which the point moves down. Both forces act there:
+
+    N = max(0, k δ + c δ̇) if δ > 0, else 0         F = −c_t v, shortened to the length μ N if it is longer,
+
+with v the sliding velocity. Thus k δ is a spring, the rest dissipates, and contact never adds energy.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tandemlift.core.algebra.arrays import array
+from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.ops import absolute, greatest, least, minimum, sqrt
+from tandemlift.core.algebra.types import Condition, Number, number
+from tandemlift.core.algebra.vector import (
+    ZERO,
+    Mat3,
+    Nothing,
+    Vec3,
+    apply,
+    apply_transposed,
+    cross,
+    dot,
+    each,
+    quarters,
+    spread,
+)
+from tandemlift.parts.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
+from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each, sum_over_set
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import world_z_in_body
+
+MAX_ACCELERATION = 500.0  # m/s², more than rotors, pushes and walls give
+MAX_ANGULAR_ACCELERATION = 1000.0  # rad/s², more than rotors give
+HALF_THICKNESS = 0.01  # m, of a rotor's disc and of a guard
+
+
+class Ellipsoids(NamedTuple):
+    """Shapes that meet the floor, as sets: centre from the system's centre of mass [m, body axes], r and c [m]."""
+
+    center: Vec3
+    radius: Any
+    half_thickness: Any
+
+
+class Hull(NamedTuple):
+    """What of a vehicle meets the floor besides its feet; of one contact k [N/m], c and c_t [N·s/m].
+
+    `rotors`: number j of quadrotor i, both from 0, is 4 i + j; `guards`: one for each quadrotor; `beam`: its two ends,
+    at −y and at +y, or `Nothing` if the payload has no shape. All are in a box about `middle` with sides of twice
+    `half` [m, body axes], no further than `reach` [m] from the centre of mass.
+    """
+
+    stiffness: Number
+    damping: Number
+    tangential_damping: Number
+    rotors: Ellipsoids
+    guards: Ellipsoids
+    beam: Any
+    middle: Vec3
+    half: Vec3
+    reach: Number
+
+
+class FloorContact(NamedTuple):
+    """Contact of shapes, as sets, world axes: lowest point from the system's centre of mass [m], N [N], force [N]."""
+
+    arm: Vec3
+    normal: Any
+    force: Vec3
+
+
+class HullContact(NamedTuple):
+    """Contact of all parts with the floor; `beam` is `Nothing` without a beam."""
+
+    rotors: FloorContact
+    guards: FloorContact
+    beam: Any
+
+
+@elementwise
+def reach_below(radius: Number, half_thickness: Number, leaning: Number, level: Number) -> Number:
+    """h [m], how far a shape reaches below its centre; |u|² and (b·n)²: `level` is 1 where it lies flat, else less."""
+    return sqrt(radius * radius * leaning + half_thickness * half_thickness * level)
+
+
+@elementwise
+def sideways(radius: Number, half_thickness: Number, below: Number, along: Number) -> Number:
+    """How far the lowest point of a shape is beside its centre [m], along an axis on which n − u is `along`."""
+    return (radius * radius - half_thickness * half_thickness) / below * along
+
+
+@choice(absent="shapes")
+def floor_contact(shapes: Any, hull: Hull, friction: Number, height: Number, s: State, R: Mat3) -> Any:
+    """Contact of shapes, or of `Nothing`, with a floor at a height z [m]; R of the state's attitude."""
+
+
+@floor_contact.register(Ellipsoids)
+def _touching(shapes: Ellipsoids, hull: Hull, friction: Number, height: Number, s: State, R: Mat3) -> FloorContact:
+    leaning, level = R.x.z * R.x.z + R.y.z * R.y.z, R.z.z * R.z.z
+    below = reach_below(shapes.radius, shapes.half_thickness, leaning, level)
+    center = apply(R, shapes.center)
+    arm = Vec3(
+        center.x + sideways(shapes.radius, shapes.half_thickness, below, R.x.z * R.z.z),
+        center.y + sideways(shapes.radius, shapes.half_thickness, below, R.y.z * R.z.z),
+        center.z - below,
+    )
+    turn = cross(apply(R, s.rates), arm)
+    depth, rate = add_to_each(-arm.z, height - s.position.z), add_to_each(-turn.z, -s.velocity.z)
+    normal = spring_damper(depth, rate, hull.stiffness, hull.damping)
+    drag_x = add_to_each(turn.x, s.velocity.x) * hull.tangential_damping
+    drag_y = add_to_each(turn.y, s.velocity.y) * hull.tangential_damping
+    factor = friction_factor(drag_x * drag_x + drag_y * drag_y, normal * friction)
+    return FloorContact(arm, normal, Vec3(-(drag_x * factor), -(drag_y * factor), normal))
+
+
+@law
+def hull_contact(hull: Hull, friction: Number, height: Number, s: State, R: Mat3) -> HullContact:
+    """Contact of all parts with a floor at a height z [m]; R of the state's attitude."""
+    return HullContact(
+        floor_contact(hull.rotors, hull, friction, height, s, R),
+        floor_contact(hull.guards, hull, friction, height, s, R),
+        floor_contact(hull.beam, hull, friction, height, s, R),
+    )
+
+
+@law
+def summed_load(contact: FloorContact, center: Vec3) -> PartLoad:
+    """Load of all shapes of one part about its centre, which is at `center` from the system's; world axes."""
+    force = sum_over_set(contact.force)
+    return PartLoad(force, sum_over_set(cross(contact.arm, contact.force)) - cross(center, force))
+
+
+@choice(absent=PartLoad(ZERO, ZERO))
+def beam_end_load(contact: FloorContact | Nothing, center: Vec3) -> Any:
+    """Load of the floor on the beam, world axes."""
+
+
+@beam_end_load.register(FloorContact)
+def _beam_ends(contact: FloorContact, center: Vec3) -> PartLoad:
+    return summed_load(contact, center)
+
+
+@law
+def rotor_sums(v: Vec3) -> Vec3:
+    """For every quadrotor, the sum of a vector over its four rotors."""
+    x, y, z = quarters(v.x), quarters(v.y), quarters(v.z)
+    return Vec3(
+        x.first + x.second + x.third + x.fourth,
+        y.first + y.second + y.third + y.fourth,
+        z.first + z.second + z.third + z.fourth,
+    )
+
+
+@law
+def hull_loads(contact: HullContact, frame: PartsLayout, R: Mat3) -> PartLoads:
+    """Loads of the floor on all parts; R of the attitude."""
+    rotors, guards = contact.rotors, contact.guards
+    force = rotor_sums(rotors.force) + guards.force
+    moment = rotor_sums(cross(rotors.arm, rotors.force)) + cross(guards.arm, guards.force)
+    about_each = moment - cross(apply(R, frame.quadrotors), force)
+    beam = beam_end_load(contact.beam, apply(R, frame.payload))
+    return PartLoads(
+        PartLoad(beam.force, apply_transposed(R, beam.moment)), PartLoad(force, apply_transposed(R, about_each))
+    )
+
+
+@law
+def hull_may_touch(hull: Hull, height: Number, s: State, time: Number) -> Condition:
+    """Whether any part may touch the floor at z = `height` [m] within `time` [s] of state `s`.
+
+    The distance that a point may fall is doubled for safety.
+    """
+    up, way = world_z_in_body(s.attitude), sqrt(dot(s.rates, s.rates)) * hull.reach
+    lowest = s.position.z + dot(up, hull.middle) - dot(absolute(up), hull.half)
+    faster = (MAX_ACCELERATION + MAX_ANGULAR_ACCELERATION * hull.reach) * time
+    return lowest - 2.0 * time * (way - minimum(s.velocity.z, 0.0) + faster) < height
+
+
+def lowest_of_hull(hull: Hull, R: Mat3) -> Number:
+    """z of the lowest point of a hull from the centre of mass [m]; R of the attitude."""
+    leaning, level, found = R.x.z * R.x.z + R.y.z * R.y.z, R.z.z * R.z.z, list[Number]()
+    for p in (hull.rotors, hull.guards, hull.beam):
+        if isinstance(p, Ellipsoids):
+            found += apply(R, p.center).z - reach_below(p.radius, p.half_thickness, leaning, level)
+    return least(found)
+
+
+def hull(
+    quadrotors: ArrayLike,
+    rotors: ArrayLike,
+    radii: ArrayLike,
+    guards: ArrayLike,
+    mass: float,
+    inertia: ArrayLike,
+    step: float,
+    *,
+    beam: tuple[float, float] | None = None,
+    payload: ArrayLike = (0.0, 0.0, 0.0),
+    stiffness: float = 20000.0,
+    damping_ratio: float = 0.2,
+) -> Hull:
+    """The shapes of a vehicle that meet the floor: as stiff as asked, softer if the step demands it.
+
+    Args:
+        quadrotors: N × 3, their centres of mass from the system's [m, body axes].
+        rotors: N × 4 × 3, their hubs from the centre of their quadrotor [m, body axes].
+        radii: of the rotors' discs, N [m].
+        guards: radius of the guard about each quadrotor, N [m].
+        mass: of the vehicle [kg].
+        inertia: 3 × 3 about its centre of mass [kg·m²].
+        step: of the Runge-Kutta method [s].
+        beam: length [m] of the axis and radius [m] of a capsule along body y, if the payload is one.
+        payload: its centre of mass from the system's [m, body axes].
+        stiffness: of a contact [N/m].
+        damping_ratio: of the vehicle oscillating on one contact, without turning.
+    """
+    centers = array(quadrotors)
+    hubs = (centers[:, None] + array(rotors)).reshape(-1, 3)
+    ends = array([np.add(payload, [0.0, 0.5 * side * beam[0], 0.0]) for side in (-1.0, 1.0)]) if beam else None
+    points = np.concatenate([hubs, centers] if ends is None else [hubs, centers, ends])
+    body_mobility = mobility(points, mass, array(inertia))
+    k, c = softened_for_step(stiffness, 2.0 * damping_ratio * sqrt(stiffness * mass), body_mobility, step)
+    shapes = [_discs(hubs, np.repeat(radii, 4)), _discs(centers, guards)]
+    if beam is not None and ends is not None:
+        shapes.append(_ellipsoids(ends, [beam[1]] * 2, [beam[1]] * 2))
+    box = _box_of(shapes)
+    return Hull(
+        stiffness=k,
+        damping=c,
+        tangential_damping=minimum(c, 1.0 / (body_mobility * step)),
+        rotors=shapes[0],
+        guards=shapes[1],
+        beam=shapes[2] if beam is not None else Nothing(),
+        middle=box.middle,
+        half=box.half,
+        reach=_reach_of(shapes),
+    )
+
+
+def _ellipsoids(centers: Any, radii: Any, half_thickness: Any) -> Ellipsoids:
+    cls = each(len(centers))
+    return Ellipsoids(spread(centers), cls(*map(number, radii)), cls(*map(number, half_thickness)))
+
+
+def _discs(centers: Any, radii: Any) -> Ellipsoids:
+    return _ellipsoids(centers, radii, [HALF_THICKNESS] * len(centers))
+
+
+class Box(NamedTuple):
+    """A box with sides along the body axes: its middle and half of each side [m]."""
+
+    middle: Vec3
+    half: Vec3
+
+
+def _box_of(shapes: list[Ellipsoids]) -> Box:
+    """The box of shapes."""
+    lows, highs = list[Number](), list[Number]()
+    for axis in range(3):
+        places = [center for p in shapes for center in p.center[axis]]
+        sizes = [size for p in shapes for size in (p.half_thickness if axis == 2 else p.radius)]
+        lows.append(least([place - size for place, size in zip(places, sizes, strict=True)]))
+        highs.append(greatest([place + size for place, size in zip(places, sizes, strict=True)]))
+    low, high = Vec3(*lows), Vec3(*highs)
+    return Box((low + high) * 0.5, (high - low) * 0.5)
+
+
+def _reach_of(shapes: list[Ellipsoids]) -> Number:
+    """How far any point of shapes is from the centre of mass [m]."""
+    numbers = [row for p in shapes for row in zip(*p.center, p.radius, strict=True)]
+    return greatest([sqrt(x * x + y * y + z * z) + radius for x, y, z, radius in numbers])

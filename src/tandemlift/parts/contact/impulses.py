@@ -1,0 +1,193 @@
+"""Impulses that keep walls out of the core of every shape, however fast it comes: a soft shell about a hard core.
+
+Springs (`walls`) give way to a blow, and one that reaches a shape's centre, or the axis of the beam, would push it out
+on the other side. So the inner `CORE` of each radius r is hard. Its distance from a wall, d − CORE r, decreases at the
+start of a step of dt at no more than it would take to close it within the step. With the approach rate ḋ = n·v of the
+nearest point, and its acceleration d̈, with or without the springs of walls, whichever is smaller,
+
+    ḋ ≥ ḋ_min = −(d − CORE r)/dt − ½ d̈ dt,        P = max(0, min(ḋ_min, −ḋ) − ḋ)/M,        M = n·(mobility) n.
+
+The impulse P acts along n. It leaves ḋ at no more than −ḋ, so it takes P (2 ḋ + M P)/2 ≤ 0 of energy. In translation
+the distance of convex shapes is convex, so the linear prediction is safe; the error of rotations is of third order.
+Several contacts are solved one after another, the worst of each kind first (sequential impulses, Catto 2005); the bound
+is that of speculative contacts. A touch that springs hold is not changed by a bit.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.ops import greatest, least, maximum, minimum, sqrt, where
+from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import (
+    Nothing,
+    Vec3,
+    apply,
+    apply_transposed,
+    cross,
+    dot,
+    each,
+    is_set,
+    set_of,
+)
+from tandemlift.parts.contact.spheres import ContactPair, WallContact, inverse_root
+from tandemlift.parts.contact.touches import if_number, number_at
+from tandemlift.parts.contact.walls import BeamContact, NearWallContact, Walls, loads_of_walls
+from tandemlift.parts.mechanics.inertia import apply_inertia
+from tandemlift.parts.mechanics.loads import (
+    PartLoad,
+    PartLoads,
+    PartsLayout,
+    add_to_each,
+    scaled,
+    sum_over_set,
+    translated,
+)
+from tandemlift.parts.mechanics.rigid_body import RigidBody, State
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+
+CORE = 0.25  # of the radius; the rest is left to the springs
+SWEEPS = 3  # over all kinds of contact; what is left of a collision of several parts is stopped in the next step
+FREELY = -1e9  # m/s: the rate of what has no core
+
+
+class Approach(NamedTuple):
+    """How shapes, a set, approach walls.
+
+    `normal`: from the wall, world axes; `lever` [m, body axes]: arm × normal, so that the rate of the distance is
+    normal · velocity + lever · rates; `mobility` [1/kg]: its change by a unit impulse; `least`: ḋ_min [m/s].
+    """
+
+    normal: Vec3
+    lever: Vec3
+    mobility: Any
+    least: Any
+
+
+class WallImpulses(NamedTuple):
+    """The state after impulses of walls, and these by their mean forces over the step [N]: contact, loads on parts."""
+
+    state: State
+    contact: NearWallContact | Nothing
+    loads: PartLoads | Nothing
+
+
+@elementwise
+def least_rate(distance: Number, radius: Number, acceleration: Number, dt: Number) -> Number:
+    """ḋ_min [m/s] at a distance of the nearest point from a wall; a shape without radius has none."""
+    closing = -maximum(distance - CORE * radius, 0.0) / dt - 0.5 * acceleration * dt
+    return where(radius > 0.0, closing, FREELY)
+
+
+@elementwise
+def change_needed(rate: Number, bound: Number) -> Number:
+    """By how much an impulse changes the rate of a distance [m/s]: to the bound ḋ_min, but at most to −ḋ."""
+    return maximum(minimum(bound, -rate) - rate, 0.0)
+
+
+@law
+def rate_along(n: Vec3, lever: Vec3, velocity: Vec3, rates: Vec3) -> Any:
+    """The rate at which distances along n change [m/s]; its derivative but for turning, if of a motion."""
+    return dot(n, velocity) + dot(lever, rates)
+
+
+@law
+def approach(
+    c: WallContact, radius: Any, body: RigidBody, s: State, free: State, sprung: State, dt: Number
+) -> Approach:
+    """How shapes at the places of contacts approach walls in state `s`; its motion without and with their springs."""
+    R, square = rotation_from_quaternion(s.attitude), dot(c.offset, c.offset)
+    arm, n = translated(-s.position, c.place + c.offset), scaled(c.offset, inverse_root(square))
+    lever, spin = apply_transposed(R, cross(arm, n)), apply(R, s.rates)
+    turning = dot(n, spin) * dot(arm, spin) - dot(n, arm) * dot(spin, spin)
+    freely = rate_along(n, lever, free.velocity, free.rates)
+    acceleration = turning + minimum(freely, rate_along(n, lever, sprung.velocity, sprung.rates))
+    mobility = add_to_each(dot(lever, apply_inertia(body.inverse_inertia, lever)), body.inverse_mass)
+    return Approach(n, lever, mobility, least_rate(sqrt(square), radius, acceleration, dt))
+
+
+@law
+def after_worst(a: Approach, body: RigidBody, s: State) -> tuple[State, Any]:
+    """The state once the worst of a set of contacts was stopped, and the impulses of all [N·s], a set."""
+    change = change_needed(rate_along(a.normal, a.lever, s.velocity, s.rates), a.least)
+    count = len(change)
+    numbers = each(count)(*[1.0 + i for i in range(count)])
+    worst = least(number_at(change, greatest(change), numbers, 1.0 + count))
+    impulse = if_number(numbers, worst, change / a.mobility)
+    velocity = s.velocity + sum_over_set(scaled(a.normal, impulse)) * body.inverse_mass
+    rates = s.rates + apply_inertia(body.inverse_inertia, sum_over_set(scaled(a.lever, impulse)))
+    return State(s.position, velocity, s.attitude, rates), impulse
+
+
+@law
+def in_one_set(several: Any, *others: Any) -> Any:
+    """Nested values of a set and of single contacts, as values of one set."""
+    if is_set(several):
+        return set_of([*several, *others])
+    return type(several)(*[in_one_set(*parts) for parts in zip(several, *others, strict=True)])
+
+
+@law
+def struck(c: WallContact, force: Any, arm: Vec3) -> WallContact:
+    """A contact that presses by a force [N], at `arm` from its part's centre [m]. All may be of sets."""
+    pressing = scaled(c.offset, inverse_root(dot(c.offset, c.offset)) * force)
+    return WallContact(force, c.place, c.offset, PartLoad(pressing, cross(arm, pressing)))
+
+
+@law
+def struck_spheres(pair: ContactPair | Nothing, forces: list[Any]) -> Any:
+    """Spheres that press on two walls by forces [N]; `Nothing` of `Nothing`."""
+    return type(pair)(*[struck(c, force, -c.offset) for c, force in zip(pair, forces, strict=True)])
+
+
+@choice(absent="contact")
+def struck_beam(contact: BeamContact | Nothing, forces: Any, center: Vec3) -> Any:
+    """A beam, by its centre [m, world axes], that presses on walls by forces [N]: of its ends, and of its length."""
+
+
+@struck_beam.register(BeamContact)
+def _struck_beam(contact: BeamContact, forces: Any, center: Vec3) -> BeamContact:
+    ends, *single = contact
+    return BeamContact(
+        struck(ends, set_of(forces[:2]), translated(-center, ends.place)),
+        *[struck(c, force, c.place - center) for c, force in zip(single, forces[2:], strict=True)],
+    )
+
+
+@law
+def impulses_of_walls(
+    w: Walls,
+    contact: NearWallContact,
+    frame: PartsLayout,
+    body: RigidBody,
+    s: State,
+    free: State,
+    sprung: State,
+    dt: Number,
+) -> WallImpulses:
+    """The impulses of walls at the start of a step of dt [s].
+
+    Args:
+        w: the contact shapes.
+        contact: contact with the walls near them in state `s`.
+        frame: where the parts are.
+        body: its mass and inertia.
+        s: the state before.
+        free: its motion without walls.
+        sprung: its motion with the springs of walls.
+        dt: [s].
+    """
+    shapes = [(c, w.guards) for c in contact.guards] + [(c, w.rotors.radius) for c in contact.rotors]
+    if len(contact.beam):
+        shapes.append((in_one_set(*contact.beam), w.beam.radius))
+    approaches = [approach(c, radius, body, s, free, sprung, dt) for c, radius in shapes]
+    after, forces = s, [a.mobility * 0.0 for a in approaches]
+    for i, a in [*enumerate(approaches)] * SWEEPS:
+        after, impulse = after_worst(a, body, after)
+        forces[i] = forces[i] + impulse * (1.0 / dt)
+    after = chosen(greatest([greatest(force) for force in forces]), after, s)
+    R, spheres = rotation_from_quaternion(s.attitude), 2 + len(contact.rotors)
+    guards, rotors = struck_spheres(contact.guards, forces[:2]), struck_spheres(contact.rotors, forces[2:spheres])
+    beam = struck_beam(contact.beam, forces[-1], s.position + apply(R, frame.payload))
+    struck_parts = NearWallContact(guards, rotors, beam)
+    return WallImpulses(after, struck_parts, loads_of_walls(w, struck_parts, frame, R))

@@ -1,0 +1,158 @@
+"""Contact of spheres with walls, and of rotors that stand out of their guard, each a sphere about its hub.
+
+A rotor is in its guard where its rim is at most `SPARED` outside it. Against a wall such a rotor has no shape of its
+own, and the guard's sphere stands for it.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tandemlift.core.algebra.arrays import array
+from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.ops import greatest, maximum, sqrt, where
+from tandemlift.core.algebra.types import Number, number
+from tandemlift.core.algebra.vector import Mat3, Nothing, Vec3, apply, cross, dot, each, spread
+from tandemlift.parts.contact.hull import rotor_sums
+from tandemlift.parts.contact.springs import friction_factor, spring_damper
+from tandemlift.parts.contact.wall_geometry import WALL, Wall, nearer, offset, second_nearest
+from tandemlift.parts.mechanics.loads import PartLoad, PartsLayout, scaled, translated
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+
+SMALL = 1e-18  # m²: no direction is known at this distance
+SPARED = 0.02  # m, by which a guard gives under some 100 N
+
+
+@elementwise
+def inverse_root(square: Number) -> Number:
+    """1/√square, bounded."""
+    return 1.0 / sqrt(maximum(square, SMALL))
+
+
+@elementwise
+def penetration(distance: Number, radius: Number) -> Number:
+    """Penetration [m] of a sphere whose centre is at a distance."""
+    return radius - distance
+
+
+class WallContact(NamedTuple):
+    """Contact of a part with a wall, or of sets: N [N], nearest point of the wall [m], load about the part's centre.
+
+    World axes; `offset` [m]: of the part's nearest point, before its radius, from that of the wall.
+    """
+
+    normal: Any
+    place: Vec3
+    offset: Vec3
+    load: PartLoad
+
+
+class ContactPair(NamedTuple):
+    """Contact with the two nearest walls."""
+
+    first: WallContact
+    second: WallContact
+
+
+@law
+def sphere_contact(w: Any, p: Vec3, o: Vec3, radius: Number, velocity: Vec3, spin: Vec3) -> WallContact:
+    """Contact of a wall with a sphere that moves at a velocity [m/s] and turns at `spin` [rad/s], all in world axes.
+
+    p is its centre, o the offset of p from the wall [m]; w: a `Walls`; the moment is about p [N·m].
+    """
+    square = dot(o, o)
+    inverse = inverse_root(square)
+    n = scaled(o, inverse)
+    rate = -dot(n, velocity)
+    normal = spring_damper(penetration(square * inverse, radius), rate, w.stiffness, w.damping)
+    sliding = scaled(velocity - cross(spin, o) + scaled(n, rate), w.tangential_damping)
+    factor = friction_factor(dot(sliding, sliding), normal * w.friction)
+    force = scaled(n, normal) - scaled(sliding, factor)
+    return WallContact(normal, p - o, o, PartLoad(force, cross(force, o)))
+
+
+class RotorSpheres(NamedTuple):
+    """Spheres of the rotors, as sets of four a quadrotor: hub from the system's centre of mass, radius [m].
+
+    The radius of a rotor in its guard is 0.
+    """
+
+    hub: Vec3
+    radius: Any
+
+
+class NearRotors(NamedTuple):
+    """The two walls nearest to every rotor (of sets)."""
+
+    first: Wall
+    second: Wall
+
+
+@choice(absent="rotors")
+def rotor_wall_contact(rotors: Any, w: Any, near: Any, s: State, R: Mat3) -> Any:
+    """Contact of the rotors with the walls nearest to each, about their hubs; `Nothing` where all are in guards."""
+
+
+@rotor_wall_contact.register(RotorSpheres)
+def _spheres(rotors: RotorSpheres, w: Any, near: NearRotors, s: State, R: Mat3) -> ContactPair:
+    spin, arm = apply(R, s.rates), apply(R, rotors.hub)
+    p, v = translated(s.position, arm), translated(s.velocity, cross(spin, arm))
+    return ContactPair(
+        sphere_contact(w, p, offset(near.first, p), rotors.radius, v, spin),
+        sphere_contact(w, p, offset(near.second, p), rotors.radius, v, spin),
+    )
+
+
+@choice(absent="load")
+def with_rotor_loads(contact: Any, rotors: Any, load: PartLoad, frame: PartsLayout, R: Mat3) -> Any:
+    """A load on the quadrotors about their centres, world axes, with that of the walls on their rotors."""
+
+
+@with_rotor_loads.register(ContactPair)
+def _with_spheres(contact: ContactPair, rotors: RotorSpheres, load: PartLoad, frame: PartsLayout, R: Mat3) -> PartLoad:
+    more = contact.first.load + contact.second.load
+    force, moment = rotor_sums(more.force), rotor_sums(more.moment + cross(apply(R, rotors.hub), more.force))
+    return PartLoad(load.force + force, load.moment + moment - cross(apply(R, frame.quadrotors), force))
+
+
+@choice(absent="near")
+def nearest_to_rotors_with(rotors: Any, wall: Wall, near: Any, s: State) -> Any:
+    """The walls nearest to the rotors, with `wall` taken into account."""
+
+
+@nearest_to_rotors_with.register(RotorSpheres)
+def _near_rotors(rotors: RotorSpheres, wall: Wall, near: NearRotors, s: State) -> NearRotors:
+    p = translated(s.position, apply(rotation_from_quaternion(s.attitude), rotors.hub))
+    return NearRotors(nearer(wall, near.first, p, p), second_nearest(wall, near.first, near.second, p, p, p))
+
+
+def no_walls_near_rotors(rotors: RotorSpheres | Nothing) -> NearRotors | Nothing:
+    """No wall is near."""
+    if isinstance(rotors, Nothing):
+        return rotors
+    count = len(rotors.radius)
+    nowhere = Wall(*[each(count)(*[v] * count) for v in WALL])
+    return NearRotors(nowhere, nowhere)
+
+
+def rotor_spheres(
+    quadrotors: ArrayLike, rotors: ArrayLike, radii: ArrayLike, guards: ArrayLike
+) -> RotorSpheres | Nothing:
+    """The spheres of rotors that stand out of their guard; `Nothing` if all are in it.
+
+    Args:
+        quadrotors: N × 3, their centres of mass from the system's [m, body axes].
+        rotors: N × 4 × 3, their hubs from the centre of their quadrotor [m, body axes].
+        radii: of the rotors, N [m].
+        guards: of the guards, N [m].
+    """
+    hubs, sizes = array(rotors), list[Number]()
+    for places, radius, guard in zip(hubs, np.asarray(radii), np.asarray(guards), strict=True):
+        rims = [sqrt(x * x + y * y) + radius for x, y, _ in places]
+        sizes += [where(rim > guard + SPARED, radius, 0.0) for rim in rims]
+    if not greatest(sizes) > 0.0:
+        return Nothing()
+    hubs = (array(quadrotors)[:, None] + hubs).reshape(-1, 3)
+    return RotorSpheres(spread(hubs), each(len(sizes))(*map(number, sizes)))

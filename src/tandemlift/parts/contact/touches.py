@@ -1,0 +1,239 @@
+"""The record of touches: of each kind of part on floor and walls, the first touch, the greatest force, the impulse.
+
+A rotor that touches anything stops for good. Feet on the floor are no touch. Forces are those of springs; impulses of
+walls (`impulses`), whose mean force depends on the step, are left out.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.ops import absolute, greatest, least, maximum, where
+from tandemlift.core.algebra.types import Number, PerRotor
+from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, each, set_of, total
+from tandemlift.parts.contact.hull import FloorContact, Hull, HullContact
+from tandemlift.parts.contact.spheres import ContactPair
+from tandemlift.parts.contact.walls import BeamContact, NearWallContact, Walls
+from tandemlift.parts.mechanics.loads import translated
+from tandemlift.parts.mechanics.rigid_body import State
+
+NEVER = 1e18  # s
+
+
+class TouchRecord(NamedTuple):
+    """Touches of one kind of part on one surface.
+
+    Of the first touch, `time` [s], `place` [m, world axes] and `part`, its number from 1; before it, `NEVER`, zero and
+    0. If parts touch at once, the hardest counts. Of all parts together, `force`: the greatest sum of normal forces
+    [N]; `impulse`: that of the normal forces [N·s].
+    """
+
+    time: Number
+    place: Vec3
+    part: Number
+    force: Number
+    impulse: Number
+
+
+UNTOUCHED = TouchRecord(NEVER, ZERO, 0.0, 0.0, 0.0)
+
+
+class SurfaceTouches(NamedTuple):
+    """Records of rotors, guards and beam on floor or walls; `Nothing` where a part has no shape to that surface."""
+
+    rotors: Any
+    guards: Any
+    beam: Any
+
+
+class Touches(NamedTuple):
+    """Which rotors still turn (1, or 0 from their first touch on), and the records on floor and walls, or `Nothing`."""
+
+    turning: PerRotor
+    floor: Any
+    walls: Any
+
+
+class PartContacts(NamedTuple):
+    """Normal force on every part of a kind [N], and where it acts [m, world axes]: sets."""
+
+    normal: Any
+    place: Vec3
+
+
+class SurfaceContacts(NamedTuple):
+    """Contact of rotors, guards and beam with a surface: `PartContacts`, or `Nothing`."""
+
+    rotors: Any
+    guards: Any
+    beam: Any
+
+
+@elementwise
+def number_at(normal: Number, limit: Number, number: Number, none: Number) -> Number:
+    """The number of a part whose normal force [N] reaches a limit, else `none`."""
+    return where(normal >= limit, number, none)
+
+
+@elementwise
+def if_number(number: Number, wanted: Number, value: Number) -> Number:
+    """A value of the part that has the number wanted, else 0."""
+    return where(absolute(number - wanted) < 0.5, value, 0.0)
+
+
+@elementwise
+def unless_touched(turning: Number, normal: Number) -> Number:
+    """0 for what is touched or was before, else 1."""
+    return where(normal > 0.0, 0.0, turning)
+
+
+@elementwise
+def first_or_second(first: Number, second: Number, a: Number, b: Number) -> Number:
+    """b where the second normal force [N] is the greater, else a."""
+    return where(second > first, b, a)
+
+
+@law
+def record_after(r: TouchRecord, contacts: PartContacts, t: Number, dt: Number) -> TouchRecord:
+    """The record after a step of dt [s] that began at time t [s] with these contacts."""
+    count = len(contacts.normal)
+    numbers, most = each(count)(*[1.0 + i for i in range(count)]), greatest(contacts.normal)
+    part = least(number_at(contacts.normal, most, numbers, 1.0 + count))
+    x, y, z = contacts.place
+    place = Vec3(*[total(if_number(numbers, part, axis)) for axis in (x, y, z)])
+    is_first = where(r.part > 0.5, 0.0, where(most > 0.0, 1.0, 0.0)) > 0.5
+    sum_of_normals = total(contacts.normal)
+    return TouchRecord(
+        where(is_first, t, r.time),
+        where(is_first, place, r.place),
+        where(is_first, part, r.part),
+        maximum(r.force, sum_of_normals),
+        r.impulse + sum_of_normals * dt,
+    )
+
+
+@choice(absent="record")
+def record_with(contacts: PartContacts | Nothing, record: Any, t: Number, dt: Number) -> Any:
+    """The record after a step, unchanged without contacts."""
+
+
+@record_with.register(PartContacts)
+def _with_contacts(contacts: PartContacts, record: TouchRecord, t: Number, dt: Number) -> TouchRecord:
+    return record_after(record, contacts, t, dt)
+
+
+@choice(absent="records")
+def surface_records_with(contacts: SurfaceContacts | Nothing, records: Any, t: Number, dt: Number) -> Any:
+    """The records of a surface after a step, unchanged while it is out of reach."""
+
+
+@surface_records_with.register(SurfaceContacts)
+def _with_surface(contacts: SurfaceContacts, records: SurfaceTouches, t: Number, dt: Number) -> SurfaceTouches:
+    return SurfaceTouches(
+        record_with(contacts.rotors, records.rotors, t, dt),
+        record_with(contacts.guards, records.guards, t, dt),
+        record_with(contacts.beam, records.beam, t, dt),
+    )
+
+
+@choice(absent="turning")
+def turning_after(contacts: Any, turning: PerRotor) -> PerRotor:
+    """Which rotors still turn after a step with contacts: of a surface, of the rotors, or `Nothing`."""
+
+
+@turning_after.register(PartContacts)
+def _after_contacts(contacts: PartContacts, turning: PerRotor) -> PerRotor:
+    return unless_touched(turning, contacts.normal)
+
+
+@turning_after.register(SurfaceContacts)
+def _after_surface(contacts: SurfaceContacts, turning: PerRotor) -> PerRotor:
+    return turning_after(contacts.rotors, turning)
+
+
+@law
+def touches_after(touches: Touches, floor: Any, walls: Any, t: Number, dt: Number) -> Touches:
+    """The touches after a step of dt [s] that began at time t [s]; `floor`, `walls`: `SurfaceContacts` or `Nothing`."""
+    return Touches(
+        turning_after(walls, turning_after(floor, touches.turning)),
+        surface_records_with(floor, touches.floor, t, dt),
+        surface_records_with(walls, touches.walls, t, dt),
+    )
+
+
+@elementwise
+def thrust_if_turning(thrust: Number, turning: Number) -> Number:
+    """The thrust of a rotor [N], 0 if it no longer turns."""
+    return where(turning > 0.5, thrust, 0.0)
+
+
+@choice(absent="thrusts")
+def of_turning_rotors(touches: Touches | Nothing, thrusts: PerRotor) -> Any:
+    """The thrust of each rotor [N], 0 of one that has touched anything."""
+
+
+@of_turning_rotors.register(Touches)
+def _turning(touches: Touches, thrusts: PerRotor) -> PerRotor:
+    return thrust_if_turning(thrusts, touches.turning)
+
+
+@choice(absent="contact")
+def floor_parts(contact: FloorContact | Nothing, s: State) -> Any:
+    """Contacts of one kind of part with the floor."""
+
+
+@floor_parts.register(FloorContact)
+def _on_floor(contact: FloorContact, s: State) -> PartContacts:
+    return PartContacts(contact.normal, translated(s.position, contact.arm))
+
+
+@law
+def floor_contacts(contact: HullContact, s: State) -> SurfaceContacts:
+    """Contacts of the vehicle in state `s` with the floor."""
+    return SurfaceContacts(floor_parts(contact.rotors, s), floor_parts(contact.guards, s), floor_parts(contact.beam, s))
+
+
+@choice(absent="pair")
+def harder_of(pair: ContactPair | Nothing) -> Any:
+    """Contacts with two walls as one: both normal forces, at the place of the greater."""
+
+
+@harder_of.register(ContactPair)
+def _harder(pair: ContactPair) -> PartContacts:
+    n, m = pair.first.normal, pair.second.normal
+    places = zip(pair.first.place, pair.second.place, strict=True)
+    return PartContacts(n + m, Vec3(*[first_or_second(n, m, a, b) for a, b in places]))
+
+
+@choice(absent="contact")
+def beam_parts(contact: BeamContact | Nothing) -> Any:
+    """Contacts of the beam with walls, wherever along its length."""
+
+
+@beam_parts.register(BeamContact)
+def _of_beam(c: BeamContact) -> PartContacts:
+    ends, single = c.ends, (c.edge, c.other, c.top)
+    places = zip(ends.place, *[touch.place for touch in single], strict=True)
+    normals = set_of([*ends.normal, *[touch.normal for touch in single]])
+    return PartContacts(normals, Vec3(*[set_of([*both, *rest]) for both, *rest in places]))
+
+
+@law
+def wall_contacts(contact: NearWallContact) -> SurfaceContacts:
+    """Contacts of the vehicle with the walls near it."""
+    return SurfaceContacts(harder_of(contact.rotors), harder_of(contact.guards), beam_parts(contact.beam))
+
+
+def start_touches(floor: Any, walls: Any, rotors: int) -> Any:
+    """No touch yet, of `rotors` in all; `Nothing` without a hull that meets the floor and without walls."""
+    hull = getattr(floor, "hull", Nothing())
+    on_floor = SurfaceTouches(UNTOUCHED, UNTOUCHED, _unless_absent(hull.beam)) if isinstance(hull, Hull) else Nothing()
+    on_walls: Any = Nothing()
+    if isinstance(walls, Walls):
+        on_walls = SurfaceTouches(_unless_absent(walls.rotors), UNTOUCHED, _unless_absent(walls.beam))
+    if isinstance(on_floor, Nothing) and isinstance(on_walls, Nothing):
+        return Nothing()
+    return Touches(each(rotors)(*[1.0] * rotors), on_floor, on_walls)
+
+
+def _unless_absent(part: Any) -> Any:
+    return part if isinstance(part, Nothing) else UNTOUCHED

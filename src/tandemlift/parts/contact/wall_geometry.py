@@ -1,0 +1,124 @@
+"""Upright rectangles, from the ground to a top: the offset of a point from them, and which of several are nearest.
+
+World axes. A rectangle of numbers serves one point, one of sets serves a set of points, each its own.
+"""
+
+from typing import NamedTuple
+
+from tandemlift.core.algebra.law import elementwise, law
+from tandemlift.core.algebra.ops import clip, maximum, where
+from tandemlift.core.algebra.types import Number, number
+from tandemlift.core.algebra.vector import Vec3, dot
+
+SEAM = 1e-8  # m²: rectangles nearer to each other than this are joined there
+AWAY = 1e6  # m, where a rectangle stands that does not exist
+HIDDEN = 1e30  # m², more than any distance
+
+
+class Wall(NamedTuple):
+    """Start x, y [m], from there to its end [m], 1 over the square of its length [1/m²], top [m].
+
+    A wall of no length is an edge, with 0 for 1 over its square.
+    """
+
+    x: Number
+    y: Number
+    along_x: Number
+    along_y: Number
+    per_square: Number
+    top: Number
+
+
+WALL = Wall(AWAY, AWAY, 0.0, 0.0, 0.0, -AWAY)  # nowhere
+
+
+def wall(start: tuple[float, float], end: tuple[float, float], top: float) -> Wall:
+    """The wall from `start` to `end` (x, y) [m] with its `top` at z [m]; a post if they are the same."""
+    x, y = end[0] - start[0], end[1] - start[1]
+    square = x * x + y * y
+    per_square = where(square > SEAM, 1.0 / where(square > SEAM, square, 1.0), 0.0)
+    return Wall(number(start[0]), number(start[1]), number(x), number(y), per_square, number(top))
+
+
+@elementwise
+def fraction_along(
+    p_x: Number, p_y: Number, x: Number, y: Number, along_x: Number, along_y: Number, per_square: Number
+) -> Number:
+    """Where along a wall its point nearest to p is, from 0 at its start to 1 at its end."""
+    return clip(((p_x - x) * along_x + (p_y - y) * along_y) * per_square, 0.0, 1.0)
+
+
+@elementwise
+def coordinate_offset(p: Number, start: Number, along: Number, fraction: Number) -> Number:
+    """One coordinate of the offset of p from a point of a wall."""
+    return p - start - along * fraction
+
+
+@elementwise
+def height_above_top(z: Number, top: Number) -> Number:
+    """Height of z above the top [m], 0 below it."""
+    return maximum(z - top, 0.0)
+
+
+@law
+def offset(wall: Wall, p: Vec3) -> Vec3:
+    """Offset of p from the nearest point of a wall [m]."""
+    fraction = fraction_along(p.x, p.y, wall.x, wall.y, wall.along_x, wall.along_y, wall.per_square)
+    return Vec3(
+        coordinate_offset(p.x, wall.x, wall.along_x, fraction),
+        coordinate_offset(p.y, wall.y, wall.along_y, fraction),
+        height_above_top(p.z, wall.top),
+    )
+
+
+@law
+def offset_from_top(wall: Wall, p: Vec3) -> Vec3:
+    """Offset of p from the nearest point of a wall's top edge [m]."""
+    o = offset(wall, p)
+    return Vec3(o.x, o.y, p.z - wall.top)
+
+
+@law
+def edges_of(wall: Wall) -> tuple[Wall, Wall]:
+    """The upright edges at its start and at its end."""
+    start = wall._replace(along_x=0.0, along_y=0.0, per_square=0.0)
+    return start, start._replace(x=wall.x + wall.along_x, y=wall.y + wall.along_y)
+
+
+@elementwise
+def selected(d: Number, limit: Number, a: Number, b: Number) -> Number:
+    """a where d < limit, else b."""
+    return where(d < limit, a, b)
+
+
+@law
+def selected_wall(d: Number, limit: Number, a: Wall, b: Wall) -> Wall:
+    """The wall a where d < limit, else b."""
+    return Wall(
+        selected(d, limit, a.x, b.x),
+        selected(d, limit, a.y, b.y),
+        selected(d, limit, a.along_x, b.along_x),
+        selected(d, limit, a.along_y, b.along_y),
+        selected(d, limit, a.per_square, b.per_square),
+        selected(d, limit, a.top, b.top),
+    )
+
+
+@law
+def nearer(wall: Wall, other: Wall, p: Vec3, q: Vec3) -> Wall:
+    """The nearer of two walls; the distance of the first is taken from p, that of the other from q."""
+    d, e = offset(wall, p), offset(other, q)
+    return selected_wall(dot(d, d), dot(e, e), wall, other)
+
+
+@law
+def second_nearest(wall: Wall, first: Wall, second: Wall, p: Vec3, p1: Vec3, p2: Vec3) -> Wall:
+    """The second nearest of three walls, `first` nearer than `second`; their distances are from p, p1 and p2.
+
+    A wall whose nearest point is also a point of the nearest one does not count: where walls join, only one acts.
+    """
+    d, d1, d2 = offset(wall, p), offset(first, p1), offset(second, p2)
+    square, square1 = dot(d, d), dot(d1, d1)
+    gap, gap1 = offset(first, p - d), offset(wall, p1 - d1)
+    behind = selected_wall(selected(SEAM, dot(gap, gap), square, HIDDEN), dot(d2, d2), wall, second)
+    return selected_wall(square, square1, selected_wall(SEAM, dot(gap1, gap1), first, second), behind)

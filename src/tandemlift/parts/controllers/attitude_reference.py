@@ -1,0 +1,87 @@
+"""The attitude reference: the desired orientation as it is, or shaped by a command filter that gives its derivatives.
+
+Differences of a desired orientation are too rough to be used as its derivatives. The command filter is critically
+damped, ẍ = ω_f²(Θ_d − x) − 2ω_f ẋ (Farrell and Polycarpou, Adaptive Approximation Based Control, 2006); the attitude
+law tracks its output, whose derivatives are exact.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.ops import exp
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.parts.signals.trajectories import Reference
+
+
+class Unfiltered(NamedTuple):
+    """The attitude law tracks the desired orientation with derivatives taken as zero."""
+
+
+class CommandFilter(NamedTuple):
+    """Critically damped second-order filter ẍ = ω_f²(Θ_d − x) − 2ω_f ẋ, exact for Θ_d held over a step.
+
+    `bandwidth` ω_f [rad/s]; the rest is the transition of (x − Θ_d, ẋ) over one step.
+    """
+
+    bandwidth: Number
+    position_from_position: Number
+    position_from_velocity: Number
+    velocity_from_position: Number
+    velocity_from_velocity: Number
+
+
+class CommandFilterState(NamedTuple):
+    """Memory of the command filter: angles [rad] and rates [rad/s]."""
+
+    angles: Vec3
+    rates: Vec3
+
+
+class AttitudeReference(NamedTuple):
+    """What the attitude law tracks: angles [rad], rates [rad/s], accelerations [rad/s²] of φ, θ, ψ."""
+
+    angles: Vec3
+    rates: Vec3
+    accelerations: Vec3
+
+
+@choice
+def shape_reference(kind: Unfiltered | CommandFilter, memory: Any, desired: Vec3) -> Any:
+    """(what the attitude law tracks, the new memory), from the desired orientation [rad]."""
+
+
+@shape_reference.register(Unfiltered)
+def _unfiltered(kind: Unfiltered, memory: Any, desired: Vec3) -> tuple[AttitudeReference, Any]:
+    return AttitudeReference(desired, ZERO, ZERO), memory
+
+
+@shape_reference.register(CommandFilter)
+def _filtered(
+    kind: CommandFilter, memory: CommandFilterState, desired: Vec3
+) -> tuple[AttitudeReference, CommandFilterState]:
+    x = memory.angles - desired
+    acceleration = -(x * (kind.bandwidth * kind.bandwidth) + memory.rates * (2.0 * kind.bandwidth))
+    after = CommandFilterState(
+        desired + x * kind.position_from_position + memory.rates * kind.position_from_velocity,
+        x * kind.velocity_from_position + memory.rates * kind.velocity_from_velocity,
+    )
+    return AttitudeReference(memory.angles, memory.rates, acceleration), after
+
+
+@law
+def with_heading(tracked: AttitudeReference, reference: Reference) -> AttitudeReference:
+    """What the attitude law tracks, with the yaw and its derivatives as the reference has them."""
+    a, r, c = tracked.angles, tracked.rates, tracked.accelerations
+    return AttitudeReference(
+        Vec3(a.x, a.y, reference.yaw), Vec3(r.x, r.y, reference.yaw_rate), Vec3(c.x, c.y, reference.yaw_acceleration)
+    )
+
+
+def command_filter(bandwidth: float, step: float) -> CommandFilter:
+    """The command filter of bandwidth ω_f [rad/s], sampled every `step` [s]."""
+    wh = bandwidth * step
+    decay = exp(-wh)
+    return CommandFilter(bandwidth, (1.0 + wh) * decay, step * decay, -bandwidth * wh * decay, (1.0 - wh) * decay)

@@ -1,0 +1,48 @@
+"""Inputs and outputs of a controller."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice
+from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.parts.mechanics.rigid_body import State, Wrench
+from tandemlift.parts.signals.trajectories import Reference
+
+
+class Disturbance(NamedTuple):
+    """What a controller compensates besides a person's force.
+
+    The force that the pilot's observer finds [N, world axes], and the moment [N·m, body axes] that it and the person
+    exert about the centre of mass.
+    """
+
+    force: Vec3
+    moment: Vec3
+
+
+NO_DISTURBANCE = Disturbance(ZERO, ZERO)
+
+
+class Measured(NamedTuple):
+    """The pilot's inputs at a sample: the state, the force of the person [N, world axes], and the disturbance."""
+
+    state: State
+    push: Vec3
+    disturbance: Disturbance = NO_DISTURBANCE
+
+
+class Command(NamedTuple):
+    """The wanted wrench (U₁, U₂…U₄), and the Euler angles [rad] that the attitude law tracks."""
+
+    wrench: Wrench
+    euler: Vec3
+
+
+class NoMemory(NamedTuple):
+    """The memory of a controller without memory."""
+
+
+@choice
+def control(gains: Any, memory: Any, measured: Measured, reference: Reference) -> Any:
+    """One sample of the controller with this type of gains: (Command, the new memory)."""

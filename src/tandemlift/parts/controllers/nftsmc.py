@@ -1,0 +1,247 @@
+"""The paper's controller: nonsingular fast terminal sliding mode control of position and attitude.
+
+Guarantee, per axis under virtual actuation, with switching by `sign` and λ₂ > ‖δ − δ̂‖: V̇ ≤ −λ₁S² − (λ₂ − |δ|)|S|, so
+S = 0 is reached within `sliding_surface.reaching_time`; with a boundary layer, |S| ≤ Φ is. It does not cover the
+attitude cascade. The switching must be sampled fast enough: (λ₁ + λ₂/Φ) · step < 2.
+
+Tune first: the boundary layer Φ against the step, then ξ (the bandwidth on the surface), then λ₁ and λ₂.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from typing import Annotated, Any, Literal, NamedTuple
+
+from pydantic import Field
+
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.types import Number, is_symbol
+from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, vec3
+from tandemlift.core.errors import FlightWarning
+from tandemlift.core.settings import AtLeastOne6, ControllerTable, NonNegative6, Positive6, Table, Tilt, key
+from tandemlift.parts.controllers.attitude_reference import (
+    AttitudeReference,
+    CommandFilter,
+    CommandFilterState,
+    Unfiltered,
+    command_filter,
+    shape_reference,
+    with_heading,
+)
+from tandemlift.parts.controllers.interface import Command, Measured, NoMemory, control
+from tandemlift.parts.controllers.registry import register
+from tandemlift.parts.controllers.sliding_surface import (
+    Cubic,
+    Power,
+    Saturation,
+    Sign,
+    Surface,
+    Tanh,
+    wanted_acceleration,
+)
+from tandemlift.parts.mechanics.inertia import Inertia, apply_inertia, gyroscopic, inertia_value
+from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench
+from tandemlift.parts.mechanics.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, wrap_angle
+from tandemlift.parts.mechanics.tilt import (
+    TiltLimit,
+    TiltPrinted,
+    TiltZXY,
+    desired_orientation,
+    limit_tilt,
+    tilt_limit,
+    total_thrust,
+)
+from tandemlift.parts.signals.trajectories import Reference, Trajectory
+from tandemlift.parts.vehicle import Vehicle
+
+
+class Gains(Table):
+    """`[controller.gains]`: gains of nftsmc for x, y, z, roll, pitch, yaw; paper Table III."""
+
+    xi: Positive6 = key(..., "1/s", "ξ, linear part of the sliding surface", example=[4.0, 2.0, 11.0, 25.0, 80.0, 25.0])
+    eta: NonNegative6 = key(
+        ...,
+        "1/(s mᵃ⁻¹), 1/(s radᵃ⁻¹)",
+        "η, terminal part of the sliding surface",
+        example=[0.2, 0.1, 0.2, 0.2, 0.2, 0.2],
+    )
+    lambda_1: NonNegative6 = key(..., "1/s", "λ₁, proportional reaching", example=[0.2, 0.1, 200.0, 40.0, 40.0, 40.0])
+    lambda_2: NonNegative6 = key(..., "m/s², rad/s²", "λ₂, switching gain", example=[2.0, 1.0, 100.0, 30.0, 30.0, 30.0])
+    a: AtLeastOne6 = key(..., "1", "exponent of the terminal part", example=3.0)
+
+
+class NFTSMCSettings(ControllerTable):
+    """`[controller]`: settings of nftsmc, the paper's controller."""
+
+    name: Literal["nftsmc"] = "nftsmc"
+    gains: Gains
+    switching: Literal["sign", "saturation", "tanh"] = key(
+        "tanh",
+        None,
+        "the switching function, in place of sgn(S)",
+        choices={"sign": "sgn(S)", "saturation": "sat(S/Φ)", "tanh": "tanh(S/Φ)"},
+    )
+    boundary_layer: Positive6 = key(
+        (0.1, 0.1, 0.1, 0.1, 0.1, 0.1),
+        "m/s, rad/s",
+        "boundary layer Φ; where (λ₁ + λ₂/Φ) · step ≥ 2, it chatters, and a warning says so",
+        source="chosen; the paper leaves 0 < Φ < 1 open",
+    )
+    attitude_reference_derivatives: Literal["zero", "filtered"] = key(
+        "zero",
+        None,
+        "derivatives of the attitude reference",
+        choices={"zero": "taken to be zero", "filtered": "of a second-order command filter, which the law then tracks"},
+    )
+    filter_bandwidth: Annotated[float, Field(gt=0.0, le=1e4)] = key(
+        60.0, "rad/s", "bandwidth of the command filter of attitude_reference_derivatives", source="chosen"
+    )
+    euler_rates: Literal["exact", "body"] = key(
+        "exact",
+        None,
+        "the Euler rates of the attitude law",
+        choices={"exact": "from body rates by the exact relation", "body": "body rates (the paper's Assumption 4)"},
+    )
+    tilt_inverse: Literal["zxy", "printed"] = key(
+        "zxy",
+        None,
+        "how a wanted force becomes roll and pitch",
+        choices={"zxy": "exactly, for Z-X-Y angles", "printed": "as the paper prints it"},
+    )
+    human_force_feedforward: bool = key(False, None, "true: the position law counters the measured push")
+    max_tilt: Tilt | None = key(
+        None, "rad", "largest angle of the wanted force from the vertical", unset="there is no limit", example=0.5
+    )
+
+
+class ExactRates(NamedTuple):
+    """Euler rates from body rates by the exact relation."""
+
+
+class BodyRates(NamedTuple):
+    """Euler rates taken to be the body rates (the paper's Assumption 4)."""
+
+
+class NFTSMC(NamedTuple):
+    """Gains: the vehicle as the controller believes it to be, the two surfaces, and the variants by type.
+
+    `feedforward` is 1 to feed the measured push forward as δ̂ in the position law, else 0.
+    """
+
+    mass: Number
+    inertia: Inertia
+    drag_force: Vec3
+    drag_moment: Vec3
+    position: Surface
+    attitude: Surface
+    derivatives: Unfiltered | CommandFilter
+    rates: ExactRates | BodyRates
+    inverse: TiltZXY | TiltPrinted
+    tilt: TiltLimit | Nothing
+    feedforward: Number
+
+
+@choice
+def euler_rates(kind: ExactRates | BodyRates, e: Euler, rates: Vec3) -> Any:
+    """(φ̇, θ̇, ψ̇) as the attitude law takes them, from body rates [rad/s]."""
+
+
+@euler_rates.register(ExactRates)
+def _exact(kind: ExactRates, e: Euler, rates: Vec3) -> Vec3:
+    return euler_rates_from_rates(e, rates)
+
+
+@euler_rates.register(BodyRates)
+def _body(kind: BodyRates, e: Euler, rates: Vec3) -> Vec3:
+    return rates
+
+
+@law
+def position_law(k: NFTSMC, state: State, desired: Trajectory, push: Vec3) -> Vec3:
+    """The force (u_x, u_y, u_z) [N, world axes] that the position surface wants.
+
+    Erratum: the paper leaves m_t out on ÿ_d and on the last line of u_z; it multiplies both.
+    """
+    # paper: pos_cont_equ, error_equ
+    e, de = desired.position - state.position, desired.velocity - state.velocity
+    acceleration = desired.acceleration + wanted_acceleration(k.position, e, de) + UP * GRAVITY
+    return acceleration * k.mass + k.drag_force * state.velocity - push * k.feedforward
+
+
+@law
+def attitude_law(k: NFTSMC, e: Euler, rates: Vec3, desired: AttitudeReference) -> Vec3:
+    """The moments (U₂, U₃, U₄) [N·m] that the attitude surface wants; `rates` are Euler rates [rad/s].
+
+    Errata: J is the whole vehicle's; sat(S_ψ/Φ), not sat(S_ψ)/Φ.
+    """
+    # paper: orient_cont_equ, control_final_equ, error_equ
+    error, error_rate = wrap_angle(desired.angles - e.angles), desired.rates - rates
+    acceleration = desired.accelerations + wanted_acceleration(k.attitude, error, error_rate)
+    return apply_inertia(k.inertia, acceleration) - gyroscopic(k.inertia, rates) + k.drag_moment * rates
+
+
+@control.register(NFTSMC)
+def nftsmc(k: NFTSMC, memory: Any, measured: Measured, reference: Reference) -> tuple[Command, Any]:
+    """The whole controller at one sample."""
+    e = euler_from_quaternion(measured.state.attitude)
+    force = position_law(k, measured.state, reference.trajectory, measured.push)
+    u = limit_tilt(k.tilt, force + reference.lead * k.mass - measured.disturbance.force)
+    desired, memory = shape_reference(k.derivatives, memory, desired_orientation(k.inverse, u, e, reference.yaw))
+    tracked = with_heading(desired, reference)
+    rates = euler_rates(k.rates, e, measured.state.rates)
+    moment = attitude_law(k, e, rates, tracked) - measured.disturbance.moment
+    return Command(Wrench(total_thrust(e, u), moment), tracked.angles), memory
+
+
+def _surface(s: NFTSMCSettings, first: int) -> Surface:
+    """The surface of the three axes from number `first` on."""
+
+    def pick(values: Sequence[float]) -> Vec3:
+        return vec3(values[first : first + 3])
+
+    g, widths = s.gains, pick(s.boundary_layer)
+    per_width = Vec3(1.0 / widths.x, 1.0 / widths.y, 1.0 / widths.z)
+    kinds: dict[str, Sign | Saturation | Tanh]
+    kinds = {"sign": Sign(), "saturation": Saturation(per_width), "tanh": Tanh(per_width)}
+    exponent = Cubic() if all(a == 3.0 for a in pick(g.a)) else Power(pick(g.a))
+    return Surface(pick(g.xi), pick(g.eta), exponent, pick(g.lambda_1), pick(g.lambda_2), kinds[s.switching])
+
+
+def _warn_of_chatter(s: NFTSMCSettings, step: float) -> None:
+    if s.switching == "sign":
+        return
+    loop = [l1 + l2 / w for l1, l2, w in zip(s.gains.lambda_1, s.gains.lambda_2, s.boundary_layer, strict=True)]
+    if any(map(is_symbol, loop)):
+        return  # the mission was warned of when its numbers were known
+    worst = max(range(6), key=loop.__getitem__)
+    if loop[worst] * step >= 2.0:
+        axis = ("x", "y", "z", "roll", "pitch", "yaw")[worst]
+        warnings.warn(
+            f"(lambda_1 + lambda_2/boundary_layer) * step = {loop[worst] * step:.3g} on {axis} is not below 2: "
+            f"the switching may chatter; widen controller.boundary_layer or shorten mission.step",
+            FlightWarning,
+            stacklevel=2,
+        )
+
+
+@register("nftsmc", NFTSMCSettings)
+def start(s: NFTSMCSettings, vehicle: Vehicle, step: float) -> tuple[NFTSMC, CommandFilterState | NoMemory]:
+    """Nonsingular fast terminal sliding mode control of position and attitude (the paper's)."""
+    _warn_of_chatter(s, step)
+    filtered = s.attitude_reference_derivatives == "filtered"
+    gains = NFTSMC(
+        mass=vehicle.mass,
+        inertia=inertia_value(vehicle.inertia),
+        drag_force=vec3(vehicle.drag.force),
+        drag_moment=vec3(vehicle.drag.moment),
+        position=_surface(s, 0),
+        attitude=_surface(s, 3),
+        derivatives=command_filter(s.filter_bandwidth, step) if filtered else Unfiltered(),
+        rates=ExactRates() if s.euler_rates == "exact" else BodyRates(),
+        inverse=TiltZXY() if s.tilt_inverse == "zxy" else TiltPrinted(),
+        tilt=tilt_limit(s.max_tilt),
+        feedforward=1.0 if s.human_force_feedforward else 0.0,
+    )
+    return gains, CommandFilterState(ZERO, ZERO) if filtered else NoMemory()

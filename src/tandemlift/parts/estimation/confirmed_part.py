@@ -1,0 +1,159 @@
+"""What of a measured push F̂ is confirmed by the force r on the quadrotors besides their thrust, along one body axis.
+
+    a push P                      F̂ = P,        r = 0;
+    joints that are wrong by j_i  F̂ = −Σ j_i,   r = Σ j_i, so that F̂ + r = 0: nothing pushes the vehicle;
+    wind                          F̂ = ρ r,      ρ the ratio of the drag areas of payload and quadrotors;
+    an accelerometer wrong by α   F̂ = m_L α,    r = Σ m_i α, like wind with ρ = m_L / Σ m_i.
+
+Nothing of F̂ is confirmed while F̂ + r is below 0.4 F̂, all of it above 0.6 F̂. What of r is within three times the
+standard deviation of F̂ + r without a push is gusts on the quadrotors, and refutes nothing. Wind takes ρ r from F̂, less
+a tolerance, where ρ r is above 0.6 F̂, and nothing below 0.4 F̂: so a long push is not mistaken for wind as the sensors
+drift. A part of the size of the tolerance is always left. The tolerance is half the threshold of a push, so what is
+left stays below the threshold, also once the bias of the dead band has followed an error of the other sign.
+
+r counts from its mean over the tare, and F̂ from an offset. What is not confirmed for long becomes their new zero: a
+joint that jumps is tared again within seconds, and pushes are followed as before. So does a drift of the joints, the
+common part of F̂ and −r: fast while there is no push, slowly under one. A push that was confirmed is given up gradually,
+so that a gust on the quadrotors against it does not end it.
+
+Limits: wind that acts on the payload alone counts as a push. A gust on the quadrotors against a push weakens it, if it
+is larger than 0.4 of the push and lasts; in gusts, joints may be wrong by as much.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import elementwise, law
+from tandemlift.core.algebra.ops import absolute, clip, maximum, minimum, sqrt, where
+from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
+
+REFUTED, CONFIRMED = 0.4, 0.6  # unexplained share of a push up to which none is confirmed, and from which on all is
+RELEARN_TIME = 2.0  # s, in which what is not confirmed becomes the new zero
+QUIET_TIME = 1.0  # s, in which a drift of the joints does while there is no push
+DRIFT_TIME = 20.0  # s, in which it does under one, and the mean of r follows other drifts
+RISE_TIME, FALL_TIME = 0.7, 0.5  # s, in which a push counts as confirmed of late, and in which it is given up
+GUSTS, GUST_TIME = 3.0, 5.0  # standard deviations of F̂ + r that are gusts; s, in which its mean square is followed
+FAR = 4.0  # tolerances: a larger r, such as the floor's force, is no drift
+LARGE, LITTLE = 3.0, 1.5  # tolerances: of a push beyond the first, less than the second is left where it is refuted
+NEGLIGIBLE = 0.1  # of a tolerance
+TINY = 1e-12  # N
+
+
+class Zero(NamedTuple):
+    """From where on r and a push count, the `mean` of r and the `offset` of the push, and what is remembered of both.
+
+    `slow`: F̂ with the low-pass of r; `square`: mean of (F̂ + r)² while there is no push; `lately`: the push that was
+    confirmed of late. Forces [N] or moments [N·m].
+    """
+
+    mean: Any
+    offset: Any
+    slow: LowPassState
+    square: Any
+    lately: Any
+
+
+class Confirmed(NamedTuple):
+    """Of a push: what is not confirmed, 1 per axis where the motion refutes it, else 0, and the new `Zero`."""
+
+    withheld: Any
+    refuted: Any
+    zero: Zero
+
+
+@elementwise
+def confirmed_fraction(share: Any) -> Any:
+    """How much of a push is confirmed, 0 to 1, of which this share is not explained otherwise."""
+    return clip((share - REFUTED) * (1.0 / (CONFIRMED - REFUTED)), 0.0, 1.0)
+
+
+@elementwise
+def confirmed(push: Any, rest: Any, square: Any, tolerance: Any, ratio: Any) -> Any:
+    """The confirmed part of a push beside which `rest` acts on the quadrotors; `square`: see `Zero`."""
+    size = absolute(push)
+    along = where(push < 0.0, -rest, rest)
+    against = minimum(along + GUSTS * sqrt(maximum(square, TINY)), 0.0)
+    per_size = 1.0 / maximum(size, TINY)
+    moving = maximum(tolerance, size * confirmed_fraction(1.0 + against * per_size))
+    wind = (ratio * along - tolerance) * (1.0 - confirmed_fraction(1.0 - ratio * along * per_size))
+    left = maximum(minimum(minimum(size, moving), size - maximum(wind, 0.0)), 0.0)
+    return where(push < 0.0, -left, left)
+
+
+@elementwise
+def is_refuted(push: Any, left: Any, off: Any, tolerance: Any) -> Any:
+    """1 for a push of which next to nothing is left because the vehicle does not move along with it, else 0."""
+    refuted = where(push * off < 0.0, where(absolute(left) < LITTLE * tolerance, 1.0, 0.0), 0.0)
+    return where(absolute(push) > LARGE * tolerance, refuted, 0.0)
+
+
+@elementwise
+def mean_change(push: Any, left: Any, off: Any, tolerance: Any, dt: Any) -> Any:
+    """The change of r's mean in a step in which the offset follows what is not left of a push; `off`: r less its mean.
+
+    With that part of the push goes what explains it, the error of the joints or the wind. Where all of the push is
+    left, the mean follows a drift along the push; one against it is a `joint_drift`.
+    """
+    withheld = absolute(push - left)
+    along = where(push * off < 0.0, 0.0, where(absolute(off) < FAR * tolerance, 1.0, 0.0))
+    drifts = where(withheld < NEGLIGIBLE * tolerance, along, 0.0)
+    explained = where(push * off < 0.0, left - push, off * withheld / maximum(absolute(push), TINY))
+    return off * drifts * (dt / DRIFT_TIME) + explained * (dt / RELEARN_TIME)
+
+
+@elementwise
+def square_change(push: Any, load: Any, square: Any, tolerance: Any, dt: Any) -> Any:
+    """The change of the mean square of a load F̂ + r in a step; none under a push, and slow for what is unusual."""
+    usual = minimum(load * load, 9.0 * square + tolerance * tolerance)
+    return where(absolute(push) < tolerance, usual - square, 0.0) * (dt / GUST_TIME)
+
+
+@elementwise
+def joint_drift(push: Any, off: Any, tolerance: Any, dt: Any) -> Any:
+    """The change of the offset in a step by joints that drift, as r less its mean shows; that changes the other way."""
+    least = minimum(absolute(push), absolute(off))
+    common = least * least / (least + NEGLIGIBLE * tolerance)  # its slope at rest is 0, whichever sign noise has there
+    rate = dt * where(absolute(push) < tolerance, 1.0 / QUIET_TIME, 1.0 / DRIFT_TIME)
+    return where(push * off < 0.0, where(push < 0.0, -common, common) * rate, 0.0)
+
+
+@elementwise
+def given_up_slowly(push: Any, left: Any, lately: Any) -> Any:
+    """What is left of a push: at least what was confirmed of late."""
+    kept = where(push * lately > 0.0, minimum(absolute(push), absolute(lately)), 0.0)
+    more = maximum(absolute(left), kept)
+    return where(push < 0.0, -more, more)
+
+
+@elementwise
+def lately_change(left: Any, lately: Any, dt: Any) -> Any:
+    """The change in a step of the push that was confirmed of late."""
+    grown = where(absolute(left) > absolute(lately), 1.0 / RISE_TIME, 1.0 / FALL_TIME)
+    return (left - lately) * dt * where(left * lately < 0.0, 1.0 / FALL_TIME, grown)
+
+
+@law
+def compared(
+    low_pass: LowPass, zero: Zero, push: Any, rest: Any, tolerance: Any, ratio: Any, tare: Any, dt: Any
+) -> Confirmed:
+    """What a push and `rest`, that is r, tell of each other.
+
+    Args:
+        low_pass: of r.
+        zero: the memory before.
+        push: F̂, low-passed, a vector or a number.
+        rest: r, likewise.
+        tolerance: of forces or of moments.
+        ratio: ρ.
+        tare: share of this sample in the mean over the tare; 0 once that is over.
+        dt: since the last sample [s]; 0 while nothing is learnt, as before the end of the tare.
+    """
+    force, off = push - zero.offset, rest - zero.mean
+    now = confirmed(force, off, zero.square, tolerance, ratio)
+    left = given_up_slowly(force, now, zero.lately)
+    lately = zero.lately + lately_change(now, zero.lately, dt)
+    drift = joint_drift(force, off, tolerance, dt)
+    mean = zero.mean + off * tare + mean_change(force, left, off, tolerance, dt) - drift
+    slow = low_pass_step(low_pass, zero.slow, push)
+    square = zero.square + square_change(force, slow.value - zero.offset + off, zero.square, tolerance, dt)
+    offset = zero.offset + (force - left) * (dt / RELEARN_TIME) + drift
+    return Confirmed(push - left, is_refuted(force, now, off, tolerance), Zero(mean, offset, slow, square, lately))

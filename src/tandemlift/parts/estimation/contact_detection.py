@@ -1,0 +1,251 @@
+"""Contact with a wall: which part of the vehicle touches, where, in which direction, and how hard.
+
+`contact_evidence` tells that a part touches. It is decided once there has been evidence for 15 ms, so that the first
+blow has told the part. While a part touches, the slow means are held, so the force of a long contact is known. It is
+over once there is no force for a time, or once the part has moved away from where it touched: walls do not follow.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.ops import maximum, sqrt, where
+from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.vector import ZERO, Vec3, apply, dot
+from tandemlift.parts.estimation.contact_evidence import (
+    ContactDetector,
+    Deviations,
+    EvidenceState,
+    PushReading,
+    heard,
+    start_evidence,
+    touching_part,
+    with_means_of_now,
+)
+from tandemlift.parts.estimation.contact_map import BeamMatch, GuardMatch, beam_of, guards_matched, picked
+from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator
+from tandemlift.parts.estimation.tare import SideForces
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.signals.low_pass import LowPassState
+
+DECISION_TIME = 0.015  # s of evidence, after which the part is told
+RELEASE = 0.5  # of the threshold: below, there is no contact
+QUIET_TIME = 0.1  # s without force, after which a contact is over
+AWAY = 0.04  # m by which a part has moved away from a wall when the contact is over
+EXPLAINED_TIME = 0.5  # s after a contact, in which joints that disagree are explained by it
+HIGH = 0.2  # m above the ground: feet do not touch it in a landing
+TINY = 1e-12  # N²
+
+
+class ContactEstimate(NamedTuple):
+    """A contact as estimated.
+
+    `part`: 0 for none, else the number of the quadrotor whose guard touches, or −1 for the beam. `force` [N, world
+    axes, horizontal] of the wall; `point` [m, world axes] where it began to act; `along` [m, body y]: how far that is
+    from the payload's centre; `normal`: unit vector out of the wall, world axes; `rise` [s]: time in which the force
+    has risen; `on_map`: 1 if the pilot knows a wall there, else 0.
+    """
+
+    part: Any
+    force: Vec3
+    point: Vec3
+    along: Any
+    normal: Vec3
+    rise: Any
+    on_map: Any
+
+
+NO_CONTACT = ContactEstimate(0.0, ZERO, ZERO, 0.0, ZERO, 0.0, 0.0)
+
+
+class ContactState(NamedTuple):
+    """Memory: the evidence; the contact; times [s].
+
+    `seen_time`: for how long there is evidence of a contact that begins; `quiet_time`: for how long a contact is
+    without force; `over_time`: since the last one.
+    """
+
+    evidence: EvidenceState
+    contact: ContactEstimate
+    seen_time: Any
+    quiet_time: Any
+    over_time: Any
+
+
+class Around(NamedTuple):
+    """What the pilot knows of its surroundings.
+
+    `walls`: the known ones near it, or `Nothing`; 1 in flight, except in lift and landing; 1 in a landing; the height
+    of the `ground` [m].
+    """
+
+    walls: Any
+    aloft: Any
+    landing: Any
+    ground: Any
+
+
+@law
+def world_forces(s: State, f: SideForces) -> Vec3:
+    """Horizontal forces of sets [N] in world axes."""
+    return apply(rotation_from_quaternion(s.attitude), Vec3(f.x, f.y, f.x * 0.0))
+
+
+@law
+def in_world(s: State, x: Any, y: Any) -> Vec3:
+    """A horizontal force [N] in world axes, from its parts along body x and y."""
+    return apply(rotation_from_quaternion(s.attitude), Vec3(x, y, 0.0))
+
+
+@law
+def rise_time(x: LowPassState, y: LowPassState, f: SideForces) -> Any:
+    """A force over its slope [s]."""
+    return sqrt((f.x * f.x + f.y * f.y) / maximum(x.rate * x.rate + y.rate * y.rate, TINY))
+
+
+@law
+def horizontal(f: Vec3) -> Vec3:
+    """The direction of a vector in the horizontal plane, a unit vector, or zero for none."""
+    size = sqrt(maximum(f.x * f.x + f.y * f.y, TINY))
+    return Vec3(f.x / size, f.y / size, 0.0)
+
+
+@law
+def force_on(k: ContactDetector, d: Deviations, part: Any, s: State) -> Vec3:
+    """The force on a part [N, world axes]."""
+    x = where(part < 0.0, d.push.x, picked(k.numbers, part, d.lasting.x))
+    y = where(part < 0.0, d.push.y, picked(k.numbers, part, d.lasting.y))
+    return in_world(s, x, y)
+
+
+@law
+def axis_of(k: ContactDetector, part: Any, along: Any, s: State) -> Vec3:
+    """The centre of a guard, or the point `along` the beam's axis [m], in world axes [m]."""
+    g = k.geometry
+    guard = Vec3(
+        picked(k.numbers, part, g.quadrotors.x),
+        picked(k.numbers, part, g.quadrotors.y),
+        picked(k.numbers, part, g.quadrotors.z),
+    )
+    beam = where(part < 0.0, 1.0, 0.0)
+    center = chosen(beam, g.payload + Vec3(0.0, along, 0.0), guard)
+    return s.position + apply(rotation_from_quaternion(s.attitude), center)
+
+
+@law
+def radius_of(k: ContactDetector, part: Any) -> Any:
+    """The radius of a part [m]."""
+    return where(part < 0.0, k.geometry.radius, picked(k.numbers, part, k.geometry.guards))
+
+
+@law
+def begun(
+    k: ContactDetector,
+    m: EvidenceState,
+    d: Deviations,
+    part: Any,
+    guards: GuardMatch,
+    beam: BeamMatch,
+    s: State,
+    y: Any,
+) -> ContactEstimate:
+    """The contact of a part that begins now; `y`: where on the beam the push seems to act [m]."""
+    g, number = k.geometry, k.numbers
+    on_beam = where(part < 0.0, 1.0, 0.0)
+    of_guard = SideForces(picked(number, part, d.lasting.x), picked(number, part, d.lasting.y))
+    rates = m.outside._replace(
+        x=LowPassState(0.0, picked(number, part, m.outside.x.rate)),
+        y=LowPassState(0.0, picked(number, part, m.outside.y.rate)),
+    )
+    mapped = where(part < 0.0, beam.matched, picked(number, part, guards.matched))
+    off = Vec3(picked(number, part, guards.offset.x), picked(number, part, guards.offset.y), 0.0)
+    force = force_on(k, d, part, s)
+    normal = horizontal(chosen(mapped, chosen(on_beam, beam.offset, off), force))
+    along = where(
+        part < 0.0, where(beam.matched > 0.0, beam.along, y), picked(number, part, g.quadrotors.y) - g.payload.y
+    )
+    rise = where(part < 0.0, rise_time(m.push.x, m.push.y, d.push), rise_time(rates.x, rates.y, of_guard))
+    axis, radius = axis_of(k, part, along, s), radius_of(k, part)
+    return ContactEstimate(part, force, axis - normal * radius, along, normal, rise, mapped)
+
+
+@law
+def is_over(k: ContactDetector, c: ContactEstimate, quiet_time: Any, s: State) -> Any:
+    """1 once a contact has been without force for long enough [s], or its part has moved away from the wall; else 0."""
+    moved = dot(c.normal, axis_of(k, c.part, c.along, s) - c.point) - radius_of(k, c.part)
+    return maximum(where(quiet_time > QUIET_TIME, 1.0, 0.0), where(moved > AWAY, 1.0, 0.0))
+
+
+@law
+def is_explained(m: ContactState) -> Any:
+    """1 while a contact, or evidence of one, explains that joints disagree, else 0."""
+    return where(m.over_time < EXPLAINED_TIME, 1.0, where(m.seen_time > 0.0, 1.0, 0.0))
+
+
+@choice(absent=("k", "m"))
+def contact_step(k: Any, m: Any, e: PushEstimator, x: PushReading, s: State, around: Around, dt: Any) -> Any:
+    """(`ContactEstimate`, the new memory) at a sample.
+
+    Args:
+        k: a `ContactDetector`, or `Nothing`.
+        m: its memory.
+        e: the estimator of the push.
+        x: its reading.
+        s: the state as estimated.
+        around: what the pilot knows of its surroundings.
+        dt: since the last sample [s].
+    """
+
+
+@contact_step.register(ContactDetector)
+def _detected(
+    k: ContactDetector, m: ContactState, e: PushEstimator, x: PushReading, s: State, around: Around, dt: Any
+) -> Any:
+    before = m.contact
+    evidence, d = heard(k, m.evidence, e, x, where(before.part == 0.0, 0.0, 1.0), dt)
+    guards = guards_matched(around.walls, k.geometry, s, world_forces(s, d.lasting))
+    beam = beam_of(around.walls, k.geometry, s, in_world(s, d.push.x, d.push.y))
+    aloft = maximum(around.aloft, where(s.position.z > around.ground + HIGH, around.landing, 0.0))
+    free = where(before.part == 0.0, aloft * x.push.armed, 0.0)
+    part = touching_part(k, evidence, d, guards, beam, maximum(x.push.trusted, is_explained(m))) * free
+    seen_time = (m.seen_time + dt) * where(part == 0.0, 0.0, 1.0)
+    begins = where(seen_time > DECISION_TIME, 1.0, 0.0)
+    now = chosen(begins, begun(k, evidence, d, part, guards, beam, s, x.push.point), before)
+    now = now._replace(force=force_on(k, d, now.part, s))
+    least = (RELEASE * k.threshold) * (RELEASE * k.threshold)
+    quiet_time = (m.quiet_time + dt) * where(dot(now.force, now.force) < least, 1.0, 0.0)
+    touches = where(now.part == 0.0, 0.0, aloft) * (1.0 - is_over(k, now, quiet_time, s))
+    after = chosen(touches, now, NO_CONTACT)
+    return after, ContactState(
+        evidence=with_means_of_now(evidence, where(before.part == 0.0, 0.0, 1.0 - touches)),
+        contact=after,
+        seen_time=seen_time * (1.0 - touches),
+        quiet_time=quiet_time * touches,
+        over_time=where(touches > 0.0, 0.0, m.over_time + dt),
+    )
+
+
+@choice(absent=0.0)
+def shaken(m: Any) -> Any:
+    """1 in a contact and shortly after it, when readings of different times differ; `m`: memory of the detection."""
+
+
+@shaken.register(ContactState)
+def _shaken(m: ContactState) -> Any:
+    return is_explained(m)
+
+
+@choice(absent="push")
+def explained_push(m: Any, push: PushEstimate) -> Any:
+    """The push, trusted although joints disagree while a contact explains it; `m`: memory of the detection."""
+
+
+@explained_push.register(ContactState)
+def _explained(m: ContactState, push: PushEstimate) -> PushEstimate:
+    trusted = maximum(push.trusted, is_explained(m))
+    return push._replace(trusted=trusted, usable=push.force * (trusted * push.armed))
+
+
+def start_contact(k: ContactDetector) -> ContactState:
+    """The memory before the first step."""
+    return ContactState(start_evidence(k), NO_CONTACT, 0.0, 0.0, 1.0 + EXPLAINED_TIME)

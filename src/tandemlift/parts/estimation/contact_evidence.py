@@ -1,0 +1,264 @@
+"""Evidence of a contact: horizontal forces that a person's hand and a broken sensor do not show.
+
+Horizontally, a rotor gives no force. So four things are known, in body axes: what acts on quadrotor i from outside,
+c_i = f_i + m_i s_i (`push_estimate`), what acts on the payload, q, what the joints carry, f_i, and what moves the
+whole, the momentum residual T = m a, which no joint sensor enters. All are low-passed, and seen as their deviation from
+a slow mean, so that bias, drift and mean wind do not count. With d_i, p, j_i and T these deviations:
+
+| cause | d_i | p | T | j_i |
+|---|---|---|---|---|
+| the guard of quadrotor i touches with a force F | F | 0 | F | not 0 |
+| a hand, or the beam touches | 0 | F | F | not 0 |
+| the sensor at joint i is wrong by b | b | −b | 0 | b |
+| the accelerometer is wrong by e | m_i e | m_L e | m e | 0 |
+| the gyroscope jumps | of opposite signs | 0 | 0 | 0 |
+
+So a guard touches where |d_i| is large, T confirms most of it, and the joints have seen it. Later a vehicle whose
+sensor broke may move, too; therefore a force that was not confirmed at once (`doubt`) is no contact. A known wall
+(`contact_map`) confirms one without T, even one that grows slowly.
+
+A beam that touches differs from a hand by its rise: a hand gives some 100 N/s at most. With a known wall at the place,
+away from which the force points, less is enough.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import elementwise, law
+from tandemlift.core.algebra.ops import greatest, maximum, minimum, where
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import Vec3, total
+from tandemlift.parts.estimation.contact_map import BeamMatch, GuardMatch, TouchGeometry
+from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, external_forces
+from tandemlift.parts.estimation.tare import SideForces
+from tandemlift.parts.sensors.readings import ImuReading
+from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
+
+CONFIRMED = 0.7  # least share of a force that the momentum residual shows
+SEEN = 0.005  # least share of its square that the joints carry: 0.02 where all guards touch alike
+SHARP, STEEP = 60.0, 300.0  # N/s: least rise of a force on the beam at a known wall, and anywhere
+STEADY_RATE = 0.05  # 1/s, of the steady mean of what acts on the quadrotors, once tared: drift and wind
+LEAST_DOUBT, DOUBT_TIME = 0.008, 0.5  # s of an unconfirmed force that exclude a contact, and for how long at most
+BEAM = -1.0  # number of the beam in place of that of a guard
+
+
+class ContactDetector(NamedTuple):
+    """The numbers of the detection: low-pass, rate of the slow means [1/s], `threshold` [N], mass of the vehicle [kg].
+
+    `numbers`: of the quadrotors, from 1, a set.
+    """
+
+    fast: LowPass
+    slow_rate: Any
+    threshold: Any
+    mass: Any
+    geometry: TouchGeometry
+    numbers: Any
+
+
+class ForceBand(NamedTuple):
+    """Memory of a horizontal force, of numbers or sets: low-passed along x and y, and its slow means."""
+
+    x: LowPassState
+    y: LowPassState
+    mean_x: Any
+    mean_y: Any
+
+
+class EvidenceState(NamedTuple):
+    """Memory: the bands of c, f, T and q; the steady mean of c [N].
+
+    `steepest`: square of the greatest slope of a push [N²/s²] since it exceeds the threshold. `doubt` [s]: for how long
+    a force has lately not been confirmed by the motion.
+    """
+
+    outside: ForceBand
+    joints: ForceBand
+    momentum: ForceBand
+    push: ForceBand
+    steady: SideForces
+    steepest: Any
+    doubt: Any
+
+
+class Deviations(NamedTuple):
+    """The deviations from the slow means [N, body axes]: d, j (of sets), T and p; `lasting`: d from the steady mean."""
+
+    outside: SideForces
+    lasting: SideForces
+    joints: SideForces
+    momentum: SideForces
+    push: SideForces
+
+
+class PushReading(NamedTuple):
+    """A reading of the inertial measurement unit, and of it the angular acceleration [rad/s²] and the push."""
+
+    imu: ImuReading
+    angular: Vec3
+    push: PushEstimate
+
+
+@law
+def banded(k: ContactDetector, m: ForceBand, x: Any, y: Any, hold: Any, dt: Any) -> ForceBand:
+    """The memory of a force after a step; while `hold` is 1, its slow means stay."""
+    after_x, after_y = low_pass_step(k.fast, m.x, x), low_pass_step(k.fast, m.y, y)
+    rate = k.slow_rate * dt * (1.0 - hold)
+    return ForceBand(
+        after_x,
+        after_y,
+        m.mean_x + (after_x.value - m.mean_x) * rate,
+        m.mean_y + (after_y.value - m.mean_y) * rate,
+    )
+
+
+@law
+def deviation(m: ForceBand) -> SideForces:
+    """A force less its slow mean [N]."""
+    return SideForces(m.x.value - m.mean_x, m.y.value - m.mean_y)
+
+
+@law
+def deviations(m: EvidenceState) -> Deviations:
+    """All deviations in a memory."""
+    lasting = SideForces(m.outside.x.value - m.steady.x, m.outside.y.value - m.steady.y)
+    return Deviations(deviation(m.outside), lasting, deviation(m.joints), deviation(m.momentum), deviation(m.push))
+
+
+@law
+def restarted(m: ForceBand, restart: Any) -> ForceBand:
+    """A memory whose slow means are the present force if it is to `restart` (1)."""
+    return m._replace(
+        mean_x=m.mean_x + (m.x.value - m.mean_x) * restart, mean_y=m.mean_y + (m.y.value - m.mean_y) * restart
+    )
+
+
+@law
+def with_means_of_now(m: EvidenceState, restart: Any) -> EvidenceState:
+    """The memory whose slow means are the present forces if it is to `restart` (1), except for the steady one."""
+    return m._replace(
+        outside=restarted(m.outside, restart),
+        joints=restarted(m.joints, restart),
+        momentum=restarted(m.momentum, restart),
+        push=restarted(m.push, restart),
+    )
+
+
+@elementwise
+def guard_touched(square: Number, shown: Number, least: Number, seen: Number) -> Number:
+    """The square of the force on a guard [N²] if it is that of a contact, else 0.
+
+    Args:
+        square: of its deviation [N²].
+        shown: the product of it with the momentum residual [N²].
+        least: square of the threshold, or of the force on the payload if that is larger [N²].
+        seen: 1 if the joints have seen it, else 0.
+    """
+    return where(square > least, where(shown > CONFIRMED * square, square * seen, 0.0), 0.0)
+
+
+@elementwise
+def on_map(square: Number, matched: Number, least: Number) -> Number:
+    """The square of the lasting force on a guard [N²] if a known wall explains it (1), else 0."""
+    return where(square > least, square * matched, 0.0)
+
+
+@law
+def square_of(f: SideForces) -> Any:
+    """The square of a horizontal force [N²]."""
+    return f.x * f.x + f.y * f.y
+
+
+@elementwise
+def number_of(strength: Number, strongest: Number, number: Number) -> Number:
+    """The number of the strongest contact, else 0."""
+    return where(strength > 0.0, where(strength == strongest, number, 0.0), 0.0)
+
+
+@elementwise
+def confirms(square: Number, strongest: Number, shown: Number) -> Number:
+    """1 if this is the strongest force and the momentum residual confirms it, else 0."""
+    return where(square == strongest, where(shown > CONFIRMED * square, 1.0, 0.0), 0.0)
+
+
+@law
+def doubt_after(k: ContactDetector, doubt: Any, d: Deviations, dt: Any) -> Any:
+    """For how long the strongest force has lately not been confirmed by the motion [s], at most `DOUBT_TIME`."""
+    c, p, T = d.outside, d.push, d.momentum
+    on_guards, on_payload = square_of(c), square_of(p)
+    strongest = maximum(greatest(on_guards), on_payload)
+    by_guards = greatest(confirms(on_guards, strongest, c.x * T.x + c.y * T.y))
+    confirmed = maximum(by_guards, confirms(on_payload, strongest, p.x * T.x + p.y * T.y))
+    doubtful = where(strongest > k.threshold * k.threshold, 1.0 - confirmed, 0.0)
+    return where(doubtful > 0.0, minimum(doubt + dt, DOUBT_TIME), maximum(doubt - dt, 0.0))
+
+
+@law
+def touched_guard(k: ContactDetector, d: Deviations, map_match: GuardMatch, sure: Any) -> Any:
+    """The number of the quadrotor whose guard touches now, or 0; `sure` is 1 if the motion confirms forces, else 0."""
+    outside, joints, T, p = d.outside, d.joints, d.momentum, d.push
+    square = outside.x * outside.x + outside.y * outside.y
+    shown = outside.x * T.x + outside.y * T.y
+    carried = total(joints.x * joints.x) + total(joints.y * joints.y)
+    seen = where(carried > SEEN * total(square), sure, 0.0)
+    least = maximum(k.threshold * k.threshold, p.x * p.x + p.y * p.y)
+    strength = guard_touched(square, shown, least, seen) + on_map(square_of(d.lasting), map_match.matched, least)
+    return greatest(number_of(strength, greatest(strength), k.numbers))
+
+
+@law
+def steepest_push(k: ContactDetector, m: EvidenceState, p: SideForces) -> Any:
+    """Square of the greatest slope of a push [N²/s²] since it exceeds the threshold, or 0 below."""
+    slope = m.push.x.rate * m.push.x.rate + m.push.y.rate * m.push.y.rate
+    return where(p.x * p.x + p.y * p.y > k.threshold * k.threshold, maximum(m.steepest, slope), 0.0)
+
+
+@law
+def beam_touched(k: ContactDetector, steepest: Any, d: Deviations, matched: Any) -> Any:
+    """1 if the beam touches now, else 0; with the square of the `steepest` slope of the push [N²/s²]."""
+    p, T, outside = d.push, d.momentum, d.outside
+    square, on_guards = p.x * p.x + p.y * p.y, greatest(outside.x * outside.x + outside.y * outside.y)
+    least = where(matched > 0.0, SHARP, STEEP)
+    shown = where(p.x * T.x + p.y * T.y > CONFIRMED * square, 1.0, 0.0)
+    return where(square > on_guards, where(steepest > least * least, shown, 0.0), 0.0)
+
+
+@law
+def touching_part(
+    k: ContactDetector, m: EvidenceState, d: Deviations, guards: GuardMatch, beam: BeamMatch, trusted: Any
+) -> Any:
+    """The part that touches now: the number of the quadrotor of a guard, `BEAM`, or 0.
+
+    `trusted` is 1 while joints agree or a contact explains that they do not; else 0, and only a known wall counts.
+    """
+    sure = where(m.doubt < LEAST_DOUBT, trusted, 0.0)
+    guard = touched_guard(k, d, guards, sure)
+    return where(guard > 0.0, guard, BEAM * sure * beam_touched(k, m.steepest, d, beam.matched))
+
+
+@law
+def heard(
+    k: ContactDetector, m: EvidenceState, e: PushEstimator, x: PushReading, hold: Any, dt: Any
+) -> tuple[EvidenceState, Deviations]:
+    """(the memory after a reading, the deviations); while `hold` is 1, the slow means stay."""
+    a, f, c = x.imu.specific_force, x.imu.joint_force, external_forces(e, x.imu, x.angular)
+    outside = banded(k, m.outside, c.x, c.y, hold, dt)
+    rate = where(x.push.armed > 0.0, STEADY_RATE, k.slow_rate) * dt * (1.0 - hold)
+    after = m._replace(
+        outside=outside,
+        steady=SideForces(
+            m.steady.x + (outside.x.value - m.steady.x) * rate, m.steady.y + (outside.y.value - m.steady.y) * rate
+        ),
+        joints=banded(k, m.joints, f.x, f.y, hold, dt),
+        momentum=banded(k, m.momentum, a.x * k.mass, a.y * k.mass, hold, dt),
+        push=banded(k, m.push, a.x * e.mass - total(f.x), a.y * e.mass - total(f.y), hold, dt),
+    )
+    d = deviations(after)
+    return after._replace(steepest=steepest_push(k, after, d.push), doubt=doubt_after(k, m.doubt, d, dt)), d
+
+
+def start_evidence(k: ContactDetector) -> EvidenceState:
+    """The memory before the first step."""
+    none, nil = k.numbers * 0.0, LowPassState(0.0, 0.0)
+    still = LowPassState(none, none)
+    of_sets, of_numbers = ForceBand(still, still, none, none), ForceBand(nil, nil, 0.0, 0.0)
+    return EvidenceState(of_sets, of_sets, of_numbers, of_numbers, SideForces(none, none), 0.0, 0.0)

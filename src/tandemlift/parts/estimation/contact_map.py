@@ -1,0 +1,171 @@
+"""What a pilot that knows the walls makes of a horizontal force: which wall may have given it, and where.
+
+A force is that of a wall if the part is near one, and if the force points away from it within the cone of friction.
+Upright sides and edges count; the tops of walls do not, because their forces are vertical.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.ops import maximum, where
+from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, apply, dot, total
+from tandemlift.parts.contact.wall_geometry import Wall, offset
+from tandemlift.parts.contact.walls import BeamAxis, NearBeam, NearWalls, beam_axis, beam_point, point_by_edge
+from tandemlift.parts.mechanics.loads import translated
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+
+LEAST_COSINE = 0.6  # between a force and the way out of a wall: friction of 0.8 turns it by 39°, and noise by more
+
+
+class TouchGeometry(NamedTuple):
+    """The parts that touch, from the system's centre of mass [m, body axes].
+
+    `quadrotors`: centres of the guards (a vector of sets) with their radii `guards` [m]; `payload`: the centre of the
+    beam, which is `half` long either way along body y, with a `radius` [m]. `margin` [m]: how far from a known wall a
+    part may seem to be when it touches.
+    """
+
+    quadrotors: Vec3
+    guards: Any
+    payload: Vec3
+    half: Any
+    radius: Any
+    margin: Any
+
+
+class BeamMatch(NamedTuple):
+    """1 if a known wall explains a force on the beam, else 0; where on it [m, body y]; the offset from the wall [m]."""
+
+    matched: Any
+    along: Any
+    offset: Vec3
+
+
+class GuardMatch(NamedTuple):
+    """Likewise for every guard, as sets; the offset is zero where no wall matches."""
+
+    matched: Any
+    offset: Vec3
+
+
+UNMATCHED = BeamMatch(0.0, 0.0, ZERO)
+
+
+@elementwise
+def explains(square: Number, radius: Number, margin: Number, product: Number, force: Number) -> Number:
+    """1 if a wall at the distance √square explains a force, else 0.
+
+    Args:
+        square: of the distance of the part's axis from the wall [m²].
+        radius: of the part [m].
+        margin: see `TouchGeometry` [m].
+        product: of the offset from the wall with the force [m N].
+        force: its square [N²].
+    """
+    aligned = where(product * product > LEAST_COSINE * LEAST_COSINE * square * force, 1.0, 0.0)
+    return where(square < (radius + margin) * (radius + margin), where(product > 0.0, aligned, 0.0), 0.0)
+
+
+@elementwise
+def unless(flag: Number, value: Number) -> Number:
+    """0 where a flag is 1, else the value."""
+    return where(flag > 0.0, 0.0, value)
+
+
+@law
+def level(o: Vec3) -> Vec3:
+    """The horizontal part of an offset, which may be of sets."""
+    return Vec3(o.x, o.y, o.z * 0.0)
+
+
+@law
+def guard_match(g: TouchGeometry, wall: Wall, p: Vec3, force: Vec3) -> GuardMatch:
+    """Whether a wall for each guard at p [m, world axes] explains the force on it [N, world axes]; all of sets."""
+    o = level(offset(wall, p))
+    square = dot(o, o)
+    matched = explains(square, g.guards, g.margin, dot(o, force), dot(force, force))
+    return GuardMatch(matched, Vec3(o.x * matched, o.y * matched, o.z))
+
+
+@choice
+def guards_matched(near: Any, g: TouchGeometry, s: State, force: Vec3) -> Any:
+    """`GuardMatch` of forces on the guards [N, world axes], with the walls that the pilot knows near them."""
+
+
+@guards_matched.register(Nothing)
+def _no_map(near: Nothing, g: TouchGeometry, s: State, force: Vec3) -> GuardMatch:
+    none = force.x * 0.0
+    return GuardMatch(none, Vec3(none, none, none))
+
+
+@guards_matched.register(NearWalls)
+def _on_map(near: NearWalls, g: TouchGeometry, s: State, force: Vec3) -> GuardMatch:
+    p = translated(s.position, apply(rotation_from_quaternion(s.attitude), g.quadrotors))
+    first, second = guard_match(g, near.first, p, force), guard_match(g, near.second, p, force)
+    other = unless(first.matched, second.matched)
+    return GuardMatch(
+        first.matched + other,
+        Vec3(first.offset.x + second.offset.x * other, first.offset.y + second.offset.y * other, first.offset.z),
+    )
+
+
+@law
+def beam_match(g: TouchGeometry, a: BeamAxis, along: Any, wall: Wall, force: Vec3) -> BeamMatch:
+    """Whether a wall explains a force [N, world axes] at a point `along` the beam [m]."""
+    o = level(offset(wall, beam_point(a, along)))
+    square = dot(o, o)
+    matched = explains(square, g.radius, g.margin, dot(o, force), dot(force, force))
+    return BeamMatch(matched, along, o)
+
+
+@law
+def first_match(a: BeamMatch, b: BeamMatch) -> BeamMatch:
+    """The first of two matches, or the second if the first is none."""
+    matched = maximum(a.matched, b.matched)
+    return BeamMatch(matched, where(a.matched > 0.0, a.along, b.along), chosen(a.matched, a.offset, b.offset))
+
+
+@choice(absent=UNMATCHED)
+def beam_matched(near: NearBeam | Nothing, g: TouchGeometry, s: State, force: Vec3) -> Any:
+    """`BeamMatch` of a force on the beam [N, world axes]."""
+
+
+@beam_matched.register(NearBeam)
+def _beam_on_map(near: NearBeam, g: TouchGeometry, s: State, force: Vec3) -> BeamMatch:
+    a = beam_axis(g.payload, s)
+    by_edge = beam_match(g, a, point_by_edge(a, g.half, near.edge), near.edge, force)
+    by_other = beam_match(g, a, point_by_edge(a, g.half, near.other_edge), near.other_edge, force)
+    start = beam_match(g, a, -g.half, wall_of(near.ends, 0), force)
+    end = beam_match(g, a, g.half, wall_of(near.ends, 1), force)
+    return first_match(first_match(by_edge, by_other), first_match(start, end))
+
+
+@law
+def wall_of(walls: Wall, i: int) -> Wall:
+    """One of a set of walls."""
+    return Wall(*[value[i] for value in walls])
+
+
+@choice(absent=UNMATCHED)
+def beam_of(near: NearWalls | Nothing, g: TouchGeometry, s: State, force: Vec3) -> Any:
+    """`beam_matched` by the walls that the pilot knows near the beam."""
+
+
+@beam_of.register(NearWalls)
+def _beam_of(near: NearWalls, g: TouchGeometry, s: State, force: Vec3) -> BeamMatch:
+    return beam_matched(near.beam, g, s, force)
+
+
+@law
+def picked(numbers: Any, number: Any, values: Any) -> Any:
+    """The value of a set at the place where `numbers` is `number`, 0 where it is nowhere."""
+    return total(at_number(numbers, number, values))
+
+
+@elementwise
+def at_number(own: Number, number: Number, value: Number) -> Number:
+    """The value where the number is its own, else 0."""
+    return where(own == number, value, 0.0)

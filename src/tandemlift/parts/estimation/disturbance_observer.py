@@ -1,0 +1,163 @@
+"""A disturbance observer: it estimates the loads on the vehicle besides its rotors, its weight and the person.
+
+A model of the vehicle is integrated with the thrusts that the allocation could give, through a model of the rotors, so
+nothing winds up while they are at their limits. The disturbance is what keeps the model at the measured velocity and
+rates: per axis, with the error e and the disturbance's acceleration d,
+
+    ė = d_true − d − 2 λ e,   ḋ = λ² e       while |λ² e| ≤ L,
+    ė = d_true − d − 2 √(L |e|) sgn e,   ḋ = L sgn e   beyond.
+
+Near zero this is a linear extended-state observer of bandwidth λ (Han, From PID to active disturbance rejection
+control, 2009), which averages noise; beyond, it is the super-twisting observer (Levant, Robust exact differentiation
+via sliding mode technique, 1998; Moreno and Osorio, 2012) whose estimate changes no faster than L, so that a lost rotor
+does not upset it. The two meet continuously; an infinite L gives the linear one.
+
+The model includes the measured push of the person, so that is no disturbance.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.ops import absolute, clip, sqrt
+from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic
+from tandemlift.parts.mechanics.rigid_body import UP, Wrench
+from tandemlift.parts.mechanics.rotation import body_z_axis
+from tandemlift.parts.rotors.allocation import Mixer, wrench
+from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
+
+
+class DisturbanceFilter(NamedTuple):
+    """Parameters of three axes: bandwidth λ [1/s], and the largest slope L of the disturbance [unit of e/s²]."""
+
+    bandwidth: Vec3
+    slope: Vec3
+
+
+class DisturbanceObserver(NamedTuple):
+    """The nominal vehicle, low-passes that model its rotors, and the filters of force and moment."""
+
+    mass: Any
+    inertia: Any
+    inverse_inertia: Any
+    drag_force: Vec3
+    drag_moment: Vec3
+    effect: Mixer
+    thrust: LowPass
+    moment: LowPass
+    force_follower: DisturbanceFilter
+    moment_follower: DisturbanceFilter
+
+
+class ObserverState(NamedTuple):
+    """Memory: the modelled rotors' wrench; velocity [m/s] and rates [rad/s] of the model; both disturbances.
+
+    Disturbances are accelerations [m/s², world axes] and angular accelerations [rad/s², body axes]; the
+    residuals are the corrections besides them.
+    """
+
+    thrust: LowPassState
+    moment: LowPassState
+    velocity: Vec3
+    rates: Vec3
+    acceleration: Vec3
+    turning: Vec3
+    residual: Vec3
+    turning_residual: Vec3
+
+
+class DisturbanceEstimate(NamedTuple):
+    """The disturbance: force [N, world axes], moment [N·m, body axes]; and the estimation errors.
+
+    The residuals [m/s², rad/s²] estimate the error δ − δ̂ of the disturbance; by the paper's condition it must stay
+    below λ₂.
+    """
+
+    force: Vec3
+    moment: Vec3
+    residual: Vec3
+    turning_residual: Vec3
+
+
+NONE = DisturbanceEstimate(ZERO, ZERO, ZERO, ZERO)
+
+
+@elementwise
+def correction(e: Any, bandwidth: Any, slope: Any) -> Any:
+    """The rate of the model's correction towards the measurement: 2 λ e, or 2 √(L |e|) sgn e where that is less."""
+    near = 2.0 * bandwidth * e
+    far = 2.0 * sqrt(slope * absolute(e))
+    return clip(near, -far, far)
+
+
+@elementwise
+def growth(e: Any, bandwidth: Any, slope: Any) -> Any:
+    """The rate of the disturbance's estimate: λ² e, or L sgn e where that is less."""
+    return clip(bandwidth * bandwidth * e, -slope, slope)
+
+
+@choice(absent=(NONE, "memory"))
+def observer_step(k: Any, memory: Any, pilot_input: Any, thrusts: Any, active: Any, learning: Any, dt: Any) -> Any:
+    """(`DisturbanceEstimate`, the new memory) at a sample.
+
+    Args:
+        k: the observer, or `Nothing`.
+        memory: its memory.
+        pilot_input: the pilot's input, a `PilotInput`.
+        thrusts: of all rotors [N], as allocated at the last sample.
+        active: 1 in flight; 0 on the ground, where nothing is estimated.
+        learning: 1; 0 holds the estimate while feet may touch the floor, whose force is no disturbance.
+        dt: since the last sample [s].
+    """
+
+
+@law
+def expected(k: DisturbanceObserver, memory: ObserverState, thrusts: Any) -> Any:
+    """(the modelled rotors' thrust, moment) after a step under these commands, each with its rate."""
+    u = wrench(k.effect, thrusts)
+    return low_pass_step(k.thrust, memory.thrust, u.thrust), low_pass_step(k.moment, memory.moment, u.moment)
+
+
+@law
+def rates_of_change(k: DisturbanceObserver, pilot_input: Any, u: Wrench) -> Any:
+    """(acceleration [m/s², world axes], angular acceleration [rad/s², body axes]) without any disturbance."""
+    s = pilot_input.state
+    force = body_z_axis(s.attitude) * u.thrust + pilot_input.push - k.drag_force * s.velocity
+    moment = u.moment + pilot_input.moment + gyroscopic(k.inertia, s.rates) - k.drag_moment * s.rates
+    return force * (1.0 / k.mass) - UP * GRAVITY, apply_inertia(k.inverse_inertia, moment)
+
+
+@observer_step.register(DisturbanceObserver)
+def _observed(
+    k: DisturbanceObserver, memory: Any, pilot_input: Any, thrusts: Any, active: Any, learning: Any, dt: Any
+) -> Any:
+    thrust, moment = expected(k, memory, thrusts)
+    linear, angular = rates_of_change(k, pilot_input, Wrench(thrust.value, moment.value))
+    f, m = k.force_follower, k.moment_follower
+    e, w = (pilot_input.state.velocity - memory.velocity) * active, (pilot_input.state.rates - memory.rates) * active
+    acceleration = (memory.acceleration + growth(e, f.bandwidth, f.slope) * (learning * dt)) * active
+    turning = (memory.turning + growth(w, m.bandwidth, m.slope) * (learning * dt)) * active
+    residual, turning_residual = correction(e, f.bandwidth, f.slope), correction(w, m.bandwidth, m.slope)
+    velocity = pilot_input.state.velocity - e + (linear + acceleration + residual) * dt
+    rates = pilot_input.state.rates - w + (angular + turning + turning_residual) * dt
+    after = ObserverState(thrust, moment, velocity, rates, acceleration, turning, residual, turning_residual)
+    return unmodelled(k, after), after
+
+
+@law
+def unmodelled(k: DisturbanceObserver, m: ObserverState) -> DisturbanceEstimate:
+    """The estimate in a memory."""
+    return DisturbanceEstimate(
+        m.acceleration * k.mass, apply_inertia(k.inertia, m.turning), m.residual, m.turning_residual
+    )
+
+
+@choice(absent=NONE)
+def last_known(k: Any, memory: Any) -> Any:
+    """The `DisturbanceEstimate` at the last sample."""
+
+
+@last_known.register(DisturbanceObserver)
+def _known(k: DisturbanceObserver, memory: Any) -> Any:
+    return unmodelled(k, memory)

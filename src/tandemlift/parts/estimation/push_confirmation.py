@@ -1,0 +1,176 @@
+"""How much of a measured push the rest of the vehicle confirms, so that the pilot follows no sensor error and no wind.
+
+With F̂ the push by joints and accelerometer (`push_estimate`), f_i what quadrotor i puts on the payload, m_i its mass
+and s_i its specific force, r = Σ (f_i + m_i s_i) − T e_z is what acts on the quadrotors besides their modelled thrust
+T. All that acts on the vehicle from outside is F̂ + r. What r tells of F̂ is in `confirmed_part`, per body axis; about
+the vertical the same holds for the moments, without wind. Without rotors that have limits, T is not known, and nothing
+is told.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.ops import maximum, sqrt
+from tandemlift.core.algebra.vector import ZERO, Vec3, apply, apply_transposed, cross
+from tandemlift.parts.estimation.confirmed_part import Zero, compared
+from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState
+from tandemlift.parts.estimation.wind_compensation import subtracted_wind
+from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic
+from tandemlift.parts.mechanics.loads import scaled, sum_over_set, translated
+from tandemlift.parts.mechanics.rigid_body import UP
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.rotors.allocation import Mixer, wrench
+from tandemlift.parts.rotors.rotor_lag import Lag, lag_step
+from tandemlift.parts.sensors.readings import ImuReading
+from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
+
+BANDWIDTH = 10.0  # rad/s, of the low-pass on r: a push does not show in r, so it need not be fast
+REST_THRUST = 1e-3  # N
+NO_WIND = 1e-9  # a ratio ρ by which r explains nothing
+
+
+class RotorModel(NamedTuple):
+    """Rotors as the pilot knows them: their wrench, k [N/(rad/s)²] and 1/k, and lags, each a set."""
+
+    effect: Mixer
+    constant: Any
+    per_constant: Any
+    up: Lag
+    down: Lag
+
+
+class PushConfirmation(NamedTuple):
+    """A `RotorModel`, or `Nothing`; tolerances and ratio ρ per body axis; the vehicle's inertia; the low-pass on r.
+
+    `tolerance` [N], `moment_tolerance` about z [N·m], `inertia` [kg·m²].
+    """
+
+    rotors: Any
+    tolerance: Vec3
+    moment_tolerance: Any
+    ratio: Vec3
+    inertia: Any
+    low_pass: LowPass
+
+
+class ConfirmationState(NamedTuple):
+    """Memory: speeds of the rotors as modelled [rad/s]; r [N] and its moment about z [N·m], low-passed; their zeros."""
+
+    speeds: Any
+    rest: LowPassState
+    turning: LowPassState
+    force_zero: Zero
+    turning_zero: Zero
+
+
+class SampledPush(NamedTuple):
+    """What a push was estimated from: the reading of the IMU, the estimator, and its memory after the sample."""
+
+    imu: ImuReading
+    estimator: PushEstimator
+    memory: PushEstimatorState
+
+
+class OutsideLoad(NamedTuple):
+    """What acts from outside besides the push: force [N, body axes] and moment about z [N·m]; a sample."""
+
+    force: Vec3
+    turning: Any
+
+
+@law
+def on_quadrotors(k: PushEstimator, imu: ImuReading, angular: Vec3) -> Vec3:
+    """Σ (f_i + m_i s_i) [N, body axes]: the rotors' thrust, and what acts on the quadrotors from outside."""
+    a, w = imu.specific_force, imu.rates
+    turn = cross(cross(k.quadrotors, w), w) - cross(k.quadrotors, angular)
+    return sum_over_set(imu.joint_force + scaled(translated(a, turn), k.quadrotor_mass))
+
+
+@law
+def about_vertical(e: PushEstimator, moment: Vec3, force: Vec3) -> Any:
+    """The moment of a push about the system's centre of mass, along body z [N·m], from that about the payload's."""
+    return moment.z - cross(e.system, force).z
+
+
+@elementwise
+def speed_at(thrust: Any, per_constant: Any) -> Any:
+    """The speed of a rotor [rad/s] with a thrust [N] in the steady state; its slope at rest is 0, not infinite."""
+    return sqrt(maximum(thrust, REST_THRUST) * per_constant)
+
+
+@choice(absent=(OutsideLoad(ZERO, 0.0), "memory"))
+def outside_load(rotors: Any, memory: Any, commands: Any, quadrotors: Vec3, turning: Any) -> Any:
+    """(`OutsideLoad` of a sample, the new memory).
+
+    Args:
+        rotors: a `RotorModel`, or `Nothing`.
+        memory: speed of every rotor as modelled [rad/s].
+        commands: the last thrust of every rotor [N].
+        quadrotors: Σ (f_i + m_i s_i) [N, body axes].
+        turning: rate of the angular momentum less the push's moment, along body z [N·m].
+    """
+
+
+@outside_load.register(RotorModel)
+def _beside_thrust(rotors: RotorModel, memory: Any, commands: Any, quadrotors: Vec3, turning: Any) -> Any:
+    squares, speeds = lag_step(rotors.up, rotors.down, memory, speed_at(commands, rotors.per_constant))
+    made = wrench(rotors.effect, squares * rotors.constant)
+    return OutsideLoad(quadrotors - UP * made.thrust, turning - made.moment.z), speeds
+
+
+@choice(absent=("push", "memory"))
+def confirm(
+    k: Any, memory: Any, push: PushEstimate, reading: SampledPush, commands: Any, explained: Any, dt: Any
+) -> Any:
+    """(the confirmed push, a `PushEstimate`, the new memory).
+
+    Args:
+        k: a `PushConfirmation`, or `Nothing`.
+        memory: its memory.
+        push: as estimated.
+        reading: what it was estimated from.
+        commands: the last thrusts of all rotors [N]; not used without a model of the rotors.
+        explained: 1 while a contact with a wall explains what acts on the quadrotors, else 0.
+        dt: since the last sample [s].
+    """
+
+
+@confirm.register(PushConfirmation)
+def _confirmed(
+    k: PushConfirmation, m: ConfirmationState, p: PushEstimate, x: SampledPush, commands: Any, explained: Any, dt: Any
+) -> Any:
+    imu, e, after = x.imu, x.estimator, x.memory
+    sampled = apply_transposed(rotation_from_quaternion(imu.frame), p.measured)
+    momentum = apply_inertia(k.inertia, after.angular) - gyroscopic(k.inertia, imu.rates)
+    turning = momentum.z - about_vertical(e, p.measured_moment, sampled) * p.armed  # before, it is not tared
+    now, speeds = outside_load(k.rotors, m.speeds, commands, on_quadrotors(e, imu, after.angular), turning)
+    rest, about_z = low_pass_step(k.low_pass, m.rest, now.force), low_pass_step(k.low_pass, m.turning, now.turning)
+    force, beside = after.force.value, rest.value + subtracted_wind(after.wind)
+    turned = about_vertical(e, after.moment.value, force)
+    tare, learns = (1.0 - p.armed) / maximum(after.sums.count, 1.0), p.armed * (1.0 - explained) * dt
+    f = compared(k.low_pass, m.force_zero, force, beside, k.tolerance, k.ratio, tare, learns)
+    n = compared(k.low_pass, m.turning_zero, turned, about_z.value, k.moment_tolerance, NO_WIND, tare, learns)
+    refuted = maximum(maximum(f.refuted.x, f.refuted.y), maximum(f.refuted.z, n.refuted))
+    left = withheld(p, imu, f.withheld, n.withheld, 1.0 - explained, refuted)
+    return left, ConfirmationState(speeds, rest, about_z, f.zero, n.zero)
+
+
+@choice(absent=ZERO)
+def refuted_push(estimates: Any) -> Any:
+    """The part of a push that the motion refutes [N, world axes], or zero."""
+
+
+@law
+def withheld(p: PushEstimate, imu: ImuReading, force: Vec3, turning: Any, applies: Any, refuted: Any) -> PushEstimate:
+    """The push less what is not confirmed: `force` [N] and the moment `turning` about z [N·m], body axes."""
+    less, about_z = apply(rotation_from_quaternion(imu.frame), force * applies), Vec3(0.0, 0.0, turning * applies)
+    smoothed = p.force - less
+    return p._replace(
+        measured=p.measured - less,
+        measured_moment=p.measured_moment - about_z,
+        force=smoothed,
+        moment=p.moment - about_z,
+        usable=smoothed * (p.trusted * p.armed),
+        withheld=less,
+        refuted=refuted * applies,
+    )

@@ -1,0 +1,292 @@
+"""The push of a person on the payload, from the sensors at its joints and in its centre of mass.
+
+With f_i, t_i what quadrotor i puts on the payload at its joint c_i, a the specific force and ω the rates, all in body
+axes and about the payload's centre of mass, the payload's equations of motion (the paper's trans_rot_payload_equ, with
+a person on its right side) leave for the person F = m_L a − Σ f_i and M = J_L ω̇ + ω × J_L ω − Σ t_i − Σ c_i × f_i.
+Wind on the payload counts as a push. ω̇ is the difference of consecutive samples.
+
+In hover, over a window, the means of F and M are taken as the sensors' bias, after the payload's mass if it is
+identified (`parts.estimation.tare`); where an excess of mass sits, hover does not tell (`inertial_force`). The wind on
+the payload may be subtracted (`parts.mechanics.air_drag`).
+
+The external force on quadrotor i is f_i + m_i s_i, with s_i its specific force. Thrust is only in z, so x and y are
+wind or sensor error; where they differ between quadrotors, the push is not trusted. Errors in z, of torques, and errors
+that are equal at all joints are not detected.
+
+One low-pass in body axes serves F and M, so that the point of application, x × F = M on the beam's axis y, is exact
+however the force changes and the vehicle turns.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.core.algebra.arrays import array
+from tandemlift.core.algebra.law import law
+from tandemlift.core.algebra.ops import clip, maximum, sqrt, where
+from tandemlift.core.algebra.types import number
+from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, apply, cross, each, spread, total, vec3
+from tandemlift.parts.estimation.tare import TINY, SideForces, TareSums, summed, tare_of
+from tandemlift.parts.estimation.wind_compensation import start_payload_drag, wind_on_payload
+from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
+from tandemlift.parts.mechanics.loads import add_to_each, sum_over_set
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.sensors.readings import ImuReading
+from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+
+NOTHING = Nothing()
+
+
+class PushEstimator(NamedTuple):
+    """The nominal vehicle and the numbers of the estimator; body axes.
+
+    Payload: `mass` [kg] and `inertia` [kg·m²]. From its centre of mass [m]: the `system`'s centre of mass, `joints`,
+    and the `quadrotors`' centres of mass, which weigh `quadrotor_mass` [kg] (sets); `reach`, half the beam's length.
+    `per_interval`: samples of the IMU per second. `least`: square of the least force [N²] that has a point of
+    application. Tare from `tare_start` [s] until before `tare_end`; `identify` is 1 to identify the payload's mass,
+    else 0. `limit`: disagreement [N] from which on nothing is trusted; `share` is 1/N, `alone` N/(N − 1) or 0 for N =
+    1. `windage`: how wind is taken off, or `Nothing`.
+    """
+
+    mass: Any
+    inertia: Any
+    system: Vec3
+    joints: Vec3
+    quadrotors: Vec3
+    quadrotor_mass: Any
+    reach: Any
+    per_interval: Any
+    low_pass: LowPass
+    least: Any
+    tare_start: Any
+    tare_end: Any
+    identify: Any
+    limit: Any
+    share: Any
+    alone: Any
+    windage: Any
+
+
+class PushEstimatorState(NamedTuple):
+    """The last rates [rad/s] and angular acceleration [rad/s²], the sums of the tare, the low-passes, the wind."""
+
+    rates: Vec3
+    angular: Vec3
+    sums: TareSums
+    force: LowPassState
+    moment: LowPassState
+    x: LowPassState
+    y: LowPassState
+    wind: Any
+
+
+class PushEstimate(NamedTuple):
+    """The push as estimated.
+
+    `measured` [N, world axes] and `measured_moment` [N·m, body axes, about the payload's centre of mass]: the last
+    sample less the tare; `force` and `moment`, likewise: low-passed, zero until the tare is over; `point` [m]: where on
+    body y the force acts, 0 if it is too small; `payload_mass` [kg]; `disagreement` [N]: the horizontal force by which
+    one joint sensor alone would have to be wrong; `trusted` is 1 while that is below its limit, `armed` once the tare
+    is over, else 0; `usable`: `force` where trusted, else zero. `withheld` [N, world axes]: what is not confirmed
+    of the push (`push_confirmation`), and is not in the fields above; `refuted`: 1 while the motion refutes it, else 0.
+    """
+
+    measured: Vec3
+    measured_moment: Vec3
+    force: Vec3
+    moment: Vec3
+    point: Any
+    payload_mass: Any
+    disagreement: Any
+    trusted: Any
+    armed: Any
+    usable: Vec3
+    withheld: Vec3 = ZERO
+    refuted: Any = 0.0
+
+
+@law
+def moment_on_payload(k: PushEstimator, imu: ImuReading, angular: Vec3) -> Vec3:
+    """The moment M on the payload besides those of the joints [N·m, body axes], about its centre of mass."""
+    joints = imu.joint_torque + cross(k.joints, imu.joint_force)
+    return apply_inertia(k.inertia, angular) - gyroscopic(k.inertia, imu.rates) - sum_over_set(joints)
+
+
+@law
+def inertial_force(k: PushEstimator, specific_force: Vec3, rates: Vec3, angular: Vec3, mass: Any) -> Vec3:
+    """m_L a [N, body axes]; `mass` [kg] beyond the nominal is taken to be at the system's centre of mass.
+
+    `specific_force` [m/s²] is at the payload's centre of mass. Taken to be there too, a large excess would make every
+    turn of the vehicle look like a push, which the pilot then compensates: an unstable loop.
+    """
+    turn = cross(cross(k.system, rates), rates) - cross(k.system, angular)
+    return specific_force * mass + turn * (mass - k.mass)
+
+
+@law
+def external_forces(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces:
+    """The external horizontal force on every quadrotor [N], body axes."""
+    a, w = imu.specific_force, imu.rates
+    turn = cross(cross(k.quadrotors, w), w) - cross(k.quadrotors, angular)
+    x = imu.joint_force.x + add_to_each(turn.x, a.x) * k.quadrotor_mass
+    y = imu.joint_force.y + add_to_each(turn.y, a.y) * k.quadrotor_mass
+    return SideForces(x, y)
+
+
+@law
+def less_mean(k: PushEstimator, outside: SideForces) -> SideForces:
+    """These forces less their mean over the quadrotors [N]."""
+    x, y = outside
+    return SideForces(add_to_each(x, -total(x) * k.share), add_to_each(y, -total(y) * k.share))
+
+
+@law
+def sides(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces:
+    """The external horizontal force on every quadrotor, less its mean [N], body axes."""
+    return less_mean(k, external_forces(k, imu, angular))
+
+
+@law
+def point_of_application(k: PushEstimator, force: Vec3, moment: Vec3) -> Any:
+    """Where on the beam's axis, body y [m], a force acts that has this moment about its centre (body axes)."""
+    square = force.x * force.x + force.z * force.z
+    y = (moment.x * force.z - moment.z * force.x) / maximum(square, k.least)
+    return where(square < k.least, 0.0, clip(y, -k.reach, k.reach))
+
+
+@law
+def disagreement(k: PushEstimator, x: Any, y: Any) -> Any:
+    """The horizontal force [N] by which one joint sensor alone would have to be wrong to explain these `SideForces`."""
+    return sqrt(maximum((total(x * x) + total(y * y)) * k.alone, TINY))
+
+
+@law
+def estimate(k: PushEstimator, memory: PushEstimatorState, imu: ImuReading, t: Any) -> Any:
+    """(Push, the new memory) from a reading of the IMU at time t [s]."""
+    a, f = imu.specific_force, sum_over_set(imu.joint_force)
+    angular = where(imu.fresh > 0.0, (imu.rates - memory.rates) * k.per_interval, memory.angular)
+    moment, outside = moment_on_payload(k, imu, angular), external_forces(k, imu, angular)
+    unequal = less_mean(k, outside)
+    begun = where(t < k.tare_start, 0.0, 1.0)
+    taken = begun * where(t < k.tare_end, imu.fresh, 0.0)
+    sums = summed(memory.sums, begun, taken, f, a, moment, unequal)
+    armed = where(t < k.tare_end, 0.0, 1.0)
+    tare = tare_of(k.mass, k.identify, sums, armed)
+    wind, wind_memory = wind_on_payload(k.windage, memory.wind, outside.x, outside.y, begun, taken, armed)
+    force = inertial_force(k, a, imu.rates, angular, tare.mass) - f - tare.force - wind
+    after = PushEstimatorState(
+        imu.rates,
+        angular,
+        sums,
+        low_pass_step(k.low_pass, memory.force, force * armed),
+        low_pass_step(k.low_pass, memory.moment, (moment - tare.moment) * armed),
+        low_pass_step(k.low_pass, memory.x, (unequal.x - tare.sides.x) * armed),
+        low_pass_step(k.low_pass, memory.y, (unequal.y - tare.sides.y) * armed),
+        wind_memory,
+    )
+    return concluded(k, imu, force, moment - tare.moment, after, tare.mass, armed), after
+
+
+@law
+def concluded(
+    k: PushEstimator, imu: ImuReading, force: Vec3, turning: Vec3, after: PushEstimatorState, mass: Any, armed: Any
+) -> PushEstimate:
+    """The push from the sample's `force` [N] and `turning` moment [N·m], body axes, and what is low-passed."""
+    R = rotation_from_quaternion(imu.frame)
+    smoothed, moment = apply(R, after.force.value), after.moment.value
+    wrong = disagreement(k, after.x.value, after.y.value)
+    trusted = where(wrong < k.limit, 1.0, 0.0)
+    return PushEstimate(
+        measured=apply(R, force),
+        measured_moment=turning,
+        force=smoothed,
+        moment=moment,
+        point=point_of_application(k, after.force.value, moment),
+        payload_mass=mass,
+        disagreement=wrong,
+        trusted=trusted,
+        armed=armed,
+        usable=smoothed * (trusted * armed),
+    )
+
+
+def _tare_fields(start: float | None, duration: float, identify_mass: bool, interval: float) -> dict[str, Any]:
+    """The fields of an estimator's tare; the end of none is before every time."""
+    if start is None:
+        if identify_mass:
+            raise ValueError("the payload's mass is identified during the tare: give its start, or do not identify")
+        return {"tare_start": 0.0, "tare_end": -math.inf, "identify": 0.0}
+    if duration < interval:
+        raise ValueError(f"a tare of {duration:g} s holds no sample: they come every {interval:g} s")
+    return {"tare_start": number(start), "tare_end": start + duration, "identify": float(identify_mass)}
+
+
+def push_estimator(
+    mass: float,
+    inertia: Any,
+    joints: Any,
+    quadrotors: Any,
+    quadrotor_masses: Any,
+    step: float,
+    imu_period: int = 1,
+    length: float = math.inf,
+    bandwidth: float = 36.0,
+    min_force: float = 0.5,
+    tare_start: float | None = None,
+    tare_duration: float = 2.0,
+    identify_mass: bool = False,
+    disagreement_limit: float = 2.0,
+    windage: Any = NOTHING,
+    system: Any = (0.0, 0.0, 0.0),
+) -> PushEstimator:
+    """The estimator of the push on a payload, as the pilot believes the vehicle to be.
+
+    Args:
+        mass: of the payload [kg].
+        inertia: of the payload about its centre of mass [kg·m²], body axes (3 principal moments, or 3 × 3).
+        joints: from the payload's centre of mass [m], body axes (N × 3).
+        quadrotors: the quadrotors' centres of mass, likewise (N × 3).
+        quadrotor_masses: [kg] (N).
+        step: at which the estimator runs [s].
+        imu_period: of the IMU, in steps.
+        length: of the beam along body y [m]; no point of application lies beyond its ends.
+        bandwidth: of the low-pass [rad/s].
+        min_force: across the beam [N], below which there is no point of application.
+        tare_start: of the tare in hover [s]; None for no tare.
+        tare_duration: [s].
+        identify_mass: whether to identify the payload's mass during the tare.
+        disagreement_limit: [N], from which on the push is not trusted.
+        windage: how the wind on the payload is taken off, or `Nothing`.
+        system: the whole vehicle's centre of mass from the payload's [m], body axes (3).
+
+    Raises:
+        ValueError: the mass is to be identified without a tare, or the tare is shorter than a sample.
+    """
+    tare = _tare_fields(tare_start, tare_duration, identify_mass, step * imu_period)
+    J, N = array(inertia), len(joints)
+    return PushEstimator(
+        mass=number(mass),
+        inertia=inertia_value(np.diag(J) if J.ndim == 1 else J),
+        system=vec3(system),
+        joints=spread(joints),
+        quadrotors=spread(quadrotors),
+        quadrotor_mass=each(N)(*map(number, quadrotor_masses)),
+        reach=0.5 * length,
+        per_interval=1.0 / (step * imu_period),
+        low_pass=low_pass(bandwidth, step),
+        least=min_force**2,
+        **tare,
+        limit=number(disagreement_limit),
+        share=1.0 / N,
+        alone=N / (N - 1) if N > 1 else 0.0,
+        windage=windage,
+    )
+
+
+def start_push(estimator: PushEstimator, imu: ImuReading) -> PushEstimatorState:
+    """The memory before the first step, in which the IMU reads `imu`."""
+    none = estimator.quadrotor_mass * 0.0
+    sums = TareSums(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, SideForces(none, none))
+    still, level = LowPassState(ZERO, ZERO), LowPassState(none, none)
+    return PushEstimatorState(imu.rates, ZERO, sums, still, still, level, level, start_payload_drag(estimator.windage))

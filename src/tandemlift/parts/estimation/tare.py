@@ -1,0 +1,73 @@
+"""The tare: the bias of the sensors from their mean in hover over a window; and the payload's mass, if identified.
+
+The means of the force F and the moment M on the payload are the bias, with the mass m = Σ f·a / Σ a·a. In hover a bias
+of the joints' force along gravity cannot be distinguished from an error of the mass.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import law
+from tandemlift.core.algebra.ops import maximum, where
+from tandemlift.core.algebra.vector import Vec3, dot
+
+TINY = 1e-24
+"""N² or (m/s²)²: far below what any sensor shows; guards roots and divisions."""
+
+
+class SideForces(NamedTuple):
+    """Force along body x and y on every quadrotor [N], less its mean over them (sets)."""
+
+    x: Any
+    y: Any
+
+
+class TareSums(NamedTuple):
+    """Over the samples of the tare: their count, Σ Σ f_i, Σ a, Σ M, Σ f·a, Σ a·a, and the sums of `SideForces`."""
+
+    count: Any
+    force: Vec3
+    specific_force: Vec3
+    moment: Vec3
+    weight: Any
+    square: Any
+    sides: SideForces
+
+
+class Tare(NamedTuple):
+    """What the tare found: mass of the payload [kg], bias of force [N] and moment [N·m] (body axes) and sides."""
+
+    mass: Any
+    force: Vec3
+    moment: Vec3
+    sides: SideForces
+
+
+@law
+def summed(sums: TareSums, begun: Any, taken: Any, f: Vec3, a: Vec3, moment: Vec3, unequal: SideForces) -> TareSums:
+    """The sums with this sample if it is `taken` (1), or as they were (0); none before the tare has `begun` (0)."""
+    return TareSums(
+        sums.count * begun + taken,
+        sums.force * begun + f * taken,
+        sums.specific_force * begun + a * taken,
+        sums.moment * begun + moment * taken,
+        sums.weight * begun + dot(f, a) * taken,
+        sums.square * begun + dot(a, a) * taken,
+        SideForces(sums.sides.x * begun + unequal.x * taken, sums.sides.y * begun + unequal.y * taken),
+    )
+
+
+@law
+def tare_of(mass: Any, identify: Any, sums: TareSums, armed: Any) -> Tare:
+    """The tare from its sums once it is over (`armed` 1); before, the nominal mass [kg] and no bias.
+
+    `identify` is 1 to identify the payload's mass, else 0.
+    """
+    identified = identify * armed * sums.square > 0.0
+    found = where(identified, sums.weight / maximum(sums.square, TINY), mass)
+    per_sample = armed / maximum(sums.count, 1.0)
+    return Tare(
+        found,
+        (sums.specific_force * found - sums.force) * per_sample,
+        sums.moment * per_sample,
+        SideForces(sums.sides.x * per_sample, sums.sides.y * per_sample),
+    )

@@ -1,0 +1,94 @@
+"""The wind on the payload, from what it puts on the quadrotors, so that it is not taken for a person's push.
+
+What acts on quadrotor i from outside, f_i + m_i s_i with s_i its specific force (`push_estimate`), is horizontally
+drag alone: its rotors push along z. Drag is ½ ρ C A |v| v by body axis, with the same velocity v through the air for
+payload and quadrotors, as long as the vehicle hardly turns. So along x and y the payload's is the mean over the
+quadrotors times the ratio of their C A, whatever the wind. Along z nothing is known.
+
+The ratio also multiplies what the sensors err by. A low-pass of bandwidth ω keeps of σ a sample, every T, in the mean
+of N joints, ratio σ √(ω T/4N); it is as much too late for gusts, 2/ω.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.ops import maximum
+from tandemlift.core.algebra.types import Number, PerQuadrotor
+from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, total
+from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
+
+
+class PayloadDrag(NamedTuple):
+    """Drag of the payload over that of all quadrotors together, along body x and y; and the low-pass."""
+
+    ratio_x: Number
+    ratio_y: Number
+    low_pass: LowPass
+
+
+class PayloadDragState(NamedTuple):
+    """Memory: sum over the tare's samples of what is to be taken off, their count, and the low-pass [N, body axes]."""
+
+    sum: Vec3
+    count: Number
+    force: LowPassState
+
+
+@choice(absent=(ZERO, "memory"))
+def wind_on_payload(
+    k: PayloadDrag | Nothing,
+    memory: PayloadDragState | Nothing,
+    x: PerQuadrotor,
+    y: PerQuadrotor,
+    begun: Number,
+    taken: Number,
+    armed: Number,
+) -> Any:
+    """(force of the wind on the payload beyond the tare's [N, body axes], the new memory).
+
+    Args:
+        k: `PayloadDrag`, or `Nothing`.
+        memory: its memory.
+        x: force from outside along body x on every quadrotor [N], a set.
+        y: likewise along y.
+        begun: 1 once the tare has begun, else 0.
+        taken: 1 if this sample is one of the tare, else 0.
+        armed: 1 once the tare is over, else 0.
+    """
+
+
+@law
+def tare_mean(memory: PayloadDragState) -> Vec3:
+    """The mean over the tare [N]."""
+    return memory.sum * (1.0 / maximum(memory.count, 1.0))
+
+
+@wind_on_payload.register(PayloadDrag)
+def _scaled(
+    k: PayloadDrag,
+    memory: PayloadDragState,
+    x: PerQuadrotor,
+    y: PerQuadrotor,
+    begun: Number,
+    taken: Number,
+    armed: Number,
+) -> tuple[Vec3, PayloadDragState]:
+    force = Vec3(total(x) * k.ratio_x, total(y) * k.ratio_y, 0.0)
+    summed = PayloadDragState(memory.sum * begun + force * taken, memory.count * begun + taken, memory.force)
+    after = low_pass_step(k.low_pass, memory.force, (force - tare_mean(summed)) * armed)
+    return after.value, PayloadDragState(summed.sum, summed.count, after)
+
+
+@choice(absent=ZERO)
+def subtracted_wind(memory: PayloadDragState | Nothing) -> Any:
+    """What was subtracted from the push at the last sample [N, body axes], from this memory."""
+
+
+@subtracted_wind.register(PayloadDragState)
+def _subtracted(memory: PayloadDragState) -> Vec3:
+    return memory.force.value
+
+
+def start_payload_drag(windage: PayloadDrag | Nothing) -> PayloadDragState | Nothing:
+    """The memory before the first step."""
+    return windage if isinstance(windage, Nothing) else PayloadDragState(ZERO, 0.0, LowPassState(ZERO, ZERO))

@@ -1,0 +1,247 @@
+"""The reaction to a contact: the reference does not move into the wall, leaves it by a gap, and may slide along it.
+
+At the touch, the plane through the vehicle's centre of mass, across the way out of the wall, becomes a boundary. While
+the contact lasts, and for a time after it, the reference stays on its outer side: its velocity and its acceleration
+into the wall are zero, everything along the wall is as ever. It then leaves the wall slowly until a gap is reached.
+The observer of disturbances learns nothing from a wall, and the force of a wall on the beam is no push.
+
+The time in contact, which time without one takes back, leads to a landing.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import Nothing, choice, law
+from tandemlift.core.algebra.ops import maximum, minimum, sqrt, where
+from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.vector import ZERO, Vec3, apply_transposed, cross, dot
+from tandemlift.parts.compliance.compliance import ComplianceState, moved_towards, within
+from tandemlift.parts.estimation.contact_detection import NO_CONTACT, ContactEstimate
+from tandemlift.parts.guidance.guidance import LoadOfWall, PilotInput
+from tandemlift.parts.guidance.phases import PhaseBounds
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+
+LEAVING_SPEED = 0.1  # m/s, of the reference towards the gap
+LEAD = 0.25  # m, by which the reference may be ahead of the vehicle along a wall, whose friction holds it back
+SAME_WALL = 0.7  # least cosine between the ways out of two touches of one wall
+BEAM = 65.0  # number of the beam in the code of a contact: after that of the last possible quadrotor
+DIAGONAL = 0.38268  # sin 22.5°: from there on, a direction has a component along an axis
+DIRECTIONS, PLACES, HALF_PLACES = 9.0, 8192.0, 4096.0  # in the code of a contact
+HAND_RATE = 40.0  # N/s and N m/s: the fastest change of a push while a contact is near
+TINY = 1e-12  # m²
+ROUND = 6755399441055744.0  # 1.5 · 2^52: added and taken off, it leaves a whole number
+
+
+class ContactReaction(NamedTuple):
+    """The parameters: `gap` [m] to leave; times [s] after which a contact is over, and leads to a landing."""
+
+    gap: Any
+    recovery_time: Any
+    hold_timeout: Any
+
+
+class HandWrench(NamedTuple):
+    """A push: force [N, world axes] and moment about the system's centre of mass [N·m, body axes]."""
+
+    force: Vec3
+    moment: Vec3
+
+
+class ContactReactionState(NamedTuple):
+    """Memory: 1 while the boundary holds; the part that touched; the contact's code; the push as used at last.
+
+    The boundary's `normal`, its place along that (`level` [m]), and its `lever` [m]: by how much the part that touched
+    leaves the wall per yaw angle. `free_time` [s]: since the last touch. `held_time` [s]: in contact, less the time
+    without.
+    """
+
+    holding: Any
+    normal: Vec3
+    level: Any
+    lever: Any
+    part: Any
+    free_time: Any
+    held_time: Any
+    code: Any
+    push: HandWrench
+
+
+class Boundary(NamedTuple):
+    """What a contact asks of the guidance.
+
+    `push`: the person's, as far as it is no wall's; `on`: 1 while the boundary holds. Its `normal`, its place along
+    that (`level`) and the least one of the reference [m], its `lever` (see `ContactReactionState`); the vehicle's
+    `position` [m]; the load of the `wall`; 1 to `land`; the contact's `code`, for events; 1 while the beam touches.
+    """
+
+    push: HandWrench
+    on: Any
+    normal: Vec3
+    level: Any
+    least: Any
+    lever: Any
+    position: Vec3
+    wall: LoadOfWall
+    land: Any
+    code: Any
+    on_beam: Any
+
+
+@choice
+def contact_of(sensed: Any) -> Any:
+    """`ContactEstimate` from readings and estimates."""
+
+
+@contact_of.register(Nothing)
+def _without_sensors(sensed: Nothing) -> ContactEstimate:
+    return NO_CONTACT
+
+
+@law
+def side_of(x: Any) -> Any:
+    """0, 1 or 2 for a component of a direction along −, neither, or +."""
+    return where(x > DIAGONAL, 2.0, where(x < -DIAGONAL, 0.0, 1.0))
+
+
+@law
+def code_of(c: ContactEstimate) -> Any:
+    """Part, direction of the wall and place on the beam [cm] in a whole number; `simulation.contact_texts` reads it."""
+    part = where(c.part < 0.0, BEAM, c.part)
+    direction = side_of(-c.normal.x) * 3.0 + side_of(-c.normal.y)
+    place = maximum(minimum(c.along * 100.0, 4000.0), -4000.0) + HALF_PLACES
+    return (part * DIRECTIONS + direction) * PLACES + ((place + ROUND) - ROUND)
+
+
+@choice(absent=("k", "m"))
+def react_to_contact(k: Any, m: Any, pilot_input: PilotInput, aloft: Any, dt: Any) -> Any:
+    """(`Boundary`, the new memory) at a sample; `aloft` is 1 in flight, except in lift and landing."""
+
+
+@react_to_contact.register(ContactReaction)
+def _held(k: ContactReaction, m: ContactReactionState, pilot_input: PilotInput, aloft: Any, dt: Any) -> Any:
+    c, state = contact_of(pilot_input.sensed), pilot_input.state
+    touching = where(c.part == 0.0, 0.0, aloft)
+    begins = touching * where(dot(c.normal, m.normal) * m.holding > SAME_WALL, 0.0, 1.0)
+    normal = chosen(begins, c.normal, m.normal)
+    here = dot(normal, state.position)
+    level = where(begins > 0.0, here, where(touching > 0.0, maximum(m.level, here), m.level))
+    free_time = (m.free_time + dt) * (1.0 - touching)
+    holding = maximum(touching, where(free_time < k.recovery_time, m.holding, 0.0)) * aloft
+    held_time = where(holding > 0.0, m.held_time + dt, maximum(m.held_time - dt, 0.0))
+    other = begins * where(c.part == m.part, 1.0 - m.holding, 1.0)
+    code = where(other > 0.0, code_of(c), m.code) * holding
+    arm = c.point - state.position
+    lever = where(begins > 0.0, c.normal.y * arm.x - c.normal.x * arm.y, m.lever)
+    part = where(touching > 0.0, c.part, m.part)
+    land = where(held_time > k.hold_timeout, 1.0, 0.0)
+    push = slower(m.push, pilot_input.push, pilot_input.moment, dt)
+    on_beam = where(c.part < 0.0, touching, 0.0)
+    boundary = Boundary(
+        push, holding, normal, level, level + k.gap, lever, state.position, load_at(c, state), land, code, on_beam
+    )
+    return boundary, ContactReactionState(holding, normal, level, lever, part, free_time, held_time, code, push)
+
+
+@law
+def outward(b: Boundary, v: Vec3) -> Vec3:
+    """A vector without its part into the wall."""
+    return v - b.normal * (minimum(dot(b.normal, v), 0.0) * b.on)
+
+
+@within.register(Boundary)
+def _outward(boundary: Boundary, acceleration: Vec3) -> Vec3:
+    return outward(boundary, acceleration)
+
+
+@choice(absent="m")
+def kept_out(b: Any, m: ComplianceState, dt: Any) -> Any:
+    """The reference on the outer side of a boundary."""
+
+
+@kept_out.register(Boundary)
+def _kept_out(b: Boundary, m: ComplianceState, dt: Any) -> ComplianceState:
+    place = dot(b.normal, m.position)
+    least = minimum(b.least, maximum(place, b.level) + LEAVING_SPEED * dt)
+    inside = maximum(least - place, 0.0) * b.on
+    ahead = m.position - b.position
+    along = Vec3(ahead.x, ahead.y, 0.0) - b.normal * dot(b.normal, ahead)
+    size = sqrt(maximum(dot(along, along), TINY))
+    excess = maximum(size - LEAD, 0.0) * b.on / size
+    return m._replace(
+        position=m.position + b.normal * inside - along * excess,
+        velocity=outward(b, m.velocity),
+        acceleration=outward(b, m.acceleration),
+    )
+
+
+@choice(absent="moment")
+def turning_out(b: Any, moment: Any) -> Any:
+    """The moment about the vertical that may turn the vehicle [N·m]: none that turns the part into the wall."""
+
+
+@turning_out.register(Boundary)
+def _turning_out(b: Boundary, moment: Any) -> Any:
+    return where(b.on * b.lever * moment < 0.0, 0.0, moment)
+
+
+@law
+def slower(m: HandWrench, force: Vec3, moment: Vec3, dt: Any) -> HandWrench:
+    """A push that follows the measured one no faster than a hand changes it: a wall's blows are no push."""
+    step = HAND_RATE * dt
+    return HandWrench(moved_towards(m.force, force, step), moved_towards(m.moment, moment, step))
+
+
+@choice(absent="pilot_input")
+def without_wall(b: Any, pilot_input: PilotInput) -> Any:
+    """The pilot's input without what a wall gives of the push; of a beam that touches, what points out of the wall."""
+
+
+@without_wall.register(Boundary)
+def _less_wall(b: Boundary, pilot_input: PilotInput) -> PilotInput:
+    force = b.push.force - b.normal * (maximum(dot(b.normal, b.push.force), 0.0) * b.on_beam)
+    return pilot_input._replace(
+        push=chosen(b.on, force, pilot_input.push), moment=chosen(b.on, b.push.moment, pilot_input.moment)
+    )
+
+
+@choice(absent="bounds")
+def bounded_by(b: Any, bounds: PhaseBounds) -> Any:
+    """The bounds of the phases, with those of a contact."""
+
+
+@bounded_by.register(Boundary)
+def _bounded(b: Boundary, bounds: PhaseBounds) -> PhaseBounds:
+    return bounds._replace(land=maximum(bounds.land, b.land), contact=b.on)
+
+
+@choice(absent=Nothing())
+def load_of_wall(b: Any) -> Any:
+    """The load of the wall on a guard that touches; that on the beam is a part of the measured push already."""
+
+
+@load_of_wall.register(Boundary)
+def _load_of_wall(b: Boundary) -> LoadOfWall:
+    return b.wall
+
+
+@law
+def load_at(c: ContactEstimate, state: State) -> LoadOfWall:
+    """The load of the wall as estimated."""
+    force = c.force * where(c.part > 0.0, 1.0, 0.0)
+    moment = apply_transposed(rotation_from_quaternion(state.attitude), cross(c.point - state.position, force))
+    return LoadOfWall(force, moment, where(c.part == 0.0, 0.0, 1.0))
+
+
+@choice(absent=0.0)
+def contact_code(b: Any) -> Any:
+    """The code of the contact that holds, or 0."""
+
+
+@contact_code.register(Boundary)
+def _code(b: Boundary) -> Any:
+    return b.code
+
+
+def start_reaction() -> ContactReactionState:
+    """The memory before the first step."""
+    return ContactReactionState(0.0, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, HandWrench(ZERO, ZERO))

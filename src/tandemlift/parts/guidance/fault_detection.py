@@ -1,0 +1,210 @@
+"""Faults: detected from the watchdogs' report and the limits of a flight, and the reaction to those that are present.
+
+The reaction is the strongest that is configured for any of them. `core.faults` has the faults, their numbers and
+their order.
+"""
+
+from collections import namedtuple
+from typing import Any, NamedTuple, cast
+
+from tandemlift.core.algebra.law import law
+from tandemlift.core.algebra.ops import maximum, where
+from tandemlift.core.algebra.vector import Vec3, dot
+from tandemlift.core.faults import FAULTS, REACTIONS
+from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIMITED, STOPPED
+from tandemlift.parts.guidance.preflight_checks import SensorStatus
+from tandemlift.parts.guidance.requests import VehicleStatus
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import body_z_axis
+
+_, HOLDS, LANDS, STOPS = map(float, range(len(REACTIONS)))
+_FaultTuple: Any = cast(Any, namedtuple("_FaultTuple", [fault.key for fault in sorted(FAULTS)]))
+
+
+class ActiveFaults(_FaultTuple):
+    """A value for each fault, by its key: 1 or the number of a symptom (from 1) while it is present, else 0."""
+
+    __slots__ = ()
+
+
+class FaultReaction(NamedTuple):
+    """The strongest reaction to the faults that are present, and the alarm of the first that calls for it; or zeros."""
+
+    reaction: Any
+    alarm: Any
+
+
+NO_ALARM = FaultReaction(0.0, 0.0)
+
+
+@law
+def stronger(w: FaultReaction, fault: Any, reaction: Any, alarm: Any) -> FaultReaction:
+    """The reaction with one more fault: to that fault if it is present (above 0) and its reaction is stronger."""
+    more = where(fault > 0.0, where(reaction > w.reaction, 1.0, 0.0), 0.0)
+    return FaultReaction(where(more > 0.0, reaction, w.reaction), where(more > 0.0, alarm, w.alarm))
+
+
+@law
+def strongest_reaction(f: ActiveFaults, r: ActiveFaults) -> FaultReaction:
+    """The strongest reaction to the faults `f`, with the reaction `r` to each."""
+    w = NO_ALARM
+    for fault in FAULTS:
+        present, alarm = getattr(f, fault.key), float(fault.alarm)
+        w = stronger(w, present, getattr(r, fault.key), alarm + present if fault.symptoms else alarm)
+    return w
+
+
+class Fence(NamedTuple):
+    """Corners of the box for the reference [m, world axes], and by how much the vehicle may be outside [m].
+
+    `braking_gain` [1/s]: the largest speed towards a side of the box over the distance to it.
+    """
+
+    low: Vec3
+    high: Vec3
+    margin: Any
+    braking_gain: Any
+
+
+class SupervisionLimits(NamedTuple):
+    """Limits of a flight, and the time [s] for which each may be exceeded.
+
+    Largest fraction of the thrust, smallest cosine of the tilt, rates [rad/s], distance from the reference [m].
+    `joints_time`: for which joints may disagree. `invalid_state_time`: for which the state may have no numbers.
+    `touchdown_gap` [m]: height above a landing's reference at which the vehicle must be standing on something.
+    """
+
+    thrust: Any
+    min_upright: Any
+    rates: Any
+    tracking_error: Any
+    thrust_time: Any
+    tilt_time: Any
+    rates_time: Any
+    tracking_error_time: Any
+    joints_time: Any
+    invalid_state_time: Any
+    touchdown_gap: Any
+
+
+class LimitTimers(NamedTuple):
+    """For how long each limit has been exceeded, and for how long a landing has been standing on something [s]."""
+
+    joints: Any
+    thrust: Any
+    tilt: Any
+    rates: Any
+    tracking_error: Any
+    state: Any
+    touchdown: Any
+
+
+NO_TIME = LimitTimers(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@law
+def time_exceeded(timer: Any, exceeded: Any, dt: Any) -> Any:
+    """For how long a limit has been exceeded [s]; `exceeded` is 1 or 0 now."""
+    return (timer + dt) * exceeded
+
+
+@law
+def expired(timer: Any, limit: Any) -> Any:
+    """1 once a timer is above a limit, else 0."""
+    return where(timer > limit, 1.0, 0.0)
+
+
+@law
+def distance_outside(low: Vec3, high: Vec3, p: Vec3) -> Any:
+    """How far a position is outside a box [m], along the axis where it is farthest; negative inside."""
+    x = maximum(low.x - p.x, p.x - high.x)
+    y = maximum(low.y - p.y, p.y - high.y)
+    z = maximum(low.z - p.z, p.z - high.z)
+    return maximum(x, maximum(y, z))
+
+
+@law
+def outside(f: Fence, p: Vec3) -> Any:
+    """1 if a position is outside the fence by more than the margin, else 0."""
+    return where(distance_outside(f.low, f.high, p) > f.margin, 1.0, 0.0)
+
+
+@law
+def update_timers(
+    b: SupervisionLimits,
+    t: LimitTimers,
+    s: SensorStatus,
+    state: State,
+    status: VehicleStatus,
+    error: Vec3,
+    thrust: Any,
+    phase: Any,
+    dt: Any,
+) -> LimitTimers:
+    """The timers after a sample; limits apply only in flight, those of thrust and distance not in a landing.
+
+    Args:
+        b: the limits.
+        t: the timers before.
+        s: the sensors.
+        state: of the vehicle.
+        status: of the vehicle.
+        error: the reference less the position [m, world axes].
+        thrust: of all rotors, as a fraction of what they have.
+        phase: the number of the phase.
+        dt: since the last sample [s].
+    """
+    flying = where(phase == IDLE, 0.0, where(phase == STOPPED, 0.0, 1.0))
+    landing = where(phase == LAND, 1.0, 0.0)
+    aloft = flying * (1.0 - landing)
+    far = where(dot(error, error) > b.tracking_error * b.tracking_error, 1.0, 0.0)
+    return LimitTimers(
+        joints=time_exceeded(t.joints, s.joints_inconsistent, dt),
+        thrust=time_exceeded(t.thrust, aloft * where(thrust > b.thrust, 1.0, 0.0), dt),
+        tilt=time_exceeded(t.tilt, flying * where(body_z_axis(state.attitude).z < b.min_upright, 1.0, 0.0), dt),
+        rates=time_exceeded(t.rates, flying * where(dot(state.rates, state.rates) > b.rates * b.rates, 1.0, 0.0), dt),
+        tracking_error=time_exceeded(t.tracking_error, aloft * far, dt),
+        state=time_exceeded(t.state, status.state_invalid, dt),
+        touchdown=time_exceeded(t.touchdown, landing * where(-error.z > b.touchdown_gap, 1.0, 0.0), dt),
+    )
+
+
+@law
+def active_faults(
+    b: SupervisionLimits,
+    fence: Fence,
+    s: SensorStatus,
+    timers: LimitTimers,
+    state: State,
+    status: VehicleStatus,
+    phase: Any,
+) -> ActiveFaults:
+    """Every fault that is present: 1, or the number of its symptom; else 0."""
+    r = s.report
+    fenced = 0.0
+    for hovering in (GUIDED, HOLD, CONTACT, LIMITED):
+        fenced = where(phase == hovering, 1.0, fenced)
+    no_attitude = where(r.attitude + r.motion > 0.0, where(r.gyroscope + r.imu > 0.0, 1.0, 0.0), 0.0)
+    return ActiveFaults(
+        imu=r.imu,
+        joints=r.joints,
+        accelerometer=r.accelerometer,
+        gyroscope=r.gyroscope,
+        motion=r.motion,
+        position=r.position,
+        velocity=r.velocity,
+        attitude=r.attitude,
+        joints_inconsistent=expired(timers.joints, b.joints_time),
+        attitude_inconsistent=r.attitude_inconsistent,
+        velocity_inconsistent=r.velocity_inconsistent,
+        state=expired(timers.state, b.invalid_state_time),
+        orientation=no_attitude,
+        fence=fenced * outside(fence, state.position),
+        thrust=expired(timers.thrust, b.thrust_time),
+        tilt=expired(timers.tilt, b.tilt_time),
+        rates=expired(timers.rates, b.rates_time),
+        tracking_error=expired(timers.tracking_error, b.tracking_error_time),
+        rotor=status.rotor_failed,
+        speed_inconsistent=r.speed_inconsistent,
+        limited=status.limited,
+    )

@@ -1,0 +1,169 @@
+"""Guidance: from the pilot's input to the reference; its input, its output, and the common signature of its laws.
+
+By a schedule as in the paper: `scheduled_guidance`. By hand, in phases: `hand_guidance`.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import Nothing, choice
+from tandemlift.core.algebra.ops import where
+from tandemlift.core.algebra.vector import Vec3
+from tandemlift.parts.guidance.requests import (
+    NO_REQUEST,
+    UNKNOWN_STATUS,
+    OperatorRequest,
+    VehicleStatus,
+)
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.signals.trajectories import Reference, Trajectory
+
+
+class PilotInput(NamedTuple):
+    """The pilot's input at a sample.
+
+    The state; the person's push: force [N, world axes] and moment about the centre of mass [N·m, body axes]; 1 if the
+    person requests a landing, else 0; readings and estimates, or `Nothing`; the operator's requests; the status of the
+    vehicle.
+    """
+
+    state: State
+    push: Vec3
+    moment: Vec3
+    land: Any
+    sensed: Any
+    operator: OperatorRequest = NO_REQUEST
+    status: VehicleStatus = UNKNOWN_STATUS
+
+
+class LoadOfWall(NamedTuple):
+    """The estimated force of a wall on a guard [N, world axes], its moment about the centre of mass [N·m, body axes].
+
+    `touching`: 1 while any part touches, else 0.
+    """
+
+    force: Vec3
+    moment: Vec3
+    touching: Any
+
+
+class AlwaysRunning(NamedTuple):
+    """Rotors always run."""
+
+
+class RunningInFlight(NamedTuple):
+    """Rotors run from the `start` [s] of the lift to the end of the landing at `stop` [s]."""
+
+    start: Any
+    stop: Any
+
+
+class ThrustFraction(NamedTuple):
+    """The fraction of every thrust that is commanded: 1 while the rotors run, else 0."""
+
+    value: Any
+
+
+class Guidance(NamedTuple):
+    """The output of a guidance.
+
+    The gated force [N, world axes]; T_r with its derivatives; the reference; the push that the controller compensates:
+    force [N, world axes] and moment [N·m, body axes]; the fraction of the thrusts that is commanded; 1 in flight, else
+    0; 1 while observers may learn, else 0, as where the feet may press on the ground; the channels. `wall`: what a wall
+    gives besides, a `LoadOfWall`, or `Nothing`.
+    """
+
+    force: Vec3
+    admittance: Trajectory
+    reference: Reference
+    push: Vec3
+    moment: Vec3
+    running: Any
+    flying: Any
+    learning: Any
+    channels: Any
+    wall: Any = Nothing()
+
+
+@choice
+def guide(g: Any, m: Any, pilot_input: Any, disturbance: Any, rotor_failed: Any, t: Any, dt: Any) -> Any:
+    """(`Guidance`, the new memory) at time t [s].
+
+    Args:
+        g: the guidance, whose type picks the law.
+        m: its memory.
+        pilot_input: a `PilotInput` that `checked_input` has checked.
+        disturbance: a `DisturbanceEstimate`.
+        rotor_failed: 1 once a rotor has failed, else 0.
+        t: time [s].
+        dt: since the last sample [s].
+    """
+
+
+@choice
+def checked_input(g: Any, m: Any, pilot_input: PilotInput, thrust: Any, rotor_failed: Any) -> Any:
+    """The pilot's input, made usable; with the thrust of all rotors [N], and 1 once a rotor has failed, else 0."""
+
+
+@choice(absent="pilot_input")
+def with_wall(wall: Any, pilot_input: PilotInput) -> Any:
+    """The pilot's input with the load of a wall added to the push, so that it is no disturbance."""
+
+
+@with_wall.register(LoadOfWall)
+def _with_wall(wall: LoadOfWall, pilot_input: PilotInput) -> PilotInput:
+    return pilot_input._replace(push=pilot_input.push + wall.force, moment=pilot_input.moment + wall.moment)
+
+
+@choice(absent=1.0)
+def untouched(wall: Any) -> Any:
+    """1 while no wall acts, else 0."""
+
+
+@untouched.register(LoadOfWall)
+def _untouched(wall: LoadOfWall) -> Any:
+    return 1.0 - wall.touching
+
+
+@choice
+def running(rotors: Any, thrusts: Any) -> Any:
+    """Thrusts [N] as commanded while the rotors run, or none while they are stopped."""
+
+
+@running.register(AlwaysRunning)
+def _always(rotors: AlwaysRunning, thrusts: Any) -> Any:
+    return thrusts
+
+
+@running.register(ThrustFraction)
+def _fraction(rotors: ThrustFraction, thrusts: Any) -> Any:
+    return thrusts * rotors.value
+
+
+@choice
+def thrust_fraction(rotors: Any) -> Any:
+    """The fraction of every thrust that is commanded."""
+
+
+@thrust_fraction.register(AlwaysRunning)
+def _whole(rotors: AlwaysRunning) -> Any:
+    return 1.0
+
+
+@thrust_fraction.register(ThrustFraction)
+def _value(rotors: ThrustFraction) -> Any:
+    return rotors.value
+
+
+@choice
+def run(rotors: Any, t: Any) -> Any:
+    """`AlwaysRunning` or a `ThrustFraction`, for `running`: whether rotors run at time t [s]."""
+
+
+@run.register(AlwaysRunning)
+def _run_always(rotors: AlwaysRunning, t: Any) -> AlwaysRunning:
+    return rotors
+
+
+@run.register(RunningInFlight)
+def _run_in_flight(rotors: RunningInFlight, t: Any) -> ThrustFraction:
+    return ThrustFraction(where(t < rotors.start, 0.0, where(t < rotors.stop, 1.0, 0.0)))

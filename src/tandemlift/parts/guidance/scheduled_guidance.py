@@ -1,0 +1,62 @@
+"""The paper's guidance, by a schedule: gate → admittance → lift and landing at set times."""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import Nothing
+from tandemlift.core.algebra.vector import ZERO
+from tandemlift.parts.compliance.admittance import (
+    Admittance,
+    AdmittanceState,
+    admittance_response,
+    admittance_step,
+    gate,
+)
+from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
+from tandemlift.parts.guidance.guidance import (
+    Guidance,
+    PilotInput,
+    checked_input,
+    guide,
+    run,
+)
+from tandemlift.parts.signals.trajectories import Reference, ScheduledPhases, reference
+
+
+class ScheduledGuidance(NamedTuple):
+    """The paper's guidance; `yaw` is ψ_d [rad]. The types of its members pick the laws."""
+
+    admittance: Admittance
+    phases: ScheduledPhases
+    yaw: Any
+    rotors: Any
+
+
+@checked_input.register(ScheduledGuidance)
+def _unchecked(g: ScheduledGuidance, m: Any, pilot_input: PilotInput, thrust: Any, rotor_failed: Any) -> PilotInput:
+    return pilot_input
+
+
+@guide.register(ScheduledGuidance)
+def _by_schedule(
+    g: ScheduledGuidance,
+    m: AdmittanceState,
+    pilot_input: PilotInput,
+    disturbance: DisturbanceEstimate,
+    rotor_failed: Any,
+    t: Any,
+    dt: Any,
+) -> Any:
+    force = gate(g.admittance.gate, pilot_input.push)
+    motion = admittance_response(g.admittance, m, force)
+    guidance = Guidance(
+        force=force,
+        admittance=motion,
+        reference=Reference(reference(g.phases, motion, t), g.yaw, 0.0, 0.0, ZERO),
+        push=pilot_input.push,
+        moment=ZERO,
+        running=run(g.rotors, t),
+        flying=1.0,
+        learning=1.0,
+        channels=Nothing(),
+    )
+    return guidance, admittance_step(g.admittance, m, force, motion, dt)

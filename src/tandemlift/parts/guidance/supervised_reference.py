@@ -1,0 +1,89 @@
+"""Supervision of the pilot's input and of the reference: valid numbers, the fence, and a blind descent."""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import Nothing, choice, elementwise
+from tandemlift.core.algebra.ops import clip, maximum, where
+from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.parts.compliance.compliance import Compliance, ComplianceState, with_speed
+from tandemlift.parts.guidance.requests import VehicleStatus
+from tandemlift.parts.guidance.supervision import Supervision, SupervisionState
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.sensors.health import any_component, not_finite
+from tandemlift.parts.sensors.watchdog import state_not_finite
+from tandemlift.parts.signals.trajectories import Trajectory
+
+TOUCHDOWN_FACTOR = 8.0  # by which a blind descent accelerates at its end, so that the feet press on the ground
+
+
+class UsableInput(NamedTuple):
+    """State and push without values that are not numbers, and the status of the vehicle."""
+
+    state: State
+    push: Vec3
+    moment: Vec3
+    status: VehicleStatus
+
+
+@choice
+def usable_input(k: Any, m: Any, pilot_input: Any, thrust: Any, rotor_failed: Any) -> Any:
+    """`UsableInput` from the pilot's input, the thrust of all rotors [N], and 1 once a rotor has failed, else 0."""
+
+
+@usable_input.register(Nothing)
+def _unchecked(k: Nothing, m: Any, pilot_input: Any, thrust: Any, rotor_failed: Any) -> UsableInput:
+    status = VehicleStatus(rotor_failed, thrust, state_invalid=0.0)
+    return UsableInput(pilot_input.state, pilot_input.push, pilot_input.moment, status)
+
+
+@usable_input.register(Supervision)
+def _with_numbers(k: Supervision, m: SupervisionState, pilot_input: Any, thrust: Any, rotor_failed: Any) -> UsableInput:
+    s, invalid = pilot_input.state, state_not_finite(pilot_input.state)
+    state = State(
+        chosen(invalid, m.state.position, s.position),
+        chosen(invalid, m.state.velocity, s.velocity),
+        chosen(invalid, m.state.attitude, s.attitude),
+        chosen(invalid, m.state.rates, s.rates),
+    )
+    no_push = maximum(any_component(not_finite(pilot_input.push)), any_component(not_finite(pilot_input.moment)))
+    push, moment = chosen(no_push, ZERO, pilot_input.push), chosen(no_push, ZERO, pilot_input.moment)
+    return UsableInput(state, push, moment, VehicleStatus(rotor_failed, thrust, invalid))
+
+
+@elementwise
+def speed_limit(position: Any, velocity: Any, pull: Any, low: Any, high: Any, gain: Any, max_speed: Any) -> Any:
+    """The largest speed [m/s] of a reference towards the side of the fence that it moves or is pulled to."""
+    toward = where(pull == 0.0, velocity, pull)
+    return clip(gain * where(toward > 0.0, high - position, position - low), 0.0, max_speed)
+
+
+@choice(absent="compliance")
+def fenced(k: Any, compliance: Compliance, m: ComplianceState, lift: Any) -> Any:
+    """The compliance with speed limits that keep the reference inside the fence; `lift`: height already lifted [m]."""
+
+
+@fenced.register(Supervision)
+def _fenced(k: Supervision, compliance: Compliance, m: ComplianceState, lift: Any) -> Compliance:
+    f, at, max_speed = k.fence, m.position + Vec3(0.0, 0.0, lift), compliance.limits.speed
+    limit = speed_limit(at, m.velocity, m.output.value, f.low, f.high, f.braking_gain, max_speed)
+    return with_speed(compliance, limit)
+
+
+@choice(absent="target")
+def with_blind_descent(k: Any, target: Trajectory, state: State, blind: Any, landing: Any, fraction: Any) -> Any:
+    """The reference; a level descent if nothing of the motion is known (`blind` 1) and the vehicle lands (1).
+
+    `fraction` of the landing's time that is over: in the second half the descent accelerates, so that the feet press.
+    """
+
+
+@with_blind_descent.register(Supervision)
+def _descent(k: Supervision, target: Trajectory, state: State, blind: Any, landing: Any, fraction: Any) -> Trajectory:
+    late = maximum(fraction - 0.5, 0.0)
+    descent = k.blind_descent_acceleration
+    return Trajectory(
+        chosen(blind, state.position, target.position),
+        chosen(blind, state.velocity, target.velocity),
+        chosen(blind, Vec3(0.0, 0.0, -descent * landing * (1.0 + TOUCHDOWN_FACTOR * late)), target.acceleration),
+    )

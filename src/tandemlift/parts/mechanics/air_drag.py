@@ -1,0 +1,46 @@
+"""The drag of the air on the payload and on every quadrotor, quadratic in their velocity through it."""
+
+from typing import NamedTuple
+
+from tandemlift.core.algebra.law import elementwise, law
+from tandemlift.core.algebra.ops import maximum, sqrt
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import ZERO, Vec3, apply, apply_transposed, cross, dot
+from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+
+TINY = 1e-200  # m²/s², lost in the square of any speed; keeps the derivative of its root finite
+
+
+class AirDrag(NamedTuple):
+    """½ ρ C_d A along each body axis [N/(m/s)²], of the payload and of every quadrotor (a vector of sets)."""
+
+    payload: Vec3
+    quadrotors: Vec3
+
+
+@elementwise
+def zero_like(x: Number) -> Number:
+    """0, for a number or for every value of a set."""
+    return 0.0
+
+
+@law
+def quadratic_drag(k: Vec3, v: Vec3) -> Vec3:
+    """−k |v| v by component [N], v [m/s] through the air; vectors of numbers or of sets."""
+    speed = sqrt(maximum(dot(v, v), TINY))
+    return Vec3(-(k.x * v.x * speed), -(k.y * v.y * speed), -(k.z * v.z * speed))
+
+
+@law
+def air_loads(drag: AirDrag, frame: PartsLayout, s: State, air: Vec3) -> PartLoads:
+    """Drag of every part, quadratic in the velocity of its centre of mass through the air; no moments about it."""
+    # sets are the left factors of products: a CasADi number on the left does not know them
+    R = rotation_from_quaternion(s.attitude)
+    v, turn = apply_transposed(R, s.velocity - air), -cross(frame.quadrotors, s.rates)
+    payload = apply(R, quadratic_drag(drag.payload, v + cross(s.rates, frame.payload)))
+    around = Vec3(add_to_each(turn.x, v.x), add_to_each(turn.y, v.y), add_to_each(turn.z, v.z))
+    each = quadratic_drag(drag.quadrotors, around)
+    moments = Vec3(zero_like(each.x), zero_like(each.y), zero_like(each.z))
+    return PartLoads(PartLoad(payload, ZERO), PartLoad(Vec3(dot(each, R.x), dot(each, R.y), dot(each, R.z)), moments))

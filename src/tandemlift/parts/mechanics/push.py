@@ -1,0 +1,103 @@
+"""A person's pushes on the vehicle: Gaussian in time, in world axes, at points of the body.
+
+Several pushes at several points act as one force F = Σ F_i in world axes and one moment about the centre of mass,
+Σ r_i × Rᵀ F_i in body axes. The moment follows from the attitude and the sum of outer products Σ F_i r_iᵀ, so the
+number of pushes does not enter the equations of motion.
+"""
+
+from typing import Any, NamedTuple, TypeAlias
+
+from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.ops import exp, where
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import ZERO, Mat3, Quat, Vec3, linear, outer, plus
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+
+SUPPORT = 9.0  # a push is exactly zero beyond 9 σ, where the Gaussian is 3e-18 of its peak
+
+
+@linear
+class CentralPush(NamedTuple):
+    """A push at the centre of mass: force [N, world axes]."""
+
+    force: Vec3
+
+    def __add__(self, other: "CentralPush") -> "CentralPush":  # type: ignore[override]
+        return plus(self, other)
+
+
+@linear
+class PointPush(NamedTuple):
+    """Pushes at points of the body: force Σ F_i [N, world axes] and Σ F_i r_iᵀ [N·m], r_i in body axes."""
+
+    force: Vec3
+    spread: Mat3
+
+    def __add__(self, other: "PointPush") -> "PointPush":  # type: ignore[override]
+        return plus(self, other)
+
+
+Push: TypeAlias = CentralPush | PointPush
+
+
+class PushSamples(NamedTuple):
+    """The push at the start, the middle and the end of a step."""
+
+    start: Push
+    middle: Push
+    end: Push
+
+
+class GaussianPush(NamedTuple):
+    """One push A exp(−(t − t₀)²/2σ²): peak force A [N, world axes], time t₀ [s], 1/σ [1/s], point r [m, body axes]."""
+
+    force: Vec3
+    time: Number
+    per_sigma: Number
+    point: Vec3
+
+
+@law
+def gaussian_force(p: GaussianPush, t: Number) -> Vec3:
+    """Force of one push at time t [s], N in world axes."""
+    s = (t - p.time) * p.per_sigma
+    return p.force * where(s * s < SUPPORT * SUPPORT, exp(-0.5 * s * s), 0.0)
+
+
+@choice
+def push_at(kind: Push, p: GaussianPush, t: Number) -> Any:
+    """One push at time t, as a value of the same type as `kind`."""
+
+
+@push_at.register(CentralPush)
+def _central(kind: CentralPush, p: GaussianPush, t: Number) -> CentralPush:
+    return CentralPush(gaussian_force(p, t))
+
+
+@push_at.register(PointPush)
+def _at_point(kind: PointPush, p: GaussianPush, t: Number) -> PointPush:
+    F = gaussian_force(p, t)
+    return PointPush(F, outer(F, p.point))
+
+
+@choice
+def push_moment(push: Push, attitude: Quat) -> Any:
+    """Moment of a push about the centre of mass, body axes [N·m]."""
+
+
+@push_moment.register(CentralPush)
+def _no_moment(push: CentralPush, attitude: Quat) -> Vec3:
+    return ZERO
+
+
+@push_moment.register(PointPush)
+def _moment(push: PointPush, attitude: Quat) -> Vec3:
+    # Σ r × RᵀF, with G = Rᵀ (Σ F rᵀ) = Σ (RᵀF) rᵀ
+    R = rotation_from_quaternion(attitude)
+    P = push.spread
+    G = Mat3(
+        P.x * R.x.x + P.y * R.y.x + P.z * R.z.x,
+        P.x * R.x.y + P.y * R.y.y + P.z * R.z.y,
+        P.x * R.x.z + P.y * R.y.z + P.z * R.z.z,
+    )
+    return Vec3(G.z.y - G.y.z, G.x.z - G.z.x, G.y.x - G.x.y)

@@ -1,0 +1,89 @@
+"""The vehicle as one rigid body: state, wrench, equations of motion, one Runge-Kutta step.
+
+Position p and velocity v are the system centre of mass's, in world axes; rates ω = (p, q, r) and moments are in body
+axes, moments about the centre of mass.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.ops import sqrt
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import Quat, Vec3, dot, linear, plus, times
+from tandemlift.parts.mechanics.inertia import Inertia, apply_inertia, gyroscopic
+from tandemlift.parts.mechanics.push import Push, PushSamples, push_moment
+from tandemlift.parts.mechanics.rotation import body_z_axis, quaternion_rate
+
+UP = Vec3(0.0, 0.0, 1.0)
+
+
+@linear
+class State(NamedTuple):
+    """Position [m] and velocity [m/s] in world axes, attitude (body to world), rates [rad/s] in body axes."""
+
+    position: Vec3
+    velocity: Vec3
+    attitude: Quat
+    rates: Vec3
+
+    def __add__(self, other: "State") -> "State":  # type: ignore[override]
+        return plus(self, other)
+
+    def __mul__(self, k: Number) -> "State":
+        return times(self, k)
+
+
+class Wrench(NamedTuple):
+    """Wrench of the rotors: thrust [N] along body z and moments [N·m] in body axes; (F_t, U_t) or U₁…U₄."""
+
+    thrust: Number
+    moment: Vec3
+
+
+class RigidBody(NamedTuple):
+    """Parameters of the equations of motion of one rigid body.
+
+    `inverse_mass` [1/kg]; `inertia` [kg·m²] and `inverse_inertia`, both a Vec3 or both a Mat3; drag coefficients on
+    world velocity [N·s/m] and on body rates [N·m·s]; a constant disturbing force [N, world] and moment [N·m, body].
+    """
+
+    inverse_mass: Number
+    inertia: Inertia
+    inverse_inertia: Inertia
+    drag_force: Vec3
+    drag_moment: Vec3
+    force: Vec3
+    moment: Vec3
+
+
+@choice
+def motion(body: Any, s: State, u: Wrench, push: Push) -> Any:
+    """The rate of change of the state of a body under a wrench and a person's push."""
+
+
+@motion.register(RigidBody)
+def rigid_body_motion(body: RigidBody, s: State, u: Wrench, push: Push) -> State:
+    """The equations of motion of one rigid body."""
+    # paper: trans_rot_sys_equ
+    force = body_z_axis(s.attitude) * u.thrust - body.drag_force * s.velocity + body.force + push.force
+    moment = u.moment + gyroscopic(body.inertia, s.rates) - body.drag_moment * s.rates + body.moment
+    return State(
+        s.velocity,
+        force * body.inverse_mass - UP * GRAVITY,
+        quaternion_rate(s.attitude, s.rates),
+        apply_inertia(body.inverse_inertia, moment + push_moment(push, s.attitude)),
+    )
+
+
+@law
+def rk4(body: Any, s: State, k1: State, u: Wrench, hand: PushSamples, dt: Number) -> State:
+    """One classical Runge-Kutta step of `dt` [s] with the wrench held and the push continuous; unit quaternion.
+
+    `k1` is the motion at the start.
+    """
+    k2 = motion(body, s + k1 * (0.5 * dt), u, hand.middle)
+    k3 = motion(body, s + k2 * (0.5 * dt), u, hand.middle)
+    k4 = motion(body, s + k3 * dt, u, hand.end)
+    s = s + k1 * (dt / 6.0) + k2 * (dt / 3.0) + k3 * (dt / 3.0) + k4 * (dt / 6.0)
+    return State(s.position, s.velocity, s.attitude * (1.0 / sqrt(dot(s.attitude, s.attitude))), s.rates)

@@ -1,0 +1,78 @@
+"""Inputs of a caller who steps a flight: a push beside the mission's, and thrusts in place of the pilot's.
+
+Both are held over the step. A flight without a caller has `Nothing`.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, elementwise
+from tandemlift.core.algebra.ops import where
+from tandemlift.core.algebra.vector import ZERO, Mat3, Quat, Vec3, linear, outer, plus
+from tandemlift.parts.mechanics.push import CentralPush, PointPush, PushSamples, push_moment
+
+
+class CallerInput(NamedTuple):
+    """A force [N, world axes] at a point [m, body axes]; thrusts of the rotors [N], which count if `override` is 1."""
+
+    force: Vec3
+    point: Vec3
+    thrusts: Any
+    override: Any
+
+
+@linear
+class AddedPush(NamedTuple):
+    """A `PointPush` on top of a `CentralPush`: without force its moment is +0, as that of a central push is."""
+
+    force: Vec3
+    spread: Mat3
+
+    def __add__(self, other: "AddedPush") -> "AddedPush":  # type: ignore[override]
+        return plus(self, other)
+
+
+@push_moment.register(AddedPush)
+def _moment(push: AddedPush, attitude: Quat) -> Vec3:
+    return push_moment(PointPush(push.force, push.spread), attitude) + ZERO
+
+
+@choice
+def with_force(push: Any, force: Vec3, point: Vec3) -> Any:
+    """A push with a further force [N, world axes] at a point [m, body axes]."""
+
+
+@with_force.register(CentralPush)
+def _on_central(push: CentralPush, force: Vec3, point: Vec3) -> AddedPush:
+    return AddedPush(push.force + force, outer(force, point))
+
+
+@with_force.register(PointPush)
+def _on_points(push: PointPush, force: Vec3, point: Vec3) -> PointPush:
+    return PointPush(push.force + force, push.spread + outer(force, point))
+
+
+@choice(absent="push")
+def with_caller_push(external: Any, push: PushSamples) -> Any:
+    """The push of a step with that of the caller."""
+
+
+@with_caller_push.register(CallerInput)
+def _with_force(external: CallerInput, push: PushSamples) -> PushSamples:
+    F, r = external.force, external.point
+    return PushSamples(with_force(push.start, F, r), with_force(push.middle, F, r), with_force(push.end, F, r))
+
+
+@elementwise
+def overridden(thrust: Any, given: Any, override: Any) -> Any:
+    """The thrust of one rotor [N]."""
+    return where(override > 0.0, given, thrust)
+
+
+@choice(absent="thrusts")
+def commanded_thrusts(external: Any, thrusts: Any) -> Any:
+    """The commanded thrusts [N], where the pilot commands `thrusts`."""
+
+
+@commanded_thrusts.register(CallerInput)
+def _by_caller(external: CallerInput, thrusts: Any) -> Any:
+    return overridden(thrusts, external.thrusts, external.override)

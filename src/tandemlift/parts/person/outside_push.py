@@ -1,0 +1,54 @@
+"""A push that reaches the body outside of the flight's loop, such as one on a topic of Gazebo.
+
+The simulator of the body applies it by itself, and reports it after the step. So it is no input of the pilot in that
+step; it is part of the flight's record and of what the person has done. A body that cannot be pushed so has `Nothing`.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice
+from tandemlift.core.algebra.ops import where
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import Vec3, dot
+
+
+class OutsidePush(NamedTuple):
+    """The mean over a step: force [N, world axes] and moment about the centre of mass [N·m, body axes].
+
+    What its simulator does not know of it is nan. Then every metric that is formed from it is None.
+    """
+
+    force: Vec3
+    moment: Vec3
+
+
+@choice(absent="force")
+def total_force(outside: Any, force: Vec3) -> Any:
+    """The force of all pushes on the body [N, world axes], where those of the loop are `force`."""
+
+
+@total_force.register(OutsidePush)
+def _force(outside: OutsidePush, force: Vec3) -> Vec3:
+    return force + outside.force
+
+
+@choice(absent="moment")
+def total_moment(outside: Any, moment: Vec3) -> Any:
+    """The moment of all pushes about the centre of mass [N·m, body axes], where those of the loop are `moment`."""
+
+
+@total_moment.register(OutsidePush)
+def _moment(outside: OutsidePush, moment: Vec3) -> Vec3:
+    return moment + outside.moment
+
+
+@choice(absent="held")
+def held_by_anyone(outside: Any, held: Number) -> Any:
+    """1 while the vehicle is held in the loop (`held` is 1) or pushed outside of it, else 0."""
+
+
+@held_by_anyone.register(OutsidePush)
+def _held(outside: OutsidePush, held: Number) -> Number:
+    F, M = outside.force, outside.moment
+    turned = where(dot(M, M) > 0.0, 1.0, held)
+    return where(dot(F, F) > 0.0, 1.0, turned)

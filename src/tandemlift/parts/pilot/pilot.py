@@ -1,0 +1,156 @@
+"""The pilot: from a measurement to rotor thrusts, the same for every body that it flies.
+
+measured push → guidance (gate, admittance, phases) → reference → controller → wrench → allocation → thrusts, and beside
+it the disturbance observer and the detection of rotor failures. The pilot is sampled every `mission.step`; its outputs
+are held until the next sample. `parts.pilot.assemble` makes one from a mission.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.vector import total
+from tandemlift.parts.controllers import Command, Disturbance, Measured, control
+from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate, last_known, observer_step
+from tandemlift.parts.estimation.rotor_loss_detection import detection_step, failed_rotors
+from tandemlift.parts.guidance.guidance import (
+    Guidance,
+    PilotInput,
+    checked_input,
+    guide,
+    running,
+    untouched,
+    with_wall,
+)
+from tandemlift.parts.rotors.allocation import AllocationState, allocate
+
+__all__ = [
+    "ControlInput",
+    "Decision",
+    "PilotInput",
+    "PilotMemory",
+    "PilotParameters",
+    "control_input",
+    "decide",
+    "with_command",
+]
+
+
+class PilotParameters(NamedTuple):
+    """The parameters of the pilot; the types of its members pick the laws."""
+
+    guidance: Any
+    observer: Any
+    controller: Any
+    allocation: Any
+    detection: Any
+
+
+class PilotMemory(NamedTuple):
+    """The memory of the pilot from sample to sample."""
+
+    guidance: Any
+    observer: Any
+    controller: Any
+    allocation: Any
+    detection: Any
+
+
+class ControlInput(NamedTuple):
+    """The input of the controller: measurements, guidance and disturbance; with the memories of the other parts."""
+
+    measured: Measured
+    guidance: Guidance
+    disturbance: DisturbanceEstimate
+    guidance_memory: Any
+    observer_memory: Any
+    detection_memory: Any
+
+
+class Decision(NamedTuple):
+    """One sample of the pilot: guidance, disturbance, command, and the thrust of every rotor [N]."""
+
+    guidance: Guidance
+    disturbance: DisturbanceEstimate
+    command: Command
+    thrusts: Any
+
+
+@choice(absent="allocation")
+def last_thrusts(allocation: Any) -> Any:
+    """The thrusts [N] of the last sample, from the memory of the allocation."""
+
+
+@last_thrusts.register(AllocationState)
+def _thrusts(allocation: AllocationState) -> Any:
+    return allocation.thrusts
+
+
+@choice(absent=0.0)
+def last_total_thrust(allocation: Any) -> Any:
+    """The thrust of all rotors [N] at the last sample; 0 if the allocation has no memory of it."""
+
+
+@last_total_thrust.register(AllocationState)
+def _total(allocation: AllocationState) -> Any:
+    return total(allocation.thrusts)
+
+
+@law
+def control_input(p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t: Any, dt: Any) -> ControlInput:
+    """The input of the controller at time t [s]."""
+    before, failed = last_known(p.observer, m.observer), failed_rotors(p.detection, m.detection, t)
+    pilot_input = checked_input(p.guidance, m.guidance, pilot_input, last_total_thrust(m.allocation), failed)
+    guidance, guidance_memory = guide(p.guidance, m.guidance, pilot_input, before, failed, t, dt)
+    thrusts = last_thrusts(m.allocation)
+    flying, learning = guidance.flying, guidance.learning
+    known = with_wall(guidance.wall, pilot_input)
+    estimate, observer_memory = observer_step(p.observer, m.observer, known, thrusts, flying, learning, dt)
+    watched = flying * learning * untouched(guidance.wall)
+    detection_memory = detection_step(p.detection, m.detection, pilot_input, thrusts, watched, t, dt)
+    disturbance = Disturbance(estimate.force, estimate.moment + guidance.moment)
+    return ControlInput(
+        measured=Measured(pilot_input.state, guidance.push, disturbance),
+        guidance=guidance,
+        disturbance=estimate,
+        guidance_memory=guidance_memory,
+        observer_memory=observer_memory,
+        detection_memory=detection_memory,
+    )
+
+
+@law
+def with_command(p: PilotParameters, m: PilotMemory, given: ControlInput, command: Command, memory: Any) -> Any:
+    """(`Decision`, the new memory) once the controller has commanded; `memory` is the controller's."""
+    thrusts = running(given.guidance.running, allocate(p.allocation, command.wrench))
+    decision = Decision(given.guidance, given.disturbance, command, thrusts)
+    return decision, m._replace(
+        guidance=given.guidance_memory,
+        observer=given.observer_memory,
+        controller=memory,
+        detection=given.detection_memory,
+    )
+
+
+@law
+def decide(p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t: Any, dt: Any) -> Any:
+    """One sample of the pilot at time t [s], held for dt [s]: (`Decision`, the new memory).
+
+    The thrusts are not limited yet if the allocation is a `ConstrainedAllocation`.
+    """
+    given = control_input(p, m, pilot_input, t, dt)
+    command, memory = control(p.controller, m.controller, given.measured, given.guidance.reference)
+    return with_command(p, m, given, command, memory)
+
+
+@law
+def with_allocation(m: PilotMemory, allocation: Any) -> PilotMemory:
+    """A pilot's memory with that of an allocation within limits."""
+    return m._replace(allocation=allocation)
+
+
+@law
+def with_thrusts(d: Decision, thrusts: Any) -> Decision:
+    """A decision with other thrusts [N]."""
+    return d._replace(thrusts=thrusts)

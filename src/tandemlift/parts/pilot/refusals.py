@@ -1,0 +1,183 @@
+"""Why a pilot refuses to lift or to land, or does not follow a push right now, as numbers: see `core.refusals`.
+
+The law reads what the pilot knew at its last sample, and is no part of a step. Modules of missions carry it too.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.ops import absolute, atan2, maximum, minimum, sqrt, where
+from tandemlift.core.algebra.selection import selected
+from tandemlift.core.algebra.vector import dot, total
+from tandemlift.core.faults import FAULTS
+from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, STOPPED
+from tandemlift.core.refusals import NUMBER_OF, REQUESTS, Refusals, refusal_of
+from tandemlift.parts.compliance.compliance import Compliance, ComplianceState
+from tandemlift.parts.guidance.contact_hold import ContactReaction, ContactReactionState
+from tandemlift.parts.guidance.fault_detection import HOLDS
+from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
+from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
+from tandemlift.parts.guidance.supervision import Supervision, SupervisionState
+from tandemlift.parts.mechanics.rotation import body_z_axis
+from tandemlift.parts.rotors.rotor_faults import efficiency_at
+
+WHOLE = 6755399441055744.0  # 1.5·2⁵²: a number that is added and subtracted again becomes a whole one
+HUNDREDTHS, TENTHS = 100.0, 10.0
+LIMITED_ALARM = float(next(fault.alarm for fault in FAULTS if fault.key == "limited"))
+DEGREE, PERCENT = 180.0 / math.pi, 100.0
+
+
+class ReasonNumbers(NamedTuple):
+    """The number of a reason, or 0; the value and the limit in its text, rounded as they are shown."""
+
+    number: Any
+    value: Any
+    limit: Any
+
+
+class RefusalNumbers(NamedTuple):
+    """The reasons of a pilot against a lift, against a landing, and for not following a push."""
+
+    lift: ReasonNumbers
+    land: ReasonNumbers
+    push: ReasonNumbers
+
+
+NONE = ReasonNumbers(0.0, 0.0, 0.0)
+
+
+@law
+def rounded(x: Any, parts: Any) -> Any:
+    """A number of moderate size, rounded to so many parts of 1."""
+    return ((x * parts + WHOLE) - WHOLE) / parts
+
+
+def reason(key: str, value: Any = 0.0, limit: Any = 0.0, parts: float = HUNDREDTHS) -> ReasonNumbers:
+    """A reason with its value and its limit."""
+    return ReasonNumbers(NUMBER_OF[key], rounded(value, parts), rounded(limit, parts))
+
+
+def by_value(number: Any, cases: dict[float, ReasonNumbers], other: ReasonNumbers) -> ReasonNumbers:
+    """The reason of the case that a number equals, or the other one."""
+    found = other
+    for case, answer in cases.items():
+        found = selected(number == case, answer, found)
+    return found
+
+
+@choice
+def refusal_numbers(guidance: Any, memory: Any, t: Any) -> Any:
+    """`RefusalNumbers` of a guidance with its memory after the last sample, at time t [s]."""
+
+
+@refusal_numbers.register(ScheduledGuidance)
+def _by_schedule(g: ScheduledGuidance, m: Any, t: Any) -> RefusalNumbers:
+    return RefusalNumbers(reason("clock"), reason("clock"), NONE)
+
+
+@refusal_numbers.register(HandGuidance)
+def _by_hand(g: HandGuidance, m: HandGuidanceState, t: Any) -> RefusalNumbers:
+    phase, once = m.phase.phase, where(m.phase.land_rate > 0.0, g.phasing.always_running, 0.0)
+    grounded = selected(once > 0.0, reason("once"), lift_check(g.supervision, m.supervision, t))
+    landing, stopped = reason("landing"), reason("stopped")
+    return RefusalNumbers(
+        lift=by_value(phase, {IDLE: grounded, LAND: landing, STOPPED: stopped}, reason("in_air")),
+        land=by_value(phase, {IDLE: reason("landed"), STOPPED: stopped}, NONE),
+        push=by_value(
+            phase,
+            {
+                IDLE: reason("on_ground"),
+                LIFT: reason("lifting"),
+                LAND: landing,
+                STOPPED: stopped,
+                HOLD: why_it_holds(g.supervision, m.supervision),
+                GUIDED: below_threshold(g.compliance, m.compliance),
+                CONTACT: touching_part(g.contact, m.contact),
+                LIMITED: reason("limited", LIMITED_ALARM + m.following.reason),
+            },
+            NONE,
+        ),
+    )
+
+
+@choice(absent=NONE)
+def lift_check(k: Any, m: Any, t: Any) -> Any:
+    """`ReasonNumbers` of the check that fails before a lift; `k`: the supervision."""
+
+
+@lift_check.register(Supervision)
+def _lift_check(k: Supervision, m: SupervisionState, t: Any) -> ReasonNumbers:
+    c, state = k.checks, m.state
+    available = total(k.limits * efficiency_at(k.known, t))
+    hover = (k.mass + m.payload - k.payload) * GRAVITY / maximum(available, 1e-9)
+    speed, rates = sqrt(dot(state.velocity, state.velocity)), sqrt(dot(state.rates, state.rates))
+    moves, turns = reason("rest", speed, c.speed), reason("turning", rates, c.rates)
+    numbers = {
+        "hover": reason("hover", PERCENT * hover, PERCENT * c.thrust_fraction, TENTHS),
+        "level": reason(
+            "level", DEGREE * tilt_of(body_z_axis(state.attitude).z), DEGREE * tilt_of(c.min_upright), TENTHS
+        ),
+        "rest": selected(speed > c.speed, moves, turns),
+        "sensors": failed_sensor(k, m),
+    }
+    failed = ("imu", "motion", "rotors")
+    cases = {NUMBER_OF[key]: reason(key) for key in failed} | {NUMBER_OF[key]: one for key, one in numbers.items()}
+    return by_value(m.lift_check, cases, NONE)
+
+
+@law
+def tilt_of(upright: Any) -> Any:
+    """The angle [rad] whose cosine is given."""
+    return atan2(sqrt(maximum(1.0 - upright * upright, 0.0)), upright)
+
+
+@law
+def failed_sensor(k: Supervision, m: SupervisionState) -> ReasonNumbers:
+    """Which sensor has failed, or for how long none has."""
+    recovering = reason("recovering", m.fault_free_time, k.recovery_time)
+    over = selected(m.reaction > 0.0, recovering, reason("unknown_sensor"))
+    return selected(m.fault > 0.0, reason("sensors", m.fault), over)
+
+
+@choice(absent=reason("disabled"))
+def why_it_holds(k: Any, m: Any) -> Any:
+    """`ReasonNumbers`: why a vehicle in the air does not follow pushes; `k`: the supervision."""
+
+
+@why_it_holds.register(Supervision)
+def _why_it_holds(k: Supervision, m: SupervisionState) -> ReasonNumbers:
+    tared = {NUMBER_OF[key]: reason(key) for key in ("tare", "joints")}
+    cases = {**tared, NUMBER_OF["payload"]: reason("payload", m.payload)}
+    check = by_value(m.failed_guidance_check, cases, reason("disabled"))
+    return selected(m.reaction >= HOLDS, reason("fault", m.alarm), check)
+
+
+@choice(absent=NONE)
+def touching_part(k: Any, m: Any) -> Any:
+    """`ReasonNumbers`: which part touches a wall; `k`: the reaction to contacts."""
+
+
+@touching_part.register(ContactReaction)
+def _touching_part(k: ContactReaction, m: ContactReactionState) -> ReasonNumbers:
+    return selected(m.part < 0.0, reason("beam_touches"), reason("guard_touches", m.part))
+
+
+@law
+def below_threshold(k: Compliance, m: ComplianceState) -> ReasonNumbers:
+    """Whether the push is too weak along every axis; the push and the threshold of the axis that is nearest to it."""
+    found, nearest = NONE, 1.0
+    for push, bias, limit in zip(m.filtered.value, m.band.bias, k.band.threshold, strict=True):
+        missing = 1.0 - absolute(push - bias) / maximum(limit, 1e-9)
+        found = selected(missing < nearest, reason("weak", absolute(push - bias), limit), found)
+        nearest = minimum(missing, nearest)
+    return selected(total(m.band.active) > 0.0, NONE, selected(nearest > 0.0, found, NONE))
+
+
+def refusals_of(guidance: Any, memory: Any, t: float) -> Refusals:
+    """The refusals of a pilot in words; arguments as for `refusal_numbers`."""
+    found = refusal_numbers(guidance, memory, t)
+    return Refusals(*[refusal_of(request, *numbers) for request, numbers in zip(REQUESTS, found, strict=True)])

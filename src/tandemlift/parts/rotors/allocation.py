@@ -1,0 +1,140 @@
+"""Control allocation: rotor thrusts from a wrench and back, by constant matrices, row by row, as sets of rotors."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tandemlift.core.algebra.arrays import array, square_roots
+from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.ops import clip, maximum, sqrt, where
+from tandemlift.core.algebra.types import Number, PerRotor, number
+from tandemlift.core.algebra.vector import Vec3, dot, each
+from tandemlift.parts.mechanics.rigid_body import Wrench
+from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at
+
+
+class Mixer(NamedTuple):
+    """A 4 × 4N matrix by rows, each a set of 4N rotor values: of thrust, roll, pitch and yaw."""
+
+    thrust: PerRotor
+    roll: PerRotor
+    pitch: PerRotor
+    yaw: PerRotor
+
+
+class ConstrainedAllocation(NamedTuple):
+    """Allocation within limits: the pseudo-inverse, and the problem of `thrust_limit_solver` where it exceeds them.
+
+    `rows` and `weights` of the weighted problem, `limits` [N] of all rotors, and the faults `known` to the pilot.
+    """
+
+    inverse: Mixer
+    rows: Mixer
+    weights: Wrench
+    limits: PerRotor
+    known: NoFaults | RotorFaults
+
+
+class AllocationState(NamedTuple):
+    """Memory: the working set (−1 at 0, 1 at the upper limit, 0 free), and the thrusts [N]; sets."""
+
+    active: PerRotor
+    thrusts: PerRotor
+
+
+@choice
+def allocate(how: Mixer | ConstrainedAllocation, u: Wrench) -> PerRotor:
+    """Thrust of every rotor [N] for a wrench, whatever the rotors' limits."""
+
+
+@allocate.register(Mixer)
+def _pseudo_inverse(inverse: Mixer, u: Wrench) -> PerRotor:
+    # u_q* and each quadrotor's mixer inverse, as one matrix (transposed)
+    # paper: optim_cont_final_equ
+    return inverse.thrust * u.thrust + inverse.roll * u.moment.x + inverse.pitch * u.moment.y + inverse.yaw * u.moment.z
+
+
+@allocate.register(ConstrainedAllocation)
+def _unlimited(how: ConstrainedAllocation, u: Wrench) -> PerRotor:
+    return allocate(how.inverse, u)
+
+
+@law
+def limits_at(how: ConstrainedAllocation, left: PerRotor, t: Number) -> PerRotor:
+    """The largest thrust of every rotor at time t [s] that the pilot expects [N]; `left`: of a detected loss."""
+    return how.limits * efficiency_at(how.known, t) * left
+
+
+@elementwise
+def command_for(thrust: Number, efficiency: Number) -> Number:
+    """The command [N] that makes a rotor of reduced efficiency give a thrust [N]; 0 for a failed one."""
+    return where(efficiency > 0.0, thrust / maximum(efficiency, 1e-9), 0.0)
+
+
+@law
+def rotor_commands(how: ConstrainedAllocation, thrusts: PerRotor, t: Number) -> PerRotor:
+    """Commands [N] for these thrusts [N] at time t [s], given the faults that the pilot knows."""
+    return command_for(thrusts, efficiency_at(how.known, t))
+
+
+@elementwise
+def outside_limits(thrust: Number, limit: Number) -> Number:
+    """1 where a thrust is outside its limits, else 0."""
+    return where(thrust < 0.0, 1.0, where(thrust > limit, 1.0, 0.0))
+
+
+@law
+def wrench(effect: Mixer, thrusts: PerRotor) -> Wrench:
+    """The wrench of rotor thrusts [N]: B u_q with u_i = A f_i."""
+    # paper: contro_input_equ
+    return Wrench(
+        dot(effect.thrust, thrusts),
+        Vec3(dot(effect.roll, thrusts), dot(effect.pitch, thrusts), dot(effect.yaw, thrusts)),
+    )
+
+
+@law
+def achieved_fraction(effect: Mixer, scale: Wrench, wanted: Wrench, thrusts: PerRotor) -> Number:
+    """Fraction of a wanted wrench that thrusts give: 1 − ‖B f − τ‖/‖τ‖ in units of `scale`, in [0, 1]; 1 for τ = 0.
+
+    Args:
+        effect: B, by rows.
+        scale: one over the size of each component, as of `wrench_scale`.
+        wanted: τ [N, N·m body axes].
+        thrusts: f [N], a set.
+    """
+    made = wrench(effect, thrusts)
+    short, moment = (made.thrust - wanted.thrust) * scale.thrust, (made.moment - wanted.moment) * scale.moment
+    whole, turning = wanted.thrust * scale.thrust, wanted.moment * scale.moment
+    size = whole * whole + dot(turning, turning)
+    lost = (short * short + dot(moment, moment)) / where(size > 0.0, size, 1.0)
+    return where(size > 0.0, clip(1.0 - sqrt(lost), 0.0, 1.0), 1.0)
+
+
+def mixer_from(rows: NDArray[Any]) -> Mixer:
+    """A 4 × 4N matrix as a Mixer."""
+    cls = each(rows.shape[1])
+    thrust, roll, pitch, yaw = (cls(*map(number, row)) for row in rows)
+    return Mixer(thrust, roll, pitch, yaw)
+
+
+def weights_of(effect: NDArray[np.float64], priorities: ArrayLike) -> NDArray[np.float64]:
+    """The diagonal of W (4): priority over row rms of the effect B (4 × n), so that priorities compare rotor for rotor.
+
+    Args:
+        effect: B (4 × n), rows thrust, roll, pitch, yaw.
+        priorities: four numbers > 0, thrust, roll, pitch, yaw.
+    """
+    return array(priorities) / square_roots(np.mean(np.square(effect), axis=1))
+
+
+def weighted_rows(effect: NDArray[np.float64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
+    """W B (4 × n), C-contiguous, the rows of a `thrust_limit_solver.BoundedProblem`."""
+    return np.ascontiguousarray(weights[:, None] * effect)
+
+
+def wrench_scale(effect: NDArray[np.float64]) -> Wrench:
+    """1 / row rms of the effect B (4 × n): makes the four components of a wrench comparable (`achieved_fraction`)."""
+    thrust, roll, pitch, yaw = (number(w) for w in weights_of(effect, np.ones(4)))
+    return Wrench(thrust, Vec3(roll, pitch, yaw))

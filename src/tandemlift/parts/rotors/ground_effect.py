@@ -1,0 +1,60 @@
+"""Ground effect: a rotor gives more thrust near the floor.
+
+Source: Cheeseman and Bennett, The effect of the ground on a helicopter rotor in forward flight, ARC R&M 3021 (1955).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from tandemlift.core.algebra.law import choice, elementwise
+from tandemlift.core.algebra.ops import maximum
+from tandemlift.core.algebra.types import Number, PerRotor
+from tandemlift.core.algebra.vector import Vec3
+from tandemlift.parts.mechanics.rigid_body import State
+
+MIN_HEIGHT = 0.5  # rotor radii: the theory of ground effect holds no nearer to the floor
+
+
+class FreeAir(NamedTuple):
+    """Thrust does not depend on the height."""
+
+
+class GroundEffect(NamedTuple):
+    """Rotors from the centre of mass [m, body axes, vector of sets], R/4 of their radius R [m], floor's z [m]."""
+
+    rotors: Vec3
+    quarter_radius: PerRotor
+    floor: Number
+
+
+@choice
+def ground_effect_ratio(surface: FreeAir | GroundEffect, state: State) -> PerRotor:
+    """Thrust near the floor over thrust in free air."""
+
+
+@ground_effect_ratio.register(FreeAir)
+def _free(surface: FreeAir, state: State) -> Number:
+    return 1.0
+
+
+@elementwise
+def thrust_ratio(height: Number, quarter_radius: Number) -> Number:
+    """1/(1 − (R/4z)²), with z no less than half a radius."""
+    z = maximum(height, 4.0 * MIN_HEIGHT * quarter_radius)
+    ratio = quarter_radius / z
+    return 1.0 / (1.0 - ratio * ratio)
+
+
+@elementwise
+def height_above(offset: Number, z: Number) -> Number:
+    """The height [m] of a rotor that is `offset` above the centre of mass, which is z above the floor."""
+    return offset + z
+
+
+@ground_effect_ratio.register(GroundEffect)
+def _near(surface: GroundEffect, state: State) -> PerRotor:
+    q, r = state.attitude, surface.rotors
+    up = Vec3(2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y))
+    offset = r.x * up.x + r.y * up.y + r.z * up.z
+    return thrust_ratio(height_above(offset, state.position.z - surface.floor), surface.quarter_radius)

@@ -1,0 +1,210 @@
+"""The health of every sensor: whether its samples are finite numbers, within their range, and not frozen.
+
+The checks are mapped over the sensor table; the type of a sensor's limits picks its checks.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.ops import absolute, maximum, minimum, sqrt, where
+from tandemlift.core.algebra.vector import Quat, Vec3, dot, total
+from tandemlift.core.faults import SYMPTOMS
+from tandemlift.core.sensors import SENSORS, Sensor
+from tandemlift.parts.sensors.readings import Readings
+
+FROZEN, NO_NUMBER, OUT_OF_RANGE = (1.0 + i for i in range(len(SYMPTOMS)))
+UNIT_NORM = 0.05  # by which an attitude's norm may differ from 1
+
+
+class PerSensor(NamedTuple):
+    """One value for each sensor of IMU and motion measurement, in the order of the sensor table."""
+
+    joints: Any
+    accelerometer: Any
+    gyroscope: Any
+    position: Any
+    velocity: Any
+    attitude: Any
+
+
+class VectorLimits(NamedTuple):
+    """Largest plausible magnitude of a vector's components; `frozen_samples` identical in a row make it frozen."""
+
+    largest: Any
+    frozen_samples: Any
+
+
+class JointLimits(NamedTuple):
+    """As `VectorLimits`, of the force [N] and the torque [N·m] at every joint."""
+
+    force: Any
+    torque: Any
+    frozen_samples: Any
+
+
+class AttitudeLimits(NamedTuple):
+    """As `VectorLimits`, of the attitude, whose norm must be 1."""
+
+    frozen_samples: Any
+
+
+class SensorHealth(NamedTuple):
+    """Memory of one sensor.
+
+    `identical`: samples in a row that equal the one before. `invalid_time` [s]: since the last valid sample. `failure`:
+    what is wrong with the last sample (`SYMPTOMS`, from 1), 0 for nothing.
+    """
+
+    identical: Any
+    invalid_time: Any
+    failure: Any
+
+
+class SampleChecks(NamedTuple):
+    """Checks of a sample: 1 if a number is not finite, if one is out of range, if the sample repeats the last one."""
+
+    not_finite: Any
+    out_of_range: Any
+    identical: Any
+
+
+class WatchdogReport(NamedTuple):
+    """What is wrong: 1 or 0, or what is wrong with a sensor (`SYMPTOMS`, from 1; 0 for nothing).
+
+    `imu` and `motion`: stale. `seen`: 1 once both devices have sent a sample.
+    """
+
+    imu: Any
+    motion: Any
+    joints: Any
+    accelerometer: Any
+    gyroscope: Any
+    position: Any
+    velocity: Any
+    attitude: Any
+    attitude_inconsistent: Any
+    velocity_inconsistent: Any
+    speed_inconsistent: Any
+    seen: Any
+
+
+WELL = WatchdogReport._make([*[0.0] * 11, 1.0])
+
+
+@elementwise
+def not_finite(x: Any) -> Any:
+    """1 where a value is not finite, else 0."""
+    return where(x - x == 0.0, 0.0, 1.0)
+
+
+@elementwise
+def out_of_range(x: Any, largest: Any) -> Any:
+    """1 where the magnitude of a value is above the largest, or it is no number, else 0."""
+    return where(absolute(x) <= largest, 0.0, 1.0)
+
+
+@elementwise
+def differs(x: Any, last: Any) -> Any:
+    """1 where two values differ, else 0."""
+    return where(x == last, 0.0, 1.0)
+
+
+@elementwise
+def is_zero(x: Any) -> Any:
+    """1 where a count is 0, else 0."""
+    return where(x == 0.0, 1.0, 0.0)
+
+
+@law
+def any_component(v: Vec3) -> Any:
+    """1 if any component of a vector of flags is 1, else 0."""
+    return minimum(v.x + v.y + v.z, 1.0)
+
+
+@law
+def any_of_sets(v: Vec3) -> Any:
+    """1 if any flag in a vector of sets is 1, else 0."""
+    return minimum(total(v.x) + total(v.y) + total(v.z), 1.0)
+
+
+@law
+def not_finite_of_sets(v: Vec3) -> Any:
+    """1 if any number in a vector of sets is not finite, else 0."""
+    return any_of_sets(Vec3(not_finite(v.x), not_finite(v.y), not_finite(v.z)))
+
+
+@law
+def out_of_range_of_sets(v: Vec3, largest: Any) -> Any:
+    """1 if any number in a vector of sets is out of range, else 0."""
+    return any_of_sets(Vec3(out_of_range(v.x, largest), out_of_range(v.y, largest), out_of_range(v.z, largest)))
+
+
+@choice
+def check_sample(limits: Any, sample: Any, last: Any) -> Any:
+    """The `SampleChecks` of a sample; it and the one before it are tuples of the sensor's quantities."""
+
+
+@check_sample.register(VectorLimits)
+def _check_vector(k: VectorLimits, sample: tuple[Vec3], last: tuple[Vec3]) -> SampleChecks:
+    x, before = sample[0], last[0]
+    return SampleChecks(
+        not_finite=any_component(not_finite(x)),
+        out_of_range=any_component(out_of_range(x, k.largest)),
+        identical=is_zero(any_component(differs(x, before))),
+    )
+
+
+@check_sample.register(JointLimits)
+def _check_joints(k: JointLimits, sample: tuple[Vec3, Vec3], last: tuple[Vec3, Vec3]) -> SampleChecks:
+    force, torque = sample
+    f, t, g, s = force, torque, last[0], last[1]
+    differing = differs(f.x, g.x) + differs(f.y, g.y) + differs(f.z, g.z)
+    return SampleChecks(
+        not_finite=maximum(not_finite_of_sets(force), not_finite_of_sets(torque)),
+        out_of_range=maximum(out_of_range_of_sets(force, k.force), out_of_range_of_sets(torque, k.torque)),
+        identical=minimum(total(is_zero(differing + differs(t.x, s.x) + differs(t.y, s.y) + differs(t.z, s.z))), 1.0),
+    )
+
+
+@check_sample.register(AttitudeLimits)
+def _check_attitude(k: AttitudeLimits, sample: tuple[Quat], last: tuple[Quat]) -> SampleChecks:
+    q, before = sample[0], last[0]
+    square = dot(q, q)
+    off = absolute(sqrt(maximum(square, 0.0)) - 1.0)
+    differing = differs(q.w, before.w) + differs(q.x, before.x) + differs(q.y, before.y) + differs(q.z, before.z)
+    return SampleChecks(not_finite(square), out_of_range(off, UNIT_NORM), is_zero(differing))
+
+
+@law
+def health_after(m: SensorHealth, checks: SampleChecks, fresh: Any, dt: Any) -> SensorHealth:
+    """The health of a sensor after a step of dt [s] with these checks of its sample; `fresh`: of its device."""
+    new = fresh > 0.0
+    failure = where(checks.not_finite > 0.0, NO_NUMBER, where(checks.out_of_range > 0.0, OUT_OF_RANGE, 0.0))
+    invalid = where(new, where(failure > 0.0, 1.0, 0.0), 1.0)
+    return SensorHealth(
+        identical=where(new, (m.identical + 1.0) * checks.identical, m.identical),
+        invalid_time=(m.invalid_time + dt) * invalid,
+        failure=where(new, failure, m.failure),
+    )
+
+
+def quantities(readings: Readings, sensor: Sensor) -> tuple[Any, ...]:
+    """What a sensor read."""
+    return tuple(getattr(getattr(readings, sensor.device), name) for name in sensor.quantities)
+
+
+@law
+def judge(limits: PerSensor, healths: PerSensor, last: Readings, readings: Readings, dt: Any) -> PerSensor:
+    """The health of every sensor after a step of dt [s] with these readings; `last`: those before them."""
+    checks = [
+        check_sample(k, quantities(readings, sensor), quantities(last, sensor))
+        for k, sensor in zip(limits, SENSORS.values(), strict=True)
+    ]
+    fresh = [getattr(readings, sensor.device).fresh for sensor in SENSORS.values()]
+    return PerSensor(*[health_after(*sensor, dt) for sensor in zip(healths, checks, fresh, strict=True)])
+
+
+@law
+def is_valid(h: SensorHealth) -> Any:
+    """1 if a sensor's last sample was valid, else 0."""
+    return where(h.failure > 0.0, 0.0, 1.0)

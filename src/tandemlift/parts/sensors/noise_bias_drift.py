@@ -1,0 +1,220 @@
+"""The errors of a sensor: noise, bias, drift, misalignment, saturation and quantisation. `read` makes a sample of them.
+
+A sample is clip(A x + bias + drift + σ n) rounded to whole steps; A turns body axes into the sensor's, the drift is a
+random walk. One standard normal n a sample and axis serves both: the drift advances by w n *after* the reading. With
+the σ of `sensor_model`, the increments of such readings have the variance 2σ₀² + w² and the covariance −σ₀² with
+the one before, as those of white noise of σ₀ and an independent walk of w have; both are Gaussian, so they are the same
+process, its walk begun σ/w samples earlier (J. F. Muth, J. Am. Stat. Assoc. 55, 1960), for half the random numbers.
+Error terms: IEEE Std 952, annex C.
+
+The type of a model picks its law: `SensorModel` for a vector or one on every quadrotor, `ScalarSensorModel` for a
+number, `WhiteNoise` and `AttitudeNoise` for what has no other error, `NoError` for what is copied.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.core.algebra.arrays import array
+from tandemlift.core.algebra.law import choice, elementwise
+from tandemlift.core.algebra.ops import clip, maximum, sqrt, where
+from tandemlift.core.algebra.types import number
+from tandemlift.core.algebra.vector import ZERO, Mat3, Nothing, Quat, Vec3, apply, each, is_set, spread, vec3
+from tandemlift.core.types import Array
+from tandemlift.parts.mechanics.rotation import quaternion_from_rotation_vector, rotated_by, rotation_from_quaternion
+
+ROUNDING = 6755399441055744.0  # 1.5 · 2⁵²: a sum with it has no fraction left
+
+
+class SensorGrade(NamedTuple):
+    """How good a sensor is, in plain numbers and in the unit U of what it measures; perfect by default.
+
+    `bias` [U] and `misalignment` (rotation vector of the sensor's axes, body axes [rad]) are a number for all, three,
+    or three for each quadrotor; `noise` is the standard deviation of a sample [U], `drift` that of a random walk after
+    one second [U/√s]; it reads up to ±`limit` [U] in steps of `resolution` [U], of any size if 0.
+    """
+
+    noise: float = 0.0
+    bias: Any = 0.0
+    drift: float = 0.0
+    resolution: float = 0.0
+    limit: float = math.inf
+    misalignment: Any = 0.0
+
+
+PERFECT = SensorGrade()
+
+
+class SensorModel(NamedTuple):
+    """A sensor of a vector, of the unit U; if there is one on every quadrotor, `axes` and `bias` are of sets.
+
+    Rows of `axes`: the sensor's axes in body axes. `noise` σ and `walk` w [U] multiply a sample's normals. `per_step`:
+    1/`step` [1/U], or 0 if that is 0.
+    """
+
+    axes: Mat3
+    bias: Vec3
+    noise: Any
+    walk: Any
+    limit: Any
+    step: Any
+    per_step: Any
+
+
+class ScalarSensorModel(NamedTuple):
+    """A sensor of a number; as `SensorModel`, without axes."""
+
+    bias: Any
+    noise: Any
+    walk: Any
+    limit: Any
+    step: Any
+    per_step: Any
+
+
+class WhiteNoise(NamedTuple):
+    """A sensor of a vector whose only error is noise, of standard deviation `sigma`."""
+
+    sigma: Any
+
+
+class AttitudeNoise(NamedTuple):
+    """A sensor of the attitude whose only error is noise, of standard deviation `sigma` about each body axis [rad]."""
+
+    sigma: Any
+
+
+class NoError(NamedTuple):
+    """What goes into a sample as it is."""
+
+
+@elementwise
+def displayed(x: Any, limit: Any, step: Any, per_step: Any) -> Any:
+    """x held within ±limit, then rounded to whole steps, half to even; not rounded if step is 0."""
+    held = clip(x, -limit, limit)
+    steps = held * per_step
+    whole = maximum(steps + ROUNDING, 0.0) - ROUNDING  # a bare x + c − c would be cancelled by JAX and CasADi
+    return where(step > 0.0, whole * step, held)
+
+
+@choice
+def read(model: Any, drift: Any, truth: Any, normals: Any) -> Any:
+    """A sample of `truth` with the drift so far; `normals`: independent standard normals, laid out like the sample."""
+
+
+@read.register(SensorModel)
+def _read_vector(k: SensorModel, drift: Vec3, truth: Vec3, normals: Vec3) -> Vec3:
+    v = apply(k.axes, truth) + k.bias + drift + normals * k.noise
+    return Vec3(
+        displayed(v.x, k.limit, k.step, k.per_step),
+        displayed(v.y, k.limit, k.step, k.per_step),
+        displayed(v.z, k.limit, k.step, k.per_step),
+    )
+
+
+@read.register(ScalarSensorModel)
+def _read_scalar(k: ScalarSensorModel, drift: Any, truth: Any, normals: Any) -> Any:
+    return displayed(truth + k.bias + drift + normals * k.noise, k.limit, k.step, k.per_step)
+
+
+@read.register(WhiteNoise)
+def _read_with_noise(k: WhiteNoise, drift: Nothing, truth: Vec3, normals: Vec3) -> Vec3:
+    return truth + normals * k.sigma
+
+
+@read.register(AttitudeNoise)
+def _read_attitude(k: AttitudeNoise, drift: Nothing, truth: Quat, normals: Vec3) -> Quat:
+    return rotated_by(truth, normals * k.sigma)
+
+
+@read.register(NoError)
+def _copy(k: NoError, drift: Nothing, truth: Any, normals: Nothing) -> Any:
+    return truth
+
+
+@choice
+def next_drift(model: Any, drift: Any, normals: Any, fresh: Any) -> Any:
+    """The drift after a sample (`fresh` 1), or as it was (0)."""
+
+
+@next_drift.register(SensorModel)
+@next_drift.register(ScalarSensorModel)
+def _random_walk(k: Any, drift: Any, normals: Any, fresh: Any) -> Any:
+    return drift + normals * (k.walk * fresh)
+
+
+@next_drift.register(WhiteNoise)
+@next_drift.register(AttitudeNoise)
+@next_drift.register(NoError)
+def _no_walk(k: Any, drift: Nothing, normals: Any, fresh: Any) -> Nothing:
+    return drift
+
+
+def no_drift(count: int | None = None) -> Vec3:
+    """The drift of a vector before the first sample; `count`: of quadrotors, None for a single sensor."""
+    return ZERO if count is None else Vec3(*[each(count)(*(0.0,) * count)] * 3)
+
+
+def start_drift(model: Any) -> Any:
+    """The drift before the first sample of a sensor with this model; `Nothing` if it does not drift."""
+    if isinstance(model, SensorModel):
+        return no_drift(len(model.bias.x) if is_set(model.bias.x) else None)
+    return 0.0 if isinstance(model, ScalarSensorModel) else Nothing()
+
+
+def no_noise(model: Any) -> Any:
+    """Standard normals of 0 for a sensor, laid out as `read` takes them."""
+    return ZERO if isinstance(model, (WhiteNoise, AttitudeNoise)) else start_drift(model)
+
+
+def _rows(value: Any, count: int) -> Array:
+    return np.broadcast_to(array(value), (count, 3))
+
+
+def _sensor_axes(turn: Array) -> Array:
+    """Axes (3 × 3, rows) of a sensor turned by a rotation vector; exactly the body's for none."""
+    return np.array(rotation_from_quaternion(quaternion_from_rotation_vector(vec3(turn)))).T
+
+
+class _Errors(NamedTuple):
+    """What models of vectors and of numbers share."""
+
+    noise: float
+    walk: float
+    limit: float
+    step: float
+    per_step: float
+
+
+def _errors(grade: SensorGrade, interval: float) -> _Errors:
+    walk, stepped = grade.drift * sqrt(interval), grade.resolution > 0.0
+    return _Errors(
+        noise=0.5 * (walk + sqrt(walk * walk + 4.0 * grade.noise * grade.noise)),
+        walk=walk,
+        limit=grade.limit,
+        step=grade.resolution,
+        per_step=where(stepped, 1.0 / where(stepped, grade.resolution, 1.0), 0.0),
+    )
+
+
+def sensor_model(grade: SensorGrade, interval: float, count: int | None = None) -> SensorModel:
+    """The sensor of a vector of this grade, or one on every quadrotor.
+
+    Args:
+        grade: how good it is.
+        interval: time from sample to sample [s].
+        count: number of quadrotors; None for a single sensor.
+    """
+    A = np.array([_sensor_axes(turn) for turn in _rows(grade.misalignment, count or 1)])
+    bias = _rows(grade.bias, count or 1)
+    return SensorModel(
+        Mat3(*[vec3(A[0, i]) if count is None else spread(A[:, i]) for i in range(3)]),
+        vec3(bias[0]) if count is None else spread(bias),
+        *_errors(grade, interval),
+    )
+
+
+def scalar_sensor_model(grade: SensorGrade, interval: float) -> ScalarSensorModel:
+    """The sensor of a number of this grade, whose `bias` is a number; `interval` from sample to sample [s]."""
+    return ScalarSensorModel(number(grade.bias), *_errors(grade, interval))

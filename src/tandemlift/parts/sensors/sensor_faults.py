@@ -1,0 +1,218 @@
+"""Sensors that fail: what their readings become between the sensor and the pilot.
+
+From one step until another, a sensor repeats its last value (frozen), gives no numbers (nan), has an offset (bias), or
+gives one value whatever happens (range); a device sends no new sample (stale). The laws are mapped over the channels of
+every device. The type of a fault picks its law; a channel without a fault of its own has `NoFault`.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.ops import where
+from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.core.sensors import SENSORS, additional_sensor, sensors_on
+from tandemlift.parts.mechanics.rotation import rotated_by
+from tandemlift.parts.sensors.readings import AdditionalChannels, ImuChannels, MotionChannels, Readings, by_name
+
+NEVER = 1e18  # steps
+EMPTY: Mapping[str, Any] = MappingProxyType({})
+
+
+class SensorFault(NamedTuple):
+    """Faults of a sensor of a vector, or sets, a value for each joint: from step `start` until before step `end`.
+
+    `frozen` is 1 if it repeats its last value, else 0. Else a reading x becomes x `keep` + `size` + `poison`, with
+    `poison` 0 or NaN.
+    """
+
+    start: Any
+    end: Any
+    frozen: Any
+    keep: Any
+    size: Vec3
+    poison: Any
+
+
+class AttitudeFault(NamedTuple):
+    """A fault of the attitude: while the reading is kept, it is turned by `size` [rad, body axes]."""
+
+    fault: SensorFault
+
+
+class ScalarFault(NamedTuple):
+    """A fault of a sensor of a number: the first component of `size` counts."""
+
+    fault: SensorFault
+
+
+class NoFault(NamedTuple):
+    """The fault of a channel that does not fail on its own."""
+
+
+class DeviceFaults(NamedTuple):
+    """Faults of a device: no new sample from step `start` until before step `end`; and the faults of its channels."""
+
+    start: Any
+    end: Any
+    channels: Any
+
+
+class SensorFaults(NamedTuple):
+    """Faults of all devices; those of additional sensors by name."""
+
+    imu: DeviceFaults
+    motion: DeviceFaults
+    additional: Any = Nothing()
+
+
+class SensorFaultState(NamedTuple):
+    """Memory: the last readings that were passed on, and the number of the step."""
+
+    given: Readings
+    step: Any
+
+
+@law
+def during(start: Any, end: Any, step: Any) -> Any:
+    """1 from a step on until before another, else 0."""
+    return where(step < start, 0.0, where(step < end, 1.0, 0.0))
+
+
+@elementwise
+def faulty_number(
+    x: Any, given: Any, size: Any, start: Any, end: Any, frozen: Any, keep: Any, poison: Any, step: Any
+) -> Any:
+    """A number under a fault; `given`: the last one that was passed on."""
+    wrong = where(frozen > 0.0, given, x * keep + size + poison)
+    return where(step < start, x, where(step < end, wrong, x))
+
+
+@choice
+def faulty(fault: Any, x: Any, given: Any, step: Any) -> Any:
+    """A reading x under a fault at a step; `given`: the last one that was passed on."""
+
+
+@faulty.register(SensorFault)
+def _faulty_vector(f: SensorFault, x: Vec3, given: Vec3, step: Any) -> Vec3:
+    return Vec3(
+        faulty_number(x.x, given.x, f.size.x, f.start, f.end, f.frozen, f.keep, f.poison, step),
+        faulty_number(x.y, given.y, f.size.y, f.start, f.end, f.frozen, f.keep, f.poison, step),
+        faulty_number(x.z, given.z, f.size.z, f.start, f.end, f.frozen, f.keep, f.poison, step),
+    )
+
+
+@faulty.register(ScalarFault)
+def _faulty_scalar(k: ScalarFault, x: Any, given: Any, step: Any) -> Any:
+    f = k.fault
+    return faulty_number(x, given, f.size.x, f.start, f.end, f.frozen, f.keep, f.poison, step)
+
+
+@faulty.register(AttitudeFault)
+def _faulty_attitude(k: AttitudeFault, x: Quat, given: Quat, step: Any) -> Quat:
+    f = k.fault
+    off = f.size.x * (1.0 - f.keep)
+    q = rotated_by(x, f.size * (f.keep * during(f.start, f.end, step)))
+    return Quat(
+        faulty_number(q.w, given.w, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
+        faulty_number(q.x, given.x, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
+        faulty_number(q.y, given.y, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
+        faulty_number(q.z, given.z, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
+    )
+
+
+@faulty.register(NoFault)
+def _no_fault(f: NoFault, x: Any, given: Any, step: Any) -> Any:
+    return x
+
+
+@law
+def faulty_device(f: DeviceFaults, reading: Any, given: Any, step: Any) -> Any:
+    """The sample of a device under its faults; while it is stale, the last one that was passed on, not fresh."""
+    stale = during(f.start, f.end, step)
+    samples = [faulty(*channel, step) for channel in zip(f.channels, reading[:-1], given[:-1], strict=True)]
+    held = [chosen(stale, old, new) for old, new in zip(given[:-1], samples, strict=True)]
+    return type(reading)(*held, where(stale > 0.0, 0.0, reading.fresh))
+
+
+@law
+def apply_faults(k: SensorFaults, m: SensorFaultState, readings: Readings) -> Any:
+    """(Readings as they are passed on, the new memory) of a step."""
+    given, n = m.given, m.step
+    more = [
+        faulty_device(*device, n) for device in zip(k.additional, readings.additional, given.additional, strict=True)
+    ]
+    after = Readings(
+        faulty_device(k.imu, readings.imu, given.imu, n),
+        faulty_device(k.motion, readings.motion, given.motion, n),
+        type(readings.additional)(*more),
+    )
+    return after, SensorFaultState(after, n + 1.0)
+
+
+def sensor_fault(kind: str, start: float, end: float, size: Vec3) -> SensorFault:
+    """The fault of one sensor.
+
+    Args:
+        kind: "frozen", "nan", "bias" or "range".
+        start: first step of the fault.
+        end: first step without it.
+        size: of a "bias" or a "range", in the unit of the reading; a rotation about body axes [rad] for the attitude.
+    """
+    frozen, poison = float(kind == "frozen"), math.nan if kind == "nan" else 0.0
+    sized = size if kind in ("bias", "range") else ZERO
+    return SensorFault(start, end, frozen, 0.0 if kind == "range" else 1.0, sized, poison)
+
+
+SOUND = sensor_fault("bias", NEVER, NEVER, ZERO)
+
+
+def fault_of_joints(faults: Sequence[SensorFault]) -> SensorFault:
+    """The faults of the sensors at all joints as one, of sets."""
+    cls = each(len(faults))
+    size = Vec3(*[cls(*[f.size[i] for f in faults]) for i in range(3)])
+    start, end, frozen, keep, poison = (
+        cls(*[getattr(f, name) for f in faults]) for name in ("start", "end", "frozen", "keep", "poison")
+    )
+    return SensorFault(start, end, frozen, keep, size, poison)
+
+
+def all_faults(
+    joints: Sequence[SensorFault],
+    faults: Mapping[str, SensorFault] = EMPTY,
+    stale: Mapping[str, tuple[float, float]] = EMPTY,
+    additional: Sequence[str] = (),
+) -> SensorFaults:
+    """The faults of all sensors.
+
+    Args:
+        joints: of the sensors at each joint, `SOUND` for none.
+        faults: by the name of the sensor, of all others that fail.
+        stale: by the name of the device, of those that send no new sample: the first step, and the first that does.
+        additional: names of the additional sensors.
+    """
+    whole = fault_of_joints(joints)
+    by_quantity = {q: faults.get(row.name, SOUND) for row in SENSORS.values() for q in row.quantities}
+    by_quantity |= {"joint_force": whole, "joint_torque": _torque_fault(whole)}
+
+    def device(name: str, channels: Any) -> DeviceFaults:
+        return DeviceFaults(*stale.get(name, (NEVER, NEVER)), channels)
+
+    def alone(name: str) -> DeviceFaults:
+        fault = faults.get(name, SOUND)
+        return device(name, AdditionalChannels(fault if additional_sensor(name).width == 3 else ScalarFault(fault)))
+
+    imu = ImuChannels(**{q: by_quantity[q] for row in sensors_on("imu") for q in row.quantities}, frame=NoFault())
+    motion = MotionChannels(**{q: by_quantity[q] for row in sensors_on("motion") for q in row.quantities})
+    motion = motion._replace(attitude=AttitudeFault(motion.attitude))
+    return SensorFaults(
+        device("imu", imu), device("motion", motion), by_name(tuple(additional))(*map(alone, additional))
+    )
+
+
+def _torque_fault(force: SensorFault) -> SensorFault:
+    """The fault of the joints' torque that goes with that of their force: an offset is of the force alone."""
+    return force._replace(size=Vec3(*[size - size * force.keep for size in force.size]))

@@ -1,0 +1,78 @@
+"""Registration of additional sensors: the law of what each measures (`core.sensors` says what they are)."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
+
+from tandemlift.core.algebra.law import choice
+from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, spread
+from tandemlift.core.errors import InputError
+from tandemlift.core.sensors import ADDITIONAL, DEVICES, SENSORS, Sensor
+from tandemlift.parts.mechanics.loads import PerfectReadings
+from tandemlift.parts.mechanics.rigid_body import State
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+AT_REST = State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
+NO_LOAD = PerfectReadings(ZERO, spread([[0.0, 0.0, 0.0]]), spread([[0.0, 0.0, 0.0]]), ZERO)
+FORMS: dict[int, Any] = {1: (float, int), 3: Vec3}
+PARAMETERS: dict[str, Any] = {}
+"""By the name of an additional sensor: the type of its parameters, which picks its law."""
+
+
+@choice
+def true_value(sensor: Any, state: State, perfect: PerfectReadings) -> Any:
+    """What an additional sensor reads without errors: a number, or a `Vec3`."""
+
+
+def register_sensor(sensor: Sensor) -> Callable[[F], F]:
+    """Register the law of what an additional sensor measures.
+
+    The law is called with the sensor's parameters, the true `State` of the vehicle's centre of mass and the
+    `PerfectReadings` of payload and joints. It gives a number or a `Vec3`, and keeps to what a law may do
+    (`core.algebra.law`). Registering a name again replaces the sensor if it comes from the same file.
+
+    Args:
+        sensor: its row, from `core.sensors.additional`.
+
+    Raises:
+        InputError: the name is not fit for one or taken, the law is in no file, or gives something else.
+    """
+    name = sensor.name
+    if not re.fullmatch(r"[a-z][a-z0-9_]{0,31}", name):
+        raise InputError(f"a sensor cannot be named {name!r}: must be small letters, digits and '_', a letter first")
+
+    def keep(law: F) -> F:
+        _check_name(name, law)
+        parameters = _type_of_parameters(name)
+        parameters.__module__ = law.__module__  # what is compiled depends on its file
+        value = law(parameters(None, None), AT_REST, NO_LOAD)
+        if not isinstance(value, FORMS.get(sensor.width, ())):
+            form = type(value).__name__
+            raise InputError(f"sensor {name!r}: its law must give a number for width 1, a Vec3 for 3, not {form}")
+        true_value.register(parameters)(law)
+        PARAMETERS[name] = parameters
+        ADDITIONAL[name] = sensor
+        return law
+
+    return keep
+
+
+def _type_of_parameters(name: str) -> Any:
+    """A type of its own for a sensor's parameters: the model of its errors, and the steps between samples."""
+    return NamedTuple(f"Sensor_{name}", [("channels", Any), ("period", Any)])
+
+
+def _check_name(name: str, law: Callable[..., Any]) -> None:
+    """Refuse a name that a sensor of another file has, and a law that is in no file."""
+    file = inspect.unwrap(law).__code__.co_filename
+    if not Path(file).is_file():
+        raise InputError(f"sensor {name!r}: its law must be defined in a file, not in {file}")
+    held = true_value.table[PARAMETERS[name]].__code__.co_filename if name in PARAMETERS else file
+    taken = {*SENSORS, *DEVICES, *[quantity for sensor in SENSORS.values() for quantity in sensor.quantities]}
+    if name in taken or held != file:
+        raise InputError(f"a sensor cannot be named {name!r}: there is another one of that name")

@@ -1,0 +1,202 @@
+"""Watchdogs on every measurement: stale, frozen, not a number, out of range, or inconsistent with another one.
+
+A sample is valid if it is fresh, finite and within its range. An invalid one goes no further: the last valid value
+takes its place or, in the motion measurement, the prediction of the navigator. A sensor is *lost* once its samples have
+been invalid for a time, or identical too often although noise is expected, or once its device has been stale for a
+time. The substitute for a lost accelerometer is the reading of a vehicle that does not accelerate; for a lost gyroscope
+it is the low-passed derivative of the measured attitude, for a lost velocity that of the measured position. While the
+navigator runs without the motion measurement, it uses the mean of its bias estimates, which is less noisy than the last
+one (`substitutes`). Redundant measurements are compared with each other (`consistency`).
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import law
+from tandemlift.core.algebra.ops import maximum, where
+from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, dot
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import rotation_between
+from tandemlift.parts.sensors.consistency import Inconsistency, exceeds, inconsistency_after
+from tandemlift.parts.sensors.health import (
+    FROZEN,
+    PerSensor,
+    SensorHealth,
+    WatchdogReport,
+    any_component,
+    is_valid,
+    judge,
+    not_finite,
+)
+from tandemlift.parts.sensors.readings import ImuReading, MotionReading, Readings
+from tandemlift.parts.sensors.substitutes import (
+    SETTLING_TIME,
+    MeanBiases,
+    PredictedReadings,
+    mean_after,
+    substituted_imu,
+    substituted_motion,
+    valid_imu,
+)
+
+
+class Watchdog(NamedTuple):
+    """Limits of the watchdogs.
+
+    A device is stale after `stale_time` [s] without a fresh sample, a sensor lost after `invalid_time` [s] without a
+    valid one; `sensors`: its limits in `health`. Largest differences of redundant measurements: `attitude_gap` [rad],
+    `position_gap` [m] and `velocity_gap` [m/s], over a window of which `forgetting` is 1 − λ. Low-pass gains of
+    substituted rates and velocity, and the rate of motion samples [1/s].
+    """
+
+    stale_time: Any
+    invalid_time: Any
+    sensors: PerSensor
+    forgetting: Any
+    attitude_gap: Any
+    position_gap: Any
+    velocity_gap: Any
+    rates_gain: Any
+    velocity_gain: Any
+    motion_rate: Any
+
+
+class WatchdogState(NamedTuple):
+    """Memory: the last readings, the last valid ones, the health of the sensors, and of each device its age.
+
+    An age [s] is the time since the last fresh sample; `imu_seen` and `motion_seen` are 1 after the first. `rates` and
+    `velocity`: substitutes for those of a lost sensor.
+    """
+
+    last: Readings
+    valid: Readings
+    health: PerSensor
+    imu_age: Any
+    motion_age: Any
+    imu_seen: Any
+    motion_seen: Any
+    rates: Vec3
+    velocity: Vec3
+    mean: MeanBiases
+    inconsistency: Inconsistency
+
+
+@law
+def lost(k: Watchdog, h: SensorHealth, limits: Any) -> Any:
+    """What is wrong with a sensor that is lost (`SYMPTOMS`, from 1), or 0."""
+    invalid = where(h.invalid_time >= k.invalid_time, h.failure, 0.0)
+    return where(h.failure > 0.0, invalid, where(h.identical >= limits.frozen_samples, FROZEN, 0.0))
+
+
+@law
+def report_of(k: Watchdog, h: PerSensor, imu_age: Any, motion_age: Any, seen: Any, d: Inconsistency) -> WatchdogReport:
+    """What is wrong, with devices of these ages [s]; `seen` is 1 once both have sent a sample."""
+    failures = PerSensor(*[lost(k, *sensor) for sensor in zip(h, k.sensors, strict=True)])
+    return WatchdogReport(
+        imu=where(imu_age >= k.stale_time, 1.0, 0.0),
+        motion=where(motion_age >= k.stale_time, 1.0, 0.0),
+        **failures._asdict(),
+        attitude_inconsistent=exceeds(d.attitude, k.attitude_gap),
+        velocity_inconsistent=exceeds(d.position, k.position_gap),
+        speed_inconsistent=exceeds(d.velocity, k.velocity_gap),
+        seen=seen,
+    )
+
+
+@law
+def substitute_rates(
+    k: Watchdog, m: WatchdogState, imu: ImuReading, attitude: Quat, fresh: Any, measured: Any, p: PredictedReadings
+) -> Vec3:
+    """The rates [rad/s]: of the gyroscope while they are `measured` (1), else the derivative of the attitude."""
+    derivative = rotation_between(m.valid.motion.attitude, attitude) * k.motion_rate
+    return chosen(measured, imu.rates - p.gyroscope_bias, m.rates + (derivative - m.rates) * (k.rates_gain * fresh))
+
+
+@law
+def substitute_velocity(k: Watchdog, m: WatchdogState, v: MotionReading, h: PerSensor, r: WatchdogReport) -> Vec3:
+    """The velocity [m/s]: as measured while that is valid, else the derivative of the position."""
+    measured = is_valid(h.velocity) * where(r.velocity > 0.0, 0.0, 1.0)
+    position = chosen(is_valid(h.position), v.position, m.valid.motion.position)
+    derivative = (position - m.valid.motion.position) * k.motion_rate
+    gain = k.velocity_gain * v.fresh * is_valid(h.position)
+    return chosen(measured, v.velocity, m.velocity + (derivative - m.velocity) * gain)
+
+
+@law
+def any_invalid(h: PerSensor) -> Any:
+    """1 if the last sample of any sensor that is compared was invalid, else 0."""
+    motion = is_valid(h.attitude) * is_valid(h.position) * is_valid(h.velocity)
+    return 1.0 - is_valid(h.gyroscope) * is_valid(h.accelerometer) * motion
+
+
+@law
+def any_lost(r: WatchdogReport) -> Any:
+    """1 if any sensor that is compared is lost, else 0."""
+    imu = r.imu + r.gyroscope + r.accelerometer
+    return where(imu + r.motion + r.attitude + r.position + r.velocity > 0.0, 1.0, 0.0)
+
+
+@law
+def watchdog_step(k: Watchdog, m: WatchdogState, readings: Readings, p: PredictedReadings, dt: Any) -> Any:
+    """(usable readings, `WatchdogReport`, the new memory) after a step of dt [s] with the navigator's prediction."""
+    v, health = readings.motion, judge(k.sensors, m.health, m.last, readings, dt)
+    m = m._replace(
+        imu_age=(m.imu_age + dt) * (1.0 - readings.imu.fresh),
+        motion_age=(m.motion_age + dt) * (1.0 - v.fresh),
+        imu_seen=maximum(m.imu_seen, readings.imu.fresh),
+        motion_seen=maximum(m.motion_seen, v.fresh),
+    )
+    seen = m.imu_seen * m.motion_seen
+    before = report_of(k, health, m.imu_age, m.motion_age, seen, m.inconsistency)
+    kept, attitude_valid = valid_imu(m.valid.imu, readings.imu, health), is_valid(health.attitude)
+    attitude = chosen(attitude_valid, v.attitude, m.valid.motion.attitude)
+    measured = where(before.gyroscope + before.imu > 0.0, 0.0, 1.0)
+    rates = substitute_rates(k, m, kept, attitude, v.fresh * attitude_valid, measured, p)
+    wrong, velocity = maximum(any_invalid(health), any_lost(before)), substitute_velocity(k, m, v, health, before)
+    mean = mean_after(m.mean, p, wrong, dt)
+    imu, motion = substituted_imu(kept, before, rates, p, mean), substituted_motion(v, health, before, velocity, p)
+    difference = inconsistency_after(k.forgetting, m.inconsistency, imu, motion, wrong, dt)
+    position = chosen(is_valid(health.position), v.position, m.valid.motion.position)
+    after = m._replace(
+        last=readings,
+        valid=readings._replace(imu=kept, motion=motion._replace(position=position, attitude=attitude)),
+        health=health,
+        rates=rates,
+        velocity=velocity,
+        mean=mean,
+        inconsistency=difference,
+    )
+    report = report_of(k, health, m.imu_age, m.motion_age, seen, difference)
+    return readings._replace(imu=imu, motion=motion), report, after
+
+
+def start_watchdog(readings: Readings) -> WatchdogState:
+    """The memory before the first step, in which both devices have read `readings`, not fresh."""
+    v = readings.motion
+    return WatchdogState(
+        last=readings,
+        valid=readings,
+        health=PerSensor(*[SensorHealth(0.0, 0.0, 0.0)] * len(PerSensor._fields)),
+        imu_age=0.0,
+        motion_age=0.0,
+        imu_seen=0.0,
+        motion_seen=0.0,
+        rates=ZERO,
+        velocity=v.velocity,
+        mean=MeanBiases(ZERO, ZERO, -SETTLING_TIME),
+        inconsistency=Inconsistency(
+            attitude=ZERO,
+            position=ZERO,
+            velocity=ZERO,
+            integrated_attitude=v.attitude,
+            integrated_position=v.position,
+            integrated_velocity=v.velocity,
+        ),
+    )
+
+
+@law
+def state_not_finite(s: State) -> Any:
+    """1 if any number of a state is not finite, else 0."""
+    motion = maximum(any_component(not_finite(s.position)), any_component(not_finite(s.velocity)))
+    return maximum(motion, maximum(any_component(not_finite(s.rates)), not_finite(dot(s.attitude, s.attitude))))

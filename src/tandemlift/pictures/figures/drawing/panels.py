@@ -1,0 +1,86 @@
+"""Panels over time: lines, limits, shading and time axes that hold for every flight, even one of a single sample."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from tandemlift.core.types import Array
+from tandemlift.flight.record import Flight
+from tandemlift.pictures.figures.drawing.series import decimate, drawable, intervals
+from tandemlift.pictures.figures.drawing.style import COMPONENTS, PALE
+
+LEGEND = "outside upper center"
+RELATIVE = 2e-3  # of the largest value: the least span of its axis, so that tick labels stay short
+
+
+def line(ax: Axes, time: Array, values: Array, **look: Any) -> Any:
+    """Draw a series (T,) over time [s], thinned; a lone sample becomes a dot. Returns the line."""
+    if len(time) == 1:
+        look = {**look, "marker": ".", "ls": "none"}
+    values = drawable(values)
+    kept = decimate(values)
+    (drawn,) = ax.plot(time[kept], values[kept], **look)
+    return drawn
+
+
+def components(ax: Axes, time: Array, values: Array, **look: Any) -> list[Any]:
+    """Draw a vector (T, 3) over time [s], a line for each component. Returns the lines."""
+    return [line(ax, time, values[:, i], **COMPONENTS[i], **look) for i in range(3)]
+
+
+def time_axis(ax: Axes, flight: Flight, label: bool = True) -> None:
+    """Span the flown time [s], or one log interval if there is but one sample."""
+    last = float(flight.time[-1]) if len(flight.time) else 0.0
+    last = last or float(flight.mission["mission"]["log_interval"])
+    ax.set_xlim(-0.012 * last, last)  # the start stands off the frame, which would hide how it decays
+    ax.xaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 1.5, 2, 5, 10]))
+    if label:
+        ax.set_xlabel("time (s)")
+    else:
+        ax.tick_params(labelbottom=False)
+
+
+def extent(*values: Array) -> tuple[float, float]:
+    """Lowest and highest drawable value of some arrays, (0, 0) if there is none."""
+    flat = np.concatenate([drawable(np.ravel(v)) for v in values])
+    known = flat[np.isfinite(flat)]
+    return (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)
+
+
+def value_ticks() -> MaxNLocator:
+    """Few ticks at round values."""
+    return MaxNLocator(nbins=5, steps=[1, 2, 5, 10], min_n_ticks=3)
+
+
+def fit(ax: Axes, *values: Array, least: float) -> None:
+    """Set the value axis to the values with a margin, spanning at least `least`, so that rounding is not blown up."""
+    low, high = extent(*values)
+    middle, half = (low + high) / 2.0, max((high - low) * 1.12, least, RELATIVE * max(-low, high)) / 2.0
+    ax.set_ylim(middle - half, middle + half)
+    ax.yaxis.set_major_locator(value_ticks())
+
+
+def shade(ax: Axes, time: Array, active: NDArray[np.bool_], color: str = PALE) -> Array:
+    """Shade the intervals (K, 2) [s] in which samples are active over the panel's height, and return them."""
+    spans = intervals(time, active)
+    if len(spans):
+        bars = [(start, end - start) for start, end in spans]
+        ax.broken_barh(bars, (0.0, 1.0), transform=ax.get_xaxis_transform(), facecolor=color, lw=0.0, zorder=0)
+    return spans
+
+
+def legend_above(figure: Figure, handles: Sequence[Any], names: Sequence[str], place: str = LEGEND) -> None:
+    """A legend over the panels, in as few rows as fit the figure's width."""
+    for rows in range(1, len(names) + 1):
+        legend = figure.legend(handles, names, loc=place, ncols=-(-len(names) // rows), columnspacing=1.2)
+        box = legend.get_tightbbox()
+        if box is None or box.width <= figure.bbox.width or rows == len(names):
+            return
+        legend.remove()

@@ -1,0 +1,56 @@
+"""A vehicle as lines: payload, struts, arms and rotor discs, in body axes about the centre of mass, or in the world.
+
+Everything comes from the mission's `vehicle` table, so the drawing has the vehicle's own size and mounting points.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.core.types import Array
+from tandemlift.parts.vehicle import Vehicle, mixer
+from tandemlift.pictures.figures.drawing.attitude import body_to_world
+
+CORNERS = 24  # of the polygon that stands for a rotor's disc
+
+
+class Skeleton(NamedTuple):
+    """Points of a vehicle [m]: `beam` (1 or 2, 3), `struts` (N, 2, 3), `arms` (4N, 2, 3), `rotors` (4N, corners, 3)."""
+
+    beam: Array
+    struts: Array
+    arms: Array
+    rotors: Array
+
+    def placed(self, position: Array, attitude: Array) -> Skeleton:
+        """The skeleton with its centre of mass at a position (3) [m, world] and a unit quaternion w, x, y, z (4)."""
+        R = body_to_world(attitude)
+        return Skeleton(*(points @ R.T + position for points in self))
+
+    @property
+    def points(self) -> Array:
+        """All points (n, 3) [m]."""
+        return np.concatenate([part.reshape(-1, 3) for part in self])
+
+
+def skeleton(vehicle: Vehicle) -> Skeleton:
+    """The skeleton of a vehicle, in body axes about the system's centre of mass.
+
+    A payload with a length is a beam along body y; one without is the point that the struts meet in.
+    """
+    half = (vehicle.payload.length or 0.0) / 2.0
+    origin = -vehicle.center_of_mass
+    beam = origin + np.array([[0.0, -half, 0.0], [0.0, half, 0.0]])[: 2 if half else 1]
+    struts, arms, rotors = [], [], []
+    turn = np.linspace(0.0, 2.0 * np.pi, CORNERS, endpoint=False)
+    circle = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(CORNERS)])
+    for quadrotor, center in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):
+        nearest = origin + np.array([0.0, np.clip(quadrotor.position[1], -half, half), 0.0])
+        struts.append([nearest, center])
+        _, roll, pitch, _ = mixer(quadrotor)
+        for hub in center + np.column_stack([-pitch, roll, np.zeros(4)]):  # a rotor's levers are where it stands
+            arms.append([center, hub])
+            rotors.append(hub + quadrotor.rotor_radius * circle)
+    return Skeleton(beam, np.array(struts), np.array(arms), np.array(rotors))

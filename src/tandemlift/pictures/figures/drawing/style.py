@@ -1,0 +1,175 @@
+"""Figures under a style: a sheet of its size, settings of the drawing library, colours by name, and saving.
+
+A figure is made, laid out and saved under the style of `figure_style`, whatever the settings of the machine are; no
+figure is ever registered with a window system. A colour here is the place of the palette's colour in the cycle of
+colours, so that one drawing serves all palettes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from pathlib import Path
+from typing import Any
+
+import matplotlib.style
+import numpy as np
+from cycler import cycler
+from matplotlib.figure import Figure
+
+from tandemlift.core.files import atomic_write
+from tandemlift.flight.record import Flight
+from tandemlift.pictures.figures.drawing.figure_style import FigureStyle, Palette, current_style
+
+TEXT = 8.5  # pt: the size of text for which `points` are given
+
+(
+    PAPER,
+    INK,
+    BLUE,
+    VERMILLION,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    SKY,
+    DIM,
+    GREY,
+    PALE,
+    GRID,
+    LIGHT_BLUE,  # of areas; in grey print close to PALE: label both
+    TAN,  # of what is noisy and stands behind
+    GROUND,
+    GLASS,
+    EDGE,
+) = (f"C{place}" for place in range(len(Palette())))
+
+ACTUAL: dict[str, Any] = {"color": BLUE, "lw": 1.2}
+DESIRED: dict[str, Any] = {"color": VERMILLION, "lw": 1.0, "ls": (0, (4, 2))}
+COMPONENTS: tuple[dict[str, Any], ...] = (  # dashes distinguish them in grey print too
+    {"color": BLUE, "lw": 1.0},
+    {"color": VERMILLION, "lw": 1.0, "ls": (0, (5, 1.5))},
+    {"color": GREEN, "lw": 1.1, "ls": (0, (1.2, 1.2))},
+)
+BEHIND_TEXT: dict[str, Any] = {"facecolor": PAPER, "alpha": 0.75, "lw": 0.0, "pad": 0.8}
+
+SETTINGS: dict[str, Any] = {
+    "axes.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.unicode_minus": True,
+    "axes.formatter.limits": (-3, 5),
+    "axes.formatter.useoffset": False,
+    "axes.xmargin": 0.0,
+    "grid.linewidth": 0.5,
+    "legend.frameon": False,
+    "legend.handlelength": 2.2,
+    "legend.borderaxespad": 0.2,
+    "lines.solid_capstyle": "butt",
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "xtick.major.size": 2.5,
+    "ytick.major.size": 2.5,
+    "path.simplify": True,
+    "pdf.fonttype": 42,  # TrueType, which journals ask for
+    "figure.constrained_layout.h_pad": 0.03,
+    "figure.constrained_layout.w_pad": 0.03,
+}
+
+
+def settings(style: FigureStyle) -> dict[str, Any]:
+    """The settings of the drawing library for a style: `SETTINGS`, with its type and colours."""
+    colours, size = style.palette, style.type
+    inked = ("text.color", "axes.edgecolor", "axes.labelcolor", "xtick.color", "ytick.color")
+    blank = ("figure.facecolor", "axes.facecolor", "savefig.facecolor")
+    return {
+        **SETTINGS,
+        **dict.fromkeys(inked, colours.ink),
+        **dict.fromkeys(blank, colours.paper),
+        "axes.prop_cycle": cycler(color=list(colours)),
+        "grid.color": colours.grid,
+        "font.family": style.family,
+        "mathtext.fontset": style.mathematics,
+        "font.size": size,
+        "axes.labelsize": size,
+        "axes.titlesize": size + 0.5,
+        "legend.fontsize": size - 0.5,
+        "xtick.labelsize": size - 1.0,
+        "ytick.labelsize": size - 1.0,
+    }
+
+
+class StyledFigure(Figure):
+    """A figure that is always drawn under the style in which it was made.
+
+    Attributes:
+        style: that style.
+    """
+
+    def __init__(self, width: float, height: float, layout: Any = "constrained") -> None:
+        self.style = current_style()
+        super().__init__(figsize=self.style.size(width, height), layout=layout)
+
+    def draw(self, renderer: Any) -> None:
+        """Draw it, its colours from the style's palette."""
+        with matplotlib.rc_context(settings(self.style)):
+            super().draw(renderer)
+
+
+def page_figure(height: float) -> StyledFigure:
+    """A figure as wide as a page of the style and as high as given [in]; a slide if that is the style."""
+    return StyledFigure(current_style().page, height)
+
+
+def column_figure(height: float) -> StyledFigure:
+    """A figure as wide as a column of the style and as high as given [in]; a slide if that is the style."""
+    return StyledFigure(current_style().column, height)
+
+
+def points(size: float) -> float:
+    """A size of type [pt], given for text of `TEXT`, in the present style."""
+    return size * current_style().type / TEXT
+
+
+def styled(draw: Callable[..., Figure]) -> Callable[..., Figure]:
+    """Draw under the present style, and lay the figure out once."""
+
+    @wraps(draw)
+    def drawn(*arguments: Any) -> Figure:
+        under = matplotlib.style.context(["default", settings(current_style())])
+        # a flight that diverged may hold infinities, whose differences are no news
+        with under, np.errstate(invalid="ignore", over="ignore"):
+            figure = draw(*arguments)
+            if layout := figure.get_layout_engine():
+                layout.execute(figure)
+                figure.set_layout_engine("none")  # else every saving would lay it out again
+        return figure
+
+    return drawn
+
+
+def journal(draw: Callable[[Flight], Figure]) -> Callable[[Flight], Figure]:
+    """Draw a flight under the present style, and say on the figure if it diverged."""
+
+    @styled
+    @wraps(draw)
+    def noted(flight: Flight) -> Figure:
+        figure = draw(flight)
+        if flight.ending:
+            note = f"{flight.ending.outcome} at {flight.ending.time:.5g} s"
+            figure.supxlabel(note, x=0.01, ha="left", fontsize=points(8), color=VERMILLION)
+        return figure
+
+    return noted
+
+
+def save(figure: Figure, path: Path) -> Path:
+    """Write a figure in the format of the path's suffix; the file appears whole or not at all. Returns the path.
+
+    The same flight gives the same bytes: no date is written.
+    """
+    kind = path.suffix[1:]
+    style = figure.style if isinstance(figure, StyledFigure) else current_style()
+    date = {"CreationDate": None} if kind == "pdf" else None
+    with atomic_write(path) as partial, matplotlib.style.context(["default", settings(style)]):
+        figure.savefig(partial, format=kind, dpi=style.dots(figure.get_figwidth()), metadata=date)
+    return path

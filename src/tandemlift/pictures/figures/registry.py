@@ -1,0 +1,99 @@
+"""The figures of a flight, in their order. Each is a file with a caption, the flights that have it, and `draw(flight)`.
+
+The drawing library is loaded when the figures are asked for, not when this file is imported.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tandemlift.core.types import Progress
+from tandemlift.flight.record import Flight
+from tandemlift.pictures.figures.drawing.figure_style import figure_style
+
+if TYPE_CHECKING:
+    from tandemlift.pictures.figures.drawing.figure import Caption, FlightFigure
+
+VIEWS = "views"
+"""Photographs of a flight from Gazebo, `views.draw`: they are not drawn from a flight, so `figures` lacks them."""
+
+
+@cache
+def figures() -> dict[str, FlightFigure]:
+    """All figures of flights by name: those of the paper in its order, then the others."""
+    from tandemlift.pictures.figures import (
+        corridor,
+        disturbance,
+        inputs,
+        interaction,
+        joints,
+        path,
+        push,
+        reference,
+        rotors,
+        surroundings,
+        tracking,
+    )
+
+    files = (reference, path, tracking, inputs, interaction, push, disturbance, joints, rotors, surroundings, corridor)
+    return {file.__name__.rpartition(".")[2]: file for file in files}
+
+
+def captions() -> dict[str, Caption]:
+    """The captions of the photographs and of all figures by name, in the order in which a report shows them."""
+    from tandemlift.pictures.figures import views
+
+    return {VIEWS: views.CAPTION} | {name: figure.CAPTION for name, figure in figures().items()}
+
+
+def figures_for(flight: Flight) -> dict[str, FlightFigure]:
+    """The figures that a flight has, in the order of `figures`."""
+    return {name: figure for name, figure in figures().items() if figure.IN_FLIGHTS(flight)}
+
+
+def save_figure(figure: Any, path: Path) -> Path:
+    """Write one figure as PNG or PDF, by the ending of the path; its folder is made if it does not exist."""
+    from tandemlift.pictures.figures.drawing.style import save
+
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return save(figure, path)
+
+
+def save_figures(
+    flight: Flight, folder: str | os.PathLike[str], progress: Progress | None = None, *, style: str | None = None
+) -> list[Path]:
+    """Draw every figure that a flight has and write it as NAME.png and NAME.pdf; a file appears whole or not at all.
+
+    Args:
+        flight: a flight, also one that diverged or has few samples.
+        folder: where to; made if it does not exist.
+        progress: called after each figure with (figures written, figures in all).
+        style: `ieee`, `elsevier`, `slides` or `dark`; by default that of `figure_style`, which is IEEE's.
+
+    Raises:
+        InputError: there is no such style.
+
+    Returns:
+        The files written, in the order of `figures`, PNG before PDF.
+    """
+    folder = Path(folder)
+    written, drawn = [], figures_for(flight)
+    with figure_style(style):
+        folder.mkdir(parents=True, exist_ok=True)
+        for done, (name, figure) in enumerate(drawn.items(), 1):
+            page = figure.draw(flight)
+            written += [save_figure(page, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
+            if progress:
+                progress(done, len(drawn))
+    return written
+
+
+def save_photographs(photographs: Sequence[tuple[str, bytes]], folder: Path) -> Path:
+    """Write photographs, title and JPEG of each, as one figure in a folder, which is made if it does not exist."""
+    from tandemlift.pictures.figures import views
+
+    return save_figure(views.draw(photographs), folder / f"{VIEWS}.png")

@@ -1,0 +1,9 @@
+"""Pictures and animations of a flight, drawn off screen by VTK.
+
+`stage` knows where everything of a flight is, `studio` draws it from a camera, and `film` writes files.
+"""
+
+from tandemlift.engines.models.camera import Camera, camera_of
+from tandemlift.pictures.rendering.film import Animation, Shot, picture, render
+
+__all__ = ["Animation", "Camera", "Shot", "camera_of", "picture", "render"]

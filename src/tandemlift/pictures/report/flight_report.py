@@ -1,0 +1,209 @@
+"""The report of a flight: one HTML file that needs nothing else: verdict, set-up, figures, metrics and mission."""
+
+from __future__ import annotations
+
+import base64
+import math
+import os
+import re
+import struct
+from collections.abc import Iterable, Mapping
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tandemlift.flight.metric_descriptions import metric_of
+from tandemlift.flight.record import Flight
+from tandemlift.missions import built_in, format_toml, load_mission, tables_of
+from tandemlift.pictures.figures.drawing.figure_style import DARK, current_style
+from tandemlift.pictures.figures.registry import VIEWS, captions, figures_for
+from tandemlift.pictures.report.findings_section import html_findings, html_place
+from tandemlift.pictures.report.page import html, write_page
+from tandemlift.pictures.report.setup_section import setup_rows
+
+if TYPE_CHECKING:
+    from tandemlift.pictures.figures.drawing.figure import Caption
+
+DASH = "–"  # what could not be formed
+NO_BREAK = "\u00a0"
+SCREEN = 0.45  # CSS pixels for a dot of print: figures are read at arm's length
+WIDE = 600  # CSS pixels from where a figure scrolls sideways on a narrow screen instead of shrinking
+
+ARRIVED = 0.5  # m: a vehicle that ends farther from its reference has not arrived
+
+
+def number(value: Any) -> str:
+    """A metric's value as HTML: four significant digits, or a power of ten; a dash for None."""
+    if value is None:
+        return DASH
+    if not isinstance(value, (int, float)) or isinstance(value, bool) or not math.isfinite(value):
+        return escape(str(value))
+    if isinstance(value, int) or 1e4 <= abs(value) < 1e7:
+        text = f"{value:,.0f}".replace(",", "\u202f")
+    elif value == 0 or 1e-3 <= abs(value) < 1e4:
+        text = f"{value:#.4g}".rstrip(".") if value else "0"
+    else:
+        digits, power = f"{value:.2e}".split("e")
+        text = f"{digits} × 10<sup>{int(power)}</sup>"
+    return text.replace("-", "−")
+
+
+def split_unit(name: str) -> tuple[str, str]:
+    """A metric's name in words, and its unit ('' if it has none, or several)."""
+    metric = metric_of(name)
+    unit = "" if metric.units else metric.unit_of(0)
+    stem = name.removesuffix("_" + re.sub("[ /]", "_", unit.lower())) if unit else name
+    words = re.sub(r"(\d)s\b", r"\1 s", stem.replace("_", " ").replace("rmse", "RMSE"))
+    words = "wall time" if words == "wall" else words
+    return words[:1].upper() + words[1:], unit
+
+
+def _cells(name: str, value: Any, unit: str) -> str:
+    """The table cells of a metric's value: one per axis, or one over all three columns."""
+    if name == "command_at_start" and isinstance(value, (list, tuple)):
+        parts = (
+            f"U{'₁₂₃₄'[i]} = {number(v)} {'N m' if i else 'N'}".replace(" ", NO_BREAK) for i, v in enumerate(value)
+        )
+        return f'<td class="one" colspan="3">{", ".join(parts)}</td>'
+    single = not isinstance(value, (list, tuple)) or len(value) != 3
+    values = [value] if single else value
+    texts = [", ".join(map(number, v)) if isinstance(v, (list, tuple)) else number(v) for v in values]
+    if unit == "rad":
+        degrees = [math.degrees(v) if isinstance(v, (int, float)) else None for v in values]
+        texts = [
+            f"{t}<br><small>{number(d)}°</small>" if d is not None else t for t, d in zip(texts, degrees, strict=True)
+        ]
+    return "".join(f'<td class="one" colspan="3">{t}</td>' if single else f"<td>{t}</td>" for t in texts)
+
+
+def _metrics(metrics: Mapping[str, Any]) -> str:
+    """The metrics as a table, a row each."""
+    rows = []
+    for name, value in metrics.items():
+        if name in ("outcome", "events", "findings", "failure"):
+            continue
+        words, unit = split_unit(name)
+        head = f'<th scope="row">{escape(words)}<br><code>{escape(name)}</code></th>'
+        rows.append(f"<tr>{head}{_cells(name, value, unit)}<td>{unit}</td></tr>")
+    columns = "".join(f'<th scope="col">{c}</th>' for c in ("Metric", "x or φ", "y or θ", "z or ψ", "Unit"))
+    source = (
+        "From every step, not from the log" if "steps" in metrics else "From the samples of a bag, not from every step"
+    )
+    note = f"{source}. Errors are desired minus actual. A dash ({DASH}): could not be formed."
+    table = f"<table>\n<thead><tr>{columns}</tr></thead>\n<tbody>\n"
+    shown = f'<p class="soft">{note}</p>\n<div class="table">\n{table}{chr(10).join(rows)}\n</tbody>\n</table>\n</div>'
+    return shown + _events(metrics.get("events", []))
+
+
+def _events(events: Iterable[tuple[float, str]]) -> str:
+    """What happened, a line each; nothing without a supervision."""
+    lines = "".join(f"<li>{at:.2f} s: {escape(what)}</li>" for at, what in events)
+    return f"\n<p>Phases and alarms:</p>\n<ul>{lines}</ul>" if lines else ""
+
+
+def _verdict(flight: Flight) -> str:
+    """Where the flight ended against where it should have, or why it was stopped."""
+    if flight.failure:
+        what, _, why = flight.failure.partition(": ")
+        return f'<p class="verdict failed"><strong>{escape(what).capitalize()}</strong>: {escape(why)}.</p>'
+    how = "Ended" if flight.outcome == "unknown" else flight.outcome.capitalize()
+    metrics = flight.metrics()
+    end, reference = metrics.get("final_position_m"), metrics.get("final_reference_m")
+    if end is None or reference is None:
+        return f'<p class="verdict"><strong>{how}</strong>.</p>'
+    away = math.dist(end, reference)
+    distance = "less than a micrometre" if away < 1e-6 else _length(away)
+    text = f"at {html_place(end)}, {distance} from its reference {html_place(reference)}"
+    if away > ARRIVED:
+        return f'<p class="verdict missed"><strong>{how}</strong> {text}.</p>'
+    return f'<p class="verdict"><strong>{how}</strong> {text}.</p>'
+
+
+def _length(metres: float) -> str:
+    return f"{number(metres * 1e3)} mm" if metres < 1.0 else f"{number(metres)} m"
+
+
+def _pngs(flight: Flight, figures: Any) -> dict[str, Path]:
+    """The PNG files of a flight's figures by name, of those that there are."""
+    names = (VIEWS, *figures_for(flight))
+    if isinstance(figures, (str, os.PathLike)):
+        found = {name: Path(figures) / f"{name}.png" for name in names}
+    else:
+        found = {Path(p).stem: Path(p) for p in figures if Path(p).suffix == ".png"}
+    return {name: found[name] for name in names if name in found and found[name].is_file()}
+
+
+def _engine(flight: Flight) -> str:
+    """Which engine the body lived in, of flights that say so."""
+    name = flight.version.get("engine")
+    return f"Flown in engine <b>{escape(name)}</b>" if name else "Engine unknown"
+
+
+def html_table(head: str, rows: Iterable[str], look: str) -> str:
+    """A table of rows as HTML, that scrolls sideways where it is too wide; `head` is its first row, '' for none."""
+    top = f"<thead>{head}</thead>\n" if head else ""
+    body = f"<tbody>\n{chr(10).join(rows)}\n</tbody>"
+    return f'<div class="table">\n<table class="{look}">\n{top}{body}\n</table>\n</div>'
+
+
+def _setup(flight: Flight) -> str:
+    """Vehicle, pilot, rotors, sensors and surroundings as a table, a row each."""
+    rows = (f'<tr><th scope="row">{escape(what)}</th><td>{escape(said)}</td></tr>' for what, said in setup_rows(flight))
+    return html_table("", rows, "setup")
+
+
+def html_figure(place: int, name: str, png: Path, caption: Caption) -> str:
+    """A picture in the page, with its number and caption.
+
+    On a dark page, a drawing on white is inverted, and its hues turned back; a photograph is not.
+    """
+    data = png.read_bytes()
+    width, height = (round(SCREEN * dots) for dots in struct.unpack(">II", data[16:24]))  # of the PNG's header
+    source = f"data:image/png;base64,{base64.b64encode(data).decode()}"
+    looks = ["wide"] * (width > WIDE) + ["drawn"] * (name != VIEWS and current_style().palette != DARK)
+    look = f' class="{" ".join(looks)}"' if looks else ""
+    image = f'<img{look} width="{width}" height="{height}" alt="{escape(caption.alt)}" src="{source}">'
+    text = f"<b>Figure {place}. {escape(caption.title)}.</b> {escape(caption.text)}"
+    return f'<figure id="{name}">\n<div class="sheet">{image}</div>\n<figcaption>{text}</figcaption>\n</figure>'
+
+
+def _again(flight: Flight) -> str:
+    """The command that flies the same mission."""
+    name = flight.name
+    if name in built_in() and tables_of(load_mission(name)) == flight.mission:
+        return f"<pre><code>tandemlift run {escape(name)}</code></pre>"
+    save = "<p>Save the mission above as <code>mission.toml</code> (a run writes it beside this report), and</p>"
+    return f"{save}\n<pre><code>tandemlift run mission.toml</code></pre>"
+
+
+def write_report(
+    flight: Flight,
+    figures: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
+    path: str | os.PathLike[str],
+) -> Path:
+    """Write the report of a flight as one HTML file without references; it appears whole or not at all.
+
+    Args:
+        flight: a flight, also one that diverged.
+        figures: the folder that `save_figures` wrote to, or the files; what is not there, or is not this flight's, is
+            left out.
+        path: of the HTML file; its folder is made if it does not exist.
+
+    Returns:
+        The path.
+    """
+    words = captions()
+    shown = [html_figure(i, name, png, words[name]) for i, (name, png) in enumerate(_pngs(flight, figures).items(), 1)]
+    return write_page(
+        path,
+        "flight",
+        name=flight.name,
+        about=html(_engine(flight)),
+        verdict=html(_verdict(flight) + html_findings(flight)),
+        setup=html(_setup(flight)),
+        figures=html("\n".join(shown)),
+        metrics=html(_metrics(flight.metrics())),
+        mission=format_toml(flight.mission),
+        again=html(_again(flight)),
+        versions=f"Flown with {', '.join(f'{name} {version}' for name, version in flight.version.items())}.",
+    )

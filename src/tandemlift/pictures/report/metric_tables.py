@@ -1,0 +1,87 @@
+"""Metrics as tables for a spreadsheet (CSV) and for a paper (LaTeX): a row for each component of each metric."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tandemlift.core.files import atomic_write
+from tandemlift.flight.metric_descriptions import metric_of
+from tandemlift.pictures.report.latex import NUMBER, latex_number, latex_table, latex_text
+
+LISTS = ("findings", "events")  # metrics that fit no cell: metrics.json has them
+SENTENCE = "failure"  # too long for a column of a paper
+MEANING = "p{5.4cm}"  # of a column of LaTeX
+SYMBOLS = {"x": "$x$", "y": "$y$", "z": "$z$", "roll": r"$\phi$", "pitch": r"$\theta$", "yaw": r"$\psi$"}
+SYMBOLS |= {f"U{i}": f"$U_{i}$" for i in range(1, 5)}
+
+MetricsByColumn = Mapping[str, Mapping[str, Any]]
+"""The metrics of flights, by the name of their column."""
+
+
+class MetricRow(NamedTuple):
+    """A component of a metric: "" for a metric of one number; its values, None where a flight does not have it."""
+
+    metric: str
+    component: str
+    unit: str
+    meaning: str
+    values: tuple[Any, ...]
+
+
+def metric_rows(flights: MetricsByColumn) -> Iterator[MetricRow]:
+    """The rows of all metrics that a flight has, those of lists apart."""
+    for name in dict.fromkeys(name for metrics in flights.values() for name in metrics):
+        if name in LISTS:
+            continue
+        known, found = metric_of(name), [metrics.get(name) for metrics in flights.values()]
+        count = max((len(value) for value in found if isinstance(value, (list, tuple))), default=0)
+        if known.components or count:
+            for i in range(max(count, len(known.components))):
+                component = known.components[i] if i < len(known.components) else str(i)
+                values = tuple(None if value is None else value[i] for value in found)
+                yield MetricRow(name, component, known.unit_of(i), known.meaning, values)
+        else:
+            yield MetricRow(name, "", known.unit_of(0), known.meaning, tuple(found))
+
+
+def metrics_as_csv(flights: MetricsByColumn) -> str:
+    """The metrics as CSV: metric, component, a column of values for each flight, unit, meaning; all digits."""
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(["metric", "component", *flights, "unit", "meaning"])
+    for row in metric_rows(flights):
+        table.writerow([row.metric, row.component, *map(_plain, row.values), row.unit, row.meaning.replace("`", "")])
+    return text.getvalue()
+
+
+def _plain(value: Any) -> str:
+    return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def metrics_as_latex(flights: MetricsByColumn, note: str) -> str:
+    """The metrics as a table in LaTeX; with the meaning of each if there is one flight."""
+    single = len(flights) == 1
+    heads = [rf"\multicolumn{{2}}{{c}}{{{latex_text(name)}}}" for name in (["Value"] if single else flights)]
+    lines, before = [], ""
+    for row in metric_rows(flights):
+        if row.metric == SENTENCE:
+            continue
+        first = row.metric != before
+        before = row.metric
+        name = rf"\texttt{{{latex_text(row.metric)}}}" if first else ""
+        values, unit = map(latex_number, row.values), latex_text(row.unit).replace(" ", r"\,")
+        meaning = [latex_text(row.meaning) if first else ""] if single else []
+        lines.append([name, SYMBOLS.get(row.component, latex_text(row.component)), *values, unit, *meaning])
+    columns = f"ll{NUMBER * len(flights)}l{MEANING if single else ''}"
+    return latex_table(columns, ["Metric", "", *heads, "Unit", *(["Meaning"] if single else [])], lines, note)
+
+
+def write_metric_tables(flights: MetricsByColumn, folder: Path, stem: str, note: str) -> None:
+    """Write STEM.csv and STEM.tex into a folder; each appears whole or not at all."""
+    for kind, text in (("csv", metrics_as_csv(flights)), ("tex", metrics_as_latex(flights, note))):
+        with atomic_write(folder / f"{stem}.{kind}") as partial:
+            partial.write_text(text, "utf-8")

@@ -1,0 +1,103 @@
+"""The report as data: everything that `data/paper/report.typ` sets, so that no text of ours is ever code of Typst."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.flight.record import Flight
+from tandemlift.pictures.report.paper.claims import claims
+from tandemlift.pictures.report.paper.contents import PaperFigure, open_settings, paper_figures
+from tandemlift.pictures.report.paper.drawings import caption_of, file_of
+from tandemlift.pictures.report.paper.errata import errata
+from tandemlift.pictures.report.paper.tables import nomenclature, paper_tables, value_at
+
+
+class PaperFlights(NamedTuple):
+    """What the report is made of.
+
+    Attributes:
+        paper: a flight of the mission `paper`.
+        corridor: a flight through the corridor of Figure 9.
+        choices: the metrics of `paper` with each of `open_settings()` chosen otherwise, in their order.
+    """
+
+    paper: Flight
+    corridor: Flight
+    choices: Sequence[Mapping[str, Any]]
+
+
+def document(flights: PaperFlights, command: str, gazebo: str) -> dict[str, Any]:
+    """The report as data.
+
+    Args:
+        flights: what it shows.
+        command: the command that made it.
+        gazebo: whether Gazebo can fly the corridor on this machine, as a sentence.
+    """
+    versions = {key: value for key, value in flights.paper.version.items() if key != "engine"}
+    return {
+        "command": command,
+        "versions": ", ".join(f"{name} {version}" for name, version in versions.items()),
+        "engine": flights.paper.version.get("engine", ""),
+        "claims": [claim._asdict() for claim in claims(flights.paper, flights.corridor)],
+        "nomenclature": nomenclature(),
+        "tables": [
+            {**table._asdict(), "rows": [row._asdict() for row in table.rows]}
+            for table in paper_tables(flights.paper.mission)
+        ],
+        "figures": [_figure(figure, gazebo) for figure in paper_figures()],
+        "open": _open(flights),
+        "errata": [erratum._asdict() for erratum in errata()],
+    }
+
+
+def _figure(figure: PaperFigure, gazebo: str) -> dict[str, Any]:
+    parts = []
+    for name, _, behind in figure.parts:
+        caption = caption_of(name)
+        text = f"{caption.title}. {caption.text}"
+        parts.append({"file": file_of(figure, name), "behind": behind, "caption": text, "alt": caption.alt})
+    about = [{"about": e.about, "title": e.title} for e in errata() if figure.number in e.figures]
+    return {**figure._asdict(), "parts": parts, "errata": about, "gazebo": gazebo if figure.number == 9 else ""}
+
+
+def _open(flights: PaperFlights) -> dict[str, Any]:
+    """What the paper leaves open, with what each choice does to tracking and roll moment."""
+    mission = flights.paper.mission
+    rows = []
+    for setting, metrics in zip(open_settings(), flights.choices, strict=True):
+        rows.append(
+            {
+                "key": setting.key,
+                "why": setting.why,
+                "chosen": _shown(value_at(mission, setting.key)),
+                "other": _shown(setting.changes[setting.key]),
+                **_effect(metrics),
+            }
+        )
+    return {"paper": _effect(flights.paper.metrics()), "rows": rows}
+
+
+def _effect(metrics: Mapping[str, Any]) -> dict[str, str]:
+    rmse, moment = metrics["position_rmse_after_10s_m"], metrics["moment_max_abs_after_10s_n_m"]
+    known = metrics["outcome"] == "landed" and rmse is not None and moment is not None
+    return {
+        "x": f"{1e3 * rmse[0]:.1f}" if known else str(metrics["outcome"]),
+        "y": f"{1e3 * rmse[1]:.1f}" if known else "",
+        "roll": f"{moment[0]:.1f}" if known else "",
+    }
+
+
+def _shown(value: Any) -> str:
+    """A value of a mission in a few characters: one number where all of a list are equal."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return value
+    flat = np.ravel(value)
+    if np.all(flat == flat[0]):
+        return f"{flat[0]:g}"
+    return ", ".join(f"{number:g}" for number in flat).replace("-", "−")

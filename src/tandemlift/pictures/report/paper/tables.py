@@ -1,0 +1,126 @@
+"""The paper's tables beside the numbers of the mission `paper`, as data."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from decimal import Decimal
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.parts.vehicle import Vehicle
+from tandemlift.pictures.report.paper.errata import DATA, errata
+
+AXES = {"position": slice(0, 3), "attitude": slice(3, 6), "one": slice(None)}
+DERIVED = {
+    "mass": lambda vehicle: vehicle.mass,
+    "inertia": lambda vehicle: np.diag(vehicle.inertia),
+    "payload inertia": lambda vehicle: vehicle.payload.moments,
+    "gravity": lambda vehicle: GRAVITY,
+}
+
+
+class TableRow(NamedTuple):
+    """A row: numbers as the paper prints them and as the mission has them, with units, and where ours are from.
+
+    Attributes:
+        symbol: of the paper.
+        meaning: of it.
+        printed: the paper's numbers.
+        unit: the paper's unit.
+        ours: the mission's numbers in as many digits, or in full where they differ.
+        right: our unit.
+        source: the key of the mission, or what is computed.
+        mark: what differs: `value`, `unit`, or nothing.
+    """
+
+    symbol: str
+    meaning: str
+    printed: str
+    unit: str
+    ours: str
+    right: str
+    source: str
+    mark: str
+
+
+class PaperTable(NamedTuple):
+    """A table of the paper: its number, our title, its rows, and the errata about it."""
+
+    number: str
+    title: str
+    rows: list[TableRow]
+    errata: list[str]
+
+
+@cache
+def _data() -> dict[str, Any]:
+    return tomllib.loads((DATA / "tables.toml").read_text("utf-8"))
+
+
+def paper_tables(mission: Mapping[str, Any]) -> list[PaperTable]:
+    """Tables II and III beside a mission's numbers, as a flight's nested tables have them."""
+    return [
+        PaperTable(table["number"], table["title"], [_row(row, mission) for row in table["rows"]], _about(table))
+        for table in _data()["tables"]
+    ]
+
+
+def nomenclature() -> dict[str, Any]:
+    """Table I: number, title, and rows of symbol, printed unit, our name, our unit, note."""
+    return dict(_data()["nomenclature"])
+
+
+def _about(table: Mapping[str, Any]) -> list[str]:
+    return [erratum.about for erratum in errata() if table["number"] in erratum.tables]
+
+
+def value_at(mission: Mapping[str, Any], key: str) -> Any:
+    """The value of a dotted key of a mission.
+
+    Raises:
+        KeyError: there is none.
+    """
+    value: Any = mission
+    for part in key.split("."):
+        value = value[int(part) if part.isdigit() else part]
+    return value
+
+
+def _numbers(row: Mapping[str, Any], mission: Mapping[str, Any]) -> list[float]:
+    """Our numbers of a row, as many as the paper prints; several that are printed as one must be equal."""
+    if "derived" in row:
+        values = np.atleast_1d(DERIVED[row["derived"]](Vehicle.from_mission(mission)))
+    else:
+        values = np.atleast_1d(value_at(mission, row["key"]))[AXES[row.get("axes", "one")]]
+    if len(row["printed"]) == 1 and np.all(values == values[0]):
+        values = values[:1]
+    return [float(value) for value in values]
+
+
+def agrees(printed: str, value: float) -> bool:
+    """Whether a value is the printed one to every printed digit."""
+    exponent = Decimal(printed).as_tuple().exponent
+    return abs(Decimal(value) - Decimal(printed)) <= Decimal("0.500001").scaleb(int(exponent))
+
+
+def _row(row: Mapping[str, Any], mission: Mapping[str, Any]) -> TableRow:
+    values, printed, unit = _numbers(row, mission), row["printed"], row["unit"]
+    same = len(values) == len(printed) and all(map(agrees, printed, values))
+    right = row.get("right", unit)
+    marks = [] if same else ["value"]
+    marks += ["unit"] if unit not in ("", right) else []
+    source = f"`{row['key']}`" if "key" in row else "computed from the parts"
+    if row.get("derived") == "gravity":
+        source = "`core.algebra.constants.GRAVITY`"
+    ours = printed if same else [f"{value:.6g}" for value in values]
+    shown = [", ".join(map(_plain, numbers)) for numbers in (printed, ours)]
+    return TableRow(row["symbol"], row["meaning"], shown[0], unit, shown[1], right, source, ", ".join(marks))
+
+
+def _plain(printed: str) -> str:
+    """A printed number without a power of ten."""
+    return format(Decimal(printed), "f")

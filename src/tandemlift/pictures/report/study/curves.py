@@ -1,0 +1,20 @@
+"""Which groups of rows the figures of a study compare, so that no more are drawn than can be told apart."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tandemlift.analysis.studies.reading.study_rows import RowGroup, StudyRows
+
+BY = ("controller", "case", "mission", "engine")  # what is compared where all groups are too many
+
+
+def compared(rows: StudyRows, most: int) -> list[RowGroup]:
+    """Groups of rows, at most so many: all, or those of one controller, case, mission or engine each, or one of all."""
+    if len(rows.groups) <= most:
+        return rows.groups
+    for name in BY:
+        codes, names = rows.labels[name]
+        if 1 < len(names) <= most:
+            return [RowGroup(text, np.flatnonzero(codes == i)) for i, text in enumerate(names)]
+    return [RowGroup("all rows", np.arange(len(rows)))]

@@ -1,0 +1,84 @@
+"""The report of a study: one HTML file that needs nothing else."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tandemlift.analysis.studies.reading.study_rows import StudyRows
+from tandemlift.analysis.studies.reading.table import Study
+from tandemlift.core.errors import InputError
+from tandemlift.missions import format_toml
+from tandemlift.pictures.report.controller_comparison import html_figures
+from tandemlift.pictures.report.page import html, write_page
+from tandemlift.pictures.report.study import distributions, maps, sections, sensitivity
+from tandemlift.pictures.report.study.commands import html_command
+from tandemlift.pictures.report.study.outcome_tables import write_outcomes
+from tandemlift.pictures.report.study.worst_table import html_worst
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from tandemlift.pictures.figures.drawing.figure import Caption
+
+
+def _figures(rows: StudyRows, found: Sequence[sensitivity.Analysed], folder: Path | None) -> str:
+    """The section of the figures, as far as there is something to draw, and the numbers of the last one."""
+    drawn, captions = dict[str, "Figure"](), dict[str, "Caption"]()
+    if rows.quantities:
+        drawn["distributions"] = distributions.draw_distributions(rows)
+        captions["distributions"] = distributions.CAPTION
+    columns = maps.map_columns(rows, sensitivity.strongest(found))
+    if columns and (rows.quantities or rows.bad.any()):
+        both = len(columns) == 2
+        drawn["maps"] = maps.draw_maps(rows, columns) if both else maps.draw_curves(rows, columns[0])
+        captions["maps"] = maps.CAPTION if both else maps.CURVE_CAPTION
+    if any(one.found for one in found):
+        drawn["sensitivity"], captions["sensitivity"] = sensitivity.draw_sensitivity(found), sensitivity.CAPTION
+    shown = html_figures(drawn, captions, folder) if drawn else ""
+    return f"{shown}\n{sensitivity.html_sensitivity(found)}"
+
+
+def write_study_report(
+    study: Study, path: str | os.PathLike[str], metrics: Sequence[str] = (), figures: Path | None = None
+) -> Path:
+    """Write the report of a study as one HTML file without references; it appears whole or not at all.
+
+    Beside it outcomes.csv and outcomes.tex have the outcomes as a table, a row for each group.
+
+    Args:
+        study: loaded; of one that is not finished, the page says how much is missing.
+        path: of the HTML file; its folder is made if it does not exist.
+        metrics: names of the quantities to show, such as `position_rmse_m` or `position_rmse_m.0`; by default what
+            suits the missions: tracking errors, least clearance, effort of a person.
+        figures: folder into which the figures are written as well.
+
+    Returns:
+        The path.
+
+    Raises:
+        InputError: no row is flown yet, a metric does not exist, or a file is damaged.
+    """
+    if not len(study):
+        raise InputError(f"{study.folder}: no row of the study is flown yet")
+    path, rows = Path(path), StudyRows(study, metrics)
+    varies = bool(rows.varied)
+    found = sensitivity.analysed(rows) if varies else []
+    values = {
+        "name": study.name,
+        "about": f"{sections.count(len(study))} rows",
+        "verdict": html(sections.verdict(rows)),
+        "flown": html(sections.what_was_flown(study)),
+        "outcomes": html(sections.outcomes(rows)),
+        "findings": html(sections.findings(rows)),
+        "measured": html(sections.measured(rows)),
+        "figures": html(_figures(rows, found, figures)),
+        "worst": html(html_worst(rows)),
+        "settings": format_toml(study.settings.model_dump(mode="json", exclude_none=True)),
+        "again": html(html_command("study", study.folder / "study.toml", "--out", study.folder)),
+        "versions": ", ".join(f"{name} {value}" for name, value in study.versions.items()),
+    }
+    write_outcomes(rows, path.parent)
+    return write_page(path, "study", **values)

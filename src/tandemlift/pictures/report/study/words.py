@@ -1,0 +1,59 @@
+"""What quantities and columns of a study are called in its report, and the units in which they are shown."""
+
+from __future__ import annotations
+
+import functools
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.analysis.studies.reading.quantities import Quantity
+from tandemlift.core.types import Array
+from tandemlift.missions.key_reference.explaining import plain_name
+from tandemlift.missions.key_reference.sections import sections
+from tandemlift.pictures.report.flight_report import split_unit
+
+FAR = 30.0  # times the median, from where on values are shown on a logarithmic scale
+SMALL = 0.5  # m, below which lengths are shown in mm
+
+
+class Shown(NamedTuple):
+    """How a number is shown: what it is called, its unit, and how many of these are one of SI."""
+
+    words: str
+    unit: str
+    scale: float = 1.0
+
+    @property
+    def label(self) -> str:
+        """Words and unit, for an axis."""
+        return f"{self.words} ({self.unit})" if self.unit else self.words
+
+
+def shown_quantity(quantity: Quantity, values: Array) -> Shown:
+    """How a quantity with these values is shown; small lengths in millimetres."""
+    stem, dot, entry = quantity.name.partition(".")
+    words, unit = split_unit(stem)
+    words += f", entry {entry}" if dot else ""
+    known = values[np.isfinite(values)]
+    if unit == "m" and len(known) and np.quantile(np.abs(known), 0.95) < SMALL:
+        return Shown(words, "mm", 1e3)
+    return Shown(words, unit)
+
+
+def is_far(values: Array) -> bool:
+    """Whether values (n,) are so far apart that a logarithmic scale shows them better."""
+    known = values[np.isfinite(values)]
+    return bool(len(known)) and bool(known.min() > 0.0 and known.max() > FAR * np.median(known))
+
+
+@functools.cache
+def _units() -> dict[str, str]:
+    """The unit of each mission key, without the numbers of lists."""
+    return {plain_name(key.name): key.facts.unit or "" for section in sections() for key in section.keys}
+
+
+def shown_column(column: str) -> Shown:
+    """How a column that varies is shown: by its key, with the unit of the key."""
+    unit = _units().get(plain_name(column.partition(" (")[0]), "")
+    return Shown(column, "" if unit == "1" or " (" in column else unit)

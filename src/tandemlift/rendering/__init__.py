@@ -1,9 +1,0 @@
-"""Pictures and animations of a flight, drawn off screen by VTK.
-
-`stage` knows where everything of a flight is, `studio` draws it from a camera, and `film` writes files.
-"""
-
-from tandemlift.models.camera import Camera, camera_of
-from tandemlift.rendering.film import Animation, Shot, picture, render
-
-__all__ = ["Animation", "Camera", "Shot", "camera_of", "picture", "render"]

@@ -1,0 +1,132 @@
+"""What a mission's numbers become in a flight, as a graph.
+
+A mission is assembled with symbols for its numbers, so that one graph computes all numbers of a flight from them, on
+any machine to the last bit: each product and each sum is rounded by itself. What depends on more than the values of
+numbers (how many steps a delay has, what a Riccati equation gives) is fixed to what this mission says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.compiler.trace.fused import FUSES
+from tandemlift.compiler.trace.symbol import Symbol
+from tandemlift.compiler.trace.valued_graph import Guard, ValuedGraph
+from tandemlift.core.algebra.layout import is_value
+from tandemlift.core.caching import kept_for_a_trace
+from tandemlift.core.settings import Mission
+from tandemlift.simulation.assembly.assemble import AssembledFlight, assemble
+from tandemlift.simulation.assembly.mission_numbers import counts_of_mission, numbers_of_mission, with_numbers
+
+FIXED = {
+    "mission.duration": "sets how many steps there are",
+    "mission.step": "sets how many steps there are, and how many a time has",
+    "mission.log_interval": "sets how many steps a row of the log has",
+}
+SCHEDULED = "belongs to a change in flight, which becomes a mission of its own"
+WHOLE = "is a whole number, on which the layout of the flight may depend"
+UNTRACED = ("controller.", "vehicle.")  # tables that a controller's start reads
+
+
+class TracedAssembly(NamedTuple):
+    """An assembled flight as a graph of a mission's numbers.
+
+    Attributes:
+        graph: of operations that are rounded one by one.
+        keys: of the inputs; input i is `graph.input("number", i)`.
+        values: of the inputs in this mission.
+        assembled: what was built, of symbols and plain numbers.
+        guards: conditions and whether they hold in this mission; while all keep their truth, the graph is that of
+            missions with other values of the inputs, too.
+        fixed: keys that are no inputs, and why.
+    """
+
+    graph: ValuedGraph
+    keys: tuple[str, ...]
+    values: tuple[float, ...]
+    assembled: Any
+    guards: tuple[Guard, ...]
+    fixed: dict[str, str]
+
+    def keys_of(self, guard: Guard) -> tuple[str, ...]:
+        """The keys that a guard depends on."""
+        return tuple(self.keys[i] for i in self.graph.inputs_of(guard.condition))
+
+
+def trace_assembly(mission: Mission, build: Callable[[Mission], Any] = assemble) -> TracedAssembly:
+    """Trace what is built of a mission's numbers.
+
+    Args:
+        mission: from `load_mission`.
+        build: what to trace; by default, the whole flight.
+
+    Raises:
+        InputError: a part of the mission cannot be built.
+    """
+    numbers, fixed = numbers_of_mission(mission), _fixed_always(mission)
+    while True:
+        traced, reasons = _tried(mission, numbers, fixed, build)
+        if traced is not None and not reasons:
+            return traced
+        fixed |= reasons
+
+
+def _fixed_always(mission: Mission) -> dict[str, str]:
+    fixed = {**FIXED, **dict.fromkeys(counts_of_mission(mission), WHOLE)}
+    return fixed | {key: SCHEDULED for key in numbers_of_mission(mission) if key.startswith("changes.")}
+
+
+def _tried(
+    mission: Mission, numbers: dict[str, float], fixed: dict[str, str], build: Callable[[Mission], Any]
+) -> tuple[TracedAssembly | None, dict[str, str]]:
+    """A trace with all numbers that are not fixed, and those that turned out to be fixed, too."""
+    inputs = {key: value for key, value in numbers.items() if key not in fixed}
+    keys, graph = tuple(inputs), ValuedGraph(tuple(inputs.values()))
+    symbols = {key: graph.input("number", i) for i, key in enumerate(keys)}
+    before = FUSES.set(False)
+    try:
+        with kept_for_a_trace():
+            assembled = build(with_numbers(mission, symbols))
+    except Exception as error:  # a controller's start may do anything with its settings and the vehicle
+        return None, _left_plain(keys, error)
+    finally:
+        FUSES.reset(before)
+    reasons = {keys[i]: reason for i, reason in graph.used.items()}
+    return TracedAssembly(graph, keys, tuple(inputs.values()), assembled, tuple(graph.guards.values()), fixed), reasons
+
+
+def _left_plain(keys: tuple[str, ...], error: Exception) -> dict[str, str]:
+    """The next keys to fix after an error that the assembly of plain numbers may not raise."""
+    for table in UNTRACED:
+        found = [key for key in keys if key.startswith(table)]
+        if found:
+            return dict.fromkeys(found, f"is read by code that cannot be traced: {type(error).__name__}: {error}")
+    raise error
+
+
+def with_values(value: Any, graph: ValuedGraph) -> Any:
+    """A value of the same types with the numbers that its symbols have in the traced mission."""
+    if isinstance(value, Symbol):
+        return float(graph.values[value.node])
+    if is_value(value):
+        return type(value)(*[with_values(part, graph) for part in value])
+    if isinstance(value, np.ndarray) and value.dtype == object:
+        return np.array([float(with_values(x, graph)) for x in value.flat]).reshape(value.shape)
+    return value
+
+
+def assembled_by_graph(mission: Mission, build: Callable[[Mission], Any]) -> Any:
+    """What `build` makes of a mission; of one that is not fused, with the numbers that its graph gives."""
+    if mission.mission.fused:
+        return build(mission)
+    traced = trace_assembly(mission, build)
+    return with_values(traced.assembled, traced.graph)
+
+
+def assembled_flight(mission: Mission) -> AssembledFlight:
+    """The flight of a mission at t = 0; of one that is not fused, with the bits that it has on every machine."""
+    made: AssembledFlight = assembled_by_graph(mission, assemble)
+    return made

@@ -1,0 +1,24 @@
+"""Delay lines: of readings on their way to the pilot, of commands to the rotors, of the view of a person."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.vector import Nothing
+
+
+class Delayed(NamedTuple):
+    """Marks a delayed signal; the number of steps is data of the loop."""
+
+
+class DelayLines(NamedTuple):
+    """Delays of the IMU and motion readings, of the rotor commands and of the person's view.
+
+    Each is `Delayed` or `Nothing`; those of additional sensors' readings by name.
+    """
+
+    imu: Any
+    motion: Any
+    command: Any
+    view: Any
+    additional: Any = Nothing()

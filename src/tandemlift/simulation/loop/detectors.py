@@ -1,0 +1,225 @@
+"""Detectors that watch every step of a flight for findings; `simulation.findings` forms findings from their memory.
+
+Each detector is cheap while all is well: it decides whether its limit is exceeded, and its memory changes only while it
+is, and in the step after. `Detectors.awake` says so of all of them; while it is 0, compiled loops skip them.
+
+A rotor that the pilot knows to have failed is commanded nothing, and is not taken for saturated.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.ops import absolute, maximum, where
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import Vec3, dot, total
+from tandemlift.parts.estimation.push_confirmation import refuted_push
+from tandemlift.parts.estimation.rotor_loss_detection import left_of
+from tandemlift.parts.guidance.guidance import thrust_fraction
+from tandemlift.parts.mechanics.rotation import body_z_axis, wrap_angle
+from tandemlift.parts.rotors.allocation import ConstrainedAllocation, Mixer, limits_at
+from tandemlift.parts.rotors.rotors import IdealRotors, Rotors
+from tandemlift.simulation.loop.excess import NO_EXCESS, Excess, exceed
+from tandemlift.simulation.loop.log_sample import Sample, at_limit
+from tandemlift.simulation.loop.oscillation import (
+    NO_OSCILLATION,
+    Oscillation,
+    OscillationLimits,
+    Swings,
+    oscillation_step,
+)
+from tandemlift.simulation.loop.push_detectors import (
+    NO_RESPONSE,
+    UNMOVED,
+    PushLimits,
+    PushResponse,
+    UnpushedMotion,
+    push_step,
+    push_to_answer,
+    unpushed_step,
+)
+
+
+class FindingLimits(NamedTuple):
+    """From where on a flight has findings.
+
+    `settled` [s]: from when on the promise holds. Squares of the promised distance [m²], and the heading [rad]; the
+    smallest cosine of the tilt. `mass` [kg]; the square of the largest `thrust` [N²]. `rate` [(rad/s)²] below whose
+    square no body rate oscillates. `unpushed` [m]: how far the reference may move while nobody pushes.
+    """
+
+    settled: Any
+    distance: Any
+    heading: Any
+    upright: Any
+    mass: Any
+    thrust: Any
+    rate: Any
+    push: PushLimits
+    unpushed: Any
+    oscillation: OscillationLimits
+
+
+class Detectors(NamedTuple):
+    """Memory of the detectors: `awake` is 1 while one of them may have something to remember, else 0.
+
+    `steps` in flight once settled, and the sum of the squared distances from the reference in them [m²]. Ideal rotors
+    have no limits: `saturation` and `reach` are `Nothing` with them.
+    """
+
+    awake: Any
+    steps: Any
+    squares: Any
+    oscillation: Oscillation
+    distance: Excess
+    heading: Excess
+    tilt: Excess
+    saturation: Any
+    reach: Any
+    push: PushResponse
+    unpushed: UnpushedMotion
+    refuted: Excess
+
+
+class Watched(NamedTuple):
+    """What the detectors look at in a step: each as its limit has it, see `FindingLimits`.
+
+    `swings`: what may oscillate. `limited`: rotors at a limit. `needed`: square of the thrust that the reference asks
+    for [N²]. `push` [N] that should move the vehicle. `pushed`: 1 while there is a true push, `followed`: 1 while
+    one is followed, else 0. `refuted` [N]: what of a push the motion refutes.
+    """
+
+    swings: Swings
+    distance: Any
+    heading: Any
+    upright: Any
+    limited: Any
+    needed: Any
+    push: Vec3
+    pushed: Any
+    followed: Any
+    refuted: Vec3
+
+
+ASLEEP = Detectors(
+    awake=0.0,
+    steps=0.0,
+    squares=0.0,
+    oscillation=NO_OSCILLATION,
+    distance=NO_EXCESS,
+    heading=NO_EXCESS,
+    tilt=NO_EXCESS,
+    saturation=NO_EXCESS,
+    reach=NO_EXCESS,
+    push=NO_RESPONSE,
+    unpushed=UNMOVED,
+    refuted=NO_EXCESS,
+)
+
+
+@choice
+def usable_rotors(how: Any, left: Any, t: Number) -> Any:
+    """Above 0 for rotors that the pilot can use at time t [s]: a number for all, or a set; `left`: of a found loss."""
+
+
+@usable_rotors.register(Mixer)
+def _all(how: Mixer, left: Any, t: Number) -> Any:
+    return 1.0
+
+
+@usable_rotors.register(ConstrainedAllocation)
+def _not_failed(how: ConstrainedAllocation, left: Any, t: Number) -> Any:
+    return limits_at(how, left, t)
+
+
+@choice
+def rotors_at_limit(rotors: Any, commands: Any, usable: Any) -> Any:
+    """How many rotors that can be used are commanded to a limit or beyond."""
+
+
+@rotors_at_limit.register(IdealRotors)
+def _without_limits(rotors: IdealRotors, commands: Any, usable: Any) -> Number:
+    return 0.0
+
+
+@elementwise
+def counted(at_its_limit: Number, usable: Number) -> Number:
+    """1 for a rotor at its limit that can be used, else 0."""
+    return where(usable > 0.0, at_its_limit, 0.0)
+
+
+@rotors_at_limit.register(Rotors)
+def _with_limits(rotors: Rotors, commands: Any, usable: Any) -> Number:
+    return total(counted(at_limit(commands, rotors.max_thrust), usable))
+
+
+@choice(absent=0.0)
+def thrust_needed(reach: Any, mass: Any, a: Vec3) -> Any:
+    """The square of the thrust [N²] that an acceleration of the reference [m/s²] needs."""
+
+
+@thrust_needed.register(Excess)
+def _needed(reach: Excess, mass: Any, a: Vec3) -> Number:
+    up = a.z + GRAVITY
+    return (a.x * a.x + a.y * a.y + up * up) * (mass * mass)
+
+
+@law
+def watched(model: Any, output: Any, x: Sample, flying: Any, t: Any) -> Watched:
+    """What the detectors look at in a step; `flying` is 1 in flight, else 0."""
+    k, flight_state, decision = model.finding_limits, model.flight_state, output.decision
+    left = left_of(model.pilot.detection, flight_state.memory.detection)
+    error, gated, true = x.reference_position - x.position, decision.guidance.force, x.push_force
+    return Watched(
+        swings=Swings(x.rates.x, x.rates.y, x.rates.z, x.reference_velocity.z - x.velocity.z),
+        distance=dot(error, error),
+        heading=absolute(wrap_angle(x.reference_euler - x.euler).z),
+        upright=body_z_axis(x.attitude).z,
+        limited=rotors_at_limit(model.rotors, decision.thrusts, usable_rotors(model.pilot.allocation, left, t))
+        * flying,
+        needed=thrust_needed(flight_state.detectors.reach, k.mass, x.reference_acceleration),
+        push=push_to_answer(k.push.threshold, k.push.least, gated, true),
+        pushed=where(dot(true, true) <= k.push.least, 0.0, 1.0),  # 1 too where a simulator does not tell the push
+        followed=where(dot(gated, gated) > k.push.least, 1.0, 0.0),
+        refuted=refuted_push(output.estimates),
+    )
+
+
+@law
+def may_be_found(k: FindingLimits, w: Watched) -> Any:
+    """1 if any detector may have something to remember, else 0: quick to tell, and never 0 where one has."""
+    s = w.swings
+    found = where(dot(w.push, w.push) > k.push.least, 1.0, where(w.limited > 0.0, 1.0, 0.0))
+    found = maximum(found, maximum(maximum(w.pushed, w.followed), where(dot(w.refuted, w.refuted) > 0.0, 1.0, 0.0)))
+    found = where(w.needed > k.thrust, 1.0, where(w.upright < k.upright, 1.0, found))
+    found = where(w.heading > k.heading, 1.0, where(w.distance > k.distance, 1.0, found))
+    found = where(absolute(s.vertical) < k.oscillation.levels.vertical, found, 1.0)
+    return where(s.roll * s.roll + s.pitch * s.pitch + s.yaw * s.yaw < k.rate, found, 1.0)
+
+
+@law
+def detect(model: Any, output: Any, x: Sample, t: Any, dt: Any) -> Detectors:
+    """The detectors' memory after the step from time t [s] by dt [s], whose sample is x."""
+    k, m, guidance = model.finding_limits, model.flight_state.detectors, output.decision.guidance
+    flying = guidance.flying * thrust_fraction(guidance.running)
+    w, place = watched(model, output, x, flying, t), x.position
+    settled = flying * where(t < k.settled, 0.0, 1.0)
+    refuted = dot(w.refuted, w.refuted)
+    return Detectors(
+        awake=may_be_found(k, w),
+        steps=m.steps + settled,
+        squares=m.squares + w.distance * settled,
+        oscillation=oscillation_step(k.oscillation, m.oscillation, w.swings, flying, t),
+        distance=exceed(m.distance, where(w.distance > k.distance, settled, 0.0), w.distance, place, t, dt),
+        heading=exceed(m.heading, where(w.heading > k.heading, settled, 0.0), w.heading, place, t, dt),
+        tilt=exceed(m.tilt, where(w.upright < k.upright, settled, 0.0), 1.0 - w.upright, place, t, dt),
+        saturation=exceed(m.saturation, where(w.limited > 0.0, flying, 0.0), w.limited, place, t, dt),
+        reach=exceed(m.reach, where(w.needed > k.thrust, flying, 0.0), w.needed, place, t, dt),
+        push=push_step(k.push, m.push, w.push, x, settled, t, dt),
+        unpushed=unpushed_step(
+            k.unpushed, m.unpushed, (w.pushed, w.followed * flying), guidance.admittance.position, place, t, dt
+        ),
+        refuted=exceed(m.refuted, where(refuted > 0.0, flying, 0.0), refuted, place, t, dt),
+    )

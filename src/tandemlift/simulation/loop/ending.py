@@ -1,0 +1,138 @@
+"""What ends a flight before its time: divergence, or a crash.
+
+A contact's impulse I grows by what the force has beyond the vehicle's weight, and fades with the time constant τ:
+İ = |(F_x, F_y, max(0, F_z − W))| − I/τ. So standing, pressing and sliding add up to little, a blow to its whole.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.ops import maximum, sqrt, where
+from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.vector import Nothing, Vec3, dot
+from tandemlift.core.outcomes import DIVERGED, FAR, FLIES, LEFT_FENCE, STRUCK, TURNED_OVER
+from tandemlift.parts.guidance.fault_detection import distance_outside
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import body_z_axis
+
+FADING = 0.1  # s, τ
+STILL_SPEED, STILL_RATES, STILL_TIME = 0.02, 0.05, 0.5  # m/s, rad/s, s: of a vehicle that lies still
+
+
+class Strike(NamedTuple):
+    """The vehicle's weight [N], and the largest impulse of a contact beyond it [N·s]."""
+
+    weight: Any
+    impulse: Any
+
+
+class OuterFence(NamedTuple):
+    """Corners of the fence [m, world axes], and how far outside a flight ends [m]."""
+
+    low: Vec3
+    high: Vec3
+    margin: Any
+
+
+class Aftermath(NamedTuple):
+    """For how long a flight goes on after a crash, at most [s]."""
+
+    duration: Any
+
+
+class CrashLimits(NamedTuple):
+    """What ends a flight: smallest cosine of the tilt; `Strike`, `OuterFence`, `Aftermath`, each or `Nothing`."""
+
+    min_upright: Any
+    strike: Any
+    fence: Any
+    aftermath: Any
+
+
+class CrashMemory(NamedTuple):
+    """A crash: number of its ending (0 for none), its time [s], state and impulse then; for how long it lies still."""
+
+    number: Any
+    time: Any
+    state: State
+    impulse: Any
+    still_time: Any
+
+
+@choice(absent=Nothing())
+def impulse_after(strike: Any, impulse: Any, force: Vec3, dt: Any) -> Any:
+    """The impulse of contact [N·s] after a step with a force of contact [N, world axes]; `Nothing` without ground."""
+
+
+@impulse_after.register(Strike)
+def _impulse(strike: Strike, impulse: Any, force: Vec3, dt: Any) -> Any:
+    beyond = Vec3(force.x, force.y, maximum(force.z - strike.weight, 0.0))
+    return impulse + (sqrt(dot(beyond, beyond)) - impulse * (1.0 / FADING)) * dt
+
+
+@choice(absent="number")
+def unless_struck(strike: Any, impulse: Any, number: Any) -> Any:
+    """The number of an ending; that of a blow, if the impulse is too large."""
+
+
+@unless_struck.register(Strike)
+def _struck(strike: Strike, impulse: Any, number: Any) -> Any:
+    return where(impulse > strike.impulse, STRUCK, number)
+
+
+@choice(absent=FLIES)
+def outside_fence(fence: Any, position: Vec3) -> Any:
+    """The number of the ending of a vehicle that has left the fence; else 0."""
+
+
+@outside_fence.register(OuterFence)
+def _outside(fence: OuterFence, position: Vec3) -> Any:
+    return where(distance_outside(fence.low, fence.high, position) > fence.margin, LEFT_FENCE, FLIES)
+
+
+@law
+def ending_number(c: CrashLimits, s: State, impulse: Any) -> Any:
+    """The number of the ending that a state and an impulse of contact call for; 0 while the flight goes on."""
+    upright = body_z_axis(s.attitude).z
+    number = unless_struck(c.strike, impulse, outside_fence(c.fence, s.position))
+    sound = where(upright > c.min_upright, number, where(upright < 2.0, TURNED_OVER, DIVERGED))
+    return where(dot(s.position, s.position) < FAR * FAR, sound, DIVERGED)
+
+
+@choice(absent=("crash", "number"))
+def with_aftermath(aftermath: Any, crash: Any, number: Any, state: State, impulse: Any, t: Any, dt: Any) -> Any:
+    """(the memory of the crash, the number of the ending that stops the flight now) after a step."""
+
+
+@with_aftermath.register(Aftermath)
+def _flies_on(a: Aftermath, crash: CrashMemory, number: Any, state: State, impulse: Any, t: Any, dt: Any) -> Any:
+    fast = dot(state.velocity, state.velocity) - STILL_SPEED * STILL_SPEED
+    turning = dot(state.rates, state.rates) - STILL_RATES * STILL_RATES
+    still = where(maximum(fast, turning) < 0.0, crash.still_time + dt, 0.0)
+    now = CrashMemory(number, t + dt, state, impulse, 0.0)
+    after = chosen(crash.number, crash._replace(still_time=still), now)
+    goes_on = where(t + dt - after.time < a.duration, where(after.still_time < STILL_TIME, 1.0, 0.0), 0.0)
+    crashed = where(goes_on > 0.0, FLIES, after.number)  # 0 without a crash
+    return after, where(number == DIVERGED, DIVERGED, crashed)
+
+
+@choice(absent="thrusts")
+def unless_crashed(crash: Any, thrusts: Any) -> Any:
+    """Commanded thrusts [N]; none after a crash."""
+
+
+@unless_crashed.register(CrashMemory)
+def _stopped(crash: CrashMemory, thrusts: Any) -> Any:
+    return thrusts * where(crash.number > 0.0, 0.0, 1.0)
+
+
+@choice(absent="after")
+def until_crash(crash: Any, before: Any, after: Any) -> Any:
+    """Running metrics, or the memory of the detectors, after a step; after a crash, those before it."""
+
+
+@until_crash.register(CrashMemory)
+def _until(crash: CrashMemory, before: Any, after: Any) -> Any:
+    return chosen(crash.number, before, after)

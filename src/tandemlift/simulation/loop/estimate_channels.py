@@ -1,0 +1,124 @@
+"""The channels of sensors and estimators."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import Quat, Vec3
+from tandemlift.parts.estimation.contact_detection import ContactEstimate
+from tandemlift.parts.sensors.readings import Readings, by_name
+from tandemlift.simulation.loop.perception import Estimates
+
+
+class MeasuredChannels(NamedTuple):
+    """The last readings that the pilot has; `additional`: those of additional sensors, `measured_NAME`."""
+
+    measured_position: Vec3
+    measured_velocity: Vec3
+    measured_attitude: Quat
+    measured_rates: Vec3
+    measured_specific_force: Vec3
+    measured_joint_force: Vec3
+    measured_joint_torque: Vec3
+    additional: Any
+
+
+class EstimatedChannels(NamedTuple):
+    """The estimates from them."""
+
+    estimated_position: Vec3
+    estimated_velocity: Vec3
+    estimated_attitude: Quat
+    estimated_rates: Vec3
+    push_measured: Vec3
+    push_estimate: Vec3
+    push_moment_estimate: Vec3
+    push_point_estimate: Number
+    payload_mass_estimate: Number
+    sensor_disagreement: Number
+    push_usable: Number
+    push_withheld: Vec3
+    contact_estimate: Any
+
+
+class ContactEstimateChannels(NamedTuple):
+    """The contact as estimated; `parts.estimation.contact_detection.ContactEstimate` describes it."""
+
+    contact_part: Number
+    contact_force_estimate: Vec3
+    contact_point_estimate: Vec3
+    contact_along_beam: Number
+    contact_normal: Vec3
+    contact_rise_time: Number
+    contact_on_map: Number
+
+
+@choice(absent="contact")
+def contact_channels(contact: Any) -> Any:
+    """The channels of an estimated contact."""
+
+
+@contact_channels.register(ContactEstimate)
+def _contact(contact: ContactEstimate) -> Any:
+    return ContactEstimateChannels(
+        contact_part=contact.part,
+        contact_force_estimate=contact.force,
+        contact_point_estimate=contact.point,
+        contact_along_beam=contact.along,
+        contact_normal=contact.normal,
+        contact_rise_time=contact.rise,
+        contact_on_map=contact.on_map,
+    )
+
+
+def channels_of_additional(readings: Any) -> Any:
+    """The type of the channels of additional sensors: `measured_NAME` for each."""
+    return by_name(tuple(f"measured_{name}" for name in readings._fields))
+
+
+@choice(absent="readings")
+def measured_channels(readings: Any) -> Any:
+    """The channels of readings."""
+
+
+@measured_channels.register(Readings)
+def _readings(readings: Readings) -> Any:
+    m, u = readings.motion, readings.imu
+    more = [reading.value for reading in readings.additional]
+    return MeasuredChannels(
+        measured_position=m.position,
+        measured_velocity=m.velocity,
+        measured_attitude=m.attitude,
+        measured_rates=u.rates,
+        measured_specific_force=u.specific_force,
+        measured_joint_force=u.joint_force,
+        measured_joint_torque=u.joint_torque,
+        additional=channels_of_additional(readings.additional)(*more),
+    )
+
+
+@choice(absent="known")
+def estimated_channels(known: Any) -> Any:
+    """The channels of estimates."""
+
+
+@estimated_channels.register(Estimates)
+def _estimates(known: Estimates) -> Any:
+    s, p = known.state, known.push
+    return EstimatedChannels(
+        estimated_position=s.position,
+        estimated_velocity=s.velocity,
+        estimated_attitude=s.attitude,
+        estimated_rates=s.rates,
+        push_measured=p.measured + p.withheld,
+        push_estimate=p.force,
+        push_moment_estimate=p.moment,
+        push_point_estimate=p.point,
+        payload_mass_estimate=p.payload_mass,
+        sensor_disagreement=p.disagreement,
+        push_usable=p.trusted * p.armed,
+        push_withheld=p.withheld,
+        contact_estimate=contact_channels(known.contact),
+    )

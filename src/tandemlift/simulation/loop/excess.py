@@ -1,0 +1,61 @@
+"""How a limit is exceeded: for how long in all, how long at a stretch, and the worst value with its time and place."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice
+from tandemlift.core.algebra.ops import where
+from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.vector import ZERO, Vec3
+
+
+class Excess(NamedTuple):
+    """Memory: 1 while the limit is exceeded, else 0; with it 0 before and after a step, nothing changes.
+
+    `since`: start of the present stretch [s]. `steps` in all. `stretch` [s]: the longest, and its `start` [s]. `worst`
+    value, with its time `at` [s] and `place` [m].
+    """
+
+    now: Any
+    since: Any
+    steps: Any
+    stretch: Any
+    start: Any
+    worst: Any
+    at: Any
+    place: Vec3
+
+
+NO_EXCESS = Excess(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, ZERO)
+
+
+@choice(absent="m")
+def exceed(m: Any, over: Any, value: Any, place: Vec3, t: Any, dt: Any) -> Any:
+    """The memory after a step.
+
+    Args:
+        m: the memory before.
+        over: 1 if the limit is exceeded, else 0.
+        value: what is exceeded, larger where it is worse.
+        place: of the vehicle [m, world axes].
+        t: time at the start of the step [s].
+        dt: length of the step [s].
+    """
+
+
+@exceed.register(Excess)
+def _exceed(m: Excess, over: Any, value: Any, place: Vec3, t: Any, dt: Any) -> Excess:
+    since = where(over > m.now, t, m.since)
+    stretch = t - since + dt
+    longer, worse = over * where(stretch > m.stretch, 1.0, 0.0), over * where(value > m.worst, 1.0, 0.0)
+    return Excess(
+        now=over,
+        since=since,
+        steps=m.steps + over,
+        stretch=where(longer > 0.0, stretch, m.stretch),
+        start=where(longer > 0.0, since, m.start),
+        worst=where(worse > 0.0, value, m.worst),
+        at=where(worse > 0.0, t, m.at),
+        place=chosen(worse, place, m.place),
+    )

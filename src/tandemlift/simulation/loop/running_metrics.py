@@ -1,0 +1,182 @@
+"""Running sums over every step of a flight, from which its metrics are formed: memory does not grow with the steps."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.ops import absolute, maximum, minimum, sqrt
+from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, dot
+from tandemlift.parts.contact.clearance import smaller_clearance
+
+
+class StepErrors(NamedTuple):
+    """Contributions of a step: errors are desired minus actual, world axes or Euler angles; SI units."""
+
+    position: Vec3
+    velocity: Vec3
+    attitude: Vec3
+    tilt: Vec3
+    thrust: Any
+    moment: Vec3
+    push: Vec3
+    power: Any
+    saturated: Any
+    clearance: Any
+    effort: Any
+    push_active: Any
+    height: Any
+
+
+class PersonEffort(NamedTuple):
+    """Sums while a person holds the grip: steps, sums of |force| and of the speed."""
+
+    steps: Any
+    force_sum: Any
+    speed_sum: Any
+
+
+class RunningMetrics(NamedTuple):
+    """Sums and extremes over steps; `triggers`: how many pushes became active; `push_active`: 1 while one is.
+
+    `highest`: the greatest z [m].
+    """
+
+    steps: Any
+    position_squares: Vec3
+    position_max: Vec3
+    velocity_max: Vec3
+    attitude_squares: Vec3
+    tilt_max: Vec3
+    thrust_min: Any
+    thrust_max: Any
+    moment_max: Vec3
+    push_sum: Vec3
+    power_sum: Any
+    saturated: Any
+    clearance: Any
+    effort: Any
+    triggers: Any
+    push_active: Any
+    highest: Any
+
+
+EMPTY = RunningMetrics(
+    steps=0.0,
+    position_squares=ZERO,
+    position_max=ZERO,
+    velocity_max=ZERO,
+    attitude_squares=ZERO,
+    tilt_max=ZERO,
+    thrust_min=math.inf,
+    thrust_max=-math.inf,
+    moment_max=ZERO,
+    push_sum=ZERO,
+    power_sum=0.0,
+    saturated=0.0,
+    clearance=Nothing(),
+    effort=Nothing(),
+    triggers=0.0,
+    push_active=0.0,
+    highest=-math.inf,
+)
+NO_EFFORT = PersonEffort(0.0, 0.0, 0.0)
+
+
+@choice(absent="effort")
+def added(effort: Any, more: Any) -> Any:
+    """A person's effort with that of one more step."""
+
+
+@added.register(PersonEffort)
+def _with_more(effort: PersonEffort, more: PersonEffort) -> PersonEffort:
+    return PersonEffort(effort.steps + more.steps, effort.force_sum + more.force_sum, effort.speed_sum + more.speed_sum)
+
+
+@law
+def effort_of(grasp: Any, force: Vec3, velocity: Vec3) -> PersonEffort:
+    """The effort of a step under a force at a velocity, while the person holds the grip (`grasp` 1) or not (0)."""
+    strong, fast = sqrt(maximum(dot(force, force), 1e-24)), sqrt(maximum(dot(velocity, velocity), 1e-24))
+    return PersonEffort(grasp, strong * grasp, fast * grasp)
+
+
+@law
+def count(c: RunningMetrics, x: StepErrors) -> RunningMetrics:
+    """The metrics with one more step."""
+    return RunningMetrics(
+        steps=c.steps + 1.0,
+        position_squares=c.position_squares + x.position * x.position,
+        position_max=maximum(c.position_max, absolute(x.position)),
+        velocity_max=maximum(c.velocity_max, absolute(x.velocity)),
+        attitude_squares=c.attitude_squares + x.attitude * x.attitude,
+        tilt_max=maximum(c.tilt_max, absolute(x.tilt)),
+        thrust_min=minimum(c.thrust_min, x.thrust),
+        thrust_max=maximum(c.thrust_max, x.thrust),
+        moment_max=maximum(c.moment_max, absolute(x.moment)),
+        push_sum=c.push_sum + x.push,
+        power_sum=c.power_sum + x.power,
+        saturated=c.saturated + x.saturated,
+        clearance=smaller_clearance(c.clearance, x.clearance),
+        effort=added(c.effort, x.effort),
+        triggers=c.triggers + x.push_active * (1.0 - c.push_active),
+        push_active=x.push_active,
+        highest=maximum(c.highest, x.height),
+    )
+
+
+def _root_mean(squares: Any, steps: float) -> list[float] | None:
+    return [math.sqrt(s / steps) for s in squares] if steps else None
+
+
+def summary(early: RunningMetrics, late: RunningMetrics, step: float) -> dict[str, Any]:
+    """The metrics by their names in metrics.json, from the sums before and after 10 s, with steps of `step` [s].
+
+    None where there is nothing to form one from.
+    """
+    steps = early.steps + late.steps
+    return {
+        "position_rmse_m": _root_mean(early.position_squares + late.position_squares, steps),
+        "position_rmse_after_10s_m": _root_mean(late.position_squares, late.steps),
+        "position_max_error_m": list(maximum(early.position_max, late.position_max)) if steps else None,
+        "position_max_error_after_10s_m": list(late.position_max) if late.steps else None,
+        "attitude_rmse_rad": _root_mean(early.attitude_squares + late.attitude_squares, steps),
+        "velocity_max_error_after_10s_m_s": list(late.velocity_max) if late.steps else None,
+        "max_tilt_after_10s_rad": list(late.tilt_max) if late.steps else None,
+        "thrust_min_after_10s_n": late.thrust_min if late.steps else None,
+        "thrust_max_after_10s_n": late.thrust_max if late.steps else None,
+        "moment_max_abs_after_10s_n_m": list(late.moment_max) if late.steps else None,
+        "human_impulse_n_s": list((early.push_sum + late.push_sum) * step),
+        "human_work_j": (early.power_sum + late.power_sum) * step,
+        "push_triggers_after_10s": late.triggers if late.steps else None,
+        "rotor_saturated_share": (early.saturated + late.saturated) / steps if steps else None,
+        **_of_walls(early, late),
+        **_of_effort(early, late, step),
+    }
+
+
+def _of_walls(early: RunningMetrics, late: RunningMetrics) -> dict[str, Any]:
+    """The metrics of a flight among walls."""
+    if isinstance(early.clearance, Nothing):
+        return {}
+    least = min(_numbers(early.clearance) + _numbers(late.clearance))
+    return {"clearance_min_m": least, "wall_contact": least < 0.0}
+
+
+def _of_effort(early: RunningMetrics, late: RunningMetrics, step: float) -> dict[str, Any]:
+    """The metrics of a person who guides the vehicle."""
+    if isinstance(early.effort, Nothing):
+        return {}
+    both = early.effort if isinstance(late.effort, Nothing) else added(early.effort, late.effort)
+    way, work = both.speed_sum * step, (early.power_sum + late.power_sum) * step
+    return {
+        "human_force_mean_n": both.force_sum / both.steps if both.steps else None,
+        "human_time_s": both.steps * step,
+        "human_path_m": way,
+        "human_work_per_path_j_m": work / way if way else None,
+    }
+
+
+def _numbers(value: Any) -> list[float]:
+    """The numbers in a nested value."""
+    return [n for part in value for n in _numbers(part)] if isinstance(value, tuple) else [float(value)]

@@ -1,0 +1,250 @@
+"""The closed loop, the only place where the pilot and a body meet: one step of a flight, and the sample that it logs.
+
+At time t_k the pilot reads the state and the person's push, or what sensors and estimators make of them, and decides;
+the rotors respond; the body then moves for one step with their thrusts held and the push continuous. The pilot gets
+the sensor readings of a step at the next one, or later. A part that a mission does not have is `Nothing`, and costs
+nothing.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import law
+from tandemlift.core.algebra.ops import where
+from tandemlift.core.algebra.vector import Nothing, Quat
+from tandemlift.engines.compiled import BodyStep, advance
+from tandemlift.engines.compiled_contact import CompiledPlant
+from tandemlift.engines.compiled_touches import touches_in
+from tandemlift.parts.contact.touches import of_turning_rotors
+from tandemlift.parts.guidance.requests import UNKNOWN_STATUS, operator_request
+from tandemlift.parts.mechanics.push import Push, PushSamples
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.person.caller_inputs import commanded_thrusts, with_caller_push
+from tandemlift.parts.person.person import landing_request, person_step
+from tandemlift.parts.pilot.pilot import (
+    Decision,
+    PilotInput,
+    PilotMemory,
+    PilotParameters,
+    decide,
+    last_thrusts,
+    with_thrusts,
+)
+from tandemlift.parts.rotors.rotors import rotors_step
+from tandemlift.simulation.loop.detectors import Detectors, FindingLimits, detect
+from tandemlift.simulation.loop.ending import ending_number, impulse_after, unless_crashed, until_crash, with_aftermath
+from tandemlift.simulation.loop.log_sample import errors_of, log_sample
+from tandemlift.simulation.loop.perception import (
+    all_sensed,
+    estimate_all,
+    measure,
+    read_push,
+    read_state,
+    surroundings_of,
+    tare_time,
+    usable,
+)
+from tandemlift.simulation.loop.running_metrics import RunningMetrics, count
+from tandemlift.simulation.loop.wind_loads import WindOutput, wind_loads
+
+
+class FlightState(NamedTuple):
+    """The state of a flight; `ended`: 0 while it goes on, else the number of its ending (`core.outcomes`)."""
+
+    state: State
+    memory: PilotMemory
+    wind: Any
+    grip: Any
+    near: Any
+    touches: Any
+    sensing: Any
+    estimator: Any
+    rotors: Any
+    readings: Any
+    person: Any
+    metrics: RunningMetrics
+    impulse: Any
+    crash: Any
+    ended: Any
+    detectors: Detectors
+
+
+class FlightModel(NamedTuple):
+    """One flight: its state, and the parameters that stay. Its type is the variant of the compiled loop.
+
+    `sources`: where the pilot's state and push come from. `delays`: a `DelayLines`. `limits`: a `CrashLimits`.
+    """
+
+    flight_state: FlightState
+    pilot: PilotParameters
+    plant: CompiledPlant
+    rotors: Any
+    wind: Any
+    sensors: Any
+    estimator: Any
+    sources: Any
+    person: Any
+    delays: Any
+    limits: Any
+    finding_limits: FindingLimits
+
+
+class StepNoise(NamedTuple):
+    """Standard normals of one step: of the wind, of the sensors, of the person."""
+
+    wind: Any
+    sensors: Any
+    person: Any
+
+
+class StepInputs(NamedTuple):
+    """The inputs of a step: the push, gusts [m/s], standard normals, and the person's memory once they have pushed.
+
+    `external` is what a caller adds who steps the flight, else `Nothing`. `outside` is the push that the body's own
+    simulator applied; it is known once the body has moved, and is `Nothing` where there is no such push.
+    """
+
+    hand: PushSamples
+    gust: Any
+    noise: Any
+    person: Any
+    external: Any = Nothing()
+    outside: Any = Nothing()
+
+
+class PilotOutput(NamedTuple):
+    """The pilot's part of a step: estimates, the attitude that it uses, its decision, and the memories after it."""
+
+    estimates: Any
+    attitude: Quat
+    decision: Decision
+    memory: PilotMemory
+    estimator: Any
+
+
+class Actuation(NamedTuple):
+    """Inputs of the body over a step: rotor thrusts [N] and wind loads; with the rotors' memory."""
+
+    thrusts: Any
+    rotors: Any
+    wind: WindOutput
+
+
+@law
+def with_person(model: FlightModel, inputs: StepInputs, t: Any, dt: Any) -> StepInputs:
+    """The inputs of a step, with the push of its caller and that of the person who guides the vehicle."""
+    before, noise, push = model.flight_state, inputs.noise.person, with_caller_push(inputs.external, inputs.hand)
+    output = person_step(model.person, before.person, push, before.state, noise, t, dt)
+    return inputs._replace(hand=output.push, person=output.memory)
+
+
+@law
+def perceive(model: FlightModel, push: Push, t: Any, dt: Any) -> Any:
+    """(estimates, the pilot's input, the estimators' memory) at time t [s]; `push` is the true one."""
+    before, sources = model.flight_state, model.sources
+    since, commands = tare_time(model.estimator, before.memory.guidance, t), last_thrusts(before.memory.allocation)
+    around = surroundings_of(model.estimator, sources, before.near, before.memory.guidance)
+    estimates, memory = estimate_all(model.estimator, before.estimator, before.readings, around, commands, since, dt)
+    readings = usable(estimates, before.readings)
+    state = read_state(sources.state, before.state, readings, estimates)
+    wrench = read_push(sources.push, push, state, estimates)
+    pilot_input = PilotInput(
+        state=state,
+        push=wrench.force,
+        moment=wrench.moment,
+        land=landing_request(before.person),
+        sensed=all_sensed(readings, estimates),
+        operator=operator_request(before.person),
+        status=UNKNOWN_STATUS,
+    )
+    return estimates, pilot_input, memory
+
+
+@law
+def run_pilot(model: FlightModel, push: Push, t: Any, dt: Any) -> PilotOutput:
+    """The pilot's part of a step."""
+    estimates, pilot_input, estimator = perceive(model, push, t, dt)
+    decision, memory = decide(model.pilot, model.flight_state.memory, pilot_input, t, dt)
+    return PilotOutput(estimates, pilot_input.state.attitude, decision, memory, estimator)
+
+
+@law
+def with_caller_thrusts(output: PilotOutput, external: Any) -> PilotOutput:
+    """The pilot's part of a step, with the thrusts that the caller gives in place of the pilot's."""
+    decision = output.decision
+    return output._replace(decision=with_thrusts(decision, commanded_thrusts(external, decision.thrusts)))
+
+
+@law
+def actuate(model: FlightModel, thrusts: Any, inputs: StepInputs, t: Any) -> Actuation:
+    """The response of the rotors to commanded thrusts [N] over the step from time t [s], and the wind over it."""
+    before = model.flight_state
+    commanded = unless_crashed(before.crash, thrusts)
+    driven, rotors = rotors_step(model.rotors, before.rotors, commanded, before.state, t)
+    driven = of_turning_rotors(before.touches, driven)
+    wind = wind_loads(model.wind, before.wind, model.plant.frame, before.state, inputs.gust, inputs.noise.wind)
+    return Actuation(driven, rotors, wind)
+
+
+@law
+def finish_sample(
+    model: FlightModel, output: PilotOutput, acting: Actuation, moved: BodyStep, inputs: StepInputs, t: Any, dt: Any
+) -> Any:
+    """The end of a step from t [s] by dt [s], once the body has moved: (`FlightState` after it, `Sample` at its start).
+
+    The detectors come last in the state: compiled loops write them only where they changed.
+    """
+    before, noise = model.flight_state, inputs.noise.sensors
+    readings, sensing = measure(model.sensors, before.sensing, before.state, moved.readings, output.attitude, noise)
+    sample = log_sample(model, output, acting, moved, inputs)
+    impulse = impulse_after(model.limits.strike, before.impulse, moved.readings.contact_force, dt)
+    number = ending_number(model.limits, moved.state, impulse)
+    crash, ended = with_aftermath(model.limits.aftermath, before.crash, number, moved.state, impulse, t, dt)
+    metrics = count(before.metrics, errors_of(model, output, sample, inputs.outside))
+    after = FlightState(
+        state=moved.state,
+        memory=output.memory,
+        wind=acting.wind.memory,
+        grip=moved.grip,
+        near=before.near,
+        touches=moved.touches,
+        sensing=sensing,
+        estimator=output.estimator,
+        rotors=acting.rotors,
+        readings=readings,
+        person=inputs.person,
+        metrics=until_crash(before.crash, before.metrics, metrics),
+        impulse=impulse,
+        crash=crash,
+        ended=where(before.ended > 0.0, before.ended, ended),
+        detectors=until_crash(before.crash, before.detectors, detect(model, output, sample, t, dt)),
+    )
+    return after, sample
+
+
+@law
+def step_body(
+    plant: CompiledPlant, before: FlightState, acting: Actuation, hand: PushSamples, t: Any, dt: Any
+) -> BodyStep:
+    """The body's part of a step."""
+    loads = acting.wind.loads
+    moved = advance(plant, before.state, before.grip, before.near, acting.thrusts, loads, hand, dt)
+    touches = touches_in(before.touches, plant, before.near, before.state, t, dt)
+    return moved._replace(touches=touches)
+
+
+@law
+def finish_step(model: FlightModel, output: PilotOutput, inputs: StepInputs, t: Any, dt: Any) -> Any:
+    """The rest of a step once the pilot has decided: (`FlightState` after it, `Sample` at its start)."""
+    output = with_caller_thrusts(output, inputs.external)
+    acting = actuate(model, output.decision.thrusts, inputs, t)
+    moved = step_body(model.plant, model.flight_state, acting, inputs.hand, t, dt)
+    return finish_sample(model, output, acting, moved, inputs, t, dt)
+
+
+@law
+def step_flight(model: FlightModel, inputs: StepInputs, t: Any, dt: Any) -> Any:
+    """One step of a flight from time t [s] by dt [s]: (`FlightState` after it, `Sample` at its start)."""
+    inputs = with_person(model, inputs, t, dt)
+    return finish_step(model, run_pilot(model, inputs.hand.start, t, dt), inputs, t, dt)

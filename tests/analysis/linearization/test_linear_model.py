@@ -1,0 +1,193 @@
+"""Linear models as users meet them: names, units, points, kinks, files, python-control, errors."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.analysis.linearization.analysis import frequency_response, modes_of
+from tandemlift.analysis.linearization.step_graph import CONSTANT, DISCRETE, UNSEEN
+from tandemlift.parts.controllers import control
+from tandemlift.simulation.plan import FlightPlan
+
+
+@pytest.fixture(scope="module")
+def paper():
+    return tl.linearize(tl.load_mission("paper"))
+
+
+@pytest.fixture(scope="module")
+def iris():
+    return tl.linearize(tl.load_mission("iris"))
+
+
+def test_matrices_fit_their_names(paper):
+    n, m, p = len(paper.states), len(paper.inputs), len(paper.outputs)
+    assert (paper.A.shape, paper.B.shape, paper.C.shape, paper.D.shape) == ((n, n), (n, m), (p, n), (p, m))
+    for names in (paper.states, paper.inputs, paper.outputs):
+        assert len({v.name for v in names}) == len(names)
+    assert (paper.step, paper.time) == (0.001, 9.5)
+    assert paper.point.x0[:3] == pytest.approx([0.0, 0.0, 1.0], abs=1e-6)
+    assert [v.name for v in paper.inputs[:4]] == ["push_force_x", "push_force_y", "push_force_z", "push_moment_x"]
+
+
+@pytest.mark.parametrize("mission", ["paper", "hover", "iris", "zigzag", "rotor-loss", "doorway"])
+def test_states_have_units(mission):
+    model = tl.linearize(tl.load_mission(mission, {"mission.duration": 0.4}), 0.3, steps=1)
+    without = {
+        v.name for v in model.states if not v.unit and not v.name.startswith(("estimator.push.sums", "detection"))
+    }
+    assert without == set()
+    assert {v.unit for v in model.outputs} <= {"m", "m/s", "rad", "rad/s", "N", "N m"}
+
+
+def test_an_output_is_the_first_sample_of_the_flight(paper):
+    flight = tl.fly(tl.load_mission("paper", {"mission.duration": 9.5}))
+    names = [v.name for v in paper.outputs]
+    thrusts = [paper.point.y0[names.index(f"rotor_thrusts_rotor_{i}")] for i in range(1, 9)]
+    assert thrusts == pytest.approx(flight["rotor_thrusts"][-1], rel=1e-12)
+
+
+def test_a_small_push_moves_the_flight_as_the_model_says(paper):
+    simulation = tl.Simulation(tl.load_mission("paper"))
+    while simulation.time < 9.5 - 1e-9:
+        simulation.step()
+    x, u = np.zeros(len(paper.states)), np.zeros(len(paper.inputs))
+    u[0] = 1e-4  # N
+    for _ in range(200):
+        simulation.step(push=[1e-4, 0.0, 0.0])
+        x = paper.A @ x + paper.B @ u
+    assert simulation.state[0] == pytest.approx(paper.point.x0[0] + x[0], abs=1e-3 * abs(x[0]) + 1e-12)
+    assert abs(x[0]) > 1e-8
+
+
+def test_a_simulation_is_linearized_as_it_stands(paper):
+    simulation = tl.Simulation(tl.load_mission("paper"))
+    while simulation.time < 9.5 - 1e-9:
+        simulation.step()
+    before = simulation.state
+    model = tl.linearize(simulation)
+    assert pytest.approx(paper.A, rel=1e-12, abs=1e-15) == model.A
+    assert (simulation.state == before).all()
+    simulation.step()
+    assert simulation.k == 9501
+
+
+def test_what_is_no_state_is_listed_with_the_reason(iris):
+    left = iris.left_out
+    assert left["sensing.imu.reading.fresh"] == left["guidance.phase.phase"] == DISCRETE
+    assert left["guidance.phase.hover_time"] == left["sensing.imu.wait"] == UNSEEN
+    assert CONSTANT not in left.values()
+    assert not {v.name for v in iris.states} & set(left)
+
+
+def test_delayed_commands_are_states(iris):
+    names = [v.name for v in iris.states]
+    assert [f"rotors.arriving.r0[-{n}]" in names for n in (1, 9, 10)] == [True, True, False]
+    assert iris.step == pytest.approx(0.005)
+
+
+def test_a_gate_on_its_edge_is_reported_with_its_law():
+    mission = tl.load_mission("paper", {"pushes": [], "admittance.threshold": 0.0, "admittance.gate": "hard"})
+    (kink,) = tl.linearize(mission, 9.5).kinks
+    assert (kink.law, kink.distance) == ("hard", 0.0)
+    assert kink.file.startswith("parts/compliance/admittance.py, line ")
+    assert tl.linearize(tl.load_mission("paper", {"pushes": []}), 9.5).kinks == ()
+
+
+def test_a_sign_at_zero_is_reported_and_a_tanh_is_not():
+    at_rest = {"initial.euler": 0.0, "initial.position": 0.0, "pushes": [], "phases.lift_start": 2.0}
+    found = {}
+    for switching in ("sign", "tanh"):
+        mission = tl.load_mission("paper", at_rest | {"controller.switching": switching})
+        found[switching] = [kink.file for kink in tl.linearize(mission, 0.0).kinks]
+    assert [file.partition(",")[0] for file in found["sign"]] == ["parts/controllers/sliding_surface.py"]
+    assert found["tanh"] == []
+
+
+def test_connected_states_answer_as_all_states_do(iris):
+    few = iris.connected()
+    assert len(few.states) < len(iris.states)
+    frequencies = np.array([0.1, 1.0, 10.0])
+    all_of_them = frequency_response(iris, frequencies)
+    assert frequency_response(few, frequencies) == pytest.approx(all_of_them, rel=1e-6, abs=1e-9)
+
+
+def test_every_mode_of_hover_decays():
+    modes = modes_of(tl.linearize(tl.load_mission("hover")).connected())
+    assert modes.modes
+    assert all(mode.s.real < 0.0 for mode in modes.modes)
+    assert modes.deadbeat == 1  # the length of the quaternion
+
+
+@pytest.mark.parametrize("ending", ["npz", "json"])
+def test_a_saved_model_holds_all_of_it(paper, ending, tmp_path):
+    path = tmp_path / f"model.{ending}"
+    paper.save(path)
+    found = json.loads(path.read_text("utf-8")) if ending == "json" else dict(np.load(path))
+    assert np.array_equal(np.array(found["A"]), paper.A)
+    assert [list(row) for row in found["states"]] == [list(v) for v in paper.states]
+    about = found if ending == "json" else json.loads(str(found["about"]))
+    assert (about["mission"], about["assumptions"]) == ("paper", list(paper.assumptions))
+
+
+def test_python_control_gets_the_model_with_its_names(paper):
+    control = pytest.importorskip("control")
+    few = paper.connected()
+    system = few.to_control()
+    assert (system.A == few.A).all()
+    assert (system.D == few.D).all()
+    assert (system.state_labels, system.dt) == ([v.name for v in few.states], 0.001)
+    response = control.frequency_response(system, 2.0 * np.pi * np.array([0.5]))
+    ours = frequency_response(few, np.array([0.5]))[0]
+    assert np.asarray(response.frdata)[:, :, 0] == pytest.approx(ours, rel=1e-7, abs=1e-9)
+
+
+def test_without_python_control_its_command_is_named(paper, monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "control", None)
+    with pytest.raises(tl.InputError, match=r"pip install 'tandemlift\[control\]'"):
+        paper.to_control()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "pieces"),
+    [
+        ({"at": 91.0}, ["at = 91", "mission.duration = 90 s"]),
+        ({"at": -1.0}, ["at = -1"]),
+        ({"of": "pilot"}, ["'pilot'", "loop, body"]),
+        ({"inputs": ["push_forc"]}, ["'push_forc'", "Did you mean 'push_force'?"]),
+        ({"inputs": ["wind_velocity"]}, ["no wind", 'wind.model = "air"']),
+        ({"inputs": ["rotor_thrusts"]}, ["input of the loop"]),
+        ({"outputs": ["positon"]}, ["'positon'", "Did you mean 'position'?"]),
+        ({"outputs": ["reference_position"], "of": "body"}, ["output of the body"]),
+        ({"steps": 0}, ["steps = 0"]),
+    ],
+)
+def test_a_bad_argument_is_refused(arguments, pieces):
+    with pytest.raises(tl.InputError) as refused:
+        tl.linearize(tl.load_mission("paper"), **arguments)
+    assert all(piece in str(refused.value) for piece in pieces), str(refused.value)
+
+
+def test_a_controller_in_plain_python_is_refused_by_its_name(monkeypatch):
+    mission = tl.load_mission("paper")
+    gains = type(FlightPlan(mission).model.pilot.controller)
+    monkeypatch.setattr(control, "interpreted", {gains})
+    with pytest.raises(tl.InputError, match="'nftsmc' is plain Python, which has no derivative"):
+        tl.linearize(mission)
+
+
+def test_a_lost_flight_and_a_simulation_that_is_over_are_refused():
+    lost = tl.load_mission("paper", {"controller.gains.xi": 2000.0})
+    with pytest.raises(tl.InputError, match="diverges at"):
+        tl.linearize(lost, 60.0)
+    simulation = tl.Simulation(tl.load_mission("paper", {"mission.duration": 0.01}))
+    with pytest.raises(tl.InputError, match="at its own time"):
+        tl.linearize(simulation, 0.005)
+    for _ in range(10):
+        simulation.step()
+    with pytest.raises(tl.InputError, match="is over"):
+        tl.linearize(simulation)

@@ -1,0 +1,210 @@
+"""Loops cut at the rotors: against python-control, against flights, and against the closed forms of a load."""
+
+from __future__ import annotations
+
+import warnings
+from functools import cache
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.analysis.linearization.loop_margins import (
+    axis_margins,
+    is_stable,
+    largest,
+    margins_of,
+    open_loop,
+    rotors_response,
+    single_loop,
+)
+from tandemlift.analysis.linearization.mission_check import LOOP_CHECKS
+from tandemlift.missions import load_mission, tables_of
+from tandemlift.missions.flight_checks.loops import (
+    delay_to_crossing,
+    eigenvalues_by_axis,
+    excess_turns,
+    lag_of,
+    loop_delays,
+)
+from tandemlift.missions.flight_checks.table import CHECKS
+
+HOVER = {"pushes": [], "mission.duration": 14.0, "phases.land_start": 60.0}
+SHAKEN = 0.5  # rad/s, of rates in hover
+
+
+@cache
+def loop_of(name, controller=None):
+    return open_loop(load_mission(name, controller=controller))
+
+
+def shakes(changes):
+    """Whether iris oscillates in hover."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", tl.FlightWarning)
+        flight = tl.fly(load_mission("iris", {**HOVER, **changes}))
+    return flight.ending is not None or flight["rates"][flight.time > 9.0].std(axis=0).max() > SHAKEN
+
+
+def onset(changes_at, low, high, accuracy):
+    """The number between two others at which flights begin to oscillate, by bisection."""
+    while high - low > accuracy:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if shakes(changes_at(middle)) else (middle, high)
+    return 0.5 * (low + high)
+
+
+def slower(factor):
+    fleet = tables_of(load_mission("iris"))["vehicle"]["quadrotors"]
+    return {"vehicle.quadrotors": [{**q, **{key: factor * q[key] for key in ("lag_up", "lag_down")}} for q in fleet]}
+
+
+def test_the_delay_that_iris_bears_is_the_one_at_which_its_flights_begin_to_oscillate():
+    lag = lag_of(load_mission("iris"))
+    predicted = largest(lambda delay: is_stable(loop_of("iris"), delay, lag))
+    flown = onset(lambda delay: {"actuators.delay": delay}, 0.02, 0.09, 0.002)
+    assert predicted == pytest.approx(flown, rel=0.15)
+
+
+def test_the_lag_that_iris_bears_is_the_one_at_which_its_flights_begin_to_oscillate():
+    lag = lag_of(load_mission("iris"))
+    predicted = largest(lambda slow: is_stable(loop_of("iris"), 0.01, slow)) / lag
+    assert predicted == pytest.approx(onset(slower, 2.0, 8.0, 0.1), rel=0.15)
+
+
+@pytest.mark.parametrize("controller", ["nftsmc", "geometric", "super-twisting"])
+def test_the_closed_forms_of_a_load_agree_with_the_linear_model(controller):
+    mission = load_mission("iris", controller=controller)
+    lag, loop = lag_of(mission), loop_of("iris", controller)
+    borne = {found.axis: found.bears for found in loop_delays(mission)}
+    cut = loop.L / (1.0 + 1j * loop.w * lag)[:, None, None]
+    for i, axis in enumerate(("z", "roll", "pitch", "yaw")):
+        delay, _ = delay_to_crossing(loop.w, single_loop(cut, i))
+        assert borne[axis] == pytest.approx(delay + 0.0015, rel=0.08), axis  # beside the step and the readings
+
+
+def test_margins_are_those_of_python_control():
+    control = pytest.importorskip("control")
+    loop = loop_of("iris")
+    L = loop.L * rotors_response(loop.w, 0.01, 0.01875)[:, None, None]
+    for i, found in enumerate(axis_margins(loop.w, L)):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            loop_there = control.frd(single_loop(L, i), loop.w, smooth=True)
+            gains, phases, _, _, crossovers, _ = control.stability_margins(loop_there, returnall=True)
+        assert found.gain == pytest.approx(gains[gains > 1.0].min(), rel=0.02)
+        assert found.least_gain == pytest.approx(gains[gains < 1.0].max(), rel=0.02)
+        assert found.nearest_gain == pytest.approx(min(gains, key=lambda gain: abs(np.log(gain))), rel=0.02)
+        least = np.abs(phases).argmin()
+        assert found.phase == pytest.approx(phases[least], abs=0.5)
+        assert found.crossover == pytest.approx(crossovers[least], rel=0.01)
+
+
+def test_margins_of_a_known_loop_are_its_closed_forms():
+    """L = k e^(−sT)/s: 90° − k T of phase, and the gain may grow by π/(2 k T)."""
+    w = np.geomspace(0.1, 300.0, 400)
+    k, T = 4.0, 0.1
+    found = margins_of("yaw", w, k * np.exp(-1j * w * T) / (1j * w))
+    assert found.phase == pytest.approx(90.0 - np.degrees(k * T), abs=0.05)
+    assert found.crossover == pytest.approx(k, rel=1e-3)
+    assert found.gain == pytest.approx(np.pi / (2.0 * k * T), rel=2e-3)
+    assert found.least_gain == 0.0
+
+
+def test_a_loop_that_needs_its_gain_has_a_least_one():
+    """L = k (s + 1)²/s³: its phase is −180° at ω = 1, where |L| = 2 k; stable from k = 1/2 on."""
+    w = np.geomspace(0.01, 300.0, 800)
+    s = 1j * w
+    found = margins_of("roll", w, 2.0 * (s + 1.0) ** 2 / s**3)
+    assert found.least_gain == pytest.approx(0.25, rel=2e-3)
+    assert (found.gain, found.nearest_gain) == (np.inf, found.least_gain)
+
+
+def test_both_limits_of_the_gain_are_told_and_which_is_near():
+    rows = {r.subject: r for r in tl.check(load_mission("iris")) if r.check == "loop gain"}
+    for axis, near in (("z", "most"), ("roll", "least"), ("pitch", "least"), ("yaw", "least")):
+        far = {"most": "least", "least": "most"}[near]
+        assert rows[f"{axis}, {near} (nearer)"].margin < rows[f"{axis}, {far}"].margin
+    limits = [rows[f"{axis}, least (nearer)"].value for axis in ("roll", "pitch", "yaw")]
+    assert limits == pytest.approx([0.377, 0.435, 0.122], rel=0.01)
+
+
+@pytest.mark.parametrize(("k", "stable"), [(1.0, True), (-1.0, False)])
+def test_the_turns_of_a_loop_say_whether_it_is_stable_without_delay(k, stable):
+    """An integrator with positive and negative gain; a double one with and without lead."""
+    w = np.geomspace(0.02, 300.0, 120)
+    assert (abs(excess_turns(w, k / (1j * w))) < 1.0) == stable
+    lead = 1.0 + 1j * w if stable else 1.0 - 0.5j * w
+    assert (abs(excess_turns(w, lead / (1j * w) ** 2)) < 1.0) == stable
+
+
+@pytest.mark.parametrize("case", range(4))
+def test_the_closed_forms_agree_with_the_linear_model_wherever_the_quadrotors_are(case):
+    """Off the axes, with another inertia than the pilot believes: products of inertia mix roll, pitch and yaw."""
+    rng = np.random.default_rng(case)
+    fleet = tables_of(load_mission("iris"))["vehicle"]["quadrotors"]
+    for q in fleet:
+        q["position"] = [float(x) for x in np.array(q["position"]) + rng.normal(0.0, [0.25, 0.2, 0.05])]
+    changes = {"vehicle.quadrotors": fleet, "plant.inertia_scale": [float(x) for x in rng.uniform(0.8, 1.25, 3)]}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", tl.FlightWarning)
+        mission = load_mission("iris", changes, controller=("nftsmc", "pid", "geometric", "smc")[case])
+    lag, loop = lag_of(mission), open_loop(mission)
+    borne = min(found.bears for found in loop_delays(mission))
+    assert borne == pytest.approx(largest(lambda delay: is_stable(loop, delay, lag)) + 0.0015, rel=0.06)
+
+
+@pytest.mark.parametrize("mirrored", [1.0, -1.0])
+def test_a_quadrotor_off_the_axis_does_not_make_a_loop_oscillate(mirrored):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", tl.FlightWarning)
+        mission = load_mission("iris", {"vehicle.quadrotors.0.position": [0.03 * mirrored, 1.0, 0.075]})
+    for found, centred in zip(loop_delays(mission), loop_delays(load_mission("iris")), strict=True):
+        assert found.bears == pytest.approx(centred.bears, rel=1e-3), found.axis
+
+
+def test_loops_that_mix_are_told_apart_by_their_eigenvalues():
+    """L = T diag(l) T⁻¹ has the loops l, in the order of the axes that T hardly mixes; two of them cross."""
+    w = np.geomspace(0.02, 300.0, 400)
+    loops = np.array([5.0 / (1j * w), 3.0 / (1j * w) ** 2, 9.0 / (1j * w * (1.0 + 0.02j * w)), 1.0 / (1j * w)])
+    T = np.eye(4) + 0.2 * np.array([[0, 0, 0, 0], [0, 0, 1, -1], [0, -1, 0, 1], [0, 1, 0.5, 0]])
+    mixed = np.einsum("ij,jw,jk->wik", T, loops, np.linalg.inv(T))
+    assert eigenvalues_by_axis(mixed) == pytest.approx(loops, rel=1e-9)
+
+
+def test_a_vehicle_that_calms_down_slowly_is_not_called_unstable():
+    """A lighter vehicle swings after its lift, and rests 20 s later: its loops are those of the rest."""
+    fleet = tables_of(load_mission("iris"))["vehicle"]["quadrotors"]
+    for q, x, y in zip(fleet, (-0.228, -0.164), (0.916, -1.394), strict=True):
+        q["position"][:2] = [x, y]
+    changes = {"vehicle.quadrotors": fleet, "plant.inertia_scale": [1.344, 1.05, 1.35], "plant.mass_scale": 1.088}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", tl.FlightWarning)
+        assert open_loop(load_mission("iris", changes, controller="super-twisting")).stable
+
+
+def test_a_heavier_vehicle_that_flies_well_is_well_by_its_loops_too():
+    results = tl.check(load_mission("iris", {"plant.mass_scale": 1.25}))
+    assert [r for r in results if r.verdict == "fails"] == []
+
+
+def test_offsets_of_thrusts_are_for_real_rotors_only():
+    with pytest.raises(tl.InputError, match=r'thrust_offsets: actuators.model must be "rotors"'):
+        tl.linearize(load_mission("hover"), inputs=["thrust_offsets"])
+
+
+def test_all_checks_of_a_mission_are_in_the_tables_and_well():
+    results = tl.check(load_mission("iris"))
+    assert {r.check for r in results} <= {check.name for check in (*CHECKS, *LOOP_CHECKS)}
+    assert [r for r in results if r.verdict == "fails"] == []
+    assert {"loop delay", "loop lag", "loop phase", "loop gain", "loop mode"} <= {r.check for r in results}
+
+
+def test_a_controller_in_plain_python_has_no_linear_model_and_says_so(monkeypatch):
+    from tandemlift.parts.controllers import control
+    from tandemlift.simulation.plan import FlightPlan
+
+    mission = load_mission("hover")
+    monkeypatch.setattr(control, "interpreted", {type(FlightPlan(mission).model.pilot.controller)})
+    (result,) = [r for r in tl.check(mission) if r.check == "loop"]
+    assert "plain Python" in result.text

@@ -1,0 +1,308 @@
+"""`tandemlift compare`: one mission, several controllers; a table, a page that needs nothing else, and numbers."""
+
+import json
+import re
+import sys
+import warnings
+
+import numpy as np
+import pytest
+from html_page import check_page
+
+import tandemlift as tl
+from tandemlift.analysis.studies.controller_comparison import (
+    Entrant,
+    Entry,
+    best_of,
+    compare,
+    entrants,
+    moving_axes,
+    parts_of,
+    scores,
+)
+from tandemlift.apps.cli.main import main
+from tandemlift.missions import built_in, tables_of, to_toml
+from tandemlift.parts.controllers import CONTROLLERS
+from tandemlift.pictures.report.controller_comparison import COLUMNS, write_comparison
+from tandemlift.pictures.report.controller_figures import draw_errors, draw_thrusts
+
+SHORT = ("--set", "mission.duration=0.6")
+WILD = ("lambda_1=0", "lambda_2=0", "xi=[4,2,11,0.1,0.1,0.1]")  # of nftsmc
+TWO = ("--controllers", "nftsmc,pid")
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch, capsys):
+    """Run the command line in an empty folder: (exit code, standard output, standard error)."""
+    monkeypatch.chdir(tmp_path)
+
+    def call(*arguments):
+        monkeypatch.setattr(sys, "argv", ["tandemlift", *arguments])
+        with warnings.catch_warnings(), pytest.raises(SystemExit) as ended:
+            main()
+        return ended.value.code or 0, *capsys.readouterr()
+
+    return call
+
+
+def test_a_comparison_writes_a_page_and_numbers_and_prints_a_row_each(run, tmp_path):
+    code, out, _ = run("compare", "hover", *TWO, *SHORT)
+    folder = tmp_path / "out" / "hover"
+    assert code == 0
+    assert {path.name for path in folder.iterdir()} == {f"compare.{kind}" for kind in ("html", "json", "csv", "tex")}
+    assert [line.split()[0] for line in out.splitlines()[2:4]] == ["nftsmc", "pid"]
+    assert "wall ns/step" in out.splitlines()[1]
+    assert "Wall time is that of this one flight" in " ".join(check_page(folder / "compare.html").text.split())
+    found = json.loads((folder / "compare.json").read_text("utf-8"), parse_constant=pytest.fail)
+    assert [row["controller"] for row in found["controllers"]] == ["nftsmc", "pid"]
+    flight = tl.fly(tl.load_mission("hover", {"mission.duration": 0.6}, controller="pid"))
+    row = found["controllers"][1]
+    assert row["from_s"] == 0.0
+    assert row["position_rmse_m"] == pytest.approx(np.sqrt((flight["position_error"] ** 2).mean(axis=0)).tolist())
+    assert row["effort_n_m"] == pytest.approx(np.sqrt((flight["moment"] ** 2).sum(axis=1)).mean(), rel=1e-12)
+    assert row["settings"] == flight.mission["controller"]
+
+
+def test_the_page_needs_nothing_but_itself_and_has_a_row_and_the_settings_of_each(run, tmp_path):
+    assert (
+        run("compare", "hover", *TWO, "--set", "mission.duration=2.0", "--out", "here", "--style", "elsevier")[0] == 0
+    )
+    figures = sorted(path.name for path in (tmp_path / "here" / "figures").iterdir())
+    assert figures == ["errors.pdf", "errors.png", "thrusts.pdf", "thrusts.png"]
+    (width,) = re.findall(rb"/MediaBox \[ 0 0 ([\d.]+)", (tmp_path / "here" / "figures" / "errors.pdf").read_bytes())
+    assert float(width) == pytest.approx(190.0 / 25.4 * 72.0, abs=0.01)
+    page = check_page(tmp_path / "here" / "compare.html")
+    assert not [a for _, a in page.elements if "href" in a or not a.get("src", "data:").startswith("data:")]
+    assert len([tag for tag, _ in page.elements if tag == "img"]) == 2
+    for name in ("nftsmc", "pid"):
+        assert len(page.row(name)) == len(COLUMNS) + 2
+        assert page.row(name)[-1] == "flown to the end"
+        assert f"name = &quot;{name}&quot;" in page.text
+    assert "script" not in {tag for tag, _ in page.elements}
+
+
+def test_a_controller_that_diverges_is_a_row_that_says_when_and_why(run, tmp_path):
+    wild = [part for gain in WILD for part in ("--set", f"controller.gains.{gain}")]
+    code, out, err = run("compare", "paper", *TWO, *wild, "--set", "mission.duration=40")
+    assert code == 3
+    assert re.search(r"nftsmc: diverged at 31\.2\S* s: distance", err)
+    assert "pid:" not in err
+    assert "diverged at" in out
+    page = check_page(tmp_path / "out" / "paper" / "compare.html")
+    assert page.row("nftsmc")[-1].startswith("diverged at ")
+    assert page.row("pid")[-1] == "flown to the end"
+    found = json.loads((tmp_path / "out" / "paper" / "compare.json").read_text("utf-8"))
+    assert found["controllers"][0]["failure"].startswith("diverged at ")
+    assert found["controllers"][1]["failure"] is None
+
+
+@pytest.mark.parametrize(
+    ("arguments", "pieces"),
+    [
+        (("hovr",), ["unknown mission 'hovr'", "Did you mean 'hover'?"]),
+        (("hover", "--controllers", "pdi"), ["unknown controller 'pdi'", "Did you mean 'pid'?"]),
+        (("hover", "--controllers", " , "), ["--controllers: must be a comma-separated list of names"]),
+        (("hover", "--controllers", "absent.py"), ["absent.py does not exist"]),
+        (("hover", "--engine", "compild"), ["unknown engine 'compild'"]),
+        (("hover", "--set", "mission.step=0.5"), ["mission.step = 0.5"]),
+        (("hover", "--set", "controller.nothing=1"), ["controller.nothing = 1: unknown key"]),
+        (
+            ("hover", "--controllers", "pid,nftsmc", "--set", "controller.velocity_i=1"),
+            ["controller.velocity_i = 1: unknown key", "gives keys to nftsmc only, the controller of mission hover"],
+        ),
+    ],
+    ids=" ".join,
+)
+def test_bad_input_is_refused_and_nothing_is_written(arguments, pieces, run, tmp_path):
+    code, out, err = run("compare", *arguments)
+    assert (code, out) == (2, "")
+    assert "Traceback" not in err
+    assert [piece for piece in pieces if piece not in err] == []
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_is_in_the_way_is_refused_before_the_flight(run, tmp_path, monkeypatch):
+    (tmp_path / "taken" / "compare.html").mkdir(parents=True)
+    monkeypatch.setattr(
+        "tandemlift.analysis.studies.controller_comparison.fly_each", lambda *_, **__: pytest.fail("flown")
+    )
+    code, _, err = run("compare", "hover", "--out", "taken")
+    assert code == 2
+    assert "taken/compare.html is in the way" in err
+
+
+def test_all_controllers_enter_by_default_the_mission_s_own_first_with_its_settings():
+    entered = entrants("hover", {"controller.boundary_layer": 0.7, "mission.duration": 1.0})
+    assert [e.name for e in entered] == ["nftsmc", *sorted(CONTROLLERS.keys() - {"nftsmc"})]
+    assert entered[0].mission.controller.boundary_layer == (0.7,) * 6
+    for e in entered:
+        assert (e.mission.mission.duration, e.mission.controller.name) == (1.0, e.name)
+
+
+def test_a_controller_has_the_settings_of_the_mission_that_is_extended(tmp_path):
+    """And one that lacks settings is refused alone: nobody else is kept from flying."""
+    file = tmp_path / "mine.toml"
+    file.write_text('extends = "hover"\n[controller]\nname = "pid"\nposition_p = 1.7\n')
+    assert tl.load_mission(file).controller.position_p == (1.7,) * 3
+    assert tl.load_mission(file, controller="nftsmc") == tl.load_mission("hover")
+    assert tl.load_mission(file, controller="pid") == tl.load_mission(file)
+    assert tl.load_mission(file, controller="smc") == tl.load_mission("hover", controller="smc")
+    alone = tmp_path / "alone.toml"
+    alone.write_text(to_toml(tl.load_mission(file)))
+    entered = {e.name: e for e in entrants(str(alone), {})}
+    assert [name for name, e in entered.items() if e.mission is None] == ["nftsmc"]
+    assert "controller.gains" in entered["nftsmc"].refusal
+    with pytest.raises(tl.InputError, match=r"controller\.gains"):
+        entrants(str(alone), {}, [CONTROLLERS["nftsmc"]])
+
+
+def test_a_controller_that_is_refused_is_a_row_of_the_page(tmp_path):
+    entered = entrants("hover", {"mission.duration": 0.2}, [CONTROLLERS["pid"]])
+    entries = [*compare(entered), Entry("other", None, "lacks <everything>")]
+    page = check_page(write_comparison(entries, tmp_path / "compare.html"))
+    assert page.row("other") == ["other", "–", "lacks <everything>"]
+
+
+def test_another_engine_flies_them_one_by_one(tmp_path):
+    pytest.importorskip("mujoco")
+    seen = []
+    changes = {"mission.duration": 0.1}
+    entered = [*entrants("hover", changes, [CONTROLLERS["pid"]]), Entrant("other", None, "lacks everything")]
+    entries = compare(entered, "mujoco", lambda *done: seen.append(done))
+    assert seen == [(1, 1)]
+    assert entries[0].flight.version["engine"] == "mujoco"
+    assert entries[1] == Entry("other", None, "lacks everything")
+
+
+FAILING = '''
+"""Fails in flight."""
+from typing import NamedTuple
+from tandemlift.parts.controllers import NoMemory, control, register
+from tandemlift.core.settings import ControllerTable
+class Gains(NamedTuple):
+    """None."""
+@control.register(Gains, compiled=False)
+def fail(k, memory, measured, reference):
+    """Fails."""
+    return 1 / 0
+class Settings(ControllerTable):
+    """None."""
+@register("failing", Settings)
+def start(s, vehicle, step):
+    """Fails in flight, whatever it is told."""
+    return Gains(), NoMemory()
+'''
+
+
+def test_a_controller_of_one_s_own_that_fails_is_told_with_its_line(run, tmp_path):
+    (tmp_path / "mine.py").write_text(FAILING)
+    code, _, err = run("compare", "hover", "--controllers", "mine.py", *SHORT)
+    assert code == 2
+    assert "controller 'failing' fails: mine.py, line 11: ZeroDivisionError" in err
+
+
+def made(error, push=(), floor=None, moment=1.0, diverged=None):
+    """A flight of samples 0.1 s apart with an error along x [m], a push along x [N] and what the floor carries [N]."""
+    error = np.asarray(error, np.float64)
+    zeros = np.zeros((len(error), 3))
+
+    def along_x(values):
+        return np.column_stack([values, *zeros.T[1:]])
+
+    channels = {
+        "position": zeros,
+        "reference_position": along_x(error),
+        "push_force": along_x(push) if len(push) else zeros,
+        "moment": along_x(np.full(len(error), moment)),
+        "rotor_thrusts": np.full((len(error), 8), 4.0),
+    }
+    channels |= {} if floor is None else {"contact_force": np.column_stack([*zeros.T[:2], floor])}
+    mission = tables_of(tl.load_mission("hover"))
+    results = {"rotor_saturated_share": 0.0, "wall_s": 1.0, "steps": 10}
+    return tl.Flight(0.1 * np.arange(len(error)), channels, mission, results, diverged, {"engine": "compiled"})
+
+
+PUSHED = made([0.3, 0.1, 0.4, -0.3], push=[0.0, 5e-7, 2e-6, 0.0])
+
+
+def test_a_flight_is_scored_from_the_first_push_on_and_before_it():
+    counts, before = parts_of([PUSHED])
+    assert (counts.first, counts.words) == (pytest.approx(0.2), "from the first push on (0.2 s)")
+    assert scores(PUSHED, counts)["position_rmse_m"] == pytest.approx([np.sqrt((0.16 + 0.09) / 2), 0.0, 0.0])
+    assert scores(PUSHED, counts)["position_max_error_m"] == pytest.approx(0.4)
+    assert scores(PUSHED, before)["position_rmse_m"][0] == pytest.approx(np.sqrt((0.09 + 0.01) / 2))
+    assert scores(PUSHED, before)["effort_n_m"] == 1.0
+
+
+def test_the_first_push_of_any_flight_parts_them_all():
+    earlier = made([0.0, 0.0, 0.0, 0.0], push=[0.0, 1.0, 0.0, 0.0])
+    assert [part.first for part in parts_of([PUSHED, earlier])] == [pytest.approx(0.1), 0.0]
+
+
+def test_without_a_push_the_whole_flight_is_scored():
+    flight = made([0.3, 0.1])
+    (whole,) = parts_of([flight])
+    assert whole.words == "over the whole flight"
+    assert scores(flight, whole)["position_max_error_m"] == pytest.approx(0.3)
+
+
+def test_what_stands_on_the_floor_is_not_scored():
+    floor = [34.0, 0.0, 5.0, 0.0, 34.0]  # it touches once in between
+    flight = made([9.0, 0.1, 0.2, 0.3, 9.0], push=[1.0, 0.0, 0.0, 0.0, 0.0], floor=floor)
+    (whole,) = parts_of([flight])
+    assert scores(flight, whole)["position_max_error_m"] == pytest.approx(0.3)
+    standing = made([9.0, 9.0], floor=[34.0, 34.0])
+    assert set(scores(standing, whole).values()) == {None}
+
+
+def test_every_mission_has_something_to_score_and_one_push_has_its_push():
+    for name in built_in():
+        flight = tl.fly(tl.load_mission(name))
+        assert any(moving_axes([flight], parts_of([flight])[0])), name
+    flight = tl.fly(tl.load_mission("one-push"))
+    counts, before = parts_of([flight])
+    assert scores(flight, counts)["position_rmse_m"][0] > 1e-3
+    assert not any(moving_axes([flight], before))
+
+
+@pytest.mark.parametrize(
+    ("values", "best"),
+    [
+        ([3.0, 1.0, 2.0], [False, True, False]),
+        ([1e-9, 2e-12, 0.0], [False, False, False]),  # all are zero, physically
+        ([1.0, 1.0 + 5e-7, 2.0], [True, True, False]),
+        ([None, 1.0, 2.0], [False, True, False]),
+        ([None, 1.0], [False, False]),
+        ([None, None], [False, False]),
+    ],
+    ids=str,
+)
+def test_who_wins_a_column_wins_by_what_is_physical(values, best):
+    assert best_of(values, 1e-6) == best
+
+
+def test_the_page_has_no_winner_below_a_micrometre_and_prints_none_of_its_digits(tmp_path):
+    errors = {"a": 3e-8, "b": 1e-9, "c": 0.0}
+    path = write_comparison([Entry(name, made([e, e, e])) for name, e in errors.items()], tmp_path / "compare.html")
+    page = check_page(path)
+    assert "<td><b>" not in page.text
+    assert page.row("a")[1] == page.row("b")[1] == "< 0.001"
+    assert page.row("c")[1] == "0"
+    assert page.text.count("data:image/png") == 1  # thrusts alone: no error moves
+
+
+def test_the_figure_leaves_out_axes_and_parts_in_which_nothing_moves():
+    still = draw_errors({"a": made([0.0, 0.0, 0.2, 0.1], push=[0.0, 0.0, 1.0, 0.0]), "b": made([0.0] * 4)})
+    (ax,) = still.axes
+    assert (ax.get_ylabel(), ax.get_title()) == ("error of $x$ (mm)", "from the first push on")
+    disturbed = draw_errors({"a": PUSHED})
+    assert [ax.get_title() for ax in disturbed.axes] == ["before the first push", "from the first push on"]
+    one = made([0.0, 0.0, 0.2, 0.1], push=[0.0, 0.0, 1.0, 0.0])
+    one.channels["position"][0, 1] = 0.1  # along y before the push alone
+    panels = draw_errors({"a": one}).axes
+    said = ["".join(text.get_text() for text in ax.texts) for ax in panels]
+    assert said == ["$x$ stays within 1 µm", "", "", "$y$ stays within 1 µm"]
+
+
+def test_thrusts_that_hardly_move_are_said_in_numbers():
+    assert draw_thrusts({"a": made([0.0, 0.0])}).axes[0].get_title() == "a: 4 to 4 N"

@@ -1,0 +1,154 @@
+"""Small parts of studies by themselves: estimates, fronts, coordinates, answers in closed form, what is said."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from study_runs import TWELVE, fly
+
+import tandemlift as tl
+from tandemlift.analysis.studies import controller_comparison
+from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.feel.closed_form import _free
+from tandemlift.analysis.studies.feel.feel_checks import drift_checks
+from tandemlift.analysis.studies.feel.feel_study import _both
+from tandemlift.analysis.studies.feel.standard_push import answer_of
+from tandemlift.analysis.studies.reading.html import MOST_NAMES, study_html
+from tandemlift.analysis.studies.study import mission_of_row
+from tandemlift.analysis.studies.tuning.candidates import _trial
+from tandemlift.analysis.studies.tuning.front import front_of
+from tandemlift.analysis.studies.tuning.searches import PARTS, _Coordinate
+from tandemlift.analysis.studies.units import estimate
+
+
+def test_an_estimate_grows_with_the_rows_and_with_the_files(monkeypatch):
+    """Files of 1,000 bytes and 10 more for each row, blocks that take 2 s: as many files and rows as the plan has."""
+    clock = iter(np.arange(0.0, 99.0, 2.0))
+    monkeypatch.setattr(estimate, "time", SimpleNamespace(perf_counter=lambda: float(next(clock))))
+    monkeypatch.setattr(estimate, "fly_unit", lambda unit: {"row": [row.number for row in unit.rows]})
+
+    def write(columns, path, about):
+        path.write_bytes(b"x" * (1000 + 10 * len(columns["row"])))
+
+    monkeypatch.setattr(estimate, "write_columns", write)
+    study = {"name": "many", "missions": ["one-push"], "draws": 48_000, "rows_per_unit": 1000}
+    draw = {"plant.mass_scale": {"distribution": "uniform", "low": 0.9, "high": 1.1}}
+    found = estimate.estimate(load_plan({"study": study, "draw": draw}))
+    assert (found.rows, found.units) == (48_000, 48)
+    assert found.seconds == pytest.approx(2.0 * 48_000 / 8)
+    assert found.size == pytest.approx(48 * (1000 + 10 * 1000), rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("mass", "damping", "stiffness"), [(1.3, 2.0, 6.0), (0.7, 5.0, 3.0), (2.0, 0.0, 8.0), (1.5, 2.0, 0.0)]
+)
+def test_the_free_answer_solves_the_equation_of_the_admittance(mass, damping, stiffness):
+    """M x″ + C x′ + K x = F from any start, by SciPy."""
+    times = np.linspace(0.0, 3.0, 31)
+    k = SimpleNamespace(
+        mass=mass, damping=damping, stiffness=stiffness, time_constant=mass / damping if damping else np.inf
+    )
+    wanted = solve_ivp(
+        lambda t, y: [y[1], (1.7 - damping * y[1] - stiffness * y[0]) / mass],
+        (0.0, 3.0), [0.2, -0.4], t_eval=times, rtol=1e-10, atol=1e-12,
+    ).y  # fmt: skip
+    assert np.array(_free(k, times, 0.2, -0.4, 1.7)) == pytest.approx(wanted, abs=1e-8)
+
+
+def test_the_numbers_of_an_answer_are_those_of_a_lag():
+    """v = V (1 − exp(−t/τ)): 95 % after 3 τ, late by τ, and V τ on the way to rest; without samples there is none."""
+    top, tau, hold = 0.8, 0.3, 4.0
+    t = np.arange(-0.5, 8.0, 1e-3)
+    v = np.where(t < 0.0, 0.0, np.where(t <= hold, top * (1.0 - np.exp(-t / tau)), top * np.exp((hold - t) / tau)))
+    k = SimpleNamespace(stiffness=0.0, time=1.0, final_speed=top)
+    final, time, overshoot, lag, stop = answer_of(k, t, v, hold)
+    assert (final, time) == (pytest.approx(top, rel=1e-4), pytest.approx(-tau * np.log(0.05), abs=2e-3))
+    assert (overshoot, lag, stop) == (
+        pytest.approx(0.0, abs=1e-4),
+        pytest.approx(tau, rel=0.01),
+        pytest.approx(top * tau, rel=0.01),
+    )
+    assert answer_of(k, t - 9.0, v, hold) == (0.0, None, None, None, None)
+    assert answer_of(SimpleNamespace(stiffness=2.0, time=1.0, final_speed=top), t, v, hold)[1:] == (None,) * 4
+
+
+def drift(**changes):
+    return list(
+        drift_checks(tl.load_mission("iris", {key.replace("__", "."): value for key, value in changes.items()}))
+    )
+
+
+def test_drift_counts_where_joints_are_measured_and_for_as_long_as_the_bias_is_not_learned():
+    assert drift()
+    assert drift(pilot__push="truth") == []
+    long, longer, short = (
+        drift(mission__duration=t, sensors__joints__force_drift=0.01)[0] for t in (900.0, 1800.0, 25.0)
+    )
+    assert long.value == longer.value > short.value
+
+
+def test_a_coordinate_is_a_way_of_parts_from_the_lower_bound_and_back():
+    for log, low, high in ((False, 2.0, 10.0), (True, 1.0, 4.0), (True, 1.0, np.exp(2.0 * PARTS))):
+        c = _Coordinate(SimpleNamespace(is_log=log, low=low, high=high))
+        assert c.of(low) == pytest.approx(0.0, abs=1e-12)
+        assert c.of(high) == pytest.approx(2.0 * PARTS if high > 100.0 else PARTS)
+        for x in np.linspace(0.0, c.of(high), 7):
+            assert c.of(c.value(x)) == pytest.approx(x, abs=1e-9)
+        assert (c.value(-1.0), c.value(c.of(high) + 1.0)) == (low, pytest.approx(high))
+
+
+def test_on_a_front_no_candidate_beats_another_and_of_two_alike_there_is_one():
+    ranks = [(1.0, 3.0), (2.0, 2.0), (2.0, 2.0), (3.0, 2.5), (3.0, 1.0), (1.0, 4.0)]
+    tried = [
+        SimpleNamespace(apart=[SimpleNamespace(rank=r) for r in pair], values=(k,)) for k, pair in enumerate(ranks)
+    ]
+    assert [point.values for point in front_of(tried, (0,))] == [(0,), (1,), (4,)]
+
+
+def test_parts_begin_at_the_first_push_of_any_flight(monkeypatch):
+    def flight(first):
+        class Flown(dict):
+            time = np.arange(0.0, 5.0, 0.5)
+
+        return Flown(push_force=np.where(Flown.time[:, None] >= first, [[0.0, 3.0, 4.0]], 0.0))
+
+    monkeypatch.setattr(controller_comparison, "airborne", lambda f: np.ones(len(f.time), bool))
+    late, whole = controller_comparison.parts_of([flight(3.0), flight(1.5), flight(99.0)]), [flight(99.0)]
+    assert [(part.first, part.last) for part in late] == [(1.5, np.inf), (0.0, 1.5)]
+    assert [(part.first, part.last) for part in controller_comparison.parts_of(whole)] == [(0.0, np.inf)]
+
+
+def test_the_share_of_a_trial_is_how_far_it_got():
+    mission = tl.load_mission("hover", {"mission.duration": 2.0})
+    half = {"outcome": "crashed", "steps": mission.mission.steps // 2}
+    found = _trial([(mission, half), (mission, tl.InputError("no"))])
+    assert np.array(found[2]) == pytest.approx([0.5, 0.0])
+
+
+def test_what_is_said_of_a_study_counts_the_names_that_are_left_out():
+    import pyarrow as pa
+
+    outcomes = pa.table({"outcome": ["landed"] * 3 + ["crashed"]})
+    for count, more in ((MOST_NAMES, ""), (MOST_NAMES + 2, " and 2 more")):
+        text = study_html("gusts", 4, 4, [f"key{i}" for i in range(count)], outcomes)
+        assert text.count("<code>") == MOST_NAMES
+        assert f"</code>{more}</p>" in text
+
+
+def test_a_pair_of_numbers_is_said_once_where_alike_and_a_missing_one_by_a_dash():
+    assert _both(0.5, 0.75, "m") == "0.50 → 0.75 m"
+    assert _both(0.5, 0.5, "m") == "0.50 m"
+    assert _both(0.05, None, "%") == "5 → – %"
+
+
+def test_the_mission_of_a_row_is_that_with_its_draw(tmp_path):
+    fly(TWELVE | {"study": TWELVE["study"] | {"draws": 6}, "set": {"mission.duration": 0.1}}, tmp_path)
+    scales = tl.load_study(tmp_path).read(["row", "plant.mass_scale"]).to_pylist()
+    assert [row["row"] for row in scales] == list(range(6))
+    for row in scales:
+        mission, engine, name = mission_of_row(tmp_path, row["row"])
+        assert mission.plant.mass_scale == row["plant.mass_scale"]
+        assert (engine, str(row["row"]) in name) == ("compiled", True)
+    with pytest.raises(tl.InputError, match="has rows 0 to 5"):
+        mission_of_row(tmp_path, 6)

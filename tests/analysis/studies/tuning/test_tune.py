@@ -1,0 +1,228 @@
+"""Tuning as a whole: a mission whose best gain is known, evidence on fresh draws, files, and bad input."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.analysis.studies.tuning.result import EVIDENCE_FILE
+from tandemlift.core.errors import InputError
+
+STIFFNESS = 4.0  # 1/s²
+DROP = {  # a mass that is let go 0.1 m above its reference, held by a spring and a damper
+    "controller.position_stiffness": STIFFNESS,
+    "controller.position_damping": 8.0,
+    "initial.position": [0.0, 0.0, 0.1],
+    "phases.height": 0.0,
+    "mission.duration": 12.0,
+    "mission.step": 0.005,
+}
+TWICE = {"study": {"name": "twice", "missions": ["hover"], "controllers": ["geometric"], "seeds": 2}}
+QUICK = {"mission.duration": 3.0, "mission.step": 0.005, "initial.position": [0.0, 0.0, 0.1]}
+
+
+def drop(**how):
+    given = {"over": ["controller.position_damping.2"], "draws": TWICE, "fresh": 2, "budget": 120, **how}
+    return tl.tune("hover", "position_rmse_m.2", changes=DROP, controller="geometric", **given)
+
+
+def quick(**how):
+    given = {"over": ["controller.gains.xi.2"], "draws": 2, "fresh": 6, "budget": 16, "changes": QUICK, **how}
+    return tl.tune("hover", given.pop("goals", "position_rmse_m.2"), **given)
+
+
+@pytest.fixture(scope="module")
+def dropped():
+    return drop()
+
+
+def test_the_damping_of_least_error_is_the_root_of_the_stiffness(dropped):
+    """∫e² dt = e₀² (d/2k + 1/2d) for e'' + d e' + k e = 0 from rest at e₀, which is least at d = √k."""
+    (damping,) = dropped.new
+    assert damping == pytest.approx(math.sqrt(STIFFNESS), rel=0.03)
+    least = 0.1 * math.sqrt(0.5 / 12.0)  # m, of d/2k + 1/2d = 1/2 s over 12 s
+    (found,) = dropped.evidence.comparisons
+    assert found.new[0] == pytest.approx(least, rel=2e-3)
+    assert found.old[0] == pytest.approx(0.1 * math.sqrt((1.0 + 1.0 / 16.0) / 12.0), rel=2e-3)
+    assert dropped.is_better
+
+
+def test_a_search_repeated_with_its_seed_gives_the_same_bits(dropped):
+    text = json.dumps(dropped.as_table())
+    assert json.dumps(drop().as_table()) == text
+    assert json.dumps(drop(threads=1).as_table()) == text
+    assert json.dumps(drop(seed=1).as_table()) != text
+
+
+def test_the_written_mission_is_the_one_that_was_found(dropped, tmp_path):
+    path = dropped.save(tmp_path / "some" / "folder")
+    loaded = tl.load_mission(path)
+    assert loaded == dropped.mission
+    assert loaded.controller.position_damping[2] == dropped.new[0]
+    kept = json.loads((path.parent / EVIDENCE_FILE).read_text("utf-8"))
+    assert kept["parameters"] == [
+        {"key": "controller.position_damping.2", "old": 8.0, "new": dropped.new[0], **kept["parameters"][0]}
+    ]
+    assert kept["evidence"]["better"] is True
+    assert len(kept["evidence"]["rows"]) == 2
+
+
+def test_a_mission_in_a_file_is_extended_by_its_path_and_lists_of_tables_are_written_whole(tmp_path):
+    own = tmp_path / "own.toml"
+    own.write_text("extends = 'hover'\n[actuators]\nmodel = 'rotors'\n", "utf-8")
+    over = {"vehicle.quadrotors.1.lag_up": [0.005, 0.05]}
+    found = tl.tune(own, "position_rmse_m.2", over=over, draws=twice_of(own), fresh=2, budget=8, changes=QUICK)
+    path = found.save(tmp_path / "out")
+    assert 'extends = "../own.toml"' in path.read_text("utf-8")
+    assert tl.load_mission(path) == found.mission
+
+
+def twice_of(path):
+    return {"study": {"name": "twice", "missions": [str(path)], "seeds": 2}}
+
+
+def test_fresh_draws_are_none_of_the_search_and_old_and_new_fly_the_same_ones():
+    found = quick()
+    searched = {draw.changes["mission.seed"] for draw in found.draws}
+    fresh = {draw.changes["mission.seed"] for draw in found.fresh}
+    assert len(found.fresh) == len(fresh) == 6
+    assert not searched & fresh
+    again = tl.fly(tl.load_mission("hover", {**QUICK, **found.fresh[3].changes, **found.changes}))
+    assert found.evidence.new.values[0][3, 0] == again.metrics()["position_rmse_m"][2]
+
+
+def test_without_candidates_the_present_values_stay_and_are_not_called_better():
+    found = quick(budget=0)
+    assert found.new == found.old
+    assert found.changes == {}
+    assert not found.is_better
+
+
+def test_at_the_minimum_nothing_is_gained():
+    best = {**DROP, "controller.position_damping": math.sqrt(STIFFNESS)}
+    over = {"controller.position_damping.2": [0.5, 8.0]}
+    found = tl.tune(
+        "hover", "position_rmse_m.2", changes=best, controller="geometric", over=over, draws=TWICE, fresh=2, budget=40
+    )
+    old, new = found.evidence.costs
+    assert 0.9999 < new.ratio / old.ratio <= 1.0
+
+
+def test_a_bad_start_is_left_because_bad_outcomes_count_first():
+    """From the paper's gains, with which the vehicle turns over on its rotors, to ones that fly."""
+    paper = {key: getattr(tl.load_mission("paper").controller.gains, key) for key in ("xi", "lambda_1", "lambda_2")}
+    changes = {f"controller.gains.{key}": value for key, value in paper.items()}
+    changes |= {
+        "initial.euler": [0.15, -0.15, 0.2],
+        "actuators.model": "rotors",
+        "actuators.delay": 0.02,
+        "initial.position": [0.3, -0.3, 0.0],
+    }
+    found = tl.tune(
+        "hover", "position_rmse_m", changes={**changes, "mission.duration": 6.0}, draws=2, fresh=4, budget=160
+    )
+    assert found.evidence.costs[0].bad == 4
+    assert found.evidence.costs[1].bad == 0
+    assert found.is_better
+    assert "fewer bad outcomes" in found.evidence.words
+    assert np.isnan(found.evidence.comparisons[0].difference)  # no draw went well with both
+
+
+def test_findings_are_bad_outcomes_if_strict():
+    """The start is farther from the reference than the mission promises."""
+    far = {**QUICK, "promise.settling_time": 0.0, "promise.distance": 0.05}
+    lax, strict = (quick(changes=far, budget=0, strict=strict) for strict in (False, True))
+    assert lax.evidence.costs[0].bad == 0
+    assert strict.evidence.costs[0].bad == 6
+    assert set(strict.evidence.old.outcomes) == {"findings"}
+
+
+def test_ctrl_c_keeps_the_best_so_far_and_writes_it_as_unfinished(tmp_path):
+    def interrupt(tried, budget, lowest):
+        if tried >= 16:
+            raise KeyboardInterrupt
+
+    found = quick(budget=80, progress=interrupt)
+    assert not found.is_finished
+    assert found.evidence is None
+    assert len(found.history) == 17
+    assert found.costs[1] == min(found.history, key=lambda cost: cost.rank)
+    path = found.save(tmp_path)
+    assert "unfinished" in path.read_text("utf-8")
+    assert json.loads((tmp_path / EVIDENCE_FILE).read_text("utf-8"))["finished"] is False
+
+
+def test_several_goals_give_a_front_that_no_candidate_beats():
+    goals = ["position_rmse_m.2", "thrust_max_after_10s_n"]
+    changes = {**DROP, "initial.position": [0.0, 0.0, 0.0], "phases.height": 1.0, "phases.lift_start": 8.0}
+    found = tl.tune("hover", goals, changes=changes, controller="geometric", draws=TWICE, fresh=2, budget=48)
+    assert found.optimiser == "optuna"
+    ranks = np.array([[cost.rank for cost in point.costs] for point in found.front])
+    assert len(ranks) >= 2
+    assert all(np.all(np.diff(ranks, axis=0) * [1.0, -1.0] > 0.0, axis=0))  # one falls as the other rises
+    tried = np.array([[cost.rank for cost in costs] for costs in found.apart[1:]])
+    for point in ranks:
+        assert not np.any(np.all(tried <= point, axis=1) & np.any(tried < point, axis=1))
+    assert all(len(point.fresh) == 2 for point in found.front)
+
+
+def test_cases_with_targets_are_measured_against_them(tmp_path):
+    file = tmp_path / "scenes.toml"
+    file.write_text(
+        "study = {name = 'scenes', missions = ['hover']}\n"
+        "[[cases]]\nname = 'light'\nset.plant.mass_scale = 0.99\ntargets.'position_rmse_m.2' = 0.002\n"
+        "[[cases]]\nname = 'heavy'\nset.plant.mass_scale = 1.02\n",
+        "utf-8",
+    )
+    found = quick(draws=file, fresh=3, budget=0, goals={"position_rmse_m.2": 0.01}, aim="worst")
+    assert [draw.case for draw in found.draws] == ["light", "heavy"]
+    assert found.task.scales[0][:, 0].tolist() == [0.002, 0.01]
+    assert [draw.case for draw in found.fresh] == ["light", "light", "heavy", "heavy"]
+
+
+@pytest.mark.parametrize(
+    ("how", "words"),
+    [
+        ({"goals": "position_rms_m"}, r"unknown metric 'position_rms_m'.*Did you mean 'position_rmse_m'"),
+        ({"goals": "outcome"}, "unknown metric"),
+        ({"goals": "position_rmse_m.3"}, "has 3 components"),
+        ({"goals": "position_rmse_after_10s_m"}, "no flight has a number for it"),
+        ({"goals": {"position_rmse_m": -1.0}}, "target must be a number > 0"),
+        ({"goals": {"position_rmse_m": [1.0, 2.0]}}, "target has 2 numbers, the metric 3"),
+        ({"goals": ()}, "needs a metric"),
+        ({"goals": ["position_rmse_m", "position_rmse_m"]}, "is given twice"),
+        ({"budget": 3}, "must be at least 8, which are tried at a time, or 0"),
+        ({"draws": 0}, "must be from 1"),
+        ({"fresh": 0}, "must be from 1"),
+        ({"aim": "best"}, "unknown aim 'best'"),
+        ({"optimiser": "cmaes"}, "unknown optimiser 'cmaes'.*Did you mean 'cma'"),
+        ({"over": ["plant.mass_scale"]}, "the draws change plant.mass_scale"),
+        ({"over": ["controller.switching"], "optimiser": "cma"}, "is a choice"),
+        ({"draws": "no-such.toml"}, "does not exist"),
+        ({"drawz": 3}, "unknown argument of tune 'drawz'.*Did you mean 'draws'"),
+    ],
+    ids=str,
+)
+def test_bad_input_is_refused_with_what_is_allowed(how, words):
+    with pytest.raises(InputError, match=words):
+        quick(**how)
+
+
+def test_a_study_of_another_mission_is_refused(tmp_path):
+    file = tmp_path / "other.toml"
+    file.write_text("study = {name = 'other', missions = ['one-push']}\n", "utf-8")
+    with pytest.raises(InputError, match="must fly hover alone, compiled; it flies one-push"):
+        quick(draws=file)
+
+
+def test_a_study_that_sets_the_seed_has_no_fresh_draws(tmp_path):
+    file = tmp_path / "fixed.toml"
+    file.write_text(
+        "study = {name = 'fixed', missions = ['hover'], draws = 4}\nset.mission.seed = 3\n"
+        "draw.plant.mass_scale = {distribution = 'choice', among = [1.0, 1.01]}\n",
+        "utf-8",
+    )
+    with pytest.raises(InputError, match=r"sets mission\.seed"):
+        quick(draws=file)

@@ -1,0 +1,72 @@
+"""The page as a whole: its sizes, a replay from disk, and what it shows before the flight begins."""
+
+import pytest
+import slow_compiler
+from chromium import MS, SIZE, Live, middle_of_the_beam, opened
+from patience import until
+
+import tandemlift as tl
+from tandemlift.apps.live.page_files import page_files
+from tandemlift.apps.live.replay import replay_html
+
+BUTTONS = ("Lift", "Land", "Stop", "Pause", "Save")
+
+
+@pytest.mark.parametrize("size", [(1280, 800), (800, 450), (390, 844)])
+def test_nothing_on_the_page_is_cut_off_at_any_size(browser, live, size):
+    page = opened(browser, live.address)
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+
+    def cut_off():
+        boxes = {n: page.get_by_role("button", name=n).first.bounding_box() for n in BUTTONS}
+        inside = [
+            name
+            for name, box in boxes.items()
+            if box and box["x"] >= 0.0 and box["x"] + box["width"] <= size[0] and box["y"] + box["height"] <= size[1]
+        ]
+        wide = page.evaluate("document.documentElement.scrollWidth") > size[0]
+        return set(BUTTONS) - set(inside) | ({"the page"} if wide else set())
+
+    until(lambda: not cut_off(), "a page of that size")
+    page.context.close()
+
+
+def test_a_replay_opens_from_disk_with_the_network_off(browser, tmp_path):
+    flight = tl.fly(tl.load_mission("one-push"))
+    html = tmp_path / "replay.html"
+    html.write_text(replay_html(flight, page_files()), "utf-8")
+    asked = []
+    context = browser.new_context(viewport=SIZE, offline=True)
+    page = context.new_page()
+    page.set_default_timeout(MS)
+    page.on("request", lambda request: asked.append(request.url))
+    page.on("pageerror", lambda error: asked.append(str(error)))
+    page.goto(html.as_uri())
+    page.wait_for_selector("#surface canvas")
+    middle_of_the_beam(page)
+    slider = page.get_by_label("Time", exact=True)
+    slider.fill("10")
+    until(lambda: abs(float(page.locator("output b").text_content()) - 10.0) < 1.0, "the time of the slider")
+    assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
+    context.close()
+
+
+def test_while_it_is_compiled_the_page_shows_the_vehicle_and_what_is_waited_for(browser, tmp_path, monkeypatch):
+    goes_on = tmp_path / "goes on"
+    monkeypatch.setenv("COMPILES_UNTIL", str(goes_on))
+    monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
+    one = Live(tmp_path, slow_compiler.__file__)
+    try:
+        page = opened(browser, one.address)
+        until(lambda: page.text_content("#mode") == "preparing", "its mode")
+        assert page.text_content("#hint") == "Preparing the flight: compiling the flight loop \u2026"
+        assert page.is_visible("#hint")
+        middle_of_the_beam(page)
+        assert not page.locator("#meters .speed .late").count()
+        goes_on.touch()
+        until(lambda: page.text_content("#mode") not in ("preparing", "connecting"), "a flight")
+        until(lambda: "Preparing" not in page.text_content("#hint"), "an end of the hint")
+        assert page.wrong == []
+        page.context.close()
+    finally:
+        one.close()

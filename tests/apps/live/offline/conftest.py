@@ -1,0 +1,38 @@
+"""The flights of the simplest missions, built once."""
+
+import pytest
+from own_flight import OwnFlight
+from sessions import GUIDED
+
+from tandemlift.apps.live.offline.page_modules import packed_flight, packed_mission, page_mission
+from tandemlift.apps.live.session.session import Session
+
+BY_HAND = GUIDED | {"supervision.model": "watch", "supervision.limits.tilt_time": 100.0}
+TENDER = {"supervision.limits.tilt": 0.11, "crash.tilt": 0.12, "promise.tilt": 0.1}  # a hard push is a crash
+
+
+@pytest.fixture(scope="session")
+def hover():
+    return packed_flight("hover")
+
+
+@pytest.fixture
+def flight(hover):
+    one = OwnFlight(hover)
+    yield one
+    one.close()
+
+
+@pytest.fixture(scope="session")
+def packed_by_hand():
+    return packed_mission(page_mission("hover", BY_HAND | TENDER), "guided by hand")
+
+
+@pytest.fixture
+def by_hand(packed_by_hand, tmp_path):
+    """A session and a page's own flight of a mission that is guided by hand and supervised."""
+    session, flight = Session(page_mission("hover", BY_HAND | TENDER), out=tmp_path), OwnFlight(packed_by_hand)
+    session.prepare()
+    yield session, flight
+    flight.close()
+    session.stop()

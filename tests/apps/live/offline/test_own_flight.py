@@ -1,0 +1,230 @@
+"""The page's own flights: links, damaged flights, saved files, and the files that the page consists of."""
+
+import gzip
+import html.parser
+import json
+import zipfile
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from own_flight import INDEX, OwnFlight
+
+import tandemlift as tl
+from tandemlift.apps.cli.main import cli
+from tandemlift.apps.live.offline import page_modules, pages
+from tandemlift.apps.live.offline.page_manifest import page_manifest
+from tandemlift.apps.live.page_files import page_files
+from tandemlift.simulation.assembly.traced_assembly import trace_assembly
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.stepping import fly_stepwise
+
+
+def opened(flight, settings=None):
+    """What the worker says of a flight as it opens it."""
+    one = OwnFlight(flight, settings)
+    one.close()
+    return one.said
+
+
+def failure_of(flight):
+    return [said["preparing"]["failure"] for said in opened(flight) if said["phase"] == "failed"]
+
+
+# damaged flights
+
+
+@pytest.mark.parametrize("cut", [10, 1000, -1])
+def test_a_flight_that_was_cut_short_is_refused(hover, cut):
+    assert failure_of(hover._replace(data=hover.data[:cut]))[0].startswith("broken")
+    whole = gzip.decompress(hover.data)
+    assert failure_of(hover._replace(data=gzip.compress(whole[:cut]))) == ["broken"]
+
+
+def test_a_flight_with_one_bit_changed_is_refused_wherever_it_is(hover):
+    whole = gzip.decompress(hover.data)
+    for at in np.random.default_rng(1).integers(len(whole), size=5):
+        edited = bytearray(whole)
+        edited[at] ^= 1 << int(at) % 8
+        assert failure_of(hover._replace(data=gzip.compress(bytes(edited)))) == ["broken"]
+
+
+def test_a_flight_of_another_version_is_refused(hover, monkeypatch):
+    monkeypatch.setitem(INDEX, "version", "0.0.1")
+    assert failure_of(hover) == ["other"]
+
+
+# links
+
+
+def test_a_link_begins_the_flight_with_its_settings(hover, tmp_path):
+    flight = OwnFlight(hover, [["admittance.mass", [2.5, 2, 3]], ["person.stiffness", 9]])
+    assert [one["type"] for one in flight.said if one["type"] == "refused"] == []
+    values = {one["key"]: one["value"] for one in flight.scene["parameters"]}
+    assert (values["admittance.mass"], values["person.stiffness"]) == ([2.5, 2, 3], 9)
+    assert flight.scene["spring"]["stiffness"] == 9
+    flight.fly(0.5)
+    flight.saved(tmp_path)
+    flight.close()
+    again = tl.load_mission(tmp_path / "recorded.toml")
+    assert again.admittance.mass == (2.5, 2.0, 3.0)
+    assert not again.changes
+
+
+def test_settings_of_a_link_that_are_out_of_bounds_are_each_named_and_the_rest_is_taken(hover):
+    given = [["admittance.mass", 300], ["admittance.damping", 4], ["mission.step", 1], ["person.stiffness", "a"]]
+    said = opened(hover, given)
+    refused = [one["reason"] for one in said if one["type"] == "refused"]
+    assert refused[0] == "admittance.mass = 300.0: must be from 0.3 to 20"
+    assert refused[1].startswith("mission.step: is not a parameter that can be changed in flight")
+    assert refused[2] == 'person.stiffness = "a": must be a number, or a list of numbers'
+    (scene,) = [one for one in said if one["type"] == "scene"]
+    values = {one["key"]: one["value"] for one in scene["parameters"]}
+    assert (values["admittance.damping"], values["admittance.mass"]) == ([4, 4, 4], [1, 1, 1])
+
+
+# saved files
+
+
+def test_a_saved_flight_flies_again_to_the_last_bit(flight, tmp_path):
+    flight.say("grab", point=[0.1, 0.4, 0.0], target=[0.4, 0.2, 1.3], at="point")
+    flight.fly(1.0)
+    flight.say("set", key="admittance.damping", value=3.3)
+    flight.fly(0.3)
+    flight.say("set", key="admittance.damping", value=[1, 2, 3])
+    flight.fly(1.7)
+    last = flight.saved(tmp_path, "mine")
+    mission = tl.load_mission(tmp_path / "recorded.toml")
+    assert (mission.mission.name, mission.mission.fused) == ("mine", False)
+    assert [(c.key, c.duration) for c in mission.changes] == [("admittance.damping", 0.5)] * 2
+    plan = FlightPlan(mission)
+    again = fly_stepwise(plan, plan.steps + 1, 1)
+    np.testing.assert_array_equal(again.last.view(np.int64), last.view(np.int64))
+    assert np.abs(tl.fly(mission)["position"][-1] - [0.0, 0.0, 1.0]).max() > 0.01  # it was pulled
+
+
+def test_a_saved_file_is_flown_as_it_is(flight, tmp_path):
+    flight.fly(0.4)
+    flight.saved(tmp_path, "mine")
+    with zipfile.ZipFile(tmp_path / "mine.zip", "w") as archive:
+        for name in ("recorded.toml", "hand.npz", "last_sample.npy"):
+            archive.write(tmp_path / name, name)
+    packed, unpacked = (
+        tl.fly(tl.load_mission(tmp_path / "mine.zip")),
+        tl.fly(tl.load_mission(tmp_path / "recorded.toml")),
+    )
+    np.testing.assert_array_equal(packed["position"], unpacked["position"])
+
+
+def test_a_zip_file_that_is_no_saved_flight_is_refused(tmp_path):
+    with zipfile.ZipFile(tmp_path / "other.zip", "w") as archive:
+        archive.writestr("readme.txt", "nothing")
+    (tmp_path / "damaged.zip").write_bytes(b"PK\3\4 and no more")
+    for name in ("other.zip", "damaged.zip"):
+        with pytest.raises(tl.InputError, match=f"{name} is not a flight that a page saved"):
+            tl.load_mission(tmp_path / name)
+
+
+def test_a_flight_that_diverged_is_saved_and_diverges_again_at_the_same_step(tmp_path, hover):
+    flight = OwnFlight(hover)
+    flight.fly(0.5)
+    for key in ("controller.gains.xi", "controller.gains.lambda_1", "controller.gains.lambda_2"):
+        flight.say("set", key=key, value=0.05)
+    flight.say("set", key="person.max_force", value=20)
+    flight.say("force", force=[20, 0, 20], point=[0, 1, 0])
+    for _ in range(60):
+        flight.fly(1.0)
+        if flight.status()["phase"] == "crashed":
+            break
+    assert flight.status()["phase"] == "crashed"
+    flight.saved(tmp_path)
+    flight.close()
+    mission = tl.load_mission(tmp_path / "recorded.toml")
+    again = tl.fly(mission)
+    assert again.ending is not None
+    assert again.ending.time == pytest.approx(mission.mission.duration, abs=2e-3)
+
+
+# the page's files
+
+
+class Elements(html.parser.HTMLParser):
+    """Elements of a page by their id, and its policy."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.texts, self.policy, self.id = {}, "", None
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.id = dict(attrs).get("id") if tag == "script" else None
+        if dict(attrs).get("http-equiv") == "Content-Security-Policy":
+            self.policy = dict(attrs)["content"]
+
+    def handle_data(self, data):
+        if self.id:
+            self.texts[self.id] = self.texts.get(self.id, "") + data
+
+
+def test_a_page_in_one_file_holds_worker_and_flights_and_may_load_nothing(hover):
+    page = Elements(pages.offline_html([hover], page_files()))
+    index = json.loads(page.texts["flights"])
+    assert [(m["name"], m["sha256"]) for m in index["missions"]] == [("hover", hover.sha256)]
+    assert index["only_server"]
+    assert "connect-src" not in page.policy
+    assert page.policy.startswith("default-src 'none'")
+    assert page.texts["worker"].strip() == page_files()["/worker.js"].decode().strip()
+    assert json.loads(page.texts["flight"])["scene"]["mission"] == pages.SHOWN_INSTEAD
+
+
+def test_a_page_for_a_web_server_has_its_flights_beside_it(hover):
+    files = pages.offline_files([hover], page_files())
+    assert files["flights/hover.flight"] == hover.data
+    assert {"index.html", "page.js", "page.css", "worker.js"} <= files.keys()
+
+
+def test_flights_are_shipped_as_files_and_taken_from_there(hover, tmp_path, monkeypatch):
+    (written,) = page_modules.build_modules(tmp_path, ["hover"])
+    monkeypatch.setattr(page_modules, "SHIPPED", tmp_path)
+    monkeypatch.setattr(page_modules, "page_mission", None)  # nothing is built
+    assert page_modules.packed_flight("hover") == hover
+    assert written.read_bytes() == hover.data
+
+
+def test_the_verb_writes_both_forms(tmp_path):
+    where = ["--html", str(tmp_path / "one.html"), "--out", str(tmp_path / "site")]
+    done = CliRunner().invoke(cli, ["page", "hover", *where], standalone_mode=False)
+    assert done.exception is None
+    assert (tmp_path / "one.html").stat().st_size < 3e6
+    assert (tmp_path / "site" / "flights" / "hover.flight").is_file()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        ([], "say where the page goes: --html FILE for one file, --out DIR for a web server"),
+        (["--html", "page.txt"], "--html page.txt: the name of a page must end in .html"),
+        (["hoover", "--html", "a.html"], "unknown mission of a page 'hoover'"),
+        (["paper", "--html", "a.html"], "there are hover, zigzag, iris, doorway, rotor-loss"),
+    ],
+)
+def test_what_the_verb_cannot_do_is_refused(arguments, text, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(cli, ["page", *arguments], standalone_mode=False)
+    assert isinstance(done.exception, tl.InputError)
+    assert text in str(done.exception)
+    assert not list(tmp_path.iterdir())
+
+
+# the modules
+
+
+@pytest.mark.targets
+@pytest.mark.parametrize("name", page_modules.MISSIONS)
+def test_every_setting_and_every_rotor_of_a_page_is_a_number_that_its_module_takes(name):
+    mission = page_modules.page_mission(name)
+    taken, manifest = trace_assembly(mission).keys, page_manifest(FlightPlan(mission))
+    keys = [key for one in manifest["parameters"] for key in one["keys"]] + [one["key"] for one in manifest["rotors"]]
+    assert keys
+    for key in keys:
+        assert any(one == key or one.startswith(f"{key}.") for one in taken), key

@@ -1,0 +1,104 @@
+"""The page that flies by itself in Chromium, from disk: pulled by a real mouse, saved, and flown again in Python."""
+
+import time
+import zipfile
+
+import numpy as np
+import pytest
+from chromium import MS, SIZE, launched, middle_of_the_beam, opened, panel
+from patience import until
+
+import tandemlift as tl
+from tandemlift.apps.live.offline import pages
+from tandemlift.apps.live.page_files import page_files
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.stepping import fly_stepwise
+
+
+@pytest.fixture(scope="module")
+def address(hover, tmp_path_factory):
+    file = tmp_path_factory.mktemp("page") / "own.html"
+    file.write_text(pages.offline_html([hover], page_files()), "utf-8")
+    return file.as_uri()
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with launched() as one:
+        yield one
+
+
+def seconds_flown(page):
+    return float(page.inner_text("#meters .time dd").removesuffix("s").replace("–", "-1"))
+
+
+def save(page, folder):
+    """Save the flight by the page's dialog, unpacked into a folder; the name of the file."""
+    page.click("#dock button:has-text('Save')")
+    page.fill("#save-name", "by-hand")
+    with page.expect_download(timeout=MS) as download:
+        page.click("#saving button[type=submit]")
+    zipfile.ZipFile(download.value.path()).extractall(folder)
+    return download.value.suggested_filename
+
+
+def test_a_recording_made_by_a_real_mouse_flies_again_in_python_to_the_last_bit(browser, address, tmp_path):
+    page = opened(browser, address)
+    until(lambda: seconds_flown(page) > 6.0, "a flight at its height")
+    entry = panel(page, "person.stiffness").locator("input[type=number]")
+    entry.fill("9")
+    entry.press("Enter")
+    page.click("#show-panel")
+    x, y = middle_of_the_beam(page)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for i in range(20):
+        page.mouse.move(x + 4.0 * i, y - 2.0 * i)
+        time.sleep(0.02)
+    until(lambda: page.inner_text("#meters .held-by dd") == "you", "the page holds the beam")
+    page.mouse.up()
+    page.keyboard.down("KeyD")
+    time.sleep(0.6)
+    page.keyboard.up("KeyD")
+    assert save(page, tmp_path) == "by-hand.zip"
+    assert page.wrong == []
+    page.close()
+    mission = tl.load_mission(tmp_path / "recorded.toml")
+    plan = FlightPlan(mission)
+    again = fly_stepwise(plan, plan.steps + 1, 1)
+    last = np.load(tmp_path / "last_sample.npy")
+    np.testing.assert_array_equal(again.last.view(np.int64), last.view(np.int64))
+    hand = np.load(tmp_path / "hand.npz")["hand"]
+    assert hand[:, 0].max() == 1.0
+    assert len(np.unique(hand[:, 4:7], axis=0)) > 10  # targets
+    assert np.linalg.norm(hand[:, 7:10], axis=1).max() == pytest.approx(3.0)  # the key's force
+    assert [(c.key, c.value) for c in mission.changes] == [("person.stiffness", 9.0)]
+
+
+def test_a_link_is_read_and_written_and_the_menu_flies_another_flight(browser, address):
+    page = opened(browser, f"{address}#mission=hover&admittance.mass=2.5&admittance.damping=99")
+    until(lambda: "admittance.damping = 99.0" in page.inner_text("#notices"), "a refused setting")
+    assert float(panel(page, "admittance.mass").locator("input[type=number]").first.input_value()) == 2.5
+    page.click("summary:has-text('This page')")
+    page.click("#copy-link")
+    until(lambda: page.input_value("#link") == f"{address}#mission=hover&admittance.mass=2.5,2.5,2.5", "the link")
+    assert page.locator("#panel .own-flight li").count() == len(pages.ONLY_SERVER)
+    assert page.locator("#missions option").all_inner_texts() == ["hover"]
+    assert page.wrong == []
+    page.close()
+
+
+def test_an_edited_page_says_that_its_flight_is_damaged(browser, hover, tmp_path):
+    text = pages.offline_html([hover._replace(sha256="0" * 64)], page_files())
+    (tmp_path / "edited.html").write_text(text, "utf-8")
+    page = browser.new_context(viewport=SIZE).new_page()
+    page.goto((tmp_path / "edited.html").as_uri())
+    until(lambda: "its checksum is wrong" in page.inner_text("#hint"), "the reason")
+    page.close()
+
+
+def test_a_browser_without_webassembly_is_told_so_and_shown_a_recorded_flight(browser, address):
+    page = opened(browser, address, lambda one: one.add_init_script("delete globalThis.WebAssembly"))
+    until(lambda: "runs no WebAssembly" in page.inner_text("#notices"), "the sentence")
+    until(lambda: seconds_flown(page) > 0.5, "a replay")
+    page.close()

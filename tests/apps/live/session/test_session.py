@@ -1,0 +1,145 @@
+"""The life of a session: prepared, flown in a thread of its own, over, reset, saved."""
+
+import threading
+
+import numpy as np
+import pytest
+from patience import PATIENCE, until
+from sessions import fly, say, seen, unprepared
+
+import tandemlift as tl
+from tandemlift.apps.live.session.interactive_mission import interactive_mission
+from tandemlift.apps.live.session.session import Session
+from tandemlift.apps.live.wire.page_messages import PAGE_MESSAGES, PingMessage
+
+
+def test_a_flight_that_is_over_says_so_and_changes_no_more(session):
+    session._flight._p.steps = session._flight.step + 10
+    fly(session, 0.01)
+    session._fly(5)
+    assert session.status()["phase"] == "over"
+    with pytest.raises(tl.InputError, match="the flight is over; reset it first"):
+        say(session, "set", key="admittance.mass", value=5.0)
+
+
+def test_a_session_handles_every_message_of_a_page_that_the_server_does_not_answer_itself():
+    handled = set(Session.__dict__["_handle"].dispatcher.registry)
+    assert set(PAGE_MESSAGES.values()) - handled == {PingMessage}
+
+
+def test_an_error_in_flight_is_told(session, monkeypatch):
+    def fail():
+        raise RuntimeError("of a controller")
+
+    session._flight.advance = fail
+    session.start()
+    until(lambda: session.status()["phase"] == "failed")
+    say(session, "reset")
+    until(lambda: session.status()["recorded_s"] > 0.1)
+    assert session.status()["phase"] != "failed"
+
+
+def test_a_recorded_mission_is_flown_by_who_watches_and_not_by_the_recording(tmp_path, session):
+    fly(session, 0.5)
+    say(session, "save", name="first")
+    again = interactive_mission(tl.load_mission(tmp_path / "first" / "recorded.toml"))
+    assert (again.person.model, again.person.recording, again.changes) == ("grab", None, ())
+
+
+def test_what_was_flown_is_saved_under_its_name_and_flies_again(session, tmp_path):
+    fly(session, 2.0)
+    answer = say(session, "save", name="mine")
+    assert answer == [{"type": "done", "what": "save", "detail": str(tmp_path / "mine")}]
+    again = tl.fly(tl.load_mission(tmp_path / "mine" / "recorded.toml"))
+    np.testing.assert_array_equal(again["position"], tl.Flight.load(tmp_path / "mine" / "flight.npz")["position"])
+
+
+def test_before_it_is_compiled_the_vehicle_is_seen_where_it_will_begin(tmp_path):
+    one = unprepared(tmp_path, **{"initial.position": [1.0, 2.0, 0.0]})
+    assert one.status()["phase"] == "preparing"
+    before, controls = seen(one), one.scene["parameters"]
+    one.prepare()
+    assert one.status()["phase"] != "preparing"
+    for field in ("position", "attitude", "velocity"):
+        np.testing.assert_array_equal(before[field], seen(one)[field], err_msg=field)
+    assert one.scene["parameters"] == controls
+    one.stop()
+
+
+def test_before_it_is_compiled_nothing_is_heeded_and_a_hand_that_goes_does_no_harm(tmp_path):
+    one = unprepared(tmp_path)
+    one.release()
+    for kind, what in {"reset": {}, "pause": {"on": True}, "save": {"name": "mine"}}.items():
+        with pytest.raises(tl.InputError, match="the flight is still being prepared"):
+            say(one, kind, **what)
+    one.stop()
+
+
+def test_a_flight_that_cannot_be_compiled_says_why_and_is_not_flown(tmp_path, monkeypatch, caplog):
+    def fail(*_):
+        raise tl.InputError("law.py:3 branches on data")
+
+    monkeypatch.setattr("tandemlift.apps.live.session.session.RecordedFlight", fail)
+    one = unprepared(tmp_path)
+    one.start()
+    until(lambda: one.status()["phase"] == "failed")
+    assert one.status()["preparing"]["failure"] == "law.py:3 branches on data"
+    with pytest.raises(tl.InputError, match=r"cannot be flown: law\.py:3 branches on data"):
+        say(one, "reset")
+    assert "law.py:3" in caplog.text
+    assert len(one.frame()) > 0
+    one.stop()
+
+
+def test_a_session_that_still_compiles_is_stopped_at_once(tmp_path, monkeypatch):
+    compiles, goes_on = threading.Event(), threading.Event()
+
+    def compile_for_long(*_):
+        compiles.set()
+        goes_on.wait(PATIENCE)
+        raise tl.InputError("nobody waits for this")
+
+    monkeypatch.setattr("tandemlift.apps.live.session.session.RecordedFlight", compile_for_long)
+    one = unprepared(tmp_path)
+    one.start()
+    assert compiles.wait(PATIENCE)
+    one.stop()  # which does not wait for what is compiled
+    goes_on.set()
+    one._thread.stop(wait=True)
+
+
+def test_optimised_code_takes_over_while_it_flies(tmp_path, monkeypatch):
+    monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr("tandemlift.simulation.plan.KERNELS", {})
+    one = unprepared(tmp_path)
+    one.start()
+    until(lambda: one.is_ready and one.flight._stepper.code.is_best, patience=4 * PATIENCE)
+    then = one.flight.step
+    until(lambda: one.flight.step > then + 100)
+    assert not one.flight.lost
+    one.stop()
+
+
+def test_the_thread_flies_until_it_is_stopped_and_pauses(session):
+    session.start()
+    until(lambda: session.status()["recorded_s"] > 0.2)
+    say(session, "pause", on=True)
+    then, rests = session.status()["recorded_s"], []
+    session._flight.rest = lambda: rests.append(None)
+    until(lambda: len(rests) > 20)
+    assert session.status()["recorded_s"] == then
+    say(session, "pause", on=False)
+    until(lambda: session.status()["recorded_s"] > then)
+
+
+def test_a_body_that_waits_is_told_of_a_pause(session):
+    class Waiting:
+        rests = 0
+
+        def rest(self):
+            self.rests += 1
+
+    session.start()
+    say(session, "pause", on=True)
+    session._flight._stepper.body = body = Waiting()
+    until(lambda: body.rests > 3)

@@ -1,0 +1,101 @@
+"""Whole flights in C have the bits of native ones: every built-in mission, twenty draws each, diverging ones too."""
+
+import ctypes
+import subprocess
+
+import numpy as np
+import pytest
+from c_flights import STRICT, CFlight, differences, same, unfused
+from passing import thrown, upright
+
+import tandemlift as tl
+from tandemlift.codegen.c.write import code_texts, written
+from tandemlift.core.algebra.layout import leaves
+from tandemlift.missions import built_in, changed
+from tandemlift.simulation.assembly.traced_assembly import trace_assembly
+from tandemlift.simulation.plan import FlightPlan
+from tools import need
+
+
+def mission_of(name, **changes):
+    return unfused(tl.load_mission(name, {key.replace("__", "."): value for key, value in changes.items()}))
+
+
+def test_a_short_flight_in_c_has_the_bits_of_the_native_one(tmp_path):
+    mission = mission_of("one-push")
+    wrong, lost = differences(CFlight(mission, tmp_path), mission, range(5))
+    assert not wrong
+    assert lost > 0  # so a flight that diverges was compared too
+
+
+def test_a_flight_that_strikes_a_wall_hard_has_the_bits_of_the_native_one_in_c(tmp_path):
+    wall = upright((-1.0, 0.3), (1.0, 0.3), -0.2)
+    mission = unfused(thrown({"initial.velocity": [0.3, 0.0, -8.0], "walls": [wall, upright((1, -3), (1, 3))]}, 0.1))
+    assert np.abs(tl.fly(mission)["contact_force"]).max() > 1e4  # an impulse, beyond what springs give
+    in_c = CFlight(mission, tmp_path, "gcc", "-O2", "-Wno-error=parentheses")
+    wrong, _ = differences(in_c, mission, range(3))
+    assert not wrong
+
+
+def prepared_in_c(mission, values, folder):
+    """(What `flight_prepare` returns, the numbers of the flight)."""
+    files = written(code_texts(mission), folder)
+    name = next(f.name for f in files if f.name.endswith("_flight.h")).removesuffix("_flight.h")
+    library = folder / "prepare.so"
+    sources = [folder / f"{name}_flight.c", folder / f"{name}_flight_prepare.c"]
+    subprocess.run(["gcc", *STRICT, "-O1", "-shared", "-fPIC", *sources, "-o", library, "-lm"], check=True)
+    given, prepared = np.array(values), np.zeros(100_000)
+    places = ctypes.c_void_p(given.ctypes.data), ctypes.c_void_p(prepared.ctypes.data)
+    failed = getattr(ctypes.CDLL(str(library)), f"{name}_flight_prepare")(*places)
+    return failed, prepared[: leaves(FlightPlan(mission).model)]
+
+
+def test_numbers_of_another_mission_are_prepared_in_c_as_by_assembly(tmp_path):
+    mission, other = mission_of("one-push"), mission_of("one-push", vehicle__payload__mass=211.5)
+    failed, found = prepared_in_c(mission, trace_assembly(other).values, tmp_path)
+    assert failed == 0
+    assert same(found, FlightPlan(other).start().numbers)
+    assert not same(found, FlightPlan(mission).start().numbers)
+
+
+def test_numbers_for_which_assembly_would_branch_otherwise_are_reported(tmp_path):
+    mission = mission_of("one-push")
+    traced = trace_assembly(mission)
+    failed, _ = prepared_in_c(mission, np.full(len(traced.values), np.nan), tmp_path)
+    assert 1 <= failed <= len(traced.guards)
+
+
+@pytest.mark.targets
+@pytest.mark.parametrize("name", sorted(built_in()))
+def test_every_mission_is_prepared_in_c_as_by_assembly(name, tmp_path):
+    mission = mission_of(name)
+    other = changed(mission, "vehicle.payload.mass", mission.vehicle.payload.mass * 1.01)
+    failed, found = prepared_in_c(mission, trace_assembly(other).values, tmp_path)
+    assert failed == 0
+    assert same(found, FlightPlan(other).start().numbers)
+
+
+@pytest.mark.targets
+@pytest.mark.parametrize("name", sorted(built_in()))
+def test_twenty_draws_of_every_mission_have_the_bits_of_native_flights(name, tmp_path):
+    mission = mission_of(name)
+    wrong, lost = differences(CFlight(mission, tmp_path), mission, range(20))
+    assert not wrong
+    assert lost > 0
+
+
+@pytest.mark.targets
+@pytest.mark.parametrize("name", ["paper", "iris", "zigzag", "rotor-loss"])
+def test_clang_makes_the_same_bits(name, tmp_path):
+    need("clang")
+    mission = mission_of(name)
+    wrong, _ = differences(CFlight(mission, tmp_path, "clang", "-O3"), mission, range(5))
+    assert not wrong
+
+
+@pytest.mark.targets
+@pytest.mark.parametrize("controller", ["geometric", "lqr", "pid", "smc", "super-twisting"])
+def test_every_controller_has_the_bits_of_native_flights(controller, tmp_path):
+    mission = mission_of("one-push", controller__name=controller)
+    wrong, _ = differences(CFlight(mission, tmp_path), mission, range(5))
+    assert not wrong

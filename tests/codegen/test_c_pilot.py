@@ -1,0 +1,186 @@
+"""The pilot in C: its bits, its self-tests, what its code may contain, and what its header refuses."""
+
+import ctypes
+import re
+import subprocess
+
+import numpy as np
+import pytest
+from c_flights import STRICT, same, unfused
+from listings import LAW
+
+import tandemlift as tl
+from tandemlift.codegen.c.write import code_texts, write_c, written
+from tandemlift.core.algebra.layout import leaves
+from tandemlift.parts.controllers import load_controller
+from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
+from tools import need
+
+SANITIZERS = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g")
+
+
+class PilotInC:
+    """A mission's pilot as a shared library."""
+
+    def __init__(self, mission, folder, *, single=False, compiler="gcc"):
+        files = written(code_texts(mission, single), folder)
+        source = next(f for f in files if f.name.endswith("_pilot.c"))
+        library = folder / "pilot.so"
+        subprocess.run([compiler, *STRICT, "-O2", "-shared", "-fPIC", source, "-o", library, "-lm"], check=True)
+        self.real = np.float32 if single else np.float64
+        name, self.library = source.name.removesuffix("_pilot.c"), ctypes.CDLL(str(library))
+        self.numbers = np.zeros(leaves(pilot_at_start(mission)), self.real)
+        self.input = np.zeros(leaves(INPUT), self.real)
+        self.thrusts = np.zeros(4 * len(mission.vehicle.quadrotors), self.real)
+        self._step = getattr(self.library, f"{name}_pilot_step")
+        self._places = [ctypes.c_void_p(a.ctypes.data) for a in (self.numbers, self.input, self.thrusts)]
+        getattr(self.library, f"{name}_pilot_start")(self._places[0])
+
+    def step(self, measurement):
+        """Thrusts [N] for a measurement, as of `tl.Pilot`."""
+        self.input[:16], self.input[22] = measurement, 1.0
+        self._step(*self._places)
+        return self.thrusts
+
+
+def measurements(mission, hold):
+    """States and pushes all over a flight, each for `hold` samples."""
+    flight = tl.fly(mission)
+    names = ("position", "velocity", "attitude", "rates", "push_force")
+    return np.repeat(np.hstack([flight[name] for name in names])[::20], hold, axis=0)
+
+
+def build(source, *options, compiler="gcc"):
+    """Compile a self-test with what it tests."""
+    folder, program = source.parent, source.with_suffix("")
+    part = source.name.removesuffix("_selftest.c") + ".c"
+    subprocess.run(
+        [compiler, *STRICT, *(options or ("-O2",)), source, folder / part, "-o", program, "-lm"],
+        check=True,
+    )
+    return program
+
+
+@pytest.mark.parametrize("name", ["paper", "iris"])
+def test_its_thrusts_have_the_bits_of_the_native_pilot(name, tmp_path):
+    need("gcc")
+    mission = unfused(tl.load_mission(name, {"mission.duration": 30.0}))
+    in_c, native = PilotInC(mission, tmp_path), tl.Pilot(mission)
+    rows = measurements(mission, 200)
+    found = np.array([(in_c.step(row).copy(), native.step(row).copy()) for row in rows])
+    assert same(found[:, 0], found[:, 1])
+    assert len(np.unique(found[:, 1])) > 1000
+
+
+def test_the_self_tests_pass_and_fail_when_a_bit_is_other(tmp_path):
+    need("gcc")
+    files = write_c(tl.load_mission("one-push"), tmp_path)
+    for part in ("pilot", "flight"):
+        source = next(f for f in files if f.name.endswith(f"_{part}_selftest.c"))
+        assert subprocess.run([build(source)], check=False, capture_output=True).stdout.startswith(b"ok")
+        text = source.read_text()
+        data = text[: text.index("\n};")]  # its last number is one that must come
+        digit = [place.end() - 1 for place in re.finditer(r"\d\.\d{3,}", data)][-1]
+        source.write_text(text[:digit] + str((int(text[digit]) + 5) % 10) + text[digit + 1 :])
+        assert subprocess.run([build(source)], check=False, capture_output=True).returncode == 1
+
+
+@pytest.mark.parametrize("option", ["-ffast-math", "-ffinite-math-only", "-fassociative-math -fno-signed-zeros"])
+def test_its_header_refuses_arithmetic_that_is_not_exact(option, tmp_path):
+    need("gcc")
+    files = written(code_texts(tl.load_mission("hover")), tmp_path)
+    source = next(f for f in files if f.name.endswith("_pilot.c"))
+    options = [*option.split(), "-fno-trapping-math", "-fsyntax-only"]
+    run = subprocess.run(["gcc", "-std=c99", *options, source], check=False, capture_output=True, text=True)
+    assert run.returncode != 0
+    assert "compile without -ffast-math" in run.stderr
+
+
+def functions_of(text):
+    """Lines of each function of a source, by name."""
+    found, begin = {}, None
+    for i, line in enumerate(text.split("\n")):
+        if line == "{":
+            begin = i
+        elif line == "}" and begin is not None:
+            head = "\n".join(text.split("\n")[max(0, begin - 4) : begin])
+            found[re.findall(r"(\w+)\(", head)[-1], i] = i - begin
+            begin = None
+    return found
+
+
+@pytest.mark.parametrize("name", ["paper", "iris"])
+def test_its_functions_are_short_allocate_nothing_and_name_their_laws(name):
+    texts = code_texts(tl.load_mission(name))
+    source = texts[f"{name}_pilot.c"] + texts[f"{name}_flight.c"]
+    lengths = functions_of(source)
+    assert len(lengths) > 100
+    assert max(lengths.values()) <= 300
+    assert not re.search(r"\b(malloc|calloc|realloc|alloca|free)\(", source)
+    assert set(re.findall(r"#include <(.+)>", source)) <= {"math.h", "stdbool.h", "stddef.h", "stdint.h", "string.h"}
+    assert source.count("\n/* tandemlift.") > 100
+    assert source.count("\n * paper: ") > 5
+    assert len(texts["README.md"].split("\n")) <= 45
+
+
+def test_a_controller_in_plain_python_is_refused(tmp_path):
+    path = tmp_path / "mine.py"
+    path.write_text(LAW.replace("@control.register(Gains)", "@control.register(Gains, compiled=False)"))
+    with pytest.raises(tl.InputError, match=r"controller.name = '.*': is plain Python, of which no other machine"):
+        write_c(tl.load_mission("hover", controller=load_controller(path)), tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_mission_that_changes_while_it_is_flown_is_refused(tmp_path):
+    change = {"key": "admittance.damping", "value": [5.0, 5.0, 5.0], "time": 3.0}
+    with pytest.raises(tl.InputError, match="changes: 1 given, but other machines fly a mission as it begins"):
+        write_c(tl.load_mission("hover", {"changes": [change]}), tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.targets
+@pytest.mark.parametrize("name", ["paper", "iris", "zigzag", "rotor-loss"])
+def test_the_self_tests_pass_under_sanitizers_and_on_aarch64(name, tmp_path):
+    need("gcc", "clang", "aarch64-linux-gnu-gcc", "qemu-aarch64")
+    files = write_c(tl.load_mission(name), tmp_path)
+    for part in ("pilot", "flight"):
+        source = next(f for f in files if f.name.endswith(f"_{part}_selftest.c"))
+        for compiler in ("gcc", "clang"):
+            run = subprocess.run(
+                [build(source, "-O1", *SANITIZERS, compiler=compiler)], check=False, capture_output=True
+            )
+            assert run.stdout.startswith(b"ok"), run.stderr.decode()
+        program = build(source, "-O2", "-static", compiler="aarch64-linux-gnu-gcc")
+        run = subprocess.run(["qemu-aarch64", program], check=False, capture_output=True)
+        assert run.stdout.startswith(b"ok"), run.stdout.decode()
+
+
+@pytest.mark.targets
+@pytest.mark.parametrize("name", ["paper", "iris"])
+def test_in_single_precision_it_flies_within_a_thousandth_of_the_range_of_thrusts(name, tmp_path):
+    need("gcc")
+    mission = unfused(tl.load_mission(name))
+    exact, single = tl.Pilot(mission), PilotInC(mission, tmp_path, single=True)
+    pushes = tl.fly(unfused(tl.load_mission(name, {"mission.log_interval": mission.mission.step})))["push_force"]
+    flown = []
+    for pilot in (exact, single):
+        sim, thrusts = tl.Simulation(mission), []
+        for push in pushes[:-1]:
+            thrusts.append(np.array(pilot.step(np.concatenate([sim.state, push])), float))
+            sim.step(thrusts=thrusts[-1])
+        flown.append(np.array(thrusts))
+    assert np.abs(flown[1] - flown[0]).max() <= 1e-3 * np.ptp(flown[0])
+    assert not same(flown[0], flown[1])
+
+
+@pytest.mark.targets
+def test_eight_quadrotors_are_written_out_in_short_functions_with_the_same_bits(tmp_path):
+    need("gcc")
+    one = tl.load_mission("iris").vehicle.quadrotors[0].model_dump(mode="json")
+    many = [{**one, "position": [0.0, float(y), 0.075]} for y in np.linspace(2.8, -2.8, 8)]
+    mission = unfused(tl.load_mission("iris", {"vehicle.quadrotors": many, "mission.duration": 20.0}))
+    files = write_c(mission, tmp_path)
+    for part in ("pilot", "flight"):
+        source = next(f for f in files if f.name.endswith(f"_{part}_selftest.c"))
+        assert subprocess.run([build(source)], check=False, capture_output=True).stdout.startswith(b"ok")
+        assert max(functions_of((tmp_path / f"iris_{part}.c").read_text()).values()) <= 300

@@ -1,0 +1,108 @@
+"""C compilers have nothing to say about the C of a mission: all its files, with all warnings as errors."""
+
+import itertools
+import subprocess
+
+import pytest
+from c_flights import STRICT
+from random_missions.generate import random_family
+
+import tandemlift as tl
+from tandemlift.codegen.c.language.function_text import FunctionHead, Statement, function, token
+from tandemlift.codegen.c.write import code_texts, written
+from tandemlift.missions import built_in
+from tools import need
+
+CORTEX_M7 = ("-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard")
+COMPILERS = {"gcc": (), "clang": (), "aarch64-linux-gnu-gcc": (), "arm-none-eabi-gcc": CORTEX_M7}
+GUST = {"velocity": [2.0, 0.0, 0.0], "start": 20.0, "rise": 0.5}
+IDEAL = {"actuators.model": "ideal", "ground.effect": False, "faults": []}
+VARIANTS = {  # what adds a table or a branch to the code, or takes it away
+    "gusts": ("iris", {"wind.model": "air", "wind.gusts": [GUST]}),
+    "gusts alone": ("one-push", {"wind.model": "air", "wind.gusts": [GUST]}),
+    "nobody pushes": ("iris", {"pushes": []}),
+    "a floor": ("paper", {"ground.model": "floor", "initial.euler": [0.0, 0.0, 0.0]}),
+    "ideal rotors": ("iris", IDEAL),
+    "walls": ("iris", {"walls": [{"start": [2.0, -1.0], "end": [2.0, 1.0]}]}),
+    "a supervised one": ("zigzag", {"supervision.model": "watch", "pilot.guidance": "hand"}),
+}
+
+
+def complaints(folder, compiler, *options):
+    """What a compiler says about the sources of a folder."""
+    said = ""
+    for source in sorted(folder.glob("*.c")):
+        command = [compiler, *STRICT, *options, "-c", source, "-o", folder / "object.o"]
+        said += subprocess.run(command, check=False, capture_output=True, text=True).stderr
+    return said
+
+
+def in_c(mission, folder, single=False):
+    """The folder with the C of a mission, without its self-tests, for which it would have to fly."""
+    written(code_texts(mission, single), folder)
+    return folder
+
+
+@pytest.mark.parametrize("name", ["gusts", "zigzag"])
+def test_gcc_does_not_warn_of_a_mission(name, tmp_path):
+    need("gcc")
+    assert not complaints(in_c(tl.load_mission(name), tmp_path), "gcc", "-O1")
+
+
+def test_gcc_does_not_warn_of_single_precision_nor_of_self_tests(tmp_path):
+    need("gcc")
+    tl.compile_mission(tl.load_mission("paper"), "c", tmp_path, single=True)
+    assert not complaints(tmp_path, "gcc", "-O1")
+
+
+def part_heads(text):
+    """The parameters of each part of a function."""
+    return [line.split("(")[1].split(")")[0] for line in text.split("\n") if "_part" in line and "static" in line]
+
+
+def test_a_part_of_a_function_takes_what_it_uses():
+    lines = [Statement("raw", (), f"prepared->t = {i};") for i in range(300)]
+    head = FunctionHead("", "void", "prepare", ["double t", "Prepared *prepared"])
+    alone = function(head, lines, "")
+    assert part_heads(alone) == ["Prepared *prepared"] * 2
+    assert "shared" not in alone  # a struct without members is no C
+    value = Statement("value", (("double", "v1"),), "1.0")
+    used = Statement("raw", (), f"prepared->t = {token('v1')};")
+    first, second = part_heads(function(head, [value, *lines, used], ""))
+    assert first == second == "Prepared *prepared, prepare_values *shared"
+
+
+@pytest.mark.targets
+@pytest.mark.parametrize("name", sorted(built_in()))
+def test_no_compiler_warns_of_a_mission(name, tmp_path):
+    need(*COMPILERS)
+    for single in (False, True):
+        folder = in_c(tl.load_mission(name), tmp_path / str(single), single)
+        for compiler, options in COMPILERS.items():
+            assert not complaints(folder, compiler, "-O2", *options)
+
+
+@pytest.mark.targets
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_no_compiler_warns_of_a_variant(variant, tmp_path):
+    need("gcc", "clang")
+    folder = in_c(tl.load_mission(*VARIANTS[variant]), tmp_path)
+    assert not complaints(folder, "gcc", "-O2")
+    assert not complaints(folder, "clang", "-fsyntax-only")
+
+
+def portable(family):
+    """The missions of a random family that C can fly."""
+    for drawn in random_family(25, family, 4):
+        if not drawn.mission.changes:
+            yield drawn
+
+
+@pytest.mark.targets
+@pytest.mark.parametrize("family", range(12))
+def test_no_compiler_warns_of_random_missions(family, tmp_path):
+    need("gcc", "clang")
+    for drawn in itertools.islice(portable(family), 1):
+        folder = in_c(drawn.mission, tmp_path / str(drawn.member))
+        for compiler in ("gcc", "clang"):
+            assert not complaints(folder, compiler, "-O1"), drawn.changes

@@ -1,0 +1,163 @@
+"""The admittance: gates, the answer to a push, and where it leaves the reference."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from law_values import array, numbers, order_of, vectors
+from scipy.integrate import solve_ivp
+from scipy.signal import lsim
+
+from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.parts.compliance.admittance import (
+    Admittance,
+    AdmittanceState,
+    HardGate,
+    SoftGate,
+    admittance_response,
+    admittance_step,
+    gate,
+)
+from tandemlift.parts.mechanics.push import GaussianPush, gaussian_force
+from tandemlift.parts.signals.trajectories import Trajectory
+
+MASS, DAMPING, STIFFNESS = Vec3(1.0, 2.0, 0.5), Vec3(1.6, 0.7, 3.0), Vec3(0.0, 4.0, 2.0)
+THRESHOLD = Vec3(0.3, 0.1, 0.2)
+AT_REST = AdmittanceState(ZERO, ZERO, ZERO)
+PUSH = GaussianPush(Vec3(3.0, -2.0, 1.0), 3.0, 1.0 / 0.6, ZERO)
+
+
+def admittance(kind=None, stiffness: Vec3 = STIFFNESS, reanchor: float = 0.0) -> Admittance:
+    inverse = Vec3(*(1.0 / m for m in MASS))
+    return Admittance(kind or HardGate(THRESHOLD), inverse, DAMPING, stiffness, reanchor)
+
+
+def answered(a: Admittance, force, duration: float, dt: float) -> AdmittanceState:
+    """The memory after a push force(t) [N] has been read every dt."""
+    m = AT_REST
+    for k in range(round(duration / dt)):
+        F = gate(a.gate, force(k * dt))
+        m = admittance_step(a, m, F, admittance_response(a, m, F), dt)
+    return m
+
+
+@given(vectors(1.0))
+def test_a_hard_gate_lets_a_force_through_whole_or_not_at_all(F):
+    expected = [f if abs(f) > c else 0.0 for f, c in zip(F, THRESHOLD, strict=True)]
+    assert list(gate(HardGate(THRESHOLD), F)) == expected
+
+
+@given(vectors(1.0), vectors(1e-6))
+def test_a_soft_gate_is_continuous_and_lets_the_excess_through(F, step):
+    expected = [math.copysign(max(abs(f) - c, 0.0), f) for f, c in zip(F, THRESHOLD, strict=True)]
+    passed = array(gate(SoftGate(THRESHOLD), F))
+    assert passed == pytest.approx(expected, abs=1e-15)
+    assert np.abs(array(gate(SoftGate(THRESHOLD), F + step)) - passed).max() <= 1e-6 + 1e-15
+
+
+@given(vectors(5.0))
+def test_a_push_moves_the_reference_with_it(F):
+    """Erratum equ4: T_r accelerates along the force; with the printed T_d − T_r it would go the other way."""
+    a = admittance()
+    motion = admittance_response(a, AT_REST, F)
+    assert array(motion.acceleration) * array(MASS) == pytest.approx(array(F), abs=1e-15)
+    after = admittance_step(a, AT_REST, F, motion, 0.01)
+    assert np.all(array(after.position) * array(F) >= 0.0)
+    Td, printed = np.zeros(3), array(F) / array(MASS)
+    residual = array(MASS) * (Td - printed) - array(F)  # the printed left side minus the right, with T̈_r = F/M
+    assert residual == pytest.approx(-2.0 * array(F), abs=1e-14)
+
+
+@given(vectors(), vectors(), vectors(), vectors())
+def test_mass_damping_and_stiffness_balance_the_force_on_every_axis(position, velocity, anchor, F):
+    motion = admittance_response(admittance(), AdmittanceState(position, velocity, anchor), F)
+    M, C, K = map(np.diag, (MASS, DAMPING, STIFFNESS))
+    left = M @ array(motion.acceleration) + C @ array(velocity) + K @ (array(position) - array(anchor))
+    assert left == pytest.approx(array(F), abs=1e-13)
+
+
+def test_the_sampled_answer_tends_to_the_differential_equations_at_first_order():
+    """Per axis, M, C and K differ; SciPy integrates the second-order equation."""
+
+    def rate(t, y):
+        F = array(gaussian_force(PUSH, t))
+        return np.concatenate([y[3:], (F - array(DAMPING) * y[3:] - array(STIFFNESS) * y[:3]) / array(MASS)])
+
+    exact = solve_ivp(rate, (0.0, 5.0), np.zeros(6), method="DOP853", rtol=1e-12, atol=1e-13, max_step=0.1).y[:3, -1]
+    steps, errors = np.array([0.04, 0.02, 0.01, 0.005]), []
+    for dt in steps:
+        m = answered(admittance(HardGate(ZERO)), lambda t: gaussian_force(PUSH, t), 5.0, dt)
+        errors.append(np.abs(array(m.position) - exact).max())
+    assert order_of(steps, errors) == pytest.approx(1.0, abs=0.1)
+    assert errors[-1] < 0.02
+
+
+def test_a_free_mass_under_a_steady_push_moves_on_an_exact_parabola():
+    """T̈_r is held over a step, so that nothing is lost where it is constant."""
+    a = admittance(HardGate(ZERO), ZERO)._replace(damping=ZERO)
+    m = answered(a, lambda t: Vec3(1.0, -2.0, 3.0), 2.0, 0.02)
+    assert array(m.velocity) == pytest.approx([2.0, -2.0, 12.0], rel=1e-13)
+    assert array(m.position) == pytest.approx([2.0, -2.0, 12.0], rel=1e-13)
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_a_steady_push_is_answered_as_by_a_mass_with_damper_and_spring(axis):
+    F = Vec3(1.0, -1.5, 2.0)
+    m = answered(admittance(), lambda t: F, 4.0, 0.002)
+    t = np.linspace(0.0, 4.0, 4001)
+    system = ([1.0], [MASS[axis], DAMPING[axis], STIFFNESS[axis]])
+    _, expected, _ = lsim(system, np.full_like(t, F[axis]), t)
+    assert m.position[axis] == pytest.approx(expected[-1], abs=0.002)
+
+
+@pytest.mark.parametrize(("kind", "share"), [(HardGate, 0.0), (SoftGate, 1.0)])
+def test_one_push_without_a_spring_displaces_by_its_gated_impulse_over_the_damping(kind, share):
+    """A σ √(2π) erf(d/(σ√2))/C, d = σ √(2 ln(A/threshold)); soft: 2 d threshold/C less."""
+    A, sigma, threshold, C = 3.0, 0.6, 0.3, 1.6
+    a = Admittance(kind(Vec3(*[threshold] * 3)), Vec3(1.0, 1.0, 1.0), Vec3(C, C, C), ZERO, 0.0)
+    push = GaussianPush(Vec3(A, 0.0, -A), 4.0, 1.0 / sigma, ZERO)
+    m = answered(a, lambda t: gaussian_force(push, t), 20.0, 0.001)
+    d = sigma * math.sqrt(2.0 * math.log(A / threshold))
+    impulse = A * sigma * math.sqrt(2.0 * math.pi) * math.erf(d / (sigma * math.sqrt(2.0)))
+    expected = (impulse - share * 2.0 * d * threshold) / C
+    assert array(m.position) == pytest.approx([expected, 0.0, -expected], abs=1e-3)
+
+
+def test_an_anchored_spring_brings_the_reference_back():
+    m = answered(admittance(), lambda t: gaussian_force(PUSH, t), 60.0, 0.01)
+    assert abs(m.position.y) < 1e-3
+    assert m.anchor == ZERO
+
+
+def test_reanchoring_keeps_the_reference_where_the_push_left_it():
+    """With K > 0: held against the spring and let go, T_r stays, and T_d has moved there."""
+    a = admittance(HardGate(Vec3(0.3, 0.3, 0.3)), Vec3(1.0, 1.0, 1.0), 1.0)
+    held = Vec3(2.0, -1.0, 0.0)
+    m = answered(a, lambda t: held if t < 40.0 else ZERO, 60.0, 0.01)
+    assert array(m.position) == pytest.approx([2.0, -1.0, 0.0], abs=0.02)  # F/K
+    assert array(m.anchor) == pytest.approx(array(m.position), abs=1e-6)
+    assert array(m.velocity) == pytest.approx(np.zeros(3), abs=1e-6)
+
+
+def test_reanchoring_lets_the_reference_coast_to_the_end_of_its_motion():
+    """Let go on the way out, T_r goes on until the spring has stopped it, and is not pulled back."""
+    a = admittance(HardGate(Vec3(0.3, 0.3, 0.3)), Vec3(1.0, 1.0, 1.0), 1.0)
+    m, far, dt = AT_REST, 0.0, 0.01
+    for k in range(4000):
+        F = gate(a.gate, Vec3(5.0, 0.0, 0.0) if k * dt < 0.5 else ZERO)
+        m = admittance_step(a, m, F, admittance_response(a, m, F), dt)
+        far = max(far, m.position.x)
+    assert far > 0.5
+    assert m.position.x == pytest.approx(far, abs=0.5 * dt)
+    assert m.anchor.x == pytest.approx(m.position.x, abs=1e-6)
+
+
+@given(numbers(), numbers())
+def test_the_anchor_stays_while_a_force_comes_through_or_where_reanchoring_is_off(position, velocity):
+    m = AdmittanceState(Vec3(position, 0.0, 0.0), Vec3(velocity, 0.0, 0.0), ZERO)
+    now = Trajectory(m.position, m.velocity, ZERO)
+    assert admittance_step(admittance(reanchor=1.0), m, Vec3(1.0, 1.0, 1.0), now, 0.01).anchor == ZERO
+    assert admittance_step(admittance(reanchor=0.0), m, ZERO, now, 0.01).anchor == ZERO

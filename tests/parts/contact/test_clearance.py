@@ -1,0 +1,68 @@
+"""How far guards and beam are from walls, against bounded least squares."""
+
+import numpy as np
+from hypothesis import assume, given
+from law_values import array, paper_vehicle, random_state, seeds
+from scipy.optimize import lsq_linear
+from scipy.spatial.transform import Rotation
+
+from tandemlift.core.algebra.vector import Nothing
+from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.parts.contact.clearance import clearance, smaller_clearance
+from tandemlift.parts.contact.wall_geometry import wall
+from tandemlift.parts.contact.walls import nearest_with, no_walls_near, walls
+
+PAIR = paper_vehicle()
+GUARD, LENGTH, RADIUS = 0.375, 2.0, 0.05
+
+
+def least(p, columns, bounds):
+    """The least |p + columns x| with x within bounds."""
+    low, high = np.transpose(bounds)
+    return float(np.sqrt(2.0 * lsq_linear(np.transpose(columns), -p, (low, high), method="bvls", tol=1e-14).cost))
+
+
+@given(seed=seeds)
+def test_clearance_is_that_of_bounded_least_squares(seed):
+    rng = np.random.default_rng(seed)
+    ends, tops = rng.uniform(-4.0, 4.0, (5, 2, 2)), rng.uniform(-1.0, 3.0, 5)
+    table, state = [wall(*e, top) for e, top in zip(ends.tolist(), tops, strict=True)], random_state(rng)
+    w = walls(
+        PAIR.lever_arms, GUARD, PAIR.mass, PAIR.inertia, 0.001, friction=0.5, beam=(LENGTH, RADIUS),
+        payload=-PAIR.center_of_mass,
+    )  # fmt: skip
+    frame, near = parts_layout_from(PAIR), no_walls_near(w)
+    for one in table:
+        near = nearest_with(w, one, near, frame, state)
+    R, p = Rotation.from_quat(array(state.attitude), scalar_first=True).as_matrix(), array(state.position)
+    far = clearance(w, near, frame, state)
+    guards, beams = [], []
+    for (start, end), top in zip(ends, tops, strict=True):
+        corner, along, down = np.array([*start, top]), np.array([*(end - start), 0.0]), np.array([0.0, 0.0, -1.0])
+        rectangle, limits = [-along, -down], [(0.0, 1.0), (0.0, 1e9)]
+        guards.append([least(p + R @ d - corner, rectangle, limits) - GUARD for d in PAIR.lever_arms])
+        middle = p - R @ PAIR.center_of_mass - corner
+        beams.append(least(middle, [*rectangle, R[:, 1]], [*limits, (-LENGTH / 2, LENGTH / 2)]) - RADIUS)
+    np.testing.assert_allclose(far.guards, np.min(guards, axis=0), atol=1e-6)
+    assume(min(beams) > 1e-6 - RADIUS)  # it does not go through a wall
+    assert abs(min(*far.beam.ends, far.beam.length) - min(beams)) < 1e-6
+
+
+def test_the_lesser_of_two_clearances_is_taken_part_by_part():
+    w = walls(
+        PAIR.lever_arms, GUARD, PAIR.mass, PAIR.inertia, 0.001, friction=0.5, beam=(LENGTH, RADIUS),
+        payload=-PAIR.center_of_mass,
+    )  # fmt: skip
+    frame, rng, found = parts_layout_from(PAIR), np.random.default_rng(3), []
+    for _ in range(2):
+        state = random_state(rng)
+        found.append(
+            clearance(
+                w, nearest_with(w, wall((3.0, -9.0), (3.0, 9.0), 9.0), no_walls_near(w), frame, state), frame, state
+            )
+        )
+    both = smaller_clearance(*found)
+    assert tuple(both.guards) == tuple(map(min, found[0].guards, found[1].guards))
+    assert tuple(both.beam.ends) == tuple(map(min, found[0].beam.ends, found[1].beam.ends))
+    assert both.beam.length == min(found[0].beam.length, found[1].beam.length)
+    assert smaller_clearance(Nothing(), Nothing()) == Nothing()

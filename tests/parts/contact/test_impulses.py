@@ -1,0 +1,99 @@
+"""Impulses of walls: the closed form of one, what they take of the energy, and that they spare what springs hold."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from among_walls import FLAT, GUARD, RADIUS, STEP, at, found, random_wall, walls_of
+from law_values import flat, free_body
+from scipy.spatial.transform import Rotation
+
+from tandemlift.core.algebra.vector import ZERO, Quat, vec3
+from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.parts.contact.impulses import CORE, impulses_of_walls
+from tandemlift.parts.contact.wall_geometry import wall
+from tandemlift.parts.contact.walls import loads_of_walls, near_wall_contact
+from tandemlift.parts.mechanics.loads import resultant
+from tandemlift.parts.mechanics.push import CentralPush
+from tandemlift.parts.mechanics.rigid_body import State, Wrench, rigid_body_motion
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+
+FRAME, BODY, SHAPES = parts_layout_from(FLAT), free_body(FLAT.mass, FLAT.inertia), walls_of(FLAT)
+LOW = [wall((-1.0, 0.0), (1.0, 0.0), 0.0)]  # across under the beam's centre
+FALLING = State(ZERO, ZERO, Quat(0.0, 0.0, 0.0, 0.0), ZERO)  # a motion without acceleration
+
+
+def struck(s, table, free=FALLING):
+    near = found(SHAPES, table, FRAME, s)
+    contact = near_wall_contact(SHAPES, near, FRAME, s)
+    return impulses_of_walls(SHAPES, contact, FRAME, BODY, s, free, free, STEP)
+
+
+def normals_of(contact):
+    parts = [*contact.guards, *contact.beam]
+    return flat(tuple(part.normal for part in parts))
+
+
+def kinetic(s):
+    v, w = np.array(s.velocity), np.array(s.rates)
+    return 0.5 * FLAT.mass * v @ v + 0.5 * w @ FLAT.inertia @ w
+
+
+@pytest.mark.parametrize("height", [0.05, 0.02, 0.5 * CORE * RADIUS])
+def test_a_fast_beam_comes_no_nearer_than_its_core_within_a_step(height):
+    after = struck(at([0.0, 0.0, height], [0.3, 0.0, -60.0]), LOW)
+    room = max(height - CORE * RADIUS, 0.0)
+    assert after.state.velocity == pytest.approx((0.3, 0.0, -room / STEP), abs=1e-9)
+    assert after.state.rates == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+    assert after.contact.beam.top.normal == pytest.approx(FLAT.mass * (60.0 - room / STEP) / STEP)
+
+
+def test_an_end_is_stopped_by_the_mass_that_it_has_there():
+    low = [wall((-1.0, 0.9), (1.0, 0.9), 0.0)]
+    s = at([0.0, 0.0, 0.5 * CORE * RADIUS], [0.0, 0.0, -5.0])
+    after = struck(s, low)
+    mass = 1.0 / (1.0 / FLAT.mass + 0.9**2 / FLAT.inertia[0, 0])
+    assert after.contact.beam.top.normal * STEP == pytest.approx(5.0 * mass)
+    assert after.state.velocity.z + 0.9 * after.state.rates.x == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_touch_that_springs_hold_is_not_changed_by_a_bit():
+    s = at([0.0, 0.0, 0.045], [0.3, -0.2, -0.9], rates=vec3([0.1, 0.2, 0.3]))
+    after = struck(s, LOW, State(ZERO, vec3([0.0, 0.0, -9.81]), FALLING.attitude, ZERO))
+    assert after.state == s
+    assert not any(after.contact.beam.ends.normal)
+    assert after.contact.beam.top.normal == 0.0
+
+
+def test_impulses_hold_what_lies_on_a_core_against_its_weight():
+    free = State(ZERO, vec3([0.0, 0.0, -9.81]), FALLING.attitude, ZERO)
+    after = struck(at([0.0, 0.0, CORE * RADIUS], [0.0, 0.0, -0.5 * 9.81 * STEP]), LOW, free)
+    assert after.state.velocity.z == pytest.approx(0.5 * 9.81 * STEP)
+
+
+def test_impulses_only_push_and_never_add_energy():
+    rng, pressed = np.random.default_rng(3), 0
+    for _ in range(300):
+        q = Rotation.from_rotvec(rng.normal(0.0, 0.6, 3)).as_quat(scalar_first=True)
+        s = at(rng.normal(0.0, 0.3, 3), rng.normal(0.0, 60.0, 3), Quat(*map(float, q)), vec3(rng.normal(0.0, 6.0, 3)))
+        free = rigid_body_motion(
+            BODY, s, Wrench(float(rng.uniform(0.0, 60.0)), ZERO), CentralPush(vec3(rng.normal(0.0, 20.0, 3)))
+        )
+        after = struck(s, [random_wall(rng) for _ in range(4)], free)
+        normals = normals_of(after.contact)
+        assert min(normals) >= 0.0
+        assert kinetic(after.state) <= kinetic(s) * (1.0 + 1e-12)
+        pressed += max(normals) > 0.0
+    assert pressed > 50
+
+
+def test_the_loads_of_impulses_are_the_change_of_momentum():
+    s = at([0.0, 0.0, 0.02], [1.0, 0.4, -12.0], rates=vec3([0.5, 0.2, -0.4]))
+    after = struck(s, [wall((-1.0, 0.4), (1.0, 0.5), 0.0), wall((0.2 * GUARD, 0.5), (0.2 * GUARD, 2.0), 9.0)])
+    loads = loads_of_walls(SHAPES, after.contact, FRAME, rotation_from_quaternion(s.attitude))
+    load = resultant(FRAME, s.attitude, loads)
+    assert sum(n > 0.0 for n in normals_of(after.contact)) > 1
+    force = FLAT.mass * (np.array(after.state.velocity) - np.array(s.velocity)) / STEP
+    moment = FLAT.inertia @ (np.array(after.state.rates) - np.array(s.rates)) / STEP
+    np.testing.assert_allclose(list(load.force), force, atol=1e-6)
+    np.testing.assert_allclose(list(load.moment), moment, atol=1e-6)

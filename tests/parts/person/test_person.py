@@ -1,0 +1,189 @@
+"""A person by their parts: bounds, the muscles' lag, tremor, a stiff hand, a path gone along leg by leg."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from law_values import array, random_state, seeds
+from scipy.signal import lsim, lti, welch
+from scipy.spatial.transform import Rotation
+
+import tandemlift as tl
+from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, mat3, vec3
+from tandemlift.engines.compiled import start_state
+from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_moment
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.person.person import PathLeg, PersonState, aim, landing_request, person_step, person_view
+from tandemlift.parts.person.tremor import STILL, TremorNoise, tremor, tremor_step
+from tandemlift.parts.signals.low_pass import LowPassState
+from tandemlift.parts.vehicle import Vehicle
+from tandemlift.simulation.assembly.assemble import assemble
+from tandemlift.simulation.assembly.persons import path_legs_from, start_person
+
+DT = 0.001
+NOBODY = PointPush(ZERO, mat3([[0.0] * 3] * 3))
+NO_PUSH = PushSamples(NOBODY, NOBODY, NOBODY)
+LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
+CALM = TremorNoise(ZERO, ZERO)
+MODELS = pytest.mark.parametrize("model", ["pull", "steer", "two-hands", "hold"])
+
+
+def company(model: str, path: Any = ((5.0, 0.0),), **changes: Any) -> tuple[Any, PersonState, list[PathLeg]]:
+    """A person, their memory and the legs of their path, beside a vehicle that stands at 0."""
+    points = [p if isinstance(p, dict) else {"point": list(p)} for p in path]
+    keys = {f"person.{k}": v for k, v in {"model": model, "path": points, "height_fraction": 0.0, **changes}.items()}
+    mission = tl.load_mission("hover", keys)
+    vehicle, state = Vehicle.from_settings(mission.vehicle), start_state(mission)
+    person, memory, _ = start_person(mission, vehicle, state)
+    return person, memory, path_legs_from(mission, person, state)
+
+
+def at(position: Any, velocity: Any = (0.0, 0.0, 0.0), yaw: float = 0.0) -> State:
+    return State(vec3(position), vec3(velocity), Quat(np.cos(yaw / 2), 0.0, 0.0, np.sin(yaw / 2)), ZERO)
+
+
+def shaken(rng: np.random.Generator) -> TremorNoise:
+    return TremorNoise(vec3(rng.normal(size=3)), vec3(rng.normal(size=3)))
+
+
+@MODELS
+@given(seed=seeds)
+def test_force_and_couple_never_exceed_their_bounds(model, seed):
+    rng = np.random.default_rng(seed)
+    person, memory, _ = company(model, max_force=3.0, max_couple=0.5, tremor=2.0, grip=0.3, start_time=0.0)
+    for k in range(30):
+        state = random_state(rng)
+        memory = memory._replace(view=person_view(person.grip, random_state(rng)))
+        memory = memory._replace(place=LowPassState(vec3(rng.normal(size=3)), vec3(rng.normal(size=3))), begun=1.0)
+        output = person_step(person, memory, NO_PUSH, state, shaken(rng), k * DT, DT)
+        push, memory = output.push.start, output.memory
+        assert np.linalg.norm(array(push.force)) <= 3.0 * (1.0 + 1e-12)
+        R = Rotation.from_quat(array(state.attitude), scalar_first=True).as_matrix()
+        alone = np.cross(array(person.grip), R.T @ array(push.force))
+        couple = array(push_moment(push, state.attitude)) - alone
+        assert np.abs(couple).max() <= 0.5 * (1.0 + 1e-9)
+        assert model == "two-hands" or np.abs(couple).max() < 1e-9
+        assert output.push.start == output.push.middle == output.push.end
+
+
+def test_the_hand_gets_to_its_place_as_through_two_equal_lags():
+    """The transfer function 1/(τ s + 1)², whose step response SciPy computes."""
+    person, memory, _ = company("hold", ((0.4, 0.0),), lag=0.1, tremor=0.0)
+    start, end = memory.place.value.x, memory.leg.end.x
+    places = []
+    for k in range(1500):
+        memory = person_step(person, memory, NO_PUSH, at(ZERO), CALM, k * DT, DT).memory
+        places.append(memory.place.value.x)
+    _, wanted, _ = lsim(lti([1.0], [0.01, 0.2, 1.0]), np.ones(1501), np.arange(1501) * DT)
+    np.testing.assert_allclose((np.array(places) - start) / (end - start), wanted[1:], atol=1e-9)
+
+
+def test_tremor_has_its_size_and_nine_tenths_of_its_power_between_8_and_12_hertz():
+    k, memory, rows = tremor(0.05, DT), STILL, []
+    rng = np.random.default_rng(0)
+    for _ in range(60_000):
+        memory = tremor_step(k, memory, shaken(rng))
+        rows.append(memory.second)
+    x = 0.05 * np.array(rows)
+    f, power = welch(x, fs=1.0 / DT, nperseg=4096, axis=0)
+    share = power[(f >= 8.0) & (f <= 12.0)].sum(axis=0) / power.sum(axis=0)
+    assert x.std(axis=0) == pytest.approx([0.05] * 3, rel=0.1)
+    assert share == pytest.approx([0.9] * 3, abs=0.04)
+    assert np.abs(np.corrcoef(x.T) - np.eye(3)).max() < 0.1
+
+
+def test_a_hand_that_holds_still_is_a_spring_and_a_damper_whatever_is_seen():
+    person, memory, _ = company("hold", ((0.0, 0.0),), stiffness=200.0, damping=15.0, tremor=0.0, max_force=999.0)
+    for k in range(3000):
+        memory = person_step(person, memory, NO_PUSH, at(ZERO), CALM, k * DT, DT).memory
+    state = at((0.02, -0.01, 0.0), (0.1, 0.0, -0.2))
+    seen = memory._replace(view=person_view(person.grip, at((3.0, 1.0, 0.0))))
+    force = array(person_step(person, seen, NO_PUSH, state, CALM, 3.0, DT).push.start.force)
+    grip = array(person.grip) + array(state.position)
+    assert force == pytest.approx(200.0 * (array(memory.leg.end) - grip) - 15.0 * array(state.velocity), abs=0.02)
+
+
+def test_a_hand_moves_with_the_grip_until_the_vehicle_is_up_and_lets_go_at_the_end():
+    person, memory, _ = company("steer", ((1.0, 0.0),), start_time=0.5, tremor=0.0, height_fraction=0.9)
+    output = person_step(person, memory, NO_PUSH, at((0.0, 0.0, 0.0)), CALM, 1.0, DT)
+    assert array(output.push.start.force) == pytest.approx([0.0] * 3, abs=0.0)  # not up
+    up = at((0.0, 0.0, 1.0))
+    memory = memory._replace(
+        view=person_view(person.grip, up), place=LowPassState(person_view(person.grip, up).grip, ZERO)
+    )
+    for k in range(1500):
+        output = person_step(person, memory, NO_PUSH, up, CALM, k * DT, DT)
+        memory = output.memory
+        assert (array(output.push.start.force) != 0.0).any() == (k >= 500)
+    assert output.push.start.force.x > 0.5
+    assert landing_request(memory) == 0.0
+    there = at((1.05, 0.0, 1.0))
+    memory = memory._replace(view=person_view(person.grip, there))
+    for k in range(2000):
+        output = person_step(person, memory, NO_PUSH, there, CALM, 2.0 + k * DT, DT)
+        memory = output.memory
+    assert landing_request(memory) == 1.0
+    assert np.abs(array(output.push.start.force)).max() < 1e-4
+
+
+def test_the_path_is_gone_along_leg_by_leg_with_a_rest_where_it_is_asked_for():
+    path = ((1.0, 0.0), {"point": [1.0, 2.0], "dwell": 0.5}, (3.0, 2.0))
+    person, memory, legs = company("steer", path, tremor=0.0)
+    assert [array(leg.start)[:2].tolist() for leg in legs] == [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0]]
+    assert [leg.stops for leg in legs] == [0.0, 1.0, 1.0]
+    since, z = {}, legs[0].end.z
+    for k in range(8000):
+        t = k * DT
+        place = vec3([min(t, 1.0), np.clip(t - 1.0, 0.0, 2.0), z]) if t < 5.0 else Vec3(3.0, 2.0, z)
+        if k % 16 == 0:
+            memory = memory._replace(leg=legs[int(memory.index)])
+        memory = person_step(person, memory, NO_PUSH, at(place), CALM, t, DT).memory
+        since.setdefault(memory.index, t)
+    assert list(since) == [0.0, 1.0, 2.0]
+    assert since[1.0] == pytest.approx(0.5, abs=0.02)  # a corner is taken half a metre early
+    assert since[2.0] == pytest.approx(2.7 + 0.5, abs=0.02)
+    assert landing_request(memory) == 1.0
+
+
+def test_two_hands_turn_the_vehicle_towards_its_heading_and_hold_it_at_the_centre():
+    person, memory, _ = company(
+        "two-hands", ({"point": [0.0, 0.0], "heading": 0.3, "dwell": 9.0},), tremor=0.0, grip=0.7
+    )
+    assert array(person.grip)[1] == 0.0
+    for k in range(2000):
+        output = person_step(person, memory, NO_PUSH, at((0.0, 0.0, memory.leg.end.z)), CALM, k * DT, DT)
+        memory = output.memory
+    assert push_moment(output.push.start, LEVEL).z == pytest.approx(0.3 * person.settings.yaw_gain, abs=0.01)
+
+
+def test_what_is_seen_late_is_reckoned_ahead():
+    """A vehicle that moves and turns steadily is held by a hand that moves with the grip: no force but the wanted."""
+    person, memory, _ = company("steer", ((100.0, 0.0),), tremor=0.0, grip=0.8, delay=0.2, speed=0.5)
+    v, states = np.array([0.5, 0.0, 0.0]), []
+    for k in range(4000):
+        states.append(at(v * k * DT + [0.0, 0.0, memory.leg.end.z], v))
+        seen = person_view(person.grip, states[max(k - 200, 0)])
+        output = person_step(person, memory._replace(view=seen), NO_PUSH, states[-1], CALM, k * DT, DT)
+        memory = output.memory
+    assert np.abs(array(output.push.start.force)).max() < 0.02
+
+
+def test_a_mission_without_a_person_has_none():
+    model, given, tables, *_ = assemble(tl.load_mission("hover"))
+    assert model.person == model.flight_state.person == given.person == ()
+    assert len(tables.legs) == 0
+
+
+def test_two_hands_turn_the_beam_as_a_spring_and_a_damper_about_the_vertical():
+    """The couple K (ψ_leg − ψ) − D ψ̇ at the predicted heading; the heading of this leg is 0."""
+    person, memory, legs = company("two-hands", ((5.0, 0.0),), tremor=0.0, max_couple=1e3)
+    s, ahead = person.settings, person.arm.horizon
+    assert legs[0].heading == 0.0
+    for yaw, rate in ((0.1, 0.0), (-0.2, 0.4), (0.0, -0.5)):
+        turning = at((0.0, 0.0, 1.0), yaw=yaw)._replace(rates=Vec3(0.0, 0.0, rate))
+        couple = aim(person, memory._replace(view=person_view(person.grip, turning), leg=legs[0])).couple
+        assert couple == pytest.approx(-s.yaw_gain * (yaw + rate * ahead) - s.yaw_damping * rate, rel=1e-12)
+    assert s.yaw_damping * 0.4 > 0.05

@@ -1,0 +1,180 @@
+"""The map of the equations and the list of errata are complete, and true of the code and of the tests."""
+
+from __future__ import annotations
+
+import ast
+import functools
+import re
+from collections import Counter
+from pathlib import Path
+
+import pytest
+from repository import ROOT
+
+from tandemlift.pictures.report.paper.errata import errata
+
+SOURCE, TESTS = ROOT / "src" / "tandemlift", ROOT / "tests"
+PAPER = ROOT.parent / "shared" / "paper.tex"
+
+LABELS = [
+    "R_equ",
+    "omegat_theta_equ",
+    "trans_rot_quad_equ",
+    "total_i_thrust_moments_equ",
+    "input_vector_equ",
+    "trans_rot_payload_equ",
+    "kinematic_equ",
+    "trans_rot_sys_equ",
+    "contro_input_equ",
+    "b_matrix_equ",
+    "u_inputs",
+    "optim_fun_equ",
+    "cost_fun_equ",
+    "h_matrix_equ",
+    "optim_cont_final_equ",
+    "xsi_equ",
+    "xsi_seprate_equ",
+    "vertual_cont_equ",
+    "components_equ",
+    "error_equ",
+    "sgn_equ",
+    "sliding_surface_equ",
+    "sliding_surface_dot_equ",
+    "sdot_equ",
+    "u_hat_equ",
+    "control_final1_equ",
+    "lyap_fun_equ",
+    "vdot_equ",
+    "vsdot_equ",
+    "vsdot_f_equ",
+    "vdot_tr_equ",
+    "equ_dt",
+    "equ_dt_int",
+    "equ_integral",
+    "reach_time_equ",
+    "pos_cont_equ",
+    "thrus_z_equ",
+    "equ_des_orient",
+    "orient_cont_equ",
+    "sat_equ",
+    "control_final_equ",
+    "equ4",
+]
+STEPS = {"vdot_tr_equ", "equ_dt", "equ_dt_int", "equ_integral"}  # of a derivation: no law needs them
+ERRATA = {
+    "equ_des_orient",
+    "equ4",
+    "kinematic_equ",
+    "trans_rot_payload_equ",
+    "input_vector_equ",
+    "b_matrix_equ",
+    "cost_fun_equ",
+    "pos_cont_equ",
+    "sat_equ",
+    "control_final_equ",
+    "u_hat_equ",
+    "vsdot_f_equ",
+    "lyap_fun_equ",
+    "xsi_seprate_equ",
+    "reach_time_equ",
+    "sliding_surface_equ",
+    "Theorem 1",
+    "Assumption 4",
+    "Table II",
+    "Table III",
+}
+LABEL = re.compile(r"\b(?:[A-Za-z]\w*equ|equ_\w+|equ\d|u_inputs)\b")
+SPAN = re.compile(r"`([^`]+)`")
+
+
+def rows() -> list[list[str]]:
+    """The cells of the map's rows."""
+    lines = (ROOT / "docs" / "reference" / "equation-map.md").read_text("utf-8").splitlines()
+    cells = [re.split(r"(?<!\\)\|", line)[1:-1] for line in lines if line.startswith("|")]
+    return [[cell.strip() for cell in row] for row in cells[2:]]
+
+
+def labelled() -> list[tuple[str, str, str]]:
+    """(label, function cell, proof cell) of the rows with a label."""
+    return [(row[0].strip("`"), row[2], row[3]) for row in rows() if row[0].startswith("`")]
+
+
+@functools.cache
+def definitions(path: Path) -> dict[str, str]:
+    """The source of every function of a file, methods as Class.method."""
+    text = path.read_text("utf-8")
+    found = {}
+    for node in ast.parse(text).body:
+        inside = node.body if isinstance(node, ast.ClassDef) else [node]
+        prefix = f"{node.name}." if isinstance(node, ast.ClassDef) else ""
+        for part in inside:
+            if isinstance(part, ast.FunctionDef):
+                found[prefix + part.name] = ast.get_source_segment(text, part) or ""
+    return found
+
+
+def named(cell: str, root: Path) -> list[tuple[Path, str]]:
+    """(file, name) of every `file::name` in a cell."""
+    spans = [span for span in SPAN.findall(cell) if "::" in span]
+    return [(root / file, name) for file, _, name in (span.partition("::") for span in spans)]
+
+
+def labels_beside(source: str) -> list[str]:
+    """The labels in the `# paper:` comments of a piece of source."""
+    return [label for line in re.findall(r"#\s*paper:(.*)", source) for label in LABEL.findall(line)]
+
+
+def test_every_numbered_equation_has_exactly_one_row():
+    counted = Counter(label for label, _, _ in labelled())
+    assert counted == Counter(LABELS)
+
+
+def test_the_list_of_labels_is_the_papers():
+    if not PAPER.is_file():
+        pytest.skip(f"{PAPER} is not beside this checkout")
+    text = re.sub(r"(?<!\\)%.*", "", PAPER.read_text("utf-8"))
+    blocks = re.findall(r"\\begin\{(equation|align)\}(.*?)\\end\{\1\}", text, re.DOTALL)
+    printed = [label for _, block in blocks for label in re.findall(r"\\label\{([^}]+)\}", block)]
+    assert printed == LABELS
+
+
+@pytest.mark.parametrize(("label", "cell"), [(label, cell) for label, cell, _ in labelled()])
+def test_the_named_functions_exist_and_carry_the_label(label, cell):
+    functions = named(cell, SOURCE)
+    assert bool(functions) != (label in STEPS)
+    for file, name in functions:
+        assert name in definitions(file), f"{file} has no {name}"
+        assert label in labels_beside(definitions(file)[name])
+
+
+@pytest.mark.parametrize("row", rows(), ids=[row[0].strip("`") for row in rows()])
+def test_every_row_is_proven_by_a_test_that_exists(row):
+    proofs = named(row[3], TESTS)
+    assert proofs
+    for file, name in proofs:
+        assert name.startswith("test_")
+        assert name in definitions(file), f"{file} has no {name}"
+
+
+def test_every_label_in_the_source_is_in_the_map():
+    mapped = {(file, label) for label, cell, _ in labelled() for file, _ in named(cell, SOURCE)}
+    for file in SOURCE.rglob("*.py"):
+        for comment in re.findall(r"#\s*paper:(.*)", file.read_text("utf-8")):
+            labels = LABEL.findall(comment)
+            assert labels or re.match(r"\s*(fig|tab)", comment), f"{file}: '# paper:{comment}' names no label"
+            for label in labels:
+                assert (file, label) in mapped, f"{file} carries {label}, which the map does not place there"
+
+
+def test_every_erratum_has_one_entry():
+    assert Counter(erratum.about for erratum in errata()) == Counter(ERRATA)
+
+
+@pytest.mark.parametrize("erratum", errata(), ids=lambda erratum: erratum.about)
+def test_an_erratum_says_what_is_printed_what_is_right_how_it_shows_and_where_it_is_tested(erratum):
+    assert erratum.printed
+    assert erratum.right
+    assert re.search(r"\d", erratum.shows), "no number"
+    assert erratum.evidence
+    for file, name in named(" ".join(f"`{test}`" for test in erratum.evidence), TESTS):
+        assert name in definitions(file), f"{file} has no {name}"

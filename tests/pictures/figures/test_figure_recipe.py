@@ -1,0 +1,55 @@
+"""The recipe "Add a figure" of CONTRIBUTING.md, followed: its file and its place among the others, and it is drawn."""
+
+from edited_package import EditedPackage
+
+FIGURE = '''"""The speed of the air over time."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
+from tandemlift.pictures.figures.drawing.panels import fit, line, time_axis
+from tandemlift.pictures.figures.drawing.style import ACTUAL, column_figure, journal
+from tandemlift.flight.record import Flight
+
+CAPTION = Caption("Air", "Speed of the air.", "A panel over time of the air’s speed.")
+IN_FLIGHTS = with_any_of("wind_velocity")
+
+
+@journal
+def draw(flight: Flight) -> Figure:
+    """Draw the speed [m/s]."""
+    figure = column_figure(1.5)
+    ax, speed = figure.subplots(), np.linalg.norm(flight["wind_velocity"], axis=1)
+    line(ax, flight.time, speed, **ACTUAL)
+    fit(ax, speed, least=0.1)
+    time_axis(ax, flight)
+    return figure
+'''
+PROGRAM = """
+from pathlib import Path
+import tandemlift as tl
+from tandemlift.pictures.figures.registry import figures, save_figures
+from tandemlift.pictures.report.flight_report import write_report
+
+def written(name, changes):
+    flight = tl.fly(tl.load_mission(name, {"mission.duration": 0.05, **changes}))
+    files = [file.name for file in save_figures(flight, name)]
+    return files, write_report(flight, name, f"{name}.html").read_text("utf-8")
+
+files, page = written("iris", {"wind.model": "air", "wind.velocity": [3.0, -4.0, 0.0]})
+assert list(figures())[-1] == "air"
+assert files[-2:] == ["air.png", "air.pdf"]
+assert 'id="air"' in page and "Speed of the air." in page and "A panel over time of the air’s speed." in page
+files, page = written("paper", {})
+assert "air.png" not in files and 'id="air"' not in page
+print("drawn")
+"""
+
+
+def test_a_figure_is_added_by_its_file_and_its_place_among_the_others(tmp_path):
+    package = EditedPackage(tmp_path)
+    package.write("figures/air.py", FIGURE)
+    package.insert("pictures/figures/registry.py", "    from tandemlift.pictures.figures import (\n", "        air,\n")
+    package.insert("pictures/figures/registry.py", "rotors, surroundings, corridor", ", air")
+    assert package.run(PROGRAM) == "drawn\n"

@@ -1,0 +1,57 @@
+"""On a dark page the figures are dark, too: drawings are inverted with their hues kept, photographs are not."""
+
+import re
+
+import pytest
+from colour_contrast import contrast, inverted, on_screen
+
+from tandemlift.pictures.figures.drawing.figure_style import IEEE, figure_style
+from tandemlift.pictures.figures.registry import captions
+from tandemlift.pictures.report.flight_report import html_figure
+from tandemlift.pictures.report.page import TEMPLATES
+
+STYLE = (TEMPLATES / "style.css").read_text("utf-8")
+
+DARK = re.search(r"prefers-color-scheme: dark\) \{ :root \{(.*?)\} \}", STYLE, re.DOTALL)[1]
+VALUES = dict(re.findall(r"--(\w+): ([^;]+);", DARK))
+DOT = b"\x89PNG\r\n\x1a\n" + bytes(8) + (1).to_bytes(4, "big") * 2
+
+
+def shown(colour):
+    """A colour of a drawing on a dark page."""
+    return on_screen(inverted(colour), VALUES["sheet"])
+
+
+def test_the_page_inverts_as_it_is_assumed_here():
+    assert (VALUES["drawn"], VALUES["laid"]) == ("invert(1) hue-rotate(180deg)", "screen")
+    assert shown(IEEE.palette.paper) == pytest.approx(shown("#ffffff"))
+    assert contrast(shown("#ffffff"), VALUES["sheet"]) == pytest.approx(1.0, abs=1e-6), "paper is the sheet"
+
+
+@pytest.mark.parametrize("name", ["ink", "blue", "vermillion", "green", "grey", "dim"])
+def test_lines_and_text_stand_out_from_the_dark_sheet(name):
+    colour = getattr(IEEE.palette, name)
+    assert contrast(shown(colour), VALUES["sheet"]) >= (4.5 if name != "grey" else 3.0)
+
+
+@pytest.mark.parametrize("name", ["blue", "vermillion", "green"])
+def test_a_colour_keeps_its_hue(name):
+    colour = shown(getattr(IEEE.palette, name))
+    strongest = {"blue": 2, "vermillion": 0, "green": 1}[name]
+    assert max(range(3), key=lambda i: colour[i]) == strongest
+
+
+@pytest.mark.parametrize(
+    ("name", "style", "turned"), [("path", "ieee", True), ("path", "dark", False), ("views", "ieee", False)]
+)
+def test_only_drawings_on_white_are_inverted(name, style, turned, tmp_path):
+    (tmp_path / "dot.png").write_bytes(DOT)
+    with figure_style(style):
+        text = html_figure(1, name, tmp_path / "dot.png", captions()[name])
+    assert ("drawn" in re.search("<img(.*?)width", text)[1]) is turned
+
+
+def test_what_is_printed_is_light():
+    printed = STYLE[STYLE.index("@media print") :]
+    assert "--sheet: #fff; --drawn: none; --laid: normal;" in printed
+    assert STYLE.index("@media print") > STYLE.index("prefers-color-scheme: dark"), "the later rule counts"

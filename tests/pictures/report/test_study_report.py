@@ -1,0 +1,208 @@
+"""The page of a study: its numbers are those of the table, it needs nothing else, and trusts no text."""
+
+import re
+
+import numpy as np
+import pytest
+from html_page import check_page
+from scipy import stats
+from small_studies import GUSTS, flown, made_up, without_file
+
+import tandemlift as tl
+from tandemlift.core.findings import FINDING_NAMES
+from tandemlift.pictures.report.flight_report import number
+from tandemlift.pictures.report.study.sections import percent
+from tandemlift.pictures.report.study.study_report import write_study_report
+
+HOSTILE = "<script>alert('x')</script>\"&<img src=http://evil.example/x.png>"
+STUDY = {
+    "study": {"name": "walls", "missions": ["one-push"], "controllers": ["nftsmc", "pid"], "draws": 200},
+    "cases": [{"name": "calm"}, {"name": "windy", "set": {"wind.turbulence": 2.0}}],
+    "draw": {
+        "plant.mass_scale": {"distribution": "uniform", "low": 0.9, "high": 1.2},
+        "admittance.damping": {"distribution": "log-uniform", "low": 3.0, "high": 30.0},
+    },
+}
+
+
+def measured(rows):
+    """Made-up results: the heavier, the worse; of every hundred rows one crashes and one is refused."""
+    chance = np.random.default_rng(rows[0].number)
+    mass = np.array([row.varied["plant.mass_scale"] for row in rows])
+    place = np.array([row.number % 100 for row in rows])
+    flew = place != 50
+    outcome = np.select([place == 7, ~flew], ["crashed", "refused"], "landed").tolist()
+    reasons = {"crashed": "crashed at 3 s: tilt [deg] = 91", "refused": HOSTILE, "landed": ""}
+    error = np.abs(mass - 1.0) + 0.01 * chance.random(len(rows))
+    numbers = {f"position_rmse_after_10s_m.{i}": error * k for i, k in enumerate((2.0, 1.0, 0.0))}
+    numbers |= {"clearance_min_m": 0.5 - error, "human_work_j": 1.0 + chance.random(len(rows)), "steps": 1_000 + place}
+    found = [FINDING_NAMES[0] if value > 0.15 else "" for value in error]
+    texts = {"outcome": outcome, "reason": [reasons[o] for o in outcome], "finding_kinds": found}
+    known = {name: [v if f else None for v, f in zip(x.tolist(), flew, strict=True)] for name, x in numbers.items()}
+    return {**texts, **known, "findings": ["[]"] * len(rows), "events": ["[]"] * len(rows)}
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    return made_up(STUDY, tmp_path_factory.mktemp("studies") / "walls", measured)
+
+
+@pytest.fixture(scope="module")
+def path(study, tmp_path_factory):
+    return write_study_report(study, tmp_path_factory.mktemp("report") / "report.html")
+
+
+@pytest.fixture(scope="module")
+def page(path):
+    return check_page(path)
+
+
+@pytest.fixture(scope="module")
+def rows(study):
+    return study.to_pandas()
+
+
+def test_the_page_needs_nothing_but_itself(page, path):
+    outside = [v for _, a in page.elements for k, v in a.items() if k in ("src", "href", "srcset", "data")]
+    assert len(outside) == 3
+    assert all(value.startswith("data:image/png;base64,") for value in outside)
+    assert not re.search(r"@import|url\(|<link|<iframe|fetch\(|XMLHttp", page.text, re.IGNORECASE)
+    assert set(re.findall(r"https?://[\w.]+", page.text)) == {"http://evil.example"}  # as text, in a refusal
+    assert path.stat().st_size < 3_000_000
+
+
+def test_no_text_of_a_row_becomes_part_of_the_page(page):
+    assert len(page.all("script")) == 1
+    assert all(not image["src"].startswith("http") for image in page.all("img"))
+    assert "&lt;script&gt;alert" in page.text
+
+
+def test_outcomes_are_counted_with_their_bounds(page, rows):
+    head = page.row("")
+    assert head == ["", "rows", "bad\n95 % interval", "landed", "crashed", "refused"]
+    for group, part in [*rows.groupby(["controller", "case"]), (("all rows",), rows)]:
+        shown = page.row(", ".join(group))
+        counts = [int((part["outcome"] == name).sum()) for name in ("landed", "crashed", "refused")]
+        bad = counts[1] + counts[2]
+        bounds = stats.binomtest(bad, len(part)).proportion_ci(0.95, method="exact")
+        interval = f"{percent(bounds.low).removesuffix(' %')} to {percent(bounds.high)}"
+        assert [int(cell.replace("\u202f", "")) for cell in (shown[1], *shown[3:])] == [len(part), *counts]
+        assert shown[2] == f"{percent(bad / len(part))}\n{interval}"
+
+
+def test_the_verdict_says_how_many_failed_of_those_that_flew(page, rows):
+    flew = rows[rows["outcome"] != "refused"]
+    failed = int((flew["outcome"] == "crashed").sum())
+    head = page.text.partition("</header>")[0].replace("\u202f", "")
+    assert f"{failed} of {len(flew)} flights failed" in head
+    assert f"{len(rows) - len(flew)} rows could not be flown and were refused" in head
+
+
+def test_without_a_failure_the_verdict_says_which_of_its_bounds_is_one_sided(tmp_path):
+    def good(rows):
+        return measured(rows) | {"outcome": ["landed"] * len(rows)}
+
+    study = made_up({key: STUDY[key] for key in ("study", "draw")}, tmp_path / "good", good)
+    head = check_page(write_study_report(study, tmp_path / "good.html")).text.partition("</header>")[0]
+    one, two = (percent(1.0 - (1.0 - confidence) ** (1.0 / 400)) for confidence in (0.95, 0.975))
+    assert "None of 400 flights failed" in head
+    assert f"at most {one} do (one-sided bound; the intervals in the tables are two-sided: 0 to {two})" in head
+
+
+def test_quantiles_are_those_of_the_rows_that_went_well(page, rows):
+    good = rows[rows["outcome"] == "landed"]
+    error = 1e3 * np.sqrt((good[[f"position_rmse_after_10s_m.{i}" for i in range(3)]] ** 2).sum(axis=1))
+    shown = [row for row in page.rows if row and row[0] == "nftsmc, calm"]
+    for values, line, worst in (
+        (error, shown[1], np.max),
+        (1e3 * good["clearance_min_m"], shown[2], np.min),
+        (good["human_work_j"], shown[3], np.max),
+    ):
+        part = values[(good["controller"] == "nftsmc") & (good["case"] == "calm")].to_numpy()
+        wanted = [np.median(part), *np.quantile(part, [0.05, 0.95]), worst(part)]
+        assert [cell.split("\n")[0] for cell in line[2:]] == [number(float(value)) for value in wanted]
+        bounds = stats.quantile_test(part).confidence_interval(0.95)
+        assert line[2].split("\n")[1] == f"{number(float(bounds.low))} to {number(float(bounds.high))}"
+
+
+def test_findings_are_counted_by_kind(page, rows):
+    (shown,) = [row for row in page.rows if row and row[0].startswith(f"{FINDING_NAMES[0]}\n")]
+    found = rows["finding_kinds"] == FINDING_NAMES[0]
+    assert int(shown[1].replace("\u202f", "")) == int(found.sum())
+    flew = rows["outcome"] != "refused"
+    calm = (rows["controller"] == "nftsmc") & (rows["case"] == "calm")
+    assert shown[3].startswith(f"{percent((found & calm).sum() / (flew & calm).sum())}\n")
+
+
+def test_the_worst_rows_come_first_those_that_failed_and_each_has_its_command(page, study, rows):
+    worst = [row for row in page.rows if row and row[0].isdigit()]
+    failed = rows[rows["outcome"] == "crashed"].sort_values(["steps", "row"])["row"].tolist()
+    assert len(worst) == 10
+    assert [int(row[0]) for row in worst[:7]] == failed[:7]
+    assert all(row[1].startswith("crashed: at 3 s: tilt [deg] = 91") for row in worst[:7])
+    good = rows[rows["outcome"] == "landed"]
+    farthest, hardest = (
+        good.loc[good[name].idxmax(), "row"] for name in ("position_rmse_after_10s_m.0", "human_work_j")
+    )
+    assert [int(row[0]) for row in worst[7:9]] == [farthest, hardest]  # the farthest has the least clearance, too
+    assert worst[8][1].startswith(f"Human work {number(float(good['human_work_j'].max()))} J; the median of all is")
+    for row in worst:
+        assert f"tandemlift run --from {study.folder} --row {row[0]}" in row[3]
+        assert f"seed {rows['seed'][int(row[0])]}" in row[2]
+
+
+def test_what_was_flown_is_told(page):
+    told = [(row[0], row[1]) for row in page.rows if len(row) == 2]
+    assert ("Controllers", "nftsmc, pid") in told
+    assert ("Case windy", "wind.turbulence = 2.0") in told
+    assert ("Drawn", "admittance.damping: log-uniform, low 3.0, high 30.0 N s/m") in told
+    assert ("Draws", "200, sampling random, seed 0") in told
+    assert f"tandemlift {tl.__version__}, sources" in page.text
+
+
+def test_the_mass_is_found_to_matter(page):
+    lines = [row for row in page.rows if row and row[0] in ("plant.mass_scale", "admittance.damping")]
+    of_errors = [row for row in lines if float(row[1].split("\n")[0].replace("−", "-")) > 0.8]
+    assert {row[0] for row in of_errors} == {"plant.mass_scale"}
+    assert len(of_errors) == 4  # of two controllers, errors and clearance; but not what the person does
+
+
+def test_chosen_metrics_are_shown_and_no_others(study, tmp_path):
+    text = write_study_report(study, tmp_path / "chosen.html", ["human_work_j"]).read_text("utf-8")
+    assert "<h3>Human work [J]</h3>" in text
+    assert "Clearance" not in text
+    with pytest.raises(tl.InputError, match=r"unknown metric 'human_wrok_j'.*Did you mean 'human_work_j'"):
+        write_study_report(study, tmp_path / "chosen.html", ["human_wrok_j"])
+
+
+def test_a_study_that_is_not_finished_says_so_and_an_empty_one_is_refused(study, tmp_path):
+    part = without_file(study, 1, tmp_path / "part")
+    text = write_study_report(part, tmp_path / "report.html").read_text("utf-8").replace("\u202f", "")
+    assert f"{part.missing} of 800 rows are missing" in text
+    for file in part.files:
+        file.path.unlink()
+    with pytest.raises(tl.InputError, match="no row of the study is flown yet"):
+        write_study_report(tl.load_study(part.folder), tmp_path / "none.html")
+    assert not (tmp_path / "none.html").exists()
+
+
+@pytest.mark.parametrize("grid", [{}, {"admittance.damping": [5.0, 10.0]}, {"wind.model": ["none", "air"]}])
+def test_small_studies_have_a_page(tmp_path, grid):
+    study = {"name": "small", "missions": ["one-push"]}
+    found = flown({"study": study, "set": {"mission.duration": 0.1}, "grid": grid}, tmp_path / "small")
+    page = check_page(write_study_report(found, tmp_path / "report.html"))
+    assert page.row("all rows")[:2] == ["all rows", str(max(1, len(next(iter(grid.values()), []))))]
+
+
+def test_a_saltelli_design_with_holes_says_why_its_metrics_are_not_analysed(tmp_path):
+    study = {**STUDY["study"], "sampling": "saltelli", "draws": 32, "controllers": []}
+    found = made_up({**STUDY, "study": study, "cases": []}, tmp_path / "saltelli", measured)
+    text = write_study_report(found, tmp_path / "report.html").read_text("utf-8")
+    assert "Sobol&#x27; indices of a Saltelli design, of 192 rows" in text  # of bad outcomes
+    assert "4 of 192 rows have no value, and a Saltelli design must be whole" in text
+
+
+def test_the_flown_study_of_the_table_s_tests_has_a_page_with_a_map_over_its_grid(tmp_path):
+    study = flown(GUSTS, tmp_path / "gusts")
+    page = check_page(write_study_report(study, tmp_path / "report.html"))
+    assert "<b>Figure 2. Maps.</b>" in page.text

@@ -1,0 +1,176 @@
+"""Detectors step by step, on motion that is given."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.parts.guidance.guidance import ThrustFraction
+from tandemlift.parts.rotors.allocation import mixer_from
+from tandemlift.parts.rotors.rotors import IdealRotors
+from tandemlift.simulation.loop.detectors import (
+    ASLEEP,
+    FindingLimits,
+    counted,
+    detect,
+    thrust_needed,
+)
+from tandemlift.simulation.loop.excess import NO_EXCESS
+from tandemlift.simulation.loop.oscillation import OscillationLimits, Swings
+from tandemlift.simulation.loop.push_detectors import NO_RESPONSE, PushLimits, push_step
+
+DT = 0.01
+LIMITS = PushLimits(
+    threshold=Vec3(0.3, 0.3, 0.3),
+    least=0.03**2,
+    inverse_damping=Vec3(0.5, 0.5, 0.0),
+    speed=Vec3(1.0, 1.0, 1.0),
+    time=2.0,
+    response=0.2,
+)
+FORCE = 1.0  # N, which should come to half a metre per second
+
+
+def watched(story, seconds, limits=LIMITS):
+    """The memory after each step of `story(t)`: push along x [N], speed along x [m/s], and whether it is watched."""
+    memory, seen = NO_RESPONSE, []
+    for k in range(round(seconds / DT)):
+        force, speed, active = story(k * DT)
+        sample = SimpleNamespace(velocity=Vec3(speed, 0.0, 0.0), position=ZERO)
+        memory = push_step(limits, memory, Vec3(force, 0.0, 0.0), sample, active, k * DT, DT)
+        seen.append(memory)
+    return seen
+
+
+def test_a_push_that_moves_nothing_is_unanswered_once_its_time_is_over():
+    seen = watched(lambda t: (FORCE, 0.0, 1.0), 3.0)
+    assert seen[-1].unanswered.start == pytest.approx(2.0, abs=DT)
+    assert seen[-1].unanswered.steps == pytest.approx(100, abs=1)
+    assert seen[-1].unanswered.worst == pytest.approx(FORCE)
+    assert seen[-1].expected == pytest.approx(FORCE * 0.5 * 3.0)
+    assert not watched(lambda t: (FORCE, 0.0, 0.0), 3.0)[-1].unanswered.steps
+    assert not watched(lambda t: (0.02, 0.0, 1.0), 3.0)[-1].unanswered.steps
+
+
+@pytest.mark.parametrize(("speed", "steps"), [(0.5, 0), (0.11, 0), (0.09, 100), (-0.5, 100)])
+def test_a_push_is_answered_by_the_work_that_it_does_at_a_fraction_of_the_speed_it_should_have(speed, steps):
+    assert watched(lambda t: (FORCE, speed, 1.0), 3.0)[-1].unanswered.steps == pytest.approx(steps, abs=1)
+
+
+def test_the_speed_that_is_asked_for_is_bounded_and_an_axis_with_a_spring_owes_nothing():
+    assert watched(lambda t: (10.0, 0.0, 1.0), 3.0)[-1].expected == pytest.approx(10.0 * 1.0 * 3.0)
+    sprung = LIMITS._replace(inverse_damping=Vec3(0.0, 0.5, 0.5))
+    last = watched(lambda t: (FORCE, 0.4, 1.0), 3.0, sprung)[-1]
+    assert (last.expected, last.done, last.unanswered.steps) == (0.0, 0.0, 0.0)
+
+
+def test_each_push_is_judged_by_itself():
+    """The first is answered for 10 s, as well as can be; the second, after a pause, moves nothing."""
+
+    def story(t):
+        return (FORCE, 0.5, 1.0) if t < 10.0 else (0.0, 0.5, 1.0) if t < 11.0 else (FORCE, 0.0, 1.0)
+
+    seen = watched(story, 15.0)
+    assert not seen[round(12.9 / DT)].unanswered.steps  # the time of the second begins anew, too
+    assert seen[-1].unanswered.start == pytest.approx(13.0, abs=2 * DT)
+    assert seen[-1].since == pytest.approx(11.0, abs=2 * DT)
+    assert (seen[-1].expected, seen[-1].done) == (pytest.approx(0.5 * 4.0, rel=0.01), 0.0)
+    assert seen[round(10.5 / DT)].unanswered.now == 0.0
+
+
+def test_a_push_that_was_unanswered_leaves_nothing_to_the_next():
+    def story(t):
+        return (FORCE, 0.0, 1.0) if t < 1.9 else (0.0, 0.0, 1.0) if t < 3.0 else (FORCE, 0.12, 1.0)
+
+    assert not watched(story, 8.0)[-1].unanswered.steps
+
+
+def test_a_rotor_that_cannot_be_used_is_not_at_its_limit():
+    for usable in (0.5, 1.0, 7.0):
+        assert [counted(at_limit, usable) for at_limit in (0.0, 1.0)] == [0.0, 1.0]
+    assert counted(1.0, 0.0) == 0.0
+
+
+def test_the_thrust_that_the_reference_needs_is_that_of_newton():
+    needed = 3.0 * np.linalg.norm([1.0, -2.0, 0.5 + GRAVITY])
+    assert thrust_needed(NO_EXCESS, 3.0, Vec3(1.0, -2.0, 0.5)) == pytest.approx(needed**2)
+
+
+# All detectors together, on a vehicle whose motion and reference are given
+
+CALM = {
+    "position": ZERO, "velocity": ZERO, "rates": ZERO, "euler": ZERO, "attitude": Quat(1.0, 0.0, 0.0, 0.0),
+    "reference_position": ZERO, "reference_velocity": ZERO, "reference_acceleration": ZERO, "reference_euler": ZERO,
+    "push_force": ZERO,
+}  # fmt: skip
+OSCILLATION = OscillationLimits(Swings(0.3, 0.3, 0.3, 0.15), shortest=0.02, longest=2.0, halves=4.0)
+FOUND = FindingLimits(
+    settled=1.0, distance=0.1**2, heading=0.2, upright=np.cos(0.25), mass=3.0, thrust=40.0**2, rate=0.3**2,
+    push=LIMITS, unpushed=1.0, oscillation=OSCILLATION,
+)  # fmt: skip
+STILL = SimpleNamespace(position=ZERO)
+TILTED = Quat(*Rotation.from_euler("x", 0.3).as_quat(scalar_first=True).tolist())
+BAD = {  # beyond one limit each
+    "distance": {"position": Vec3(0.08, 0.0, -0.08)},
+    "heading": {"reference_euler": Vec3(0.0, 0.0, -0.21)},
+    "tilt": {"attitude": TILTED},
+    "reach": {"reference_acceleration": Vec3(0.0, 8.0, 3.0)},
+}
+
+
+def detected(sample, seconds=3.0, running=1.0):
+    """The memory of all detectors after a flight whose samples are given, as a function of time."""
+    memory = ASLEEP._replace(saturation=Nothing())
+    effect = mixer_from(np.ones((4, 4)))
+    pilot = SimpleNamespace(detection=Nothing(), allocation=effect)
+    guidance = SimpleNamespace(flying=1.0, running=ThrustFraction(running), force=ZERO, admittance=STILL)
+    decision = SimpleNamespace(guidance=guidance, thrusts=each(4)(1.0, 1.0, 1.0, 1.0))
+    output = SimpleNamespace(decision=decision, estimates=Nothing())
+    for k in range(round(seconds / DT)):
+        state = SimpleNamespace(detectors=memory, memory=SimpleNamespace(detection=Nothing()))
+        model = SimpleNamespace(finding_limits=FOUND, flight_state=state, pilot=pilot, rotors=IdealRotors())
+        memory = detect(model, output, SimpleNamespace(**{**CALM, **sample(k * DT)}), k * DT, DT)
+    return memory
+
+
+def test_nothing_wakes_the_detectors_of_a_calm_flight():
+    calm = detected(lambda t: {})
+    assert calm._replace(steps=0.0, unpushed=ASLEEP.unpushed) == ASLEEP._replace(saturation=Nothing())
+    assert calm.steps == pytest.approx(200.0)
+
+
+@pytest.mark.parametrize("name", list(BAD))
+def test_each_limit_wakes_its_detector_and_no_other_and_counts_only_once_settled(name):
+    found = detected(lambda t: BAD[name] if t < 2.0 else {})
+    late = 100 if name != "reach" else 200
+    for other in ("distance", "heading", "tilt", "reach"):
+        assert getattr(found, other).steps == (pytest.approx(late, abs=1) if other == name else 0.0), other
+    assert found.awake == 0.0
+    assert detected(lambda t: BAD[name]).awake == 1.0
+    assert detected(lambda t: BAD[name], running=0.0).distance.steps == 0.0
+
+
+def test_what_each_detector_remembers_is_what_was_exceeded():
+    worst = {name: getattr(detected(lambda t, name=name: BAD[name]), name).worst for name in BAD}
+    wanted = {
+        "distance": 2.0 * 0.08**2,
+        "heading": 0.21,
+        "tilt": 1.0 - np.cos(0.3),
+        "reach": 9.0 * (64.0 + (3.0 + GRAVITY) ** 2),
+    }
+    assert worst == pytest.approx(wanted)
+    assert detected(lambda t: BAD["distance"]).squares == pytest.approx(200 * wanted["distance"])
+
+
+@pytest.mark.parametrize("signal", Swings._fields)
+def test_an_oscillation_is_found_in_the_signal_that_swings(signal):
+    def swinging(t):
+        x = np.sin(2.0 * np.pi * 2.0 * t)
+        rates = Vec3(*[float(x) if signal == name else 0.0 for name in ("roll", "pitch", "yaw")])
+        return {"rates": rates, "velocity": Vec3(0.0, 0.0, float(x) if signal == "vertical" else 0.0)}
+
+    swings = detected(swinging, 4.0).oscillation.swings
+    assert {name for name, found in swings._asdict().items() if found.halves > 0.0} == {signal}
