@@ -99,8 +99,7 @@ def test_changelog_citation_and_ros_package_have_the_version_of_the_package_and_
 
 
 def test_the_modules_that_the_changelog_moves_imports_to_are_there():
-    rows = re.findall(
-        r"^  \| `.*\| `(tandemlift\.[\w.]+)`.* \|$", (ROOT / "CHANGELOG.md").read_text("utf-8"), flags=re.M
-    )
-    assert len(rows) == 7
+    newest = (ROOT / "CHANGELOG.md").read_text("utf-8").split("\n## ")[1]
+    rows = re.findall(r"^  \| `.*\| `(tandemlift\.[\w.]+)`.* \|$", newest, flags=re.M)
+    assert len(rows) == 25
     assert [name for name in rows if find_spec(name) is None] == []

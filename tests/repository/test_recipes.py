@@ -122,7 +122,7 @@ def test_a_variant_of_a_law_touches_its_law_its_key_and_where_it_is_chosen(with_
 
 LIST = "from tandemlift.parts.controllers import geometric"
 CONTROLLER: Edits = {
-    "controllers/my_pd.py": [("", LISTED_CONTROLLER)],
+    "parts/controllers/my_pd.py": [("", LISTED_CONTROLLER)],
     "parts/controllers/__init__.py": [(LIST, LIST.replace("geometric", "my_pd, geometric"))],
 }
 CONTROLLER_FLIES = """

@@ -59,7 +59,7 @@ print(len(made), flight["thrust"].sum().hex(), tl.__file__)
     assert [first[0], second[0]] == ["1", "0"]
     assert first[1:] == second[1:]
     assert first[2].startswith(str(copy))
-    with (copy / "tandemlift" / "laws" / "mechanics" / "rotation.py").open("a") as law:
+    with (copy / "tandemlift" / "parts" / "mechanics" / "rotation.py").open("a") as law:
         law.write("# an edit\n")
     assert check_run(code, **environment) == ["1", *first[1:]]
 
@@ -86,7 +86,7 @@ from tandemlift.simulation.plan import FlightPlan
 from tandemlift.compiler.machine_code.store import key_of
 model = FlightPlan(tl.load_mission("one-push")).model
 print(key_of(model))
-with (Path(tl.__file__).parent / "laws" / "mechanics" / "rotation.py").open("a") as law:
+with (Path(tl.__file__).parent / "parts" / "mechanics" / "rotation.py").open("a") as law:
     law.write("# an edit")
 print(key_of(model))
 """

@@ -148,7 +148,7 @@ def ours():
 
     def define(source):
         scope = {"__name__": "imagined", "law": law, "Vec3": Vec3}
-        exec(compile(source, str(Path(tl.__file__).parent / "laws" / "imagined.py"), "exec"), scope)
+        exec(compile(source, str(Path(tl.__file__).parent / "parts" / "imagined.py"), "exec"), scope)
         return scope
 
     yield define
@@ -160,7 +160,7 @@ def test_a_law_of_this_package_is_named_itself_and_no_other_way_is_offered(ours)
         "def helper(x):\n    return float(x)\n\n\n@law\ndef wrong(x):\n    y = x + 1.0\n    return helper(y)\n"
     )
     with pytest.raises(
-        TraceError, match=r"imagined\.py, line 8: wrong\(\) takes a plain number .* tandemlift\.algebra$"
+        TraceError, match=r"imagined\.py, line 8: wrong\(\) takes a plain number .* tandemlift\.core\.algebra$"
     ):
         compiled(scope["wrong"], 0.0)
 

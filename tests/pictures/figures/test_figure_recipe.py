@@ -49,7 +49,7 @@ print("drawn")
 
 def test_a_figure_is_added_by_its_file_and_its_place_among_the_others(tmp_path):
     package = EditedPackage(tmp_path)
-    package.write("figures/air.py", FIGURE)
+    package.write("pictures/figures/air.py", FIGURE)
     package.insert("pictures/figures/registry.py", "    from tandemlift.pictures.figures import (\n", "        air,\n")
     package.insert("pictures/figures/registry.py", "rotors, surroundings, corridor", ", air")
     assert package.run(PROGRAM) == "drawn\n"

@@ -72,7 +72,7 @@ def test_the_gains_of_our_controllers_are_inputs(name):
 def test_the_weights_of_the_linear_quadratic_regulator_are_fixed_but_not_the_vehicle():
     traced = check_trace(tl.load_mission("hover", {"controller.name": "lqr"}), ("controller.position_weight.0",))
     reason = traced.fixed["controller.position_weight.0"]
-    assert reason == "is used as a plain number by controllers.lqr.regulator"
+    assert reason == "is used as a plain number by parts.controllers.lqr.regulator"
     assert {"controller.max_tilt", "vehicle.payload.mass", "vehicle.quadrotors.0.inertia.0"} <= {*traced.keys}
 
 

@@ -108,7 +108,7 @@ def worker_of(package, scheduler):
 
 def test_a_worker_of_other_sources_is_refused_by_its_name_before_anything_flies(scheduler, tmp_path):
     package = EditedPackage(tmp_path)
-    package.write("laws/another.py", '"""Another law."""\n')
+    package.write("parts/another.py", '"""Another law."""\n')
     process = worker_of(package, scheduler)
     try:
         with distributed.Client(scheduler, set_as_default=False) as client:
