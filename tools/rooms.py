@@ -83,6 +83,17 @@ def draw(package: Path = PACKAGE) -> Drawing:
     return Drawing(tuple(sorted(filled)), dict(arrows))
 
 
+def draw_doors(package: Path = PACKAGE) -> Drawing:
+    """The drawing of a package with each folder at its top as one room, whatever is behind it."""
+    behind = draw(package)
+    arrows = defaultdict[tuple[str, str], list[Import]](list)
+    for (a, b), imports in behind.arrows.items():
+        one, other = a.partition(".")[0], b.partition(".")[0]
+        if one != other:
+            arrows[one, other] += imports
+    return Drawing(tuple(sorted({room.partition(".")[0] for room in behind.rooms})), dict(arrows))
+
+
 def draw_files(package: Path = PACKAGE) -> Drawing:
     """The drawing of a package with each module as a room of its own; a folder's `__init__.py` is none."""
     modules = dict(_modules(package))
@@ -131,11 +142,12 @@ def main() -> None:
     parser.add_argument("package", nargs="?", type=Path, default=PACKAGE, help="folder of the package (tandemlift)")
     parser.add_argument("-v", "--verbose", action="store_true", help="list the arrows and the imports behind each")
     given = parser.parse_args()
-    drawing = draw(given.package.resolve())
+    drawing, doors = draw(given.package.resolve()), draw_doors(given.package.resolve())
     for height, rooms in reversed(list(enumerate(drawing.floors, 1))):
         print(f"floor {height:2d}   {'  '.join(rooms)}")
-    counts = (len(drawing.rooms), len(drawing.floors), len(drawing.arrows), len(drawing.circles))
-    print("{} rooms, {} floors, {} arrows, {} circles".format(*counts))
+    for what, one in (("doors", doors), ("rooms", drawing)):
+        counts = (len(one.rooms), len(one.floors), len(one.arrows), len(one.circles))
+        print(f"{counts[0]} {what}, {counts[1]} floors, {counts[2]} arrows, {counts[3]} circles")
     for circle in drawing.circles:
         print(f"circle: {'  '.join(circle)}")
     if given.verbose:
