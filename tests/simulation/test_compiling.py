@@ -43,7 +43,7 @@ print("llvmlite" in sys.modules, "matplotlib" in sys.modules, "numba" in sys.mod
     assert check_run(code) == ["False", "False", "False", "False", "True", "False", "False"]
 
 
-def test_a_second_process_finds_the_code_and_an_edit_of_a_law_loses_it(tmp_path):
+def test_a_second_process_finds_the_code_and_so_does_one_after_an_edit_that_changes_no_step(tmp_path):
     copy = tmp_path / "source"
     shutil.copytree(PACKAGE, copy / "tandemlift", ignore=shutil.ignore_patterns("__pycache__"))
     environment = {"PYTHONPATH": str(copy), "TANDEMLIFT_CACHE": str(tmp_path / "cache"), "PYTHONSAFEPATH": "1"}
@@ -59,9 +59,12 @@ print(len(made), flight["thrust"].sum().hex(), tl.__file__)
     assert [first[0], second[0]] == ["1", "0"]
     assert first[1:] == second[1:]
     assert first[2].startswith(str(copy))
-    with (copy / "tandemlift" / "parts" / "mechanics" / "rotation.py").open("a") as law:
-        law.write("# an edit\n")
-    assert check_run(code, **environment) == ["1", *first[1:]]
+    law = copy / "tandemlift" / "parts" / "mechanics" / "rotation.py"
+    text = law.read_text("utf-8")
+    law.write_text(text.replace("(the direction of thrust)", "(of thrust)") + "# an edit\n", "utf-8")
+    assert check_run(code, **environment) == ["0", *first[1:]]
+    law.write_text(text.replace("1.0 - 2.0 * (q.x * q.x", "1.0 - 2.5 * (q.x * q.x"), "utf-8")
+    assert check_run(code, **environment)[0] == "1"
 
 
 def test_an_edit_of_any_source_changes_the_key(monkeypatch):

@@ -76,7 +76,7 @@ def test_a_long_flight_has_its_code_optimised_and_the_next_process_finds_it(empt
         if thread.name == "optimising":
             thread.join(COMPILING)
     assert found.is_best
-    assert sorted(f.name.split("-")[1] for f in store.folder().iterdir()) == ["best.o", "quick.o"]
+    assert sorted(f.name.split("-")[1] for f in store.folder().iterdir()) == ["best.o", "module.o", "quick.o"]
     plan.KERNELS.clear()
     assert FlightPlan(mission).kernels.loop(1).is_best
 

@@ -1,8 +1,9 @@
 """Machine code in two tiers: unoptimised code is ready in a moment; optimised code replaces it with the same bits.
 
-Code compiled before is read from disk. A separate process makes optimised code once flights have spent enough time in
-unoptimised code, or once a second process flies the same mission. TANDEMLIFT_OPTIMISE=0 disables this; `optimise()`
-still works.
+Code compiled before is read from disk, by the key of its sources or, after they were edited, by that of the module that
+is traced from them: an edit that changes no step, such as one of a docstring, compiles nothing. A separate process
+makes optimised code once flights have spent enough time in unoptimised code, or once a second process flies the same
+mission. TANDEMLIFT_OPTIMISE=0 disables this; `optimise()` still works.
 """
 
 from __future__ import annotations
@@ -83,17 +84,23 @@ class Code:
         best: machine.Level = machine.BEST,
         going: Callable[[], bool] = always,
     ) -> None:
-        self._key, self._names, self._write, self._best = key, tuple(names), write, best
+        self._sources, self._names, self._write, self._best = key, tuple(names), write, best
         self._lock, self._making, self._spent = threading.Lock(), False, 0.0
         self._written: Written | None = None
         self.held, self.free = dict[str, Any](), dict[str, Any]()
-        found = store.read(f"{key}-best")
-        self.is_best = found is not None
-        entry = found or store.read(f"{key}-quick")
-        self._is_known = entry is not None
-        entry = entry or self._quick(going)
+        module = store.read(f"{key}-module")
+        self._key: str = module.about["key"] if module else ""
+        entry = self._stored() or self._quick(going)
         self.about = entry.about
         self._take(entry.code)
+
+    def _stored(self) -> store.StoredCode | None:
+        """The code on disk, the best there is."""
+        found = store.read(f"{self._key}-best") if self._key else None
+        self.is_best = found is not None
+        entry = found or (store.read(f"{self._key}-quick") if self._key else None)
+        self._is_known = entry is not None
+        return entry
 
     def _text(self) -> Written:
         if self._written is None:
@@ -106,6 +113,10 @@ class Code:
         came = Compiled(LOOP)
         try:
             written = self._text()
+            self._key = store.key_of_module(written.text, written.about)
+            store.write(f"{self._sources}-module", store.StoredCode({"key": self._key}, b""))
+            if entry := self._stored():
+                return entry
             code = _interruptible(lambda: _compiled(written.text, going))
             seconds = time.perf_counter() - began
             entry = store.StoredCode({**written.about, "seconds": seconds}, code)

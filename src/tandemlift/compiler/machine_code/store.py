@@ -4,7 +4,8 @@ Files are written atomically. A file is read only if it belongs to the user, nob
 is right; otherwise it is made anew. The folder keeps the newest `MOST_BYTES`. No function here raises: without a usable
 folder, everything is compiled.
 
-The key of code is a hash of its sources, the layouts of its values, the processor and the versions.
+The key of code is a hash of its module as text, the processor and the compiler's version. Which module belongs to what
+sources, layouts of values and versions is an entry of its own, so that code on disk is found without tracing.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ import os
 import stat
 import sys
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from importlib import metadata
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -188,6 +189,14 @@ def described(value: Any) -> str:
 def _of_compiler() -> list[Path]:
     """The sources of tracer and compiler."""
     return list((PACKAGE / "compiler").rglob("*.py"))
+
+
+def key_of_module(text: str, about: Mapping[str, Any]) -> str:
+    """The key of a module as text, with what its callers need to know."""
+    from tandemlift.compiler.machine_code.machine import processor
+
+    facts = metadata.version("llvmlite"), processor(), json.dumps(about, sort_keys=True)
+    return hashlib.sha256(f"{facts} {text}".encode()).hexdigest()[:32]
 
 
 def key_of(value: Any, *more: Any, files: Iterable[Path] = ()) -> str:
