@@ -58,7 +58,7 @@ def soft(v):
 IMPORTED = "from my_helpers import soft"
 
 
-def test_a_second_process_finds_the_compiled_law_until_the_file_changes(own, tmp_path):
+def test_a_second_process_finds_the_compiled_law_until_it_changes(own, tmp_path):
     own(LAW)
 
     def made() -> int:
@@ -70,6 +70,8 @@ def test_a_second_process_finds_the_compiled_law_until_the_file_changes(own, tmp
     assert [made(), made()] == [1, 0]
     assert len(list((tmp_path / "cache").rglob("*-quick.o"))) == 1
     own(LAW + "\n# edited\n")
+    assert made() == 0, "the step is the same"
+    own(edited(LAW, ("e * k.stiffness", "e * (k.stiffness * 0.5)")))
     assert [made(), made()] == [1, 0]
 
 
