@@ -1,6 +1,6 @@
 """How fast WebAssembly modules fly beside native code: `python benchmarks/wasm.py`.
 
-Prints Markdown: nanoseconds a step of one flight, native with `mission.fused = false`, in Node.js and in Debian's
+Prints Markdown: nanoseconds a step of one flight, native with `mission.fma = false`, in Node.js and in Debian's
 Chromium, turn by turn; ratios are medians over the turns. Optimised code throughout.
 """
 
@@ -63,7 +63,7 @@ def in_browser(page: Page) -> Callable[[dict[str, Any]], float]:
 
 def measure(name: str, engines: dict[str, Callable[[dict[str, Any]], float]]) -> list[str]:
     """A row of the table."""
-    mission = tl.load_mission(name, {"mission.fused": False, "mission.duration": 20.0})
+    mission = tl.load_mission(name, {"mission.fma": False, "mission.duration": 20.0})
     module = module_of(mission, "wasm32")
     job = {"base64": base64.b64encode(module.code).decode(), "manifest": module.manifest, "repeat": REPEAT}
     optimised(mission)

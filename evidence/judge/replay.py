@@ -86,7 +86,7 @@ def _loads(mission: dict[str, Any], model: Model, time: np.ndarray, channels: An
     pushes = pushes_of(mission, time, step)
     force = channels["push_force"] - pushes.force
     moment = channels["push_moment"] - moments(rotations(states[:, 3:7]), pushes.levers)
-    if mission["person"]["model"] not in ("none", "grab"):
+    if mission["person"]["model"] not in ("none", "virtual-hand"):
         moment += _turned(mission, model, force, states, 0.5 * step)
     force = force + pushes.mean + np.array(mission["disturbance"]["force"])
     moment = moment + np.array(mission["disturbance"]["moment"])

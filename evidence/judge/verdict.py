@@ -123,7 +123,7 @@ def _limits(mission: dict[str, Any], flown: Replay, ground: Ground) -> dict[str,
     if mission["ground"]["model"] == "floor":
         limit = crash.get("impulse") or 2.0 * flown.model.body.mass
         beyond("struck", ground.impulse, limit, BANDS["impulse"] * limit, flown.time[1:])
-    if mission["supervision"]["model"] == "watch":
+    if mission["supervision"]["model"] == "on":
         fence = mission["supervision"]["fence"]
         outside = np.maximum(np.maximum(fence["low"] - p, p - fence["high"]), 0.0)
         beyond("left fence", outside.max(axis=1), crash["fence_margin"], BANDS["distance"], flown.time)

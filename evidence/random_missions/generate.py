@@ -26,7 +26,7 @@ Changes = dict[str, Any]
 MOST_KEYS, MOST_FLIPS = 12, 3
 UNPUSHED = 1000  # from this number on, nobody pushes in a family
 TRIES = 40  # of keys for one mission; many changes do not load
-FIXED = ("mission.name", "mission.fused", "mission.log_interval", "person.recording", "changes", "admittance.feel")
+FIXED = ("mission.name", "mission.fma", "mission.log_interval", "person.recording", "changes", "admittance.feel")
 NEEDS: Mapping[tuple[str, Any], Changes] = {  # what a choice needs, or excludes
     ("actuators.model", "ideal"): {"ground.effect": False, "faults": []},
     ("ground.model", "none"): {
@@ -38,9 +38,9 @@ NEEDS: Mapping[tuple[str, Any], Changes] = {  # what a choice needs, or excludes
     ("sensors.model", "none"): {
         **{"pilot.state": "truth", "pilot.push": "truth", "sensor_faults": [], "sensors.additional": []},
     },
-    ("pilot.guidance", "clock"): {"supervision.model": "none", "requests": [], "estimator.tare": "clock"},
-    ("supervision.model", "watch"): {"pilot.guidance": "hand"},
-    ("estimator.tare", "hover"): {"pilot.guidance": "hand"},
+    ("pilot.guidance", "scheduled"): {"supervision.model": "none", "requests": [], "estimator.tare": "at-time"},
+    ("supervision.model", "on"): {"pilot.guidance": "interactive"},
+    ("estimator.tare", "hover"): {"pilot.guidance": "interactive"},
     ("estimator.identify_mass", True): {"estimator.tare_start": 3.2},
     ("observer.model", "extended-state"): {"allocation.method": "constrained"},
     ("observer.model", "super-twisting"): {"allocation.method": "constrained"},
@@ -52,7 +52,10 @@ NEEDS: Mapping[tuple[str, Any], Changes] = {  # what a choice needs, or excludes
         for how in ("measurement", "estimate")
     },
     **{
-        ("person.model", how): {"pilot.guidance": "hand", "person.path": [{"point": [1.0, 0.5]}, {"point": [3.0, 0.5]}]}
+        ("person.model", how): {
+            "pilot.guidance": "interactive",
+            "person.path": [{"point": [1.0, 0.5]}, {"point": [3.0, 0.5]}],
+        }
         for how in ("pull", "steer", "two-hands", "hold")
     },
 }
@@ -60,7 +63,7 @@ LISTS = ("pushes", "faults", "walls", "requests", "sensor_faults", "wind.gusts",
 LIST_NEEDS: Mapping[str, Changes] = {
     "faults": {"actuators.model": "rotors"},
     "walls": {"ground.model": "floor"},
-    "requests": {"pilot.guidance": "hand"},
+    "requests": {"pilot.guidance": "interactive"},
     "sensor_faults": {"sensors.model": "simulated"},
     "sensors.additional": {"sensors.model": "simulated"},
     "wind.gusts": {"wind.model": "air"},
@@ -163,7 +166,7 @@ def shortened(base: str, duration: float = 14.0) -> Changes:
     }
     if e.tare_start is not None:
         changes |= {"estimator.tare_start": 3.2, "estimator.tare_duration": 1.0}
-    if mission.person.model not in ("none", "grab"):
+    if mission.person.model not in ("none", "virtual-hand"):
         changes["person.path"] = [{"point": [1.5, mission.person.grip]}]
     pushes = [q.model_dump(mode="json") for q in mission.pushes[-3:]]
     changes["pushes"] = [{**q, "time": 5.5 + 1.5 * i, "sigma": min(q["sigma"], 0.4)} for i, q in enumerate(pushes)]

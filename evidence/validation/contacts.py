@@ -24,7 +24,7 @@ from validation.scenarios import Bench, Changes
 
 SIDE, POST, ACROSS, MOUTH = "side", "post", "across", "mouth"
 KINDS = (SIDE, POST, ACROSS, MOUTH)
-WATCHED: Changes = {"supervision.model": "watch", "phases.land_start": 1e6, "mission.log_interval": 0.002}
+WATCHED: Changes = {"supervision.model": "on", "phases.land_start": 1e6, "mission.log_interval": 0.002}
 SLOWEST, FASTEST = 0.2, 1.0  # m/s
 START = 8.0  # s, after the tare
 SOON = 0.15  # s
@@ -161,7 +161,7 @@ def jerky(number: int) -> Mission:
 
 def hands(minutes: float) -> list[Mission]:
     """Missions with that time of hands on the beam [min], half of it of persons, half of it jerky."""
-    half, watched = 30.0 * minutes, {"supervision.model": "watch", "mission.duration": START + PERSON}
+    half, watched = 30.0 * minutes, {"supervision.model": "on", "mission.duration": START + PERSON}
     led = random_persons("zigzag", max(1, round(half / PERSON)), seed=2, changes=watched)
     return [*led, *map(jerky, range(max(1, round(half / HAND))))]
 

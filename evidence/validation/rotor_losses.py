@@ -66,7 +66,7 @@ def outcome_of(flight: Flight, rotor: int, time: float) -> dict[str, Any]:
     touched = after[np.abs(flight["contact_force"][after, 2]) > 0.0]
     found = flight["failed_rotor"][-1] == rotor + 1
     row = {
-        "found": m["rotor_loss_found_after_s"] if found else None,
+        "found": m["rotor_failure_detection_delay_s"] if found else None,
         "landed": bool(flight.ending is None and len(touched) and flight["phase"][-1] == 0.0),
     }
     if not row["landed"]:
@@ -110,5 +110,5 @@ def losses(bench: Bench) -> Iterator[Row]:
         flights = bench.fly(m for *_, m in drawn)
         yield from rows_of(kind, [outcome_of(f, r, t) for f, (r, t, _) in zip(flights, drawn, strict=True)])
     count = max(1, bench.draws // 2)
-    alarms = sum(m["rotors_taken_for_lost"] > 0.0 for m in bench.metrics(intact(count)))
+    alarms = sum(m["rotor_failure_detections"] > 0.0 for m in bench.metrics(intact(count)))
     yield Row(f"no rotor lost, {count} flights: false alarms", "0", str(alarms), alarms == 0)

@@ -24,7 +24,7 @@ VARIANTS = {  # what adds a table or a branch to the code, or takes it away
     "a floor": ("paper", {"ground.model": "floor", "initial.euler": [0.0, 0.0, 0.0]}),
     "ideal rotors": ("iris", IDEAL),
     "walls": ("iris", {"walls": [{"start": [2.0, -1.0], "end": [2.0, 1.0]}]}),
-    "a supervised one": ("zigzag", {"supervision.model": "watch", "pilot.guidance": "hand"}),
+    "a supervised one": ("zigzag", {"supervision.model": "on", "pilot.guidance": "interactive"}),
 }
 
 

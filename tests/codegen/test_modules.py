@@ -36,7 +36,7 @@ def wasm_object(mission: tl.Mission) -> bytes:
 
 def test_unfused_code_has_no_fused_operation() -> None:
     for fused in (True, False):
-        kernels = FlightPlan(tl.load_mission("hover", {"mission.fused": fused})).kernels
+        kernels = FlightPlan(tl.load_mission("hover", {"mission.fma": fused})).kernels
         assert ("llvm.fma" in write_flight_loop(kernels, 1, 0).module.text) == fused
 
 
@@ -65,7 +65,7 @@ def test_a_module_comes_from_the_cache_the_second_time(monkeypatch: pytest.Monke
 def test_our_linker_places_what_another_one_places(tmp_path: Path) -> None:
     other = shutil.which("wasm-ld") or shutil.which("wasm-ld-14")
     assert other, "Debian's lld is not installed"
-    (tmp_path / "x.o").write_bytes(wasm_object(tl.load_mission("iris", {"mission.fused": False})))
+    (tmp_path / "x.o").write_bytes(wasm_object(tl.load_mission("iris", {"mission.fma": False})))
     command = [other, "--no-entry", "--export=fly", "--export=__heap_base", "-o", "x.wasm", "x.o"]
     subprocess.run(command, cwd=tmp_path, check=True)
     ours = linked((tmp_path / "x.o").read_bytes(), ["fly"])

@@ -35,7 +35,7 @@ DRAWS = {"aarch64": 20, "cortex-m7": 4}
 @pytest.mark.parametrize("target", COMPILERS)
 @pytest.mark.parametrize("name", sorted(built_in()))
 def test_an_object_flies_as_native_code(name: str, target: str, tmp_path: Path) -> None:
-    mission = changed(tl.load_mission(name, {"mission.fused": False}), "mission.duration", 2.0)
+    mission = changed(tl.load_mission(name, {"mission.fma": False}), "mission.duration", 2.0)
     compile_mission(mission, target, tmp_path)
     manifest = json.loads((tmp_path / f"{name}.json").read_text())
     program = link_object(tmp_path, name, COMPILERS[target])

@@ -39,7 +39,7 @@ def evaluate(request: pytest.FixtureRequest) -> Iterator[Callable[[str], Any]]:
 
 def check_draws(name: str, folder: Path, *, duration: float, count: int, fly: Fly = wasm_flights) -> int:
     """Fly draws of a mission in both; how many flights were lost."""
-    mission = changed(tl.load_mission(name, {"mission.fused": False}), "mission.duration", duration)
+    mission = changed(tl.load_mission(name, {"mission.fma": False}), "mission.duration", duration)
     compile_mission(mission, "wasm32", folder)
     manifest = json.loads((folder / f"{name}.json").read_text())
     draws = drawn_numbers(mission, count, {n["key"] for n in manifest["numbers"]})

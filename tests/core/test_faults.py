@@ -88,7 +88,7 @@ from tandemlift.parts.guidance.fault_detection import ActiveFaults, strongest_re
 from tandemlift.missions.key_reference.markdown import key_tables
 from tandemlift.apps.live.session.scene_builder import scene_of
 
-mission = tl.load_mission("iris", {"pilot.guidance": "hand", "supervision.model": "watch",
+mission = tl.load_mission("iris", {"pilot.guidance": "interactive", "supervision.model": "on",
                                    "supervision.reactions.battery": "land"})
 assert mission.supervision.reactions.battery == "land"
 assert "| `supervision.reactions.battery` |" in key_tables()

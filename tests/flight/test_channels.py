@@ -76,8 +76,8 @@ BARE = {"pilot": {"state": "truth", "push": "truth"}, "phases.rotors": "always"}
 WHOLE = BARE | {
     "pilot": {"state": "truth", "push": "measurement"},
     "wind.model": "air",
-    "supervision.model": "watch",
-    "contact.model": "watch",
+    "supervision.model": "on",
+    "contact.model": "on",
     "detection.model": "residual",
 }
 PARTS = {  # a part that a mission may have, what takes it out, and the group of channels that goes with it
@@ -88,7 +88,7 @@ PARTS = {  # a part that a mission may have, what takes it out, and the group of
     "wind": {"wind.model": "none"},
     "disturbance": {"observer.model": "none"},
     "guidance, contact_estimate": {
-        "pilot.guidance": "clock",
+        "pilot.guidance": "scheduled",
         "supervision.model": "none",
         "contact.model": "none",
     },

@@ -111,7 +111,7 @@ def test_what_cannot_be_is_refused_with_the_key_and_what_is_allowed(changes, sai
 def test_a_person_who_pushes_during_the_tare_or_asks_in_vain_is_warned_of():
     person = {"person.model": "steer", "person.path": [{"point": [1.0, 0.0]}], "person.start_time": 2.0}
     with pytest.warns(tl.FlightWarning) as told:
-        tl.load_mission("iris", {**person, "pilot.guidance": "clock"})
+        tl.load_mission("iris", {**person, "pilot.guidance": "scheduled"})
     said = " ".join(str(w.message) for w in told)
     assert "person.start_time = 2.0 is before the tare ends at 12 s" in said
     assert "asks to land in vain" in said

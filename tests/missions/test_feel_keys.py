@@ -32,7 +32,7 @@ def test_what_is_given_beside_a_preset_counts_and_may_differ_between_axes():
 
 @pytest.mark.parametrize(
     ("changes", "beyond"),
-    [({}, 1.0), ({"admittance.gate": "soft"}, 0.7), ({"pilot.guidance": "hand"}, 0.7)],
+    [({}, 1.0), ({"admittance.gate": "soft"}, 0.7), ({"pilot.guidance": "interactive"}, 0.7)],
     ids=["hard", "soft", "by hand"],
 )
 def test_a_soft_gate_takes_the_threshold_and_the_dead_band_of_guidance_by_hand_is_one(changes, beyond):

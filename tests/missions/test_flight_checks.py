@@ -69,7 +69,7 @@ TOLD = {  # of iris, and what its warnings must say: quantity, limit, key
     ),
     "noise above the threshold": ({"sensors.joints.force_noise": 1.0}, ["noise is followed as a push"]),
     "a supervision that refuses": (
-        {"supervision.model": "watch", "supervision.checks.thrust_fraction": 0.6},
+        {"supervision.model": "on", "supervision.checks.thrust_fraction": 0.6},
         ["supervision.checks.thrust_fraction = 0.6", "the lift is refused"],
     ),
 }
@@ -107,7 +107,7 @@ def test_a_start_that_asks_for_more_than_the_rotors_have_is_warned_of():
         push(force=[0.0, 0.0, 0.0]),
         {"pushes": [{"time": time, "sigma": 0.6, "force": [0.2, 0.0, 0.0]} for time in (15.0, 15.2)]},
         push(force=[0.2, 0.0, 0.0]) | {"admittance.threshold": 0.19},
-        push(force=[0.2, 0.0, 0.0], point=[0.0, 0.9, 0.0]) | {"compliance.yaw.model": "yielding"},
+        push(force=[0.2, 0.0, 0.0], point=[0.0, 0.9, 0.0]) | {"compliance.yaw.model": "compliant"},
         push(force=[0.2, 0.0, 0.0]) | {"changes": [{"time": 13.0, "key": "admittance.threshold", "value": 0.1}]},
     ],
     ids=["above", "none", "two together", "a low threshold", "turns", "a threshold that changes"],

@@ -207,7 +207,7 @@ def test_the_template_is_a_mission_with_all_that_it_keeps_out_as_well():
     tables["wind"]["model"], tables["allocation"]["method"] = "air", "constrained"
     tables["initial"]["euler"] = 0.0
     del tables["person"]["recording"]  # no such file
-    tables["pilot"]["guidance"], tables["sensors"]["model"] = "hand", "simulated"
+    tables["pilot"]["guidance"], tables["sensors"]["model"] = "interactive", "simulated"
     tables["controller"] = {"name": "pid"}  # whose defaults real rotors bear; the paper's gains do not
     with warnings.catch_warnings():
         warnings.simplefilter("error")

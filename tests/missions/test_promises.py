@@ -37,7 +37,7 @@ def test_a_band_of_oscillations_that_the_steps_do_not_resolve_is_refused():
 
 def test_a_promised_distance_brings_its_root_mean_square_along():
     mission = tl.load_mission("iris", {"promise.distance": 0.04})
-    assert promise_of(mission.promise, "hand").rms_promised("hand") == 0.04
+    assert promise_of(mission.promise, "interactive").rms_promised("interactive") == 0.04
 
 
 @pytest.mark.parametrize(

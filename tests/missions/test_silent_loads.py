@@ -164,7 +164,7 @@ def test_a_recorded_hand_that_holds_the_air_is_refused(tmp_path):
     path = tmp_path / "hand.npz"
     np.savez(path, step=np.array([100]), hand=hand)
     with pytest.raises(tl.InputError, match=r"a grip in .*hand.npz = \[3.0, 3.0, 3.0\]: must be on the vehicle"):
-        load_mission("iris", {"person.model": "grab", "person.recording": str(path)})
+        load_mission("iris", {"person.model": "virtual-hand", "person.recording": str(path)})
 
 
 def test_the_force_that_the_largest_tilt_leaves_is_said_where_wind_and_a_push_need_more():

@@ -6,18 +6,18 @@ import tandemlift as tl
 from tandemlift.missions import load_mission
 from tandemlift.parts.pilot.supervision import start_requests
 
-BY_HAND = {"pilot.guidance": "hand"}
-WATCHED = {**BY_HAND, "supervision.model": "watch"}
-BY_CLOCK = {"pilot.guidance": "clock"}
+BY_HAND = {"pilot.guidance": "interactive"}
+WATCHED = {**BY_HAND, "supervision.model": "on"}
+BY_CLOCK = {"pilot.guidance": "scheduled"}
 FROZEN = {"sensor": "gyroscope", "kind": "frozen", "time": 5.0}
 
 
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({**BY_CLOCK, "supervision.model": "watch"}, 'supervision.model = "watch": must be "none"'),
+        ({**BY_CLOCK, "supervision.model": "on"}, 'supervision.model = "on": must be "none"'),
         ({**BY_CLOCK, "requests": [{"time": 1.0, "action": "land"}]}, 'requests.0.action = "land": must be left out'),
-        ({**BY_CLOCK, "estimator.tare": "hover"}, 'estimator.tare = "hover": must be "clock"'),
+        ({**BY_CLOCK, "estimator.tare": "hover"}, 'estimator.tare = "hover": must be "at-time"'),
         ({**BY_HAND, "requests": [{"time": 1.0, "action": "jump"}]}, 'requests.0.action = "jump": must be'),
         (
             {"sensors.model": "none", "pilot": {"state": "truth", "push": "truth"}, "sensor_faults": [FROZEN]},
@@ -30,7 +30,7 @@ FROZEN = {"sensor": "gyroscope", "kind": "frozen", "time": 5.0}
         ({"sensor_faults": [{**FROZEN, "quadrotor": 1}]}, 'unless the sensor is "joints"'),
         ({"sensor_faults": [{**FROZEN, "sensor": "joints", "quadrotor": 3}]}, "must be from 1 to 2"),
         ({"sensor_faults": [{**FROZEN, "until": 5.0}]}, "must be after sensor_faults.0.time"),
-        ({**BY_HAND, "supervision": {"model": "watch", "fence": {"low": 2.0, "high": 1.0}}}, "supervision.fence.low"),
+        ({**BY_HAND, "supervision": {"model": "on", "fence": {"low": 2.0, "high": 1.0}}}, "supervision.fence.low"),
         ({**WATCHED, "supervision.watchdog.stale_time": 0.004}, "supervision.watchdog.stale_time = 0.004"),
         ({**WATCHED, "supervision.checks.min_payload_ratio": 3.0}, "min_payload_ratio = 3.0"),
         (

@@ -13,7 +13,7 @@ from tandemlift.parts.controllers import CONTROLLERS
 
 VALUES = (0.3, 1, 2.5, 0.0, -1.0, float("nan"), True, "soft", "lqr", [1.0, 0.0, 0.2], [1], [[1.0, 1.0]], {}, None, 1e12)
 KEYS = (  # good ones, and some that no mission has
-    *("mission.duration", "mission.step", "mission.seed", "mission.name", "mission.fused", "mission"),
+    *("mission.duration", "mission.step", "mission.seed", "mission.name", "mission.fma", "mission"),
     *("vehicle.payload.mass", "vehicle.payload", "vehicle.quadrotors.0.mass", "vehicle.quadrotors.1.arm"),
     *("vehicle.quadrotors.7.mass", "vehicle.quadrotors.0", "allocation.weights", "plant.mass_scale"),
     *("controller.name", "controller", "controller.gains", "controller.gains.xi", "controller.gains.no_such"),

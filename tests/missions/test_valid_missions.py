@@ -61,7 +61,7 @@ def common(whole, said):
 def test_the_paper_mission_leaves_out_only_what_it_has_no_part_of():
     rest = tables_of(load_mission("paper"))
     assert [rest[part]["model"] for part in ("actuators", "sensors", "wind", "ground")] == ["ideal", *["none"] * 3]
-    assert rest["pilot"] == {"guidance": "clock", "state": "truth", "push": "truth", "map": "none"}
+    assert rest["pilot"] == {"guidance": "scheduled", "state": "truth", "push": "truth", "map": "none"}
     assert rest["faults"] == rest["walls"] == []
     assert rest["phases"]["rotors"] == "always"
     assert rest["plant"] == {"mass_scale": 1.0, "inertia_scale": [1.0] * 3}
@@ -125,7 +125,7 @@ def test_the_paper_mission_has_the_paper_s_numbers():
             "stiffness": [0.0] * 3,
             "threshold": [0.3] * 3,
             "gate": "hard",
-            "reanchor": False,
+            "hold_after_release": False,
         },
         "allocation": {"method": "pseudo-inverse", "weights": [[1.0] * 4]},
         "initial": {"position": [0.3, -0.3, 0.0], "euler": [0.15, -0.15, 0.2]},

@@ -32,7 +32,7 @@ IDEAL: dict[str, dict[str, Any]] = {
         "controller.gains.a": 1.5,
         "admittance.gate": "soft",
         "admittance.stiffness": 2.0,
-        "admittance.reanchor": True,
+        "admittance.hold_after_release": True,
         "vehicle.quadrotors.0.position": [0.3, 1.0, 0.2],
         "pushes.0.point": [0.1, 0.8, -0.06],
     },

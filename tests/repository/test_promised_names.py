@@ -39,7 +39,7 @@ KEYS = {  # table: the keys in it
         "human_force_feedforward"
     ),
     "controller.gains": "xi eta lambda_1 lambda_2 a",
-    "admittance": "mass damping stiffness threshold gate reanchor",
+    "admittance": "mass damping stiffness threshold gate hold_after_release",
     "allocation": "method weights",
     "initial": "position velocity euler rates",
     "phases": "lift_start lift_duration height land_start land_duration",

@@ -57,7 +57,7 @@ assert (said["minimum"], said["default"]) == (0, 0.2) and meaning in said["descr
 assert any("idle_time = 0.2" in line and meaning in line for line in template_text().splitlines())
 assert f"| `{name}` | s | `0.2`; chosen: short | {meaning}. Allowed: a number ≥ 0 |" in key_tables()
 changes = [{"time": 1.0, "key": name, "value": 0.3}]
-mission = tl.load_mission("iris", {name: 0.1, "changes": changes, "pilot.guidance": "hand"})
+mission = tl.load_mission("iris", {name: 0.1, "changes": changes, "pilot.guidance": "interactive"})
 assert mission.compliance.idle_time == 0.1
 try:
     tl.load_mission("iris", {name: -1.0})

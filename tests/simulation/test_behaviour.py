@@ -70,7 +70,9 @@ def test_weights_move_the_thrusts_between_rotors_and_leave_the_motion():
 def test_stiffness_springs_back_and_reanchoring_stays():
     spring = {"admittance.stiffness": 2.0, "mission.duration": 30.0}
     back = tl.fly(tl.load_mission("one-push", spring))["admittance_position"][:, 0]
-    stay = tl.fly(tl.load_mission("one-push", {**spring, "admittance.reanchor": True}))["admittance_position"][:, 0]
+    stay = tl.fly(tl.load_mission("one-push", {**spring, "admittance.hold_after_release": True}))[
+        "admittance_position"
+    ][:, 0]
     assert back.max() > 0.3
     assert abs(back[-1]) < 1e-6
     assert stay[-1] > 0.2

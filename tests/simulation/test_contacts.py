@@ -117,7 +117,7 @@ def test_the_same_touch_in_mujoco_is_named_likewise():
 
 
 def test_hands_are_no_contacts():
-    led = random_persons("zigzag", 4, seed=3, changes={"supervision.model": "watch", "mission.duration": 30.0})
+    led = random_persons("zigzag", 4, seed=3, changes={"supervision.model": "on", "mission.duration": 30.0})
     flown = tl.fly_many([*[lasting(jerky(i), 30.0) for i in range(4)], *led], keep="metrics")
     assert [contacts_named(metrics) for metrics in flown] == [0] * 8
 
@@ -131,7 +131,7 @@ def test_a_joint_sensor_that_breaks_under_a_hand_is_blamed_and_is_no_contact():
 def test_a_flight_that_touches_nothing_is_the_same_with_and_without_the_watch():
     watched, other = (
         tl.fly(tl.load_mission("doorway", {"mission.duration": 25.0, "contact.model": model}))
-        for model in ("watch", "none")
+        for model in ("on", "none")
     )
     assert not watched["contact_part"].any()
     assert np.array_equal(watched["position"], other["position"])
@@ -154,8 +154,8 @@ def test_an_event_says_part_place_and_direction(touches):
 @pytest.mark.parametrize(
     ("changes", "what"),
     [
-        ({"pilot.guidance": "clock"}, 'contact.model = "watch": must be "none" where pilot.guidance is "clock"'),
-        ({"pilot.push": "truth"}, 'contact.model = "watch": must be "none" where the pilot reads no joints'),
+        ({"pilot.guidance": "scheduled"}, 'contact.model = "on": must be "none" where pilot.guidance is "scheduled"'),
+        ({"pilot.push": "truth"}, 'contact.model = "on": must be "none" where the pilot reads no joints'),
         ({"contact.threshold": 0.0}, "contact.threshold"),
         ({"contact.model": "look"}, "contact.model"),
         ({"pilot.map": "doors"}, "pilot.map"),
@@ -163,4 +163,4 @@ def test_an_event_says_part_place_and_direction(touches):
 )
 def test_a_watch_that_cannot_be_is_refused(changes, what):
     with pytest.raises(tl.InputError, match=re.escape(what)):
-        tl.load_mission("iris", {"contact.model": "watch", **changes})
+        tl.load_mission("iris", {"contact.model": "on", **changes})

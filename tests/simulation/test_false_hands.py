@@ -20,7 +20,7 @@ def gusts(*rows):
 
 FALSE = {  # on top of mission iris, without a push
     "joints": fault("joints", 0.5),
-    "joints, supervised": {**fault("joints", 0.5), "supervision.model": "watch"},
+    "joints, supervised": {**fault("joints", 0.5), "supervision.model": "on"},
     "joints, upwards": fault("joints", -1.0),
     "joints, little": fault("joints", -0.2, 13.0),
     "joints, much": fault("joints", 3.0),

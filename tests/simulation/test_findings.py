@@ -129,7 +129,7 @@ def test_a_reference_out_of_reach_asks_for_more_thrust_than_there_is(flights):
 
 def test_a_push_that_moves_nothing_is_found(flights):
     flight = flights["unanswered"]
-    found = of_kind(flight, "push-unanswered")
+    found = of_kind(flight, "no-response-to-push")
     assert found
     gated, true = flight["admittance_force"], flight["push_force"]
     gated, true = (np.linalg.norm(f, axis=1) for f in (gated, true - np.clip(true, -0.6, 0.6)))

@@ -11,7 +11,7 @@ WATCHED = {
     "phases.land_start": 7.0,
     "phases.land_duration": 3.0,
     "compliance.max_descent_speed": 0.8,  # m/s: lands in 3 s
-    "supervision.model": "watch",
+    "supervision.model": "on",
     "sensor_faults": [{"sensor": "position", "kind": "bias", "time": 1000.0}],  # none, in the same compiled loop
 }
 LATE = {"phases.land_start": 1000.0}

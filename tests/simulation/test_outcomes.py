@@ -9,7 +9,7 @@ import tandemlift as tl
 from tandemlift.simulation.loop.ending import FADING
 
 EVERY = {"mission.log_interval": 0.001}
-WATCHED = {"pilot.guidance": "hand", "supervision.model": "watch", "mission.duration": 20.0}
+WATCHED = {"pilot.guidance": "interactive", "supervision.model": "on", "mission.duration": 20.0}
 OVER = {"disturbance.moment": [0.0, 9.0, 0.0], "mission.duration": 12.0}
 FALL = {"ground.height": -3.0, "phases.rotors": "flight", "phases.lift_start": 5.0, "mission.duration": 4.0}
 OUT = WATCHED | {"supervision.fence.high": [0.5, 9.0, 9.0], "disturbance.force": [30.0, 0.0, 0.0]}

@@ -28,7 +28,7 @@ def hand(held=0.0, grip=(0, 0, 0), target=(0, 0, 0), force=(0, 0, 0)):
 def recorded(path, rows):
     steps, hands = zip(*rows, strict=True)
     write_recording(path, Recording(np.array(steps), np.array(hands, dtype=float)))
-    return {"person.model": "grab", "person.recording": str(path), "pushes": []}
+    return {"person.model": "virtual-hand", "person.recording": str(path), "pushes": []}
 
 
 def test_a_ramped_damping_gives_the_reference_that_scipy_integrates():
@@ -164,7 +164,7 @@ def test_a_recording_comes_back_as_it_was_written(tmp_path):
 def test_a_mission_finds_its_recording_beside_its_file(tmp_path):
     recorded(tmp_path / "hand.npz", [(0, hand())])
     file = tmp_path / "mine.toml"
-    file.write_text('extends = "one-push"\n[person]\nmodel = "grab"\nrecording = "hand.npz"\n', "utf-8")
+    file.write_text('extends = "one-push"\n[person]\nmodel = "virtual-hand"\nrecording = "hand.npz"\n', "utf-8")
     assert tl.load_mission(file).person.recording == str((tmp_path / "hand.npz").resolve())
 
 
@@ -183,7 +183,7 @@ def test_a_file_that_is_no_recording_is_refused(tmp_path, arrays, words):
     if arrays is not None:
         np.savez(path, **arrays)
     with pytest.raises(tl.InputError, match=words):
-        load(**{"person.model": "grab", "person.recording": str(path)})
+        load(**{"person.model": "virtual-hand", "person.recording": str(path)})
 
 
 def test_a_recording_without_a_hand_is_refused(tmp_path):

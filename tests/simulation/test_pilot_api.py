@@ -36,7 +36,7 @@ def test_what_is_no_measurement_is_refused(measurement):
 
 
 def test_by_hand_it_stops_its_rotors_for_good_when_asked():
-    pilot, level = tl.Pilot(tl.load_mission("hover", {"pilot.guidance": "hand"})), np.zeros(16)
+    pilot, level = tl.Pilot(tl.load_mission("hover", {"pilot.guidance": "interactive"})), np.zeros(16)
     level[6] = 1.0
     assert pilot.step(level).sum() > 0.0
     assert not pilot.step(level, stop=True).any()

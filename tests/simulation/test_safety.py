@@ -21,13 +21,13 @@ AT, STANDS = 8.5, 0.03  # s, when sensors fail; m, height of the standing vehicl
 QUIET = [{"sensor": "position", "kind": "bias", "time": 1000.0}]  # no fault, in the same compiled loop
 FLOWN = {
     "mission": {"duration": 21.0, "log_interval": 0.02},
-    "pilot": {"guidance": "hand", "state": "estimate", "push": "estimate"},
+    "pilot": {"guidance": "interactive", "state": "estimate", "push": "estimate"},
     "phases": {"lift_start": 0.5, "lift_duration": 2.0, "height": 1.0, "land_start": 1000.0, "land_duration": 3.0},
     "estimator": {"tare": "hover", "tare_duration": 1.0},
     "pushes": [{"force": [2.0, 0.0, 0.0], "time": 7.0, "sigma": 0.4}],
     "requests": [{"time": 1000.0, "action": "land"}],
-    "supervision.model": "watch",
-    "contact.model": "watch",
+    "supervision.model": "on",
+    "contact.model": "on",
     "crash.impulse": 100.0,  # a fall is what a reaction may be
     "sensor_faults": QUIET,
 }

@@ -14,7 +14,7 @@ import tandemlift as tl
 from tandemlift.core.phases import LIMITED, REASONS
 
 NEAR = 0.1  # m, largest distance from the reference along each axis of a flight that goes well
-WATCHED = {"supervision.model": "watch"}
+WATCHED = {"supervision.model": "on"}
 TUMBLES = "crashed or landed"  # it bounces over the floor, which may turn it over late or never
 
 
@@ -83,14 +83,19 @@ ROWS = {
     "wind along -y": Row("iris", air(0.0, -4.0), "turbulence", "landed", None),
     "25 % heavier": Row("iris", {"plant.mass_scale": 1.25}, "", "landed", None),
     "rotors 35 % weaker": Row(
-        "iris", {"faults": WEAKER}, "thrust_fraction", "landed", {"push-unanswered", "cannot-follow"}, "no thrust left"
+        "iris",
+        {"faults": WEAKER},
+        "thrust_fraction",
+        "landed",
+        {"no-response-to-push", "cannot-follow"},
+        "no thrust left",
     ),
     "rotors that are known to be 35 % weaker": Row(
         "iris",
         fleet(thrust_constant=lambda k: 0.65 * k),
         "thrust_fraction",
         "landed",
-        {"push-unanswered", "cannot-follow"},
+        {"no-response-to-push", "cannot-follow"},
         "no thrust left",
     ),
     "30 N downwards": Row(

@@ -64,7 +64,7 @@ def test_a_vehicle_that_cannot_follow_is_told_why(number):
 
 
 def test_a_refused_lift_is_told_unless_the_vehicle_lifts_later():
-    mission = tl.load_mission("iris", {"supervision.model": "watch"})
+    mission = tl.load_mission("iris", {"supervision.model": "on"})
     supervision = FlightPlan(mission).model.flight_state.memory.guidance.supervision
     check = next(check for check in CHECKS if check.before == "lift")
     refused, lift, guided = IDLE * PHASE + check.number, LIFT * PHASE, GUIDED * PHASE
@@ -98,7 +98,7 @@ def test_a_flight_whose_parameters_change_takes_some_time():
 
 
 def test_what_the_pilot_would_refuse_is_that_of_its_parameters_and_memory_now():
-    changes = {"mission.duration": 0.1, "phases.lift_start": 20.0, "supervision.model": "watch"}
+    changes = {"mission.duration": 0.1, "phases.lift_start": 20.0, "supervision.model": "on"}
     strict = {"supervision.checks.thrust_fraction": 0.3}
     why = []
     for more in ({}, strict):

@@ -40,7 +40,7 @@ int64_t fly(const {p}_FlightModel *model, const {p}_Inputs *inputs, int64_t step
 
 def unfused(mission):
     """The mission, computed alike on every machine."""
-    return changed(mission, "mission.fused", False)
+    return changed(mission, "mission.fma", False)
 
 
 def same(a, b):

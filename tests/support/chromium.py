@@ -33,10 +33,10 @@ FLAGS = (
     *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
 )
 SETTINGS = {
-    "pilot.guidance": "hand",
+    "pilot.guidance": "interactive",
     "phases.rotors": "flight",
     "ground.model": "floor",
-    "compliance.yaw.model": "yielding",
+    "compliance.yaw.model": "compliant",
     "admittance.threshold": 0.3,
 }
 SIZE = {"width": 800, "height": 450}

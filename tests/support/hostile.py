@@ -15,7 +15,7 @@ GOOD = [
     {"type": "force", "seq": 4, "force": [0.0, 1.0, 0.0], "point": [0.0, 0.0, 0.0]},
     {"type": "set", "seq": 5, "key": "admittance.mass", "value": [1.0, 2.0, 3.0]},
     {"type": "set", "seq": 6, "key": "controller.name", "value": "pid"},
-    {"type": "set", "seq": 7, "key": "admittance.reanchor", "value": True},
+    {"type": "set", "seq": 7, "key": "admittance.hold_after_release", "value": True},
     {"type": "set", "seq": 8, "key": "wind.turbulence", "value": 3},
     {"type": "restore", "seq": 9, "key": "admittance.mass"},
     {"type": "restore", "seq": 10},

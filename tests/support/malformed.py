@@ -38,8 +38,16 @@ def of_parts(name: str, toml: str, *pieces: str) -> Case:
 WRONG_TYPES = [
     case("text for a number", "mission.duration = '5'", "mission.duration", '"5"', "a number > 0", "without quotes"),
     case("bool for a number", "mission.duration = true", "mission.duration = true", "a number > 0"),
-    case("number for a bool", "admittance.reanchor = 1", "admittance.reanchor = 1", "true or false"),
-    case("text for a bool", "admittance.reanchor = 'yes'", "admittance.reanchor", '"yes"', "true or false"),
+    case(
+        "number for a bool", "admittance.hold_after_release = 1", "admittance.hold_after_release = 1", "true or false"
+    ),
+    case(
+        "text for a bool",
+        "admittance.hold_after_release = 'yes'",
+        "admittance.hold_after_release",
+        '"yes"',
+        "true or false",
+    ),
     case("number for a name", "mission.name = 7", "mission.name = 7", "text in quotes"),
     case("number for a choice", "admittance.gate = 1", "admittance.gate = 1", '"hard" or "soft"'),
     case("list for a choice", "admittance.gate = ['soft']", 'admittance.gate = ["soft"]', '"hard" or "soft"'),

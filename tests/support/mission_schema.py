@@ -27,7 +27,7 @@ EVERYTHING = {  # on top of mission iris: one entry of every list of tables, and
     "admittance": {"feel": {"force": 2.7, "speed": 1.5}},
     "faults": [{"quadrotor": 1, "rotor": 1, "time": 60.0}],
     "wind": {"model": "air", "gusts": [{"velocity": [1.0, 0.0, 0.0], "start": 15.0, "rise": 1.0}]},
-    "pilot": {"guidance": "hand"},
+    "pilot": {"guidance": "interactive"},
     "requests": [{"time": 60.0, "action": "land"}],
     "sensors": {"additional": [{"name": "altimeter"}]},
     "sensor_faults": [{"sensor": "joints", "quadrotor": 1, "kind": "bias", "time": 60.0, "until": 61.0}],

@@ -71,10 +71,10 @@ def wrench(frame, force=(0.0, 0.0, 0.0), torque=(0.0, 0.0, 0.0)):
 
 
 GUIDED = {
-    "pilot.guidance": "hand",
+    "pilot.guidance": "interactive",
     "phases.rotors": "flight",
     "ground.model": "floor",
-    "compliance.yaw.model": "yielding",
+    "compliance.yaw.model": "compliant",
     "admittance.threshold": 0.3,
     "phases.lift_start": 0.0,
     "phases.lift_duration": 1.0,

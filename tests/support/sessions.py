@@ -6,10 +6,10 @@ from tandemlift.apps.live.wire.frames import read_frames
 from tandemlift.apps.live.wire.page_messages import PAGE_MESSAGES
 
 GUIDED = {
-    "pilot.guidance": "hand",
+    "pilot.guidance": "interactive",
     "phases.rotors": "flight",
     "ground.model": "floor",
-    "compliance.yaw.model": "yielding",
+    "compliance.yaw.model": "compliant",
 }
 STIFFNESS, THRESHOLD = 6.0, 0.3  # N/m, N
 

@@ -21,7 +21,7 @@ def compile_mission(mission: Mission, target: str, folder: Path | str, *, single
     """Compile a mission for another machine: its numbers, its loop over steps, its pilot.
 
     Args:
-        mission: from `load_mission`. The code is that of `mission.fused = false`.
+        mission: from `load_mission`. The code is that of `mission.fma = false`.
         target: a name in `TARGETS`.
         folder: where the files go; made if it does not exist.
         single: whether C computes in single precision.

@@ -49,7 +49,7 @@ def module_of(mission: Mission, target: str, functions: Functions = _nothing_mor
     """Compile a mission for a machine; what was compiled before is taken from the cache.
 
     Args:
-        mission: from `load_mission`. The code is that of `mission.fused = false`.
+        mission: from `load_mission`. The code is that of `mission.fma = false`.
         target: a name in `MACHINES`.
         functions: gives further functions for the module.
 

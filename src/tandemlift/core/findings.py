@@ -15,7 +15,7 @@ FindingName = Literal[
     "touched",
     "oscillating",
     "saturated",
-    "push-unanswered",
+    "no-response-to-push",
     "response-without-push",
     "push-refuted",
     "off-track",
@@ -63,7 +63,7 @@ KINDS = (
         ("findings.saturated_time", "findings.saturated_fraction"),
     ),
     FindingKind(
-        "push-unanswered",
+        "no-response-to-push",
         "a push was above its threshold, and the vehicle did not move along with it",
         "see that rotors have thrust left beside the weight (`compliance.thrust_fraction`), and that nothing is in the "
         "way",

@@ -79,7 +79,9 @@ CHECK_REASONS = (  # of checks, by the key of `core.faults.CHECKS`
     RefusalReason("joints", "the joints' force sensors disagree", "Let go, and wait until they agree again, or land."),
 )
 OTHER_REASONS = (
-    RefusalReason("clock", "the pilot is guided by the clock", 'Fly a mission with `pilot.guidance = "hand"`.'),
+    RefusalReason(
+        "scheduled", "lift and landing are scheduled", 'Fly a mission with `pilot.guidance = "interactive"`.'
+    ),
     RefusalReason("in_air", "the vehicle is in the air already", "Push it to where it should go, or land it."),
     RefusalReason("on_ground", "the vehicle stands on the ground", "Lift it off first."),
     RefusalReason("landed", "the vehicle stands on the ground already", ""),

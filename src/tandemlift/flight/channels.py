@@ -135,7 +135,7 @@ GROUPS: tuple[ChannelGroup, ...] = (
         "from such values.",
     ),
     ChannelGroup(
-        'With detection of contacts (`contact.model = "watch"`)',
+        'With detection of contacts (`contact.model = "on"`)',
         {
             "contact_part": Channel(
                 "1", "", "part that touches: number of the quadrotor of a guard, −1 for the beam, 0 for none", 1
@@ -162,7 +162,7 @@ GROUPS: tuple[ChannelGroup, ...] = (
         },
     ),
     ChannelGroup(
-        'Guided by hand (`pilot.guidance = "hand"`)',
+        'Guided by hand (`pilot.guidance = "interactive"`)',
         {
             "phase": Channel("1", "", PHASE_NUMBERS, 1),
             "push_filtered": Channel("N", "world", "push after the pilot's low-pass filter, less its bias"),
@@ -173,7 +173,7 @@ GROUPS: tuple[ChannelGroup, ...] = (
         },
     ),
     ChannelGroup(
-        'Guided by hand under supervision (`supervision.model = "watch"`)',
+        'Guided by hand under supervision (`supervision.model = "on"`)',
         {
             "alarm": Channel("1", "", "number of the fault reacted to, 0 for none; see docs/reference/faults.md", 1),
             "failed_check": Channel("1", "", "number of the failed check, 0 for none; see docs/reference/faults.md", 1),

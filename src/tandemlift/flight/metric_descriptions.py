@@ -102,8 +102,10 @@ METRIC_GROUPS: tuple[MetricGroup, ...] = (
     MetricGroup(
         "With detection of a lost rotor (`detection.model`)",
         {
-            "rotors_taken_for_lost": Metric("1", "how often `[detection]` took a rotor for failed"),
-            "rotor_loss_found_after_s": Metric("s", "detection delay of the rotor that is taken for failed at the end"),
+            "rotor_failure_detections": Metric("1", "how often `[detection]` took a rotor for failed"),
+            "rotor_failure_detection_delay_s": Metric(
+                "s", "detection delay of the rotor that is taken for failed at the end"
+            ),
         },
     ),
     MetricGroup("Of a bag", {"samples": Metric("1", "number of samples, from which the metrics are formed")}),

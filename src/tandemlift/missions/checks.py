@@ -57,9 +57,9 @@ def sample_size(m: Mission) -> int:
         "readings and estimates": (45 + 6 * count) * (m.sensors.model == "simulated"),
         "additional sensors": sum(ADDITIONAL[s.name].width for s in m.sensors.additional if s.name in ADDITIONAL),
         "observer": 12 * (m.observer.model != "none"),
-        "guidance by hand": 10 * (m.pilot.guidance == "hand"),
-        "contact": 13 * (m.contact.model == "watch"),
-        "supervision": 2 * (m.supervision.model == "watch"),
+        "guidance by hand": 10 * (m.pilot.guidance == "interactive"),
+        "contact": 13 * (m.contact.model == "on"),
+        "supervision": 2 * (m.supervision.model == "on"),
         "rotor-failure detection": 1 * (m.detection.model != "none"),
     }
     return 8 * sum(numbers.values())
@@ -182,7 +182,7 @@ def _promise_warnings(m: Mission) -> Iterator[str]:
             yield f"{given}: a measurement alone is {least:.2g} off, root mean square ({key}); expect a finding"
     depth = m.compliance.touchdown_depth
     lands = m.ground.model == "floor" and m.phases.land_start is not None and m.phases.land_start < m.mission.duration
-    if m.pilot.guidance == "hand" and lands and promise.distance <= depth:
+    if m.pilot.guidance == "interactive" and lands and promise.distance <= depth:
         given = f"promise.distance = {promise.distance} cannot be kept"
         yield f"{given}: a landing's reference ends {depth:g} m below the ground (compliance.touchdown_depth)"
 

@@ -97,7 +97,7 @@ def _check_readings(m: Mission) -> None:
 
 def _check_tare(m: Mission) -> None:
     e, step = m.estimator, m.mission.step
-    if e.identify_mass and e.tare_start is None and e.tare == "clock":
+    if e.identify_mass and e.tare_start is None and e.tare == "at-time":
         raise InputError(
             "estimator.identify_mass = true: the payload's mass is identified during the tare: "
             "give estimator.tare_start, or do not identify"

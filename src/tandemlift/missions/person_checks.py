@@ -38,12 +38,12 @@ def check_person(m: Mission) -> None:
     for i, push in enumerate(m.pushes):
         check_point(m, f"pushes.{i}.point", push.point)
     p, half = m.person, (m.vehicle.payload.length or 0.0) / 2.0
-    if p.recording is not None and p.model != "grab":
+    if p.recording is not None and p.model != "virtual-hand":
         raise InputError(f'person.recording = "{p.recording}": must be left out where person.model is "{p.model}"')
-    if p.model == "grab" and p.recording is not None:
+    if p.model == "virtual-hand" and p.recording is not None:
         for grip in np.unique(read_recording(p.recording).hands[:, GRIP], axis=0):
             check_point(m, f"person.recording: a grip in {p.recording}", grip)
-    if p.model in ("none", "grab"):
+    if p.model in ("none", "virtual-hand"):
         return
     if not p.path and not m.corridor.centreline:
         raise InputError(
@@ -57,10 +57,10 @@ def check_person(m: Mission) -> None:
 def person_warnings(m: Mission) -> Iterator[str]:
     """What may go badly, with the numbers."""
     p, e = m.person, m.estimator
-    if p.model in ("none", "grab"):
+    if p.model in ("none", "virtual-hand"):
         return
-    if m.pilot.guidance != "hand":
-        yield 'the person of [person] asks to land in vain: pilot.guidance is not "hand"'
+    if m.pilot.guidance != "interactive":
+        yield 'the person of [person] asks to land in vain: pilot.guidance is not "interactive"'
     tared = None if e.tare_start is None else e.tare_start + e.tare_duration
     if m.pilot.push != "truth" and tared is not None and p.start_time < tared:
         start = f"person.start_time = {p.start_time}"

@@ -23,26 +23,24 @@ def check_supervision(m: Mission) -> None:
 
 
 def _check_guidance(m: Mission) -> None:
-    if m.pilot.guidance == "hand":
+    if m.pilot.guidance == "interactive":
         return
     if m.supervision.model != "none":
-        raise InputError('supervision.model = "watch": must be "none" where pilot.guidance is "clock"')
+        raise InputError('supervision.model = "on": must be "none" where pilot.guidance is "scheduled"')
     if m.requests:
         action = m.requests[0].action
-        raise InputError(f'requests.0.action = "{action}": must be left out where pilot.guidance is "clock"')
+        raise InputError(f'requests.0.action = "{action}": must be left out where pilot.guidance is "scheduled"')
     if m.estimator.tare == "hover":
-        raise InputError('estimator.tare = "hover": must be "clock" where pilot.guidance is "clock"')
+        raise InputError('estimator.tare = "hover": must be "at-time" where pilot.guidance is "scheduled"')
 
 
 def _check_contact(m: Mission) -> None:
     if m.contact.model == "none":
         return
-    if m.pilot.guidance != "hand":
-        raise InputError('contact.model = "watch": must be "none" where pilot.guidance is "clock"')
+    if m.pilot.guidance != "interactive":
+        raise InputError('contact.model = "on": must be "none" where pilot.guidance is "scheduled"')
     if m.sensors.model == "none" or m.pilot.push == "truth":
-        raise InputError(
-            'contact.model = "watch": must be "none" where the pilot reads no joints (pilot.push = "truth")'
-        )
+        raise InputError('contact.model = "on": must be "none" where the pilot reads no joints (pilot.push = "truth")')
 
 
 def _check_limits(m: Mission) -> None:

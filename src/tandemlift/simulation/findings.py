@@ -171,7 +171,7 @@ def _unanswered(m: Excess, dt: float) -> Iterator[Finding]:
     if m.steps:
         text = f"a push of up to {m.worst:.3g} N moves nothing"
         yield finding(
-            "push-unanswered",
+            "no-response-to-push",
             f"{text} for {m.steps * dt:.3g} s",
             time=m.start,
             duration=m.steps * dt,
@@ -254,7 +254,7 @@ def _by_lost_rotor(p: FlightPlan, flight_state: FlightState) -> Iterator[Finding
     if isinstance(detection, Nothing) or isinstance(getattr(guidance, "supervision", None), SupervisionState):
         return
     verdict = flight_state.memory.detection.verdict
-    if p.mission.pilot.guidance != "hand" or not total(verdict.lost):
+    if p.mission.pilot.guidance != "interactive" or not total(verdict.lost):
         return
     text = f"landed because of a fault: rotor {int(dot(verdict.lost, detection.numbers))} failed"
     yield finding(

@@ -92,7 +92,7 @@ def _stands(p: FlightPlan, state: State, last: Any, start: float, end: float) ->
 
 def landing_time(mission: Mission) -> float:
     """The longest time that a landing takes from the height to which the mission lifts [s]."""
-    if mission.pilot.guidance == "clock":
+    if mission.pilot.guidance == "scheduled":
         return mission.phases.land_duration
     height = mission.phases.height + mission.compliance.touchdown_depth
     return max(mission.phases.land_duration, STEEPEST * height / mission.compliance.max_descent_speed) + MARGIN

@@ -67,7 +67,7 @@ def _kept(p: FlightPlan) -> tuple[Any, ...]:
     rest = flight_state._replace(memory=flight_state.memory._replace(controller=Nothing()))
     data = (plant, *p.tables, p.delays, p.seeds)
     numbers = [np.asarray(_numbers(x)).tobytes() for x in data]
-    grid = p.steps, p.every, p.dt, p.mission.mission.fused
+    grid = p.steps, p.every, p.dt, p.mission.mission.fma
     return layout(rest), layout(plant), layout(p.given), layout(p.model.person), *grid, numbers
 
 

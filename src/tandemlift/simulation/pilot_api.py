@@ -56,7 +56,7 @@ class Pilot:
         self._start = assembled_by_graph(mission, pilot_at_start)
         if type(self._start.parameters.controller) in control.interpreted:
             raise InputError(f"controller {mission.controller.name!r} is plain Python; write it as a law to use Pilot")
-        self._dt, self._fuses = mission.mission.step, mission.mission.fused
+        self._dt, self._fuses = mission.mission.step, mission.mission.fma
         self._numbers = np.array(flat(self._start))
         self.thrusts: Array = np.zeros(4 * len(mission.vehicle.quadrotors))
         self._input = np.zeros(leaves(INPUT))

@@ -63,7 +63,7 @@ class FlightPlan:
     @cached_property
     def variant(self) -> Any:
         """The key of the compiled loop: the types, not the values, of its members and inputs; and its rounding."""
-        return self._parts[0], layout(self.given), self.mission.mission.fused
+        return self._parts[0], layout(self.given), self.mission.mission.fma
 
     @cached_property
     def _parts(self) -> tuple[Any, list[float]]:
@@ -85,7 +85,7 @@ class FlightPlan:
         """The compiled loops of this variant."""
         found = KERNELS.get(self.variant)
         if found is None:  # another thread may have made them by now
-            made = Kernels(self.model, self.given, fuses=self.mission.mission.fused)
+            made = Kernels(self.model, self.given, fuses=self.mission.mission.fma)
             found = KERNELS.setdefault(self.variant, made)
         return found
 

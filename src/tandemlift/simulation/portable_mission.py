@@ -10,7 +10,7 @@ from tandemlift.simulation.pilot_api import pilot_at_start
 
 
 def portable_mission(mission: Mission) -> Mission:
-    """The mission with `mission.fused = false`, and with mass and damping in place of `[admittance.feel]`.
+    """The mission with `mission.fma = false`, and with mass and damping in place of `[admittance.feel]`.
 
     Raises:
         InputError: its controller is plain Python, or it changes while it is flown.
@@ -21,7 +21,7 @@ def portable_mission(mission: Mission) -> Mission:
     if mission.person.recording:
         recording = str(mission.person.recording)
         raise InputError(f"person.recording = {recording!r}: other machines play no recorded hand; remove it")
-    portable = changed(mission, "mission.fused", False) if mission.mission.fused else mission
+    portable = changed(mission, "mission.fma", False) if mission.mission.fma else mission
     if portable.admittance.feel:
         portable = changed(portable, "admittance.feel", None)
     if type(pilot_at_start(portable).parameters.controller) in control.interpreted:

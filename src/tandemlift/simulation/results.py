@@ -31,7 +31,7 @@ from tandemlift.simulation.loop.step import FlightModel, FlightState
 from tandemlift.simulation.outcome import ending_of, outcome_of
 from tandemlift.simulation.plan import FlightPlan
 
-DETECTION = ("rotors_taken_for_lost", "rotor_loss_found_after_s")  # metrics with detection of a lost rotor
+DETECTION = ("rotor_failure_detections", "rotor_failure_detection_delay_s")  # metrics with detection of a lost rotor
 OF_ANY_FLIGHT = (  # metrics besides those of `summary`
     *("final_position_m", "final_reference_m", "command_at_start"),
     *("outcome", "findings", "failure", "steps", "wall_s", "events"),

@@ -47,7 +47,7 @@ def test_many_quadrotors_whose_flight_is_compiled_in_loops_are_linearized_too():
 
 
 def test_a_mission_that_rounds_products_and_sums_apart_is_linearized_as_it_flies():
-    of = linearized("hover", {"mission.fused": False, **MOVING}, 2.2)
+    of = linearized("hover", {"mission.fma": False, **MOVING}, 2.2)
     assert "fma" not in of.recipe.graph.graph.ops
     assert np.array_equal(NativePeriod(of.recipe)(of.made.x0), of.made.x1)
 

@@ -36,7 +36,7 @@ def test_a_push_is_heard_at_the_default_point_and_the_model_says_so():
 
 
 def test_a_tare_in_hover_is_waited_for():
-    model = tl.linearize(load_mission("iris", {"estimator.tare": "hover", "supervision.model": "watch"}))
+    model = tl.linearize(load_mission("iris", {"estimator.tare": "hover", "supervision.model": "on"}))
     assert "Tare: over, the push is heard." in model.assumptions
 
 

@@ -71,7 +71,7 @@ def completed(line):
         ("explain mission.dur", ["mission.duration"]),
         ("compile iris --target cor", ["cortex-m7"]),
         ("compile iris --controller p", ["pid"]),
-        ("tune hover --for position_rmse", ["position_rmse_m", "position_rmse_after_10s_m"]),
+        ("tune hover --minimize position_rmse", ["position_rmse_m", "position_rmse_after_10s_m"]),
         ("linearize iris --of b", ["body"]),
         ("completion z", ["zsh"]),
     ],

@@ -11,7 +11,7 @@ from tandemlift.apps.cli.main import cli
 from tandemlift.core.errors import InputError
 
 QUICK = ("--set", "mission.duration=3", "--set", "mission.step=0.005", "--set", "initial.position=[0, 0, 0.1]")
-SMALL = ("--draws", 2, "--fresh", 8, "--budget", 16, *QUICK)
+SMALL = ("--draws", 2, "--holdout", 8, "--budget", 16, *QUICK)
 
 
 def call(*arguments):
@@ -22,7 +22,9 @@ def call(*arguments):
 
 def test_it_prints_old_against_new_and_writes_mission_evidence_figures_and_page(tmp_path):
     out = tmp_path / "out"
-    code, text, _ = call("hover", "--for", "position_rmse_m", "--over", "controller.gains.xi", *SMALL, "--out", out)
+    code, text, _ = call(
+        "hover", "--minimize", "position_rmse_m", "--parameter", "controller.gains.xi", *SMALL, "--out", out
+    )
     assert code == 0
     assert "hover: 6 values searched by CMA-ES: 16 candidates on 2 draws each; budget spent" in text
     assert "better on 8 fresh draws" in text
@@ -43,16 +45,16 @@ def test_it_prints_old_against_new_and_writes_mission_evidence_figures_and_page(
 
 
 def test_values_that_are_not_better_end_with_1(tmp_path):
-    code, text, _ = call("hover", "--for", "position_rmse_m", *SMALL, "--budget", 0, "--out", tmp_path)
+    code, text, _ = call("hover", "--minimize", "position_rmse_m", *SMALL, "--budget", 0, "--out", tmp_path)
     assert code == 1
     assert "not better on 8 fresh draws" in text
     assert tl.load_mission(tmp_path / "tuned.toml").controller == tl.load_mission("hover").controller
 
 
 def test_two_goals_print_a_front_and_a_page_with_its_figure(tmp_path):
-    goals = ("--for", "position_rmse_m.2", "--for", "moment_max_abs_after_10s_n_m.0=0.1")
+    goals = ("--minimize", "position_rmse_m.2", "--minimize", "moment_max_abs_after_10s_n_m.0=0.1")
     settings = ("--set", "mission.duration=12", "--set", "mission.step=0.005", "--set", "initial.euler=[0.1, 0, 0]")
-    code, text, _ = call("hover", *goals, *settings, "--draws", 2, "--fresh", 4, "--budget", 32, "--out", tmp_path)
+    code, text, _ = call("hover", *goals, *settings, "--draws", 2, "--holdout", 4, "--budget", 32, "--out", tmp_path)
     assert code in (0, 1)
     assert "front 1: " in text
     assert (tmp_path / "figures" / "front.png").exists()
@@ -62,15 +64,15 @@ def test_two_goals_print_a_front_and_a_page_with_its_figure(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("--for", "position_rms_m"), "Did you mean 'position_rmse_m'"),
-        (("--for", "position_rmse_m=fast"), "must be a TOML value"),
-        (("--for", "position_rmse_m", "--over", "controller.gainz"), "Did you mean 'controller.gains'"),
-        (("--for", "position_rmse_m", "--over", "controller gains"), "must be KEY or KEY=[low, high]"),
-        (("--for", "position_rmse_m", "--over", "controller.filter_bandwidth=[9, 3]"), "the range is empty"),
-        (("--for", "position_rmse_m", "--over", "controller.filter_bandwidth=9"), "the range must be"),
-        (("--for", "position_rmse_m", "--budget", "5"), "must be at least 16"),
-        (("--for", "position_rmse_m", "--draws", "none.toml"), "does not exist"),
-        (("--for", "position_rmse_m", "--controller", "pidd"), "Did you mean 'pid'"),
+        (("--minimize", "position_rms_m"), "Did you mean 'position_rmse_m'"),
+        (("--minimize", "position_rmse_m=fast"), "must be a TOML value"),
+        (("--minimize", "position_rmse_m", "--parameter", "controller.gainz"), "Did you mean 'controller.gains'"),
+        (("--minimize", "position_rmse_m", "--parameter", "controller gains"), "must be KEY or KEY=[low, high]"),
+        (("--minimize", "position_rmse_m", "--parameter", "controller.filter_bandwidth=[9, 3]"), "the range is empty"),
+        (("--minimize", "position_rmse_m", "--parameter", "controller.filter_bandwidth=9"), "the range must be"),
+        (("--minimize", "position_rmse_m", "--budget", "5"), "must be at least 16"),
+        (("--minimize", "position_rmse_m", "--draws", "none.toml"), "does not exist"),
+        (("--minimize", "position_rmse_m", "--controller", "pidd"), "Did you mean 'pid'"),
     ],
     ids=str,
 )
@@ -84,4 +86,4 @@ def test_bad_input_is_refused_and_nothing_is_written(arguments, said, tmp_path):
 def test_a_metric_is_required():
     code, text, _ = call("hover")
     assert code == 2
-    assert "Missing option '--for'" in text
+    assert "Missing option '--minimize'" in text

@@ -22,10 +22,10 @@ from tandemlift.apps.live.wire.reading import read_message
 SOCKETS, HOSTILE, RUDE = 5, 15_000, 6_000  # sockets, and messages through each of them
 AT_ONCE = 250
 GUIDED = {
-    "pilot.guidance": "hand",
+    "pilot.guidance": "interactive",
     "phases.rotors": "flight",
     "ground.model": "floor",
-    "compliance.yaw.model": "yielding",
+    "compliance.yaw.model": "compliant",
     "admittance.threshold": 0.3,
 }
 

@@ -56,7 +56,7 @@ def test_what_makes_no_sense_now_is_answered_with_the_phase(trial, asked):
 
 def test_a_check_that_fails_is_named_with_its_numbers_and_with_what_to_do(tmp_path):
     weak = GUIDED | {
-        "supervision.model": "watch",
+        "supervision.model": "on",
         "phases.lift_start": 1e6,
         "phases.land_start": 2e6,
         "supervision.checks.thrust_fraction": 0.2,
@@ -83,7 +83,7 @@ def test_a_mission_that_is_guided_by_the_clock_says_that_it_asks_nobody(trial, a
     for what in ("land", "stop"):
         done, words = asked(what)
         assert not done
-        assert "guided by the clock" in words
+        assert "scheduled" in words
 
 
 # parameters

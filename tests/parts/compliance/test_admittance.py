@@ -30,9 +30,9 @@ AT_REST = AdmittanceState(ZERO, ZERO, ZERO)
 PUSH = GaussianPush(Vec3(3.0, -2.0, 1.0), 3.0, 1.0 / 0.6, ZERO)
 
 
-def admittance(kind=None, stiffness: Vec3 = STIFFNESS, reanchor: float = 0.0) -> Admittance:
+def admittance(kind=None, stiffness: Vec3 = STIFFNESS, hold_after_release: float = 0.0) -> Admittance:
     inverse = Vec3(*(1.0 / m for m in MASS))
-    return Admittance(kind or HardGate(THRESHOLD), inverse, DAMPING, stiffness, reanchor)
+    return Admittance(kind or HardGate(THRESHOLD), inverse, DAMPING, stiffness, hold_after_release)
 
 
 def answered(a: Admittance, force, duration: float, dt: float) -> AdmittanceState:
@@ -159,5 +159,5 @@ def test_reanchoring_lets_the_reference_coast_to_the_end_of_its_motion():
 def test_the_anchor_stays_while_a_force_comes_through_or_where_reanchoring_is_off(position, velocity):
     m = AdmittanceState(Vec3(position, 0.0, 0.0), Vec3(velocity, 0.0, 0.0), ZERO)
     now = Trajectory(m.position, m.velocity, ZERO)
-    assert admittance_step(admittance(reanchor=1.0), m, Vec3(1.0, 1.0, 1.0), now, 0.01).anchor == ZERO
-    assert admittance_step(admittance(reanchor=0.0), m, ZERO, now, 0.01).anchor == ZERO
+    assert admittance_step(admittance(hold_after_release=1.0), m, Vec3(1.0, 1.0, 1.0), now, 0.01).anchor == ZERO
+    assert admittance_step(admittance(hold_after_release=0.0), m, ZERO, now, 0.01).anchor == ZERO

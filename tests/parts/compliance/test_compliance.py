@@ -42,7 +42,9 @@ def heard(force, seconds, band=BAND, memory=DEAF):
 
 def guided(changes=None):
     """The compliance of mission one-push, and its memory."""
-    mission = tl.load_mission("one-push", {"pilot.guidance": "hand", "admittance.gate": "soft", **(changes or {})})
+    mission = tl.load_mission(
+        "one-push", {"pilot.guidance": "interactive", "admittance.gate": "soft", **(changes or {})}
+    )
     return start_hand_guidance(
         mission, Vehicle.from_settings(mission.vehicle), admittance_from(mission.admittance), NoFaults()
     )
@@ -148,7 +150,7 @@ def test_a_feel_is_what_the_trajectory_does():
 
 
 def test_yaw_comes_to_the_rate_at_which_damping_carries_the_moment():
-    g, m = guided({"compliance.yaw.model": "yielding"})
+    g, m = guided({"compliance.yaw.model": "compliant"})
     heading, yaw = m.heading, 0.0
     for _ in range(12000):
         course, heading = yaw_step(g.heading, heading, 1.0, yaw, STEERED, 0.0, H)
@@ -157,7 +159,7 @@ def test_yaw_comes_to_the_rate_at_which_damping_carries_the_moment():
 
 
 def test_beyond_the_yaw_authority_it_yields_and_brakes_with_no_more_than_that():
-    g, m = guided({"compliance.yaw.model": "yielding"})
+    g, m = guided({"compliance.yaw.model": "compliant"})
     J = Vehicle.from_settings(tl.load_mission("one-push").vehicle).inertia[2, 2]
     heading, yaw, asked = m.heading, 0.0, []
     for i in range(14000):
@@ -171,7 +173,7 @@ def test_beyond_the_yaw_authority_it_yields_and_brakes_with_no_more_than_that():
 
 
 def test_a_heading_waits_for_a_vehicle_that_cannot_turn():
-    g, m = guided({"compliance.yaw.model": "yielding", "compliance.yaw.max_lead_angle": 0.3})
+    g, m = guided({"compliance.yaw.model": "compliant", "compliance.yaw.max_lead_angle": 0.3})
     heading = m.heading
     for _ in range(5000):
         _, heading = yaw_step(g.heading, heading, 1.0, 0.0, STEERED, 0.0, H)
@@ -179,7 +181,7 @@ def test_a_heading_waits_for_a_vehicle_that_cannot_turn():
 
 
 def test_on_the_ground_the_heading_is_that_of_the_vehicle_however_it_is_turned():
-    g, m = guided({"compliance.yaw.model": "yielding"})
+    g, m = guided({"compliance.yaw.model": "compliant"})
     for grounded in (1.0, 0.0):
         heading, yaw = m.heading._replace(rate=0.3), 0.0
         for i in range(2000):

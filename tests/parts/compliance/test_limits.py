@@ -111,7 +111,7 @@ def test_forces_are_those_of_statics():
 
 def lowest(clearance, push, start=1.0, seconds=8.0):
     """The height of the reference above the ground at every step under a push F(t) [N]."""
-    changes = {"pilot.guidance": "hand", "admittance.gate": "soft"}
+    changes = {"pilot.guidance": "interactive", "admittance.gate": "soft"}
     mission = tl.load_mission("one-push", changes)
     g, m = start_hand_guidance(
         mission, Vehicle.from_settings(mission.vehicle), admittance_from(mission.admittance), NoFaults()

@@ -20,7 +20,7 @@ from tandemlift.parts.signals.low_pass import LowPassState, low_pass_step
 from tandemlift.parts.signals.trajectories import SmoothStep, Trajectory
 from tandemlift.parts.vehicle import Vehicle
 
-MISSION = tl.load_mission("iris", {"supervision.model": "watch"})
+MISSION = tl.load_mission("iris", {"supervision.model": "on"})
 GUIDANCE, MEMORY = start_hand_guidance(
     MISSION, Vehicle.from_settings(MISSION.vehicle), admittance_from(MISSION.admittance), NoFaults()
 )
@@ -72,7 +72,7 @@ def test_on_the_ground_the_reference_stays_with_the_vehicle_at_rest_and_in_the_a
 
 
 def test_the_heading_yields_to_the_moment_about_the_vertical_however_the_vehicle_is_tilted():
-    mission = tl.load_mission("one-push", {"pilot.guidance": "hand", "compliance.yaw.model": "yielding"})
+    mission = tl.load_mission("one-push", {"pilot.guidance": "interactive", "compliance.yaw.model": "compliant"})
     g, m = start_hand_guidance(
         mission, Vehicle.from_settings(mission.vehicle), admittance_from(mission.admittance), NoFaults()
     )

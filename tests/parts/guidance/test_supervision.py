@@ -23,7 +23,7 @@ from tandemlift.parts.rotors.rotor_faults import NoFaults
 from tandemlift.parts.sensors.health import WELL
 from tandemlift.parts.vehicle import Vehicle
 
-MISSION = tl.load_mission("iris", {"supervision.model": "watch"})
+MISSION = tl.load_mission("iris", {"supervision.model": "on"})
 GUIDANCE, MEMORY = start_hand_guidance(
     MISSION, Vehicle.from_settings(MISSION.vehicle), admittance_from(MISSION.admittance), NoFaults()
 )

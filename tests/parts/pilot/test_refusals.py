@@ -11,8 +11,8 @@ from tandemlift.core.refusals import REASONS, REQUESTS, refusal_of
 from tandemlift.parts.pilot.refusals import refusal_numbers
 from tandemlift.simulation.kernels.pilot_sampling import PilotData
 
-BY_HAND = {"pilot.guidance": "hand", "phases.rotors": "flight", "ground.model": "floor"}
-SUPERVISED = BY_HAND | {"supervision.model": "watch", "phases.lift_start": 1e6, "phases.land_start": 2e6}
+BY_HAND = {"pilot.guidance": "interactive", "phases.rotors": "flight", "ground.model": "floor"}
+SUPERVISED = BY_HAND | {"supervision.model": "on", "phases.lift_start": 1e6, "phases.land_start": 2e6}
 STAYS = {"compliance.following.max_error": 100.0}  # the vehicle of these tests never moves
 LEVEL = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, *[0.0] * 9])
 
@@ -57,8 +57,8 @@ def test_the_first_reasons_are_the_checks():
 def test_a_pilot_that_is_guided_by_the_clock_takes_no_requests():
     one = tl.Pilot(tl.load_mission("hover"))
     one.step(LEVEL)
-    assert "guided by the clock" in one.refusals.lift.why
-    assert 'pilot.guidance = "hand"' in one.refusals.land.advice
+    assert "scheduled" in one.refusals.lift.why
+    assert 'pilot.guidance = "interactive"' in one.refusals.land.advice
     assert one.refusals.push is None
 
 

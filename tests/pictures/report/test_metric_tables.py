@@ -27,7 +27,7 @@ CELLS = re.compile(r"(?<!\\)&")
 @pytest.fixture(scope="module")
 def metrics():
     flight = tl.fly(tl.load_mission("one-push", {"mission.duration": 12.0}))
-    return flight.metrics() | {"wall_contact": False, "rotor_loss_found_after_s": None}
+    return flight.metrics() | {"wall_contact": False, "rotor_failure_detection_delay_s": None}
 
 
 def read(text):
@@ -54,7 +54,7 @@ def test_the_csv_has_every_number_of_the_metrics_to_the_last_digit(metrics):
             assert [float(text) for text in texts] == value
         elif isinstance(value, float):
             assert float(texts[0]) == value
-    assert (found["wall_contact"], found["rotor_loss_found_after_s"]) == (["false"], [""])
+    assert (found["wall_contact"], found["rotor_failure_detection_delay_s"]) == (["false"], [""])
     assert [(row["component"], row["unit"]) for row in rows if row["metric"] == "command_at_start"] == [
         *[("U1", "N"), ("U2", "N m"), ("U3", "N m"), ("U4", "N m")]
     ]
@@ -70,7 +70,7 @@ def test_every_row_of_the_latex_has_its_cells_and_the_number_on_both_sides_of_th
         assert len(cells) == 6 - sum(two)
         name = cells[0].removeprefix(r"\texttt{").removesuffix("}").replace(r"\_", "_") or name
         found.setdefault(name, []).append(cells)
-    for name in set(metrics) - set(LISTS) - {"failure", "outcome", "wall_contact", "rotor_loss_found_after_s"}:
+    for name in set(metrics) - set(LISTS) - {"failure", "outcome", "wall_contact", "rotor_failure_detection_delay_s"}:
         values = metrics[name] if isinstance(metrics[name], list) else [metrics[name]]
         shown = [cells[2] + cells[3] for cells in found[name]]
         plain = [re.sub(r"\\times 10\^\{(-?\d+)\}", r"e\1", t).replace("$", "").replace("\\,", "") for t in shown]

@@ -125,7 +125,7 @@ def test_the_set_up_is_told_with_the_mission_s_numbers(windy, write):
 
 def test_the_set_up_of_a_flight_without_parts_says_so_and_an_older_mission_has_one_as_well(page, paper, write):
     told = dict(row for row in page.rows if len(row) == 2)
-    assert told["Guidance"].startswith("by the clock")
+    assert told["Guidance"].startswith("scheduled")
     assert told["Disturbance"] == "not estimated"
     assert "Supervision" not in told
     assert told["Rotors"].startswith("ideal")

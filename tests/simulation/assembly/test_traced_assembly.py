@@ -39,12 +39,12 @@ OTHER_PARTS = {  # what no built-in mission has: other devices and faults, turbu
         {"sensor": "gyroscope", "kind": "bias", "time": 4.0, "size": [0.1, 0.0, 0.0]},
         {"sensor": "imu", "kind": "stale", "time": 6.0, "until": 6.5},
     ],
-    "supervision.model": "watch",
+    "supervision.model": "on",
     "detection.model": "residual",
     "ground.effect": True,
     "observer.model": "extended-state",
     "compliance.tank.model": "tank",
-    "compliance.yaw.model": "yielding",
+    "compliance.yaw.model": "compliant",
     "requests": [{"time": 3.0, "action": "lift"}, {"time": 20.0, "action": "land"}],
     "faults": [{"quadrotor": 1, "rotor": 2, "time": 9.0, "efficiency": 0.5, "known_after": 0.1}],
     "vehicle.quadrotors.0.position": [0.05, 1.0, 0.075],
@@ -172,7 +172,7 @@ def test_the_pilot_alone_is_traced_too():
 def test_a_flight_that_is_not_fused_is_close_to_one_that_is():
     for name, duration in (("hover", 2.0), ("iris", 1.0)):
         one, other = (
-            tl.fly(tl.load_mission(name, {"mission.duration": duration, "mission.fused": fused}))
+            tl.fly(tl.load_mission(name, {"mission.duration": duration, "mission.fma": fused}))
             for fused in (True, False)
         )
         for channel in one:

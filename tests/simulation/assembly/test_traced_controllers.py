@@ -80,8 +80,8 @@ def test_the_weights_of_the_linear_quadratic_regulator_are_fixed_but_not_the_veh
 def test_what_a_users_own_start_needs_as_plain_numbers_is_fixed(weight, fixed, tmp_path):
     path = tmp_path / "own.py"
     path.write_text(OWN.replace("{weight}", weight), "utf-8")
-    mission = tl.load_mission("hover", {"mission.fused": False}, controller=load_controller(path))
+    mission = tl.load_mission("hover", {"mission.fma": False}, controller=load_controller(path))
     traced = check_trace(mission, fixed)
     assert "vehicle.drag.force.0" in traced.keys or "controller.stiffness" in fixed
     assert ("controller.stiffness" in traced.keys) == ("controller.stiffness" not in fixed)
-    assert tl.fly(tl.load_mission("hover", {"mission.fused": False, "mission.duration": 0.1}, controller="own"))
+    assert tl.fly(tl.load_mission("hover", {"mission.fma": False, "mission.duration": 0.1}, controller="own"))

@@ -90,7 +90,7 @@ def calm_tables(mission: Mission, *, lag: float | None, wait: float) -> tuple[di
         t.pop(name, None)
     for name in ("wind", "person", "corridor", "supervision", "detection"):
         t.pop(name, None)
-    start, floor, by_hand = mission.initial, mission.ground.model == "floor", mission.pilot.guidance == "hand"
+    start, floor, by_hand = mission.initial, mission.ground.model == "floor", mission.pilot.guidance == "interactive"
     place = [*(start.position[:2] if by_hand else (0.0, 0.0)), start.position[2] if floor else 0.0]
     t["initial"] = {"position": place, "euler": [0.0, 0.0, start.euler[2] if by_hand else 0.0]}
     t["disturbance"] = {"force": [0.0, 0.0, mission.disturbance.force[2]]}
@@ -104,7 +104,7 @@ def calm_tables(mission: Mission, *, lag: float | None, wait: float) -> tuple[di
     t["phases"].pop("land_start", None)
     at, e = 1.0 + LIFT + SETTLED, t["estimator"]
     if mission.estimator.tare == "hover" or mission.estimator.tare_start is not None:
-        if mission.estimator.tare == "clock":
+        if mission.estimator.tare == "at-time":
             e["tare_start"] = at
         at += SETTLED + mission.estimator.tare_duration + (SETTLED if mission.estimator.tare == "hover" else 0.0)
     t["mission"]["duration"] = at + wait + 1.0

@@ -57,9 +57,9 @@ def calm_time(mission: Mission) -> float:
 def tare_left(p: FlightPlan, numbers: Array, t: float) -> float:
     """The time [s] until the tare of a flight at time t [s] is over, -inf without one: before, no push is heard."""
     m, e = p.mission, p.mission.estimator
-    if m.pilot.push == "truth" or (e.tare == "clock" and e.tare_start is None):
+    if m.pilot.push == "truth" or (e.tare == "at-time" and e.tare_start is None):
         return -math.inf
-    if e.tare_start is not None and e.tare == "clock":
+    if e.tare_start is not None and e.tare == "at-time":
         return e.tare_start + e.tare_duration - t
     return e.tare_duration - float(numbers[leaf_offset(p.model, *GUIDANCE_MEMORY, "phase", "hover_time").at])
 
@@ -70,7 +70,7 @@ def is_noisy(mission: Mission) -> bool:
     read = s.model == "simulated" and (mission.pilot.state, mission.pilot.push) != ("truth", "truth")
     parts = (s.joints, s.accelerometer, s.gyroscope, s.motion)
     noises = [value for part in parts for name, value in part if name.endswith("noise")]
-    trembles = person.model not in ("none", "grab") and person.tremor > 0.0
+    trembles = person.model not in ("none", "virtual-hand") and person.tremor > 0.0
     return (read and any(noises)) or (w.model == "air" and w.turbulence > 0.0) or trembles
 
 

@@ -66,7 +66,7 @@ class StepGraph:
     def __init__(self, p: FlightPlan) -> None:
         hand = PushSamples(NO_PUSH, NO_PUSH, NO_PUSH)
         templates = templates_from(p.model, p.given._replace(hand=hand, external=Nothing()))
-        self.traced = TracedStep(templates, fuses=p.mission.mission.fused, rolls=False)
+        self.traced = TracedStep(templates, fuses=p.mission.mission.fma, rolls=False)
         self.graph, self.sample = self.traced.graph, templates.sample
         self.next = [s.node for s in self.traced.next_state]
         self.outputs = [s.node for s in self.traced.sample]

@@ -98,5 +98,5 @@ def flight_selftest(file: SourceFile, mission: Mission) -> str:
 
 def native_flight(mission: Mission) -> tuple[Mission, Flight]:
     """(The mission computed alike on every machine, its flight)."""
-    mission = changed(mission, "mission.fused", False)
+    mission = changed(mission, "mission.fma", False)
     return mission, fly(mission, "compiled")

@@ -18,7 +18,7 @@ from tandemlift.simulation.portable_mission import portable_mission
 def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[Path]:
     """Write a mission as C99: the pilot, the whole flight, self-tests, CMakeLists.txt and README.md.
 
-    In double precision the code computes the bits of a native flight with `mission.fused = false`.
+    In double precision the code computes the bits of a native flight with `mission.fma = false`.
 
     Args:
         mission: from `load_mission`.

@@ -85,7 +85,7 @@ class AdmittanceTable(Table):
         "how much of a force beyond the threshold acts",
         choices={"hard": "the whole force", "soft": "only what exceeds the threshold"},
     )
-    reanchor: bool = key(
+    hold_after_release: bool = key(
         False, None, "with stiffness: true makes the vehicle stay where its motion has died, instead of springing back"
     )
 
@@ -111,7 +111,7 @@ def with_feel(tables: dict[str, Any]) -> dict[str, Any]:
             force = f"admittance.feel.force = {given.force:g}"
             words = f"{force}: must be above admittance.threshold = {least:g} along {axis}"
             raise PydanticCustomError("feel", "{words}", {"words": words})
-    by_hand = isinstance(pilot, dict) and pilot.get("guidance") == "hand"
+    by_hand = isinstance(pilot, dict) and pilot.get("guidance") == "interactive"
     soft = by_hand or admittance.get("gate") == "soft"  # type: ignore[union-attr]
     damping = tuple((given.force - (least if soft else 0.0)) / given.speed for given, least in pairs)
     mass = tuple(c * given.time / LN_20 for c, given in zip(damping, feel.axes, strict=True))

@@ -22,13 +22,13 @@ CHOSEN = "chosen"
 class YawTable(Table):
     """`[compliance.yaw]`: how a push beside the centre of mass turns the vehicle."""
 
-    model: Literal["held", "yielding"] = key(
+    model: Literal["held", "compliant"] = key(
         "held",
         None,
         "whether a push beside the centre turns the vehicle",
         choices={
             "held": "the heading is held",
-            "yielding": "an admittance about the vertical answers the push's moment",
+            "compliant": "an admittance about the vertical answers the push's moment",
         },
     )
     inertia: Positive | None = key(
@@ -91,7 +91,8 @@ class FollowingTable(Table):
 class ComplianceTable(Table):
     """`[compliance]`: guidance by hand, around mass, damping, stiffness and threshold of `[admittance]`.
 
-    It applies where `pilot.guidance = "hand"`: measured push → low-pass → dead band → low-pass → admittance → limits.
+    It applies where `pilot.guidance = "interactive"`: measured push → low-pass → dead band → low-pass → admittance →
+    limits.
     Accelerations are limited as well by the thrust that weight and disturbance leave to the rotors.
     """
 

@@ -73,7 +73,7 @@ class MissionTable(Table):
         source="chosen: 100 Hz",
     )
     seed: Annotated[int, Field(ge=0, le=10**18)] = key(0, "1", "seed of every random number of the flight")
-    fused: bool = key(
+    fma: bool = key(
         True,
         None,
         "whether a·b + c is rounded once, as processors do it fastest; false gives the same bits on every machine, in "

@@ -23,7 +23,7 @@ class CrashTable(Table):
         1.5533430342749532,
         "rad",
         "largest angle between body z and world z",
-        rule='above `supervision.limits.tilt` where supervision.model is "watch"; 3.2 for no limit',
+        rule='above `supervision.limits.tilt` where supervision.model is "on"; 3.2 for no limit',
         source="89°: past it no thrust carries the vehicle",
     )
     impulse: Positive | None = key(
@@ -38,7 +38,7 @@ class CrashTable(Table):
         1.0,
         "m",
         "distance by which the vehicle may be outside `supervision.fence`",
-        rule='at least `supervision.fence.margin`; of use where supervision.model is "watch"',
+        rule='at least `supervision.fence.margin`; of use where supervision.model is "on"',
         source="chosen: the supervision has had time to hold the vehicle",
     )
     fly_on: NonNegative = key(
@@ -75,7 +75,7 @@ class PromiseTable(Table):
         None,
         "m",
         "largest distance from the reference",
-        unset="0.5 m by the clock, 0.25 m guided by hand",
+        unset="0.5 m scheduled, 0.25 m interactive",
         source="chosen: above every built-in mission (0.34 m and 0.03 m)",
         example=0.5,
     )
@@ -84,7 +84,7 @@ class PromiseTable(Table):
         "m",
         "root mean square of the distance from the reference",
         rule="not above the largest distance",
-        unset="0.15 m by the clock, 0.05 m guided by hand; not above the largest distance",
+        unset="0.15 m scheduled, 0.05 m interactive; not above the largest distance",
         source="chosen: above every built-in mission (0.10 m and 0.01 m)",
         example=0.15,
     )
@@ -102,7 +102,7 @@ class PromiseTable(Table):
         None,
         "s",
         "time from the start until the promise holds",
-        unset="10 s by the clock, where the start may be disturbed; 0 s guided by hand",
+        unset="10 s scheduled, where the start may be disturbed; 0 s interactive",
         source="chosen: as metrics after 10 s",
         example=10.0,
     )
@@ -125,7 +125,9 @@ class Promise(NamedTuple):
         return min(RMS[guidance], self.distance) if self.rms_distance is None else self.rms_distance
 
 
-DISTANCE, RMS, SETTLED = {"clock": 0.5, "hand": 0.25}, {"clock": 0.15, "hand": 0.05}, {"clock": 10.0, "hand": 0.0}
+DISTANCE = {"scheduled": 0.5, "interactive": 0.25}
+RMS = {"scheduled": 0.15, "interactive": 0.05}
+SETTLED = {"scheduled": 10.0, "interactive": 0.0}
 
 
 def promise_of(p: PromiseTable, guidance: str) -> Promise:

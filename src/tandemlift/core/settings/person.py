@@ -40,18 +40,19 @@ class PersonTable(Table):
     `gain` times the speed that is missing towards the point of the path that lies `look_ahead` farther on. The hand
     moves to where the arm's `stiffness` gives this force, through the muscles' `lag`; stiffness and damping act between
     hand and grip without delay. The person begins after `start_time`, once the vehicle has been lifted. At the last
-    waypoint, when the vehicle is slow, the person asks to land (a pilot with `guidance = "hand"` obeys) and lets go.
+    waypoint, when the vehicle is slow, the person asks to land (a pilot with `guidance = "interactive"` obeys) and lets
+    go.
 
-    Model "grab" is a hand that is moved from outside. It holds on to a point of the vehicle by a spring of `stiffness`
-    to a target, smoothed by twice `lag`, brakes that point by `damping`, or pushes with a given force, always within
-    `max_force`; the other keys do not apply. Its movement is the file `recording`, a NumPy archive (.npz) with `engine`
-    (the engine that was flown in, the default of `tandemlift run`), `step` (n,) int64, rising, and `hand` (n, 14)
-    float64, which holds from that step on: holding on (1 or 0); grip [m, body axes, from the centre of mass]; its
-    target [m] and a force [N], world axes; requests to lift, to land and to stop; whether the vehicle may respond to a
-    push.
+    Model "virtual-hand" is a hand that is moved from outside. It holds on to a point of the vehicle by a spring of
+    `stiffness` to a target, smoothed by twice `lag`, brakes that point by `damping`, or pushes with a given force,
+    always within `max_force`; the other keys do not apply. Its movement is the file `recording`, a NumPy archive (.npz)
+    with `engine` (the engine that was flown in, the default of `tandemlift run`), `step` (n,) int64, rising, and `hand`
+    (n, 14) float64, which holds from that step on: holding on (1 or 0); grip [m, body axes, from the centre of mass];
+    its target [m] and a force [N], world axes; requests to lift, to land and to stop; whether the vehicle may respond
+    to a push.
     """
 
-    model: Literal["none", "pull", "steer", "two-hands", "hold", "grab"] = key(
+    model: Literal["none", "pull", "steer", "two-hands", "hold", "virtual-hand"] = key(
         "none",
         None,
         "who guides the vehicle by hand, and what the person leads along the path",
@@ -62,7 +63,7 @@ class PersonTable(Table):
             "steer": "one hand at the grip leads the centre of mass",
             "two-hands": "two hands lead the payload's centre and turn the vehicle to each leg's heading",
             "hold": "the hand goes to the waypoints and stays there, whatever is seen: for tests of passivity",
-            "grab": "a hand that is moved from outside, as by the live page or a recording",
+            "virtual-hand": "a hand that is moved from outside, as by the live page or a recording",
         },
     )
     grip: float = key(
@@ -128,7 +129,7 @@ class PersonTable(Table):
     recording: str | None = key(
         None,
         None,
-        'file of a recorded hand, for model "grab"; its path is relative to the mission file',
+        'file of a recorded hand, for model "virtual-hand"; its path is relative to the mission file',
         unset="the hand does not hold the vehicle",
         example="hand.npz",
     )

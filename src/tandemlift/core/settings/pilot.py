@@ -110,13 +110,13 @@ class PhasesTable(Table):
 class PilotTable(Table):
     """`[pilot]`: what guides the vehicle, and what the pilot reads."""
 
-    guidance: Literal["clock", "hand"] = key(
-        "clock",
+    guidance: Literal["scheduled", "interactive"] = key(
+        "scheduled",
         None,
         "what guides the vehicle",
         choices={
-            "clock": "lift and landing at set times, and the admittance between them",
-            "hand": "phases and requests, and `[compliance]` around the admittance",
+            "scheduled": "lift and landing at set times, and the admittance between them",
+            "interactive": "phases and requests, and `[compliance]` around the admittance",
         },
     )
     state: Reading = key(
@@ -147,7 +147,7 @@ class PilotTable(Table):
         "what the pilot knows of its surroundings",
         choices={
             "none": "nothing",
-            "walls": 'the walls, so that a contact is told from a hand more surely (with `contact.model = "watch"`)',
+            "walls": 'the walls, so that a contact is told from a hand more surely (with `contact.model = "on"`)',
         },
     )
 
@@ -165,12 +165,12 @@ class EstimatorTable(Table):
         "bandwidth of the second-order low-pass filter on the push",
         source="as compliance.input_bandwidth",
     )
-    tare: Literal["clock", "hover"] = key(
-        "clock",
+    tare: Literal["at-time", "hover"] = key(
+        "at-time",
         None,
         "when the force sensors are tared",
         choices={
-            "clock": "at tare_start",
+            "at-time": "at tare_start",
             "hover": "once the vehicle has hovered steadily for a second (needs guidance by hand)",
         },
     )

@@ -121,11 +121,11 @@ class ReactionsTable(create_model("Reactions", __base__=Table, **_REACTION_KEYS)
 class SupervisionTable(Table):
     """`[supervision]`: checks, watchdogs, limits and reactions of a flight by hand; see docs/explanation/safety.md."""
 
-    model: Literal["none", "watch"] = key(
+    model: Literal["none", "on"] = key(
         "none",
         None,
         "model of the supervision",
-        choices={"none": "no supervision", "watch": 'all of it (needs `pilot.guidance = "hand"`)'},
+        choices={"none": "no supervision", "on": 'all of it (needs `pilot.guidance = "interactive"`)'},
     )
     hold_timeout: Positive = key(5.0, "s", "time for which a fault may hold the vehicle before it lands", source=CHOSEN)
     recovery_time: Positive = key(1.0, "s", "time without a fault after which a hold ends", source=CHOSEN)
@@ -151,17 +151,17 @@ class SupervisionTable(Table):
 class ContactTable(Table):
     """`[contact]`: how a touch of a wall is told from a hand and from a broken sensor, and the reaction to it.
 
-    It needs `pilot.guidance = "hand"`, `pilot.push` other than "truth", and rotors that push along body z alone, as all
-    do here. See docs/explanation/safety.md.
+    It needs `pilot.guidance = "interactive"`, `pilot.push` other than "truth", and rotors that push along body z alone,
+    as all do here. See docs/explanation/safety.md.
     """
 
-    model: Literal["none", "watch"] = key(
+    model: Literal["none", "on"] = key(
         "none",
         None,
         "detection of contacts",
         choices={
             "none": "none: a guard that touches a wall looks like joints that disagree",
-            "watch": "contacts are named, and the reference is kept out of the wall (needs sensors)",
+            "on": "contacts are named, and the reference is kept out of the wall (needs sensors)",
         },
     )
     threshold: Positive = key(
@@ -180,7 +180,7 @@ class ContactTable(Table):
 
 
 class RequestTable(Table):
-    """`[[requests]]`: requests of an operator, one table each; they need `pilot.guidance = "hand"`.
+    """`[[requests]]`: requests of an operator, one table each; they need `pilot.guidance = "interactive"`.
 
     If the first request of "enable" and "disable" is "enable", the vehicle starts disabled.
     """

@@ -28,14 +28,14 @@ def authority_checks(m: Mission) -> Iterator[CheckResult]:
     """Thrust, tilt and moments of real rotors; nothing of ideal ones."""
     if m.actuators.model != "rotors":
         return
-    yields = m.pilot.guidance == "hand" and m.compliance.yaw.model == "yielding"
+    yields = m.pilot.guidance == "interactive" and m.compliance.yaw.model == "compliant"
     loads = list(loads_of(m, yielding_yaw=yields))
     thrust = thrust_check(m, loads)
     yield thrust
     if thrust.value is None or thrust.value < lift_of(m, faulty=True):
         yield tilt_check(m, loads)
     yield from moment_checks(m, loads)
-    if m.supervision.model == "watch":
+    if m.supervision.model == "on":
         yield supervised_check(m)
 
 
@@ -46,7 +46,7 @@ def _at(when: str) -> str:
 def thrust_check(m: Mission, loads: list[VehicleLoads]) -> CheckResult:
     """The thrust that the worst vertical load needs, against what may be used of all rotors."""
     weight, lift = weight_of(m), lift_of(m, faulty=True)
-    by_hand = m.pilot.guidance == "hand"
+    by_hand = m.pilot.guidance == "interactive"
     fraction, key = (m.compliance.thrust_fraction, "compliance.thrust_fraction") if by_hand else (CLOCKED, "")
     worst = min(loads, key=lambda load: float(load.force[2]))
     needed, limit = weight - min(float(worst.force[2]), 0.0), fraction * lift

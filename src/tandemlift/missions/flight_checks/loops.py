@@ -164,7 +164,7 @@ def open_loop(m: Mission, w: Array, K: Any) -> Any:
 
 def measures_push(m: Mission) -> bool:
     """Whether a guidance by hand counters a push that is measured."""
-    return m.pilot.guidance == "hand" and m.pilot.push != "truth"
+    return m.pilot.guidance == "interactive" and m.pilot.push != "truth"
 
 
 def measured(m: Mission, s: Any, lead: float) -> Any:

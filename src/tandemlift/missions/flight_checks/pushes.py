@@ -26,7 +26,7 @@ def push_checks(m: Mission) -> Iterator[CheckResult]:
     windy = m.wind.model == "air" and m.pilot.push != "truth"  # wind on the payload counts as a push
     if windy or m.person.model != "none" or any(change.key.startswith("admittance") for change in m.changes):
         return
-    turns = m.pilot.guidance == "hand" and m.compliance.yaw.model == "yielding"
+    turns = m.pilot.guidance == "interactive" and m.compliance.yaw.model == "compliant"
     for i, push in enumerate(m.pushes):
         if not any(push.force) or (turns and any(push.point[:2])):
             continue

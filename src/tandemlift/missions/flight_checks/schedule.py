@@ -63,7 +63,7 @@ def haste_checks(m: Mission) -> Iterator[CheckResult]:
     p, spare = m.phases, (lift_of(m) / weight_of(m) - 1.0) * GRAVITY
     limit = min(max(spare, 0.0), GRAVITY) if m.actuators.model == "rotors" else UNLIMITED
     phases = [("lift", p.lift_duration, p.lift_start)]
-    if p.land_start is not None and m.pilot.guidance != "hand":
+    if p.land_start is not None and m.pilot.guidance != "interactive":
         phases.append(("land", p.land_duration, p.land_start))
     for name, duration, start in phases:
         if start < m.mission.duration:
@@ -78,7 +78,7 @@ def haste_checks(m: Mission) -> Iterator[CheckResult]:
 
 def push_time_checks(m: Mission) -> Iterator[CheckResult]:
     """Pushes that a guidance by hand does not follow, before lift and tare are over; those after the end are noted."""
-    by_hand, e = m.pilot.guidance == "hand", m.estimator
+    by_hand, e = m.pilot.guidance == "interactive", m.estimator
     tared = 0.0 if e.tare_start is None or m.pilot.push == "truth" else e.tare_start + e.tare_duration
     ready = max(lifted(m) if m.phases.height else 0.0, tared)
     for i, push in enumerate(m.pushes):
@@ -103,9 +103,9 @@ def shift_of(m: Mission, push: PushTable) -> float:
         return 0.0
     half = push.sigma * math.sqrt(2.0 * math.log(abs(force) / threshold)) if threshold > 0.0 else 8.0 * push.sigma
     impulse = abs(force) * push.sigma * math.sqrt(2.0 * math.pi) * math.erf(half / (push.sigma * math.sqrt(2.0)))
-    if a.gate == "soft" or m.pilot.guidance == "hand":
+    if a.gate == "soft" or m.pilot.guidance == "interactive":
         impulse -= 2.0 * half * threshold
-    most = 2.0 * half * m.compliance.max_speed[2] if m.pilot.guidance == "hand" else math.inf
+    most = 2.0 * half * m.compliance.max_speed[2] if m.pilot.guidance == "interactive" else math.inf
     return math.copysign(min(impulse / damping, most), force)
 
 
@@ -134,7 +134,7 @@ def descent_checks(m: Mission) -> Iterator[CheckResult]:
 def landing_duration(m: Mission) -> float:
     """The duration of the landing [s]: a guidance by hand keeps to its largest speed of descent."""
     p, heights = m.phases, heights_of(m)
-    if m.pilot.guidance != "hand":
+    if m.pilot.guidance != "interactive":
         return p.land_duration
     height = (heights[-1][1] if heights else p.height) + m.compliance.touchdown_depth
     return max(p.land_duration, STEEPEST * height / m.compliance.max_descent_speed)

@@ -78,7 +78,7 @@ def noise_of(m: Mission) -> float:
     sample = math.sqrt(
         len(m.vehicle.quadrotors) * s.joints.force_noise**2 + (m.vehicle.payload.mass * s.accelerometer.noise) ** 2
     )
-    filters = [m.compliance.input_bandwidth] if m.pilot.guidance == "hand" else []
+    filters = [m.compliance.input_bandwidth] if m.pilot.guidance == "interactive" else []
     filters += [m.estimator.push_bandwidth] if m.pilot.push == "estimate" else []
     return sample * math.sqrt(min([0.25 * bandwidth * interval for bandwidth in filters] + [1.0]))
 
@@ -97,7 +97,7 @@ def noise_checks(m: Mission) -> Iterator[CheckResult]:
 def sampling_checks(m: Mission) -> Iterator[CheckResult]:
     """Time between samples with their delay, against the bandwidths that they serve."""
     s, e = m.sensors, m.estimator
-    push = m.compliance.input_bandwidth if m.pilot.guidance == "hand" else e.push_bandwidth
+    push = m.compliance.input_bandwidth if m.pilot.guidance == "interactive" else e.push_bandwidth
     served = [("sensors", s.interval, s.delay, math.pi / push, "pushes are found too late, or missed")]
     if m.pilot.state == "estimate":
         slowest = 1.0 / max(e.position_bandwidth, e.attitude_bandwidth)

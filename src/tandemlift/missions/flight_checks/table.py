@@ -46,7 +46,7 @@ CHECKS = (
         "weight that the pilot knows",
         "`supervision.checks.thrust_fraction` of the thrust",
         "N",
-        '`supervision.model = "watch"`',
+        '`supervision.model = "on"`',
         "`supervision.checks.thrust_fraction`",
     ),
     FlightCheck(

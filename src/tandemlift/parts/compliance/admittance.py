@@ -29,13 +29,16 @@ class SoftGate(NamedTuple):
 
 
 class Admittance(NamedTuple):
-    """Gate, 1/M [1/kg], C [N·s/m], K [N/m] per world axis; `reanchor` is 1 if T_d moves to T_r after a push, else 0."""
+    """Gate, 1/M [1/kg], C [N·s/m], K [N/m] per world axis.
+
+    `hold_after_release`: 1 if T_d moves to T_r after a push, else 0.
+    """
 
     gate: Any
     inverse_mass: Vec3
     damping: Vec3
     stiffness: Vec3
-    reanchor: Any
+    hold_after_release: Any
 
 
 class AdmittanceState(NamedTuple):
@@ -74,13 +77,13 @@ def _soft(kind: SoftGate, F: Any) -> Any:
 
 
 @elementwise
-def anchored(anchor: Any, position: Any, velocity: Any, force: Any, reanchor: Any) -> Any:
+def anchored(anchor: Any, position: Any, velocity: Any, force: Any, hold_after_release: Any) -> Any:
     """T_d of one axis, moved to T_r once the gate passes no force and the motion away from T_d has ended.
 
     From then on the spring is unloaded: T_r comes to rest under its damping, and stays.
     """
     ended = where(velocity * (position - anchor) > 0.0, anchor, position)
-    return where(absolute(force) * reanchor + (1.0 - reanchor) > 0.0, anchor, ended)
+    return where(absolute(force) * hold_after_release + (1.0 - hold_after_release) > 0.0, anchor, ended)
 
 
 @law
@@ -96,4 +99,4 @@ def admittance_step(a: Admittance, m: AdmittanceState, F: Vec3, now: Trajectory,
     """The memory after a step of `dt` [s] with T̈_r held."""
     position = m.position + m.velocity * dt + now.acceleration * (0.5 * dt * dt)
     velocity = (m.velocity + now.acceleration * dt + REST) - REST
-    return AdmittanceState(position, velocity, anchored(m.anchor, position, velocity, F, a.reanchor))
+    return AdmittanceState(position, velocity, anchored(m.anchor, position, velocity, F, a.hold_after_release))

@@ -195,7 +195,7 @@ def compliance_step(
         velocity=velocity,
         acceleration=acceleration,
         jerk=(acceleration - m.acceleration) * (1.0 / dt),
-        anchor=anchored(m.anchor, position, velocity, output.value, k.admittance.reanchor),
+        anchor=anchored(m.anchor, position, velocity, output.value, k.admittance.hold_after_release),
     )
 
 

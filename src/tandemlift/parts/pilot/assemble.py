@@ -68,7 +68,9 @@ def admittance_from(a: AdmittanceTable) -> Admittance:
     """M, C, K and the gate of a mission."""
     kind = HardGate if a.gate == "hard" else SoftGate
     inverse_mass = vec3(1.0 / m for m in a.mass)
-    return Admittance(kind(vec3(a.threshold)), inverse_mass, vec3(a.damping), vec3(a.stiffness), float(a.reanchor))
+    return Admittance(
+        kind(vec3(a.threshold)), inverse_mass, vec3(a.damping), vec3(a.stiffness), float(a.hold_after_release)
+    )
 
 
 def _phases(p: PhasesTable) -> ScheduledPhases:
@@ -100,7 +102,7 @@ def _rotors(p: PhasesTable) -> Any:
 def _guidance(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
     """The guidance of a mission and its memory."""
     admittance = admittance_from(mission.admittance)
-    if mission.pilot.guidance == "hand":
+    if mission.pilot.guidance == "interactive":
         return start_hand_guidance(mission, vehicle, admittance, known_faults(mission, vehicle))
     guidance = ScheduledGuidance(admittance, _phases(mission.phases), 0.0, _rotors(mission.phases))
     return guidance, AdmittanceState(ZERO, ZERO, ZERO)

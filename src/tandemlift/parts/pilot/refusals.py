@@ -76,7 +76,7 @@ def refusal_numbers(guidance: Any, memory: Any, t: Any) -> Any:
 
 @refusal_numbers.register(ScheduledGuidance)
 def _by_schedule(g: ScheduledGuidance, m: Any, t: Any) -> RefusalNumbers:
-    return RefusalNumbers(reason("clock"), reason("clock"), NONE)
+    return RefusalNumbers(reason("scheduled"), reason("scheduled"), NONE)
 
 
 @refusal_numbers.register(HandGuidance)

@@ -117,7 +117,7 @@ def _desired(flight: Flight) -> Array:
     """The corners (n, 2) of the path that the person was to follow [m]; none without one."""
     person, corridor = flight.mission.get("person", {}), flight.mission.get("corridor", {})
     own = [w["point"] for w in person.get("path", [])] or corridor.get("centreline", [])
-    return np.array(own if person.get("model", "none") not in ("none", "grab") else []).reshape(-1, 2)
+    return np.array(own if person.get("model", "none") not in ("none", "virtual-hand") else []).reshape(-1, 2)
 
 
 def _bounds(flight: Flight, shown: list[int]) -> Array:

@@ -80,12 +80,12 @@ def _pilot(flight: Flight) -> Iterator[Row]:
 
 
 def _guidance(flight: Flight) -> Iterator[Row]:
-    if _table(flight, "pilot", PilotTable).guidance == "clock":
-        yield "Guidance", "by the clock: lift and landing at set times, the paper’s admittance in between"
+    if _table(flight, "pilot", PilotTable).guidance == "scheduled":
+        yield "Guidance", "scheduled: lift and landing at set times, the paper’s admittance in between"
         return
     c, estimator = _table(flight, "compliance", ComplianceTable), _table(flight, "estimator", EstimatorTable)
     caps = f"up to {_spread(c.max_speed, 'm/s')}, {_spread(c.max_acceleration, 'm/s²')}, {_spread(c.max_jerk, 'm/s³')}"
-    yaw = "turns with a push at an end" if c.yaw.model == "yielding" else "heading held"
+    yaw = "turns with a push at an end" if c.yaw.model == "compliant" else "heading held"
     tank = "; an energy tank adds damping" if c.tank.model != "none" else ""
     wind = "; wind on the beam is separated from a push" if estimator.wind_compensation != "none" else ""
     yield "Guidance", f"by hand: {caps}; {yaw}{tank}{wind}"
@@ -207,7 +207,7 @@ def _person(flight: Flight) -> Iterator[Row]:
     p = _table(flight, "person", PersonTable)
     if p.model == "none":
         return
-    if p.model == "grab":
+    if p.model == "virtual-hand":
         spring = (
             f"{describe(p.stiffness, 'N/m')} and {describe(p.damping, 'N s/m')}, up to {describe(p.max_force, 'N')}"
         )

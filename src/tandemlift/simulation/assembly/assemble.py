@@ -75,7 +75,7 @@ def delays_from(mission: Mission) -> NDArray[np.int64]:
     ]
     steps = [round(s / mission.mission.step) for s in seconds]
     sight = round(mission.person.delay / mission.mission.step) - 1  # a step of delay is inherent
-    accompanied = mission.person.model not in ("none", "grab")
+    accompanied = mission.person.model not in ("none", "virtual-hand")
     more = [round(s.delay / mission.mission.step) * simulated for s in mission.sensors.additional]
     return np.array([*steps, max(sight, 0) * accompanied, *more], dtype=np.int64)
 

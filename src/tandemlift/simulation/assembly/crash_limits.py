@@ -18,7 +18,7 @@ def crash_limits_from(mission: Mission, vehicle: Vehicle) -> CrashLimits:
     """The limits of a mission; each part that it does not have is `Nothing`."""
     c, fence, mass = mission.crash, mission.supervision.fence, vehicle.mass * mission.plant.mass_scale
     hard = mass * HARD if c.impulse is None else c.impulse
-    watched = mission.supervision.model == "watch"
+    watched = mission.supervision.model == "on"
     return CrashLimits(
         min_upright=cos(c.tilt) if c.tilt < 3.14159 else -2.0,
         strike=Nothing() if mission.ground.model == "none" else Strike(mass * GRAVITY, hard),

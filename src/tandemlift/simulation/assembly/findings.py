@@ -30,7 +30,7 @@ def finding_limits_from(mission: Mission, vehicle: Vehicle) -> FindingLimits:
         mass=vehicle.mass,
         thrust=vehicle.max_thrust * vehicle.max_thrust if mission.actuators.model == "rotors" else math.inf,
         rate=f.oscillation_rate * f.oscillation_rate,
-        push=_push_limits(mission.admittance, f, mission.compliance.max_speed, mission.pilot.guidance == "hand"),
+        push=_push_limits(mission.admittance, f, mission.compliance.max_speed, mission.pilot.guidance == "interactive"),
         unpushed=f.unpushed_distance,
         oscillation=OscillationLimits(
             levels=Swings(f.oscillation_rate, f.oscillation_rate, f.oscillation_rate, f.oscillation_speed),

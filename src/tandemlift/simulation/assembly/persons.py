@@ -75,7 +75,7 @@ def start_person(mission: Mission, vehicle: Vehicle, state: State) -> tuple[Any,
     p, step = mission.person, mission.mission.step
     if p.model == "none":
         return Nothing(), Nothing(), Nothing()
-    if p.model == "grab":
+    if p.model == "virtual-hand":
         return *start_virtual_hand(p, step), Nothing()
     grip = grip_from(mission, vehicle)
     arm = Arm(

@@ -120,7 +120,7 @@ def with_values(value: Any, graph: ValuedGraph) -> Any:
 
 def assembled_by_graph(mission: Mission, build: Callable[[Mission], Any]) -> Any:
     """What `build` makes of a mission; of one that is not fused, with the numbers that its graph gives."""
-    if mission.mission.fused:
+    if mission.mission.fma:
         return build(mission)
     traced = trace_assembly(mission, build)
     return with_values(traced.assembled, traced.graph)

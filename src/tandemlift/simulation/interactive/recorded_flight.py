@@ -118,7 +118,7 @@ def setup_flight(mission: Mission, engine: str = "compiled") -> FlightSetup:
 
 
 class RecordedFlight:
-    """One flight of a mission whose `person.model` is "grab"; it is compiled on construction.
+    """One flight of a mission whose `person.model` is "virtual-hand"; it is compiled on construction.
 
     Args:
         mission: how it begins; at the end of its duration it can only be saved.

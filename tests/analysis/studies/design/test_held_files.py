@@ -121,7 +121,7 @@ def recorded(tmp_path):
     write_recording(tmp_path / "hand.npz", Recording(steps, hands))
     (tmp_path / "mine.toml").write_text(
         'extends = "one-push"\npushes = []\n[mission]\nname = "mine"\nduration = 0.2\n'
-        '[person]\nmodel = "grab"\nrecording = "hand.npz"\n',
+        '[person]\nmodel = "virtual-hand"\nrecording = "hand.npz"\n',
         "utf-8",
     )
     tables = {"study": {"name": "recorded", "missions": [str(tmp_path / "mine.toml")]}}

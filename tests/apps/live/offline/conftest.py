@@ -7,7 +7,7 @@ from sessions import GUIDED
 from tandemlift.apps.live.offline.page_modules import packed_flight, packed_mission, page_mission
 from tandemlift.apps.live.session.session import Session
 
-BY_HAND = GUIDED | {"supervision.model": "watch", "supervision.limits.tilt_time": 100.0}
+BY_HAND = GUIDED | {"supervision.model": "on", "supervision.limits.tilt_time": 100.0}
 TENDER = {"supervision.limits.tilt": 0.11, "crash.tilt": 0.12, "promise.tilt": 0.1}  # a hard push is a crash
 
 

@@ -95,7 +95,7 @@ def test_a_saved_flight_flies_again_to_the_last_bit(flight, tmp_path):
     flight.fly(1.7)
     last = flight.saved(tmp_path, "mine")
     mission = tl.load_mission(tmp_path / "recorded.toml")
-    assert (mission.mission.name, mission.mission.fused) == ("mine", False)
+    assert (mission.mission.name, mission.mission.fma) == ("mine", False)
     assert [(c.key, c.duration) for c in mission.changes] == [("admittance.damping", 0.5)] * 2
     plan = FlightPlan(mission)
     again = fly_stepwise(plan, plan.steps + 1, 1)

@@ -8,7 +8,7 @@ from sessions import GUIDED, fly, say, up
 import tandemlift as tl
 from tandemlift.apps.live.session.session import Session
 
-SHORT = {"supervision.model": "watch", "supervision.limits.tilt_time": 100.0, "supervision.limits.tilt": 0.11}
+SHORT = {"supervision.model": "on", "supervision.limits.tilt_time": 100.0, "supervision.limits.tilt": 0.11}
 
 
 @pytest.fixture

@@ -13,10 +13,10 @@ from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.interactive.recorded_flight import FLIGHT, HAND, MISSION, RecordedFlight
 
 GUIDED = {
-    "pilot.guidance": "hand",
+    "pilot.guidance": "interactive",
     "phases.rotors": "flight",
     "ground.model": "floor",
-    "compliance.yaw.model": "yielding",
+    "compliance.yaw.model": "compliant",
 }
 
 

@@ -86,13 +86,13 @@ def axes_of(m: Mission) -> tuple[AxisFeel, ...]:
 
     The standard push is the force of `[admittance.feel]`, else 1 N (0.5 N m in yaw), and at least twice the threshold.
     """
-    a, by_hand, found = m.admittance, m.pilot.guidance == "hand", list[AxisFeel]()
+    a, by_hand, found = m.admittance, m.pilot.guidance == "interactive", list[AxisFeel]()
     for i, axis in enumerate(AXES):
         push = max(FORCE, ABOVE * a.threshold[i]) if a.feel is None else a.feel.axes[i].force
         numbers = (a.mass[i], a.damping[i], a.stiffness[i], a.threshold[i])
         found.append(AxisFeel(axis, *numbers, soft=by_hand or a.gate == "soft", push=push))
     yaw = m.compliance.yaw
-    if by_hand and yaw.model == "yielding":
+    if by_hand and yaw.model == "compliant":
         inertia = float(Vehicle.from_settings(m.vehicle).inertia[2, 2]) if yaw.inertia is None else yaw.inertia
         push = max(MOMENT, ABOVE * yaw.threshold)
         found.append(AxisFeel(YAW, inertia, yaw.damping, 0.0, yaw.threshold, soft=True, push=push))

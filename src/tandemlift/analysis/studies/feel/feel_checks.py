@@ -39,7 +39,7 @@ def feel_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
 
 def limit_checks(m: Mission, k: AxisFeel) -> Iterator[CheckResult]:
     """Final speed and first acceleration against the limits of guidance by hand."""
-    if m.pilot.guidance != "hand" or k.axis == YAW:
+    if m.pilot.guidance != "interactive" or k.axis == YAW:
         return
     i = AXES.index(k.axis)
     speed, acceleration = m.compliance.max_speed[i], m.compliance.max_acceleration[i]
@@ -97,7 +97,7 @@ def drift_checks(m: Mission) -> Iterator[CheckResult]:
     )
     yield judged("drift", value, threshold, "N", text)
     yaw = m.compliance.yaw
-    if m.pilot.guidance == "hand" and yaw.model == "yielding":
+    if m.pilot.guidance == "interactive" and yaw.model == "compliant":
         arms = Vehicle.from_settings(m.vehicle).lever_arms
         moment = DRIFT_SIGMAS * math.sqrt(sum(of_force**2 * (x * x + y * y) + of_torque**2 for x, y, _ in arms))
         text = (
@@ -115,7 +115,7 @@ def rotor_checks(m: Mission, axes: Iterable[AxisFeel]) -> Iterator[CheckResult]:
     if m.actuators.model != "rotors":
         return
     weight, lift = weight_of(m), lift_of(m, faulty=True)
-    mass, by_hand = weight / GRAVITY, m.pilot.guidance == "hand"
+    mass, by_hand = weight / GRAVITY, m.pilot.guidance == "interactive"
     thrust = lift * (m.compliance.thrust_fraction if by_hand else 1.0)
     tilts = [x for x in (tilt_limit_of(m), m.compliance.max_tilt if by_hand else None) if x is not None]
     for k in axes:

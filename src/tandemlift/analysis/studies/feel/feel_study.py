@@ -100,7 +100,7 @@ def gate_text(study: FeelStudy) -> str:
     """What the smallest force that moves the vehicle does, along x, in a sentence."""
     k, m = study.pushed[0].feel, study.mission
     acts = "only what exceeds it acts" if k.soft else "beyond it the whole force acts"
-    if m.pilot.guidance != "hand":
+    if m.pilot.guidance != "interactive":
         return f"A push must exceed {k.threshold:g} N; {acts}."
     release, dwell = k.threshold * m.compliance.release_fraction, 1e3 * m.compliance.dwell
     lasting = f"for {dwell:g} ms; {acts}, until the push falls below {release:.2g} N"

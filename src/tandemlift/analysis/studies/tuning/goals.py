@@ -84,10 +84,10 @@ def goals_from(asked: str | Goal | Mapping[str, Any] | Iterable[str | Goal]) -> 
         given: Iterable[str | Goal] = [asked] if isinstance(asked, (str, Goal)) else asked
         goals = [Goal(one) if isinstance(one, str) else one for one in given]
     if not goals:
-        raise InputError("--for: needs a metric to make small, such as position_rmse_m")
+        raise InputError("--minimize: needs a metric to make small, such as position_rmse_m")
     for goal in goals:
         if sum(other.name == goal.name for other in goals) > 1:
-            raise InputError(f"--for {goal.name}: is given twice")
+            raise InputError(f"--minimize {goal.name}: is given twice")
         _check_target(goal.name, goal.target)
     return tuple(goals)
 
@@ -96,7 +96,7 @@ def _check_target(name: str, target: Any) -> None:
     values = target if isinstance(target, (list, tuple)) else [target]
     if target is not None and not (values and all(is_number(v) and 0.0 < v < math.inf for v in values)):
         raise InputError(
-            f"--for {name}={target}: the target must be a number > 0, or a list with one for each component"
+            f"--minimize {name}={target}: the target must be a number > 0, or a list with one for each component"
         )
 
 
@@ -117,14 +117,14 @@ def check_goals(goals: Sequence[Goal], flown: Sequence[Metrics]) -> None:
         sizes = {len(v) if isinstance(v, list) else 1 for m in flown if (v := m[goal.metric]) is not None}
         if not sizes:
             raise InputError(
-                f"--for {goal.name}: no flight has a number for it; metrics 'after 10 s' need longer flights"
+                f"--minimize {goal.name}: no flight has a number for it; metrics 'after 10 s' need longer flights"
             )
         if goal.place is not None and goal.place >= max(sizes):
-            raise InputError(f"--for {goal.name}: {goal.metric} has {max(sizes)} components, from 0 on")
+            raise InputError(f"--minimize {goal.name}: {goal.metric} has {max(sizes)} components, from 0 on")
         for target in (goal.target, *goal.targets.values()):
             count = 1 if goal.place is not None else max(sizes)
             if isinstance(target, (list, tuple)) and len(target) != count:
-                raise InputError(f"--for {goal.name}: the target has {len(target)} numbers, the metric {count}")
+                raise InputError(f"--minimize {goal.name}: the target has {len(target)} numbers, the metric {count}")
 
 
 def _is_numeric(value: Any) -> bool:

@@ -112,7 +112,7 @@ def parameters_of(mission: Mission, over: Mapping[str, Range], factor: float) ->
         for leaf, place in _matching(asked, leaves):
             found |= {p.name: p for p in _parameters(leaf, limits, factor) if place in (None, p.place)}
     if not found:
-        raise InputError(f"controller {mission.controller.name!r} has no gains; name what to search by --over")
+        raise InputError(f"controller {mission.controller.name!r} has no gains; name what to search by --parameter")
     return tuple(found.values())
 
 
@@ -120,7 +120,7 @@ def _matching(asked: str, leaves: Mapping[str, _Leaf]) -> list[tuple[_Leaf, int 
     """The leaves that a key, a table or a pattern means, with the component if it names one."""
     if asked.split(".")[0] in JUDGING:
         raise InputError(
-            f"--over {asked}: [{asked.split('.')[0]}] says what is flown and how it is judged, so it stays"
+            f"--parameter {asked}: [{asked.split('.')[0]}] says what is flown and how it is judged, so it stays"
         )
     if asked in leaves:
         return [(leaves[asked], None)]
@@ -128,16 +128,18 @@ def _matching(asked: str, leaves: Mapping[str, _Leaf]) -> list[tuple[_Leaf, int 
     if above in leaves and last.isdigit() and leaves[above].is_numbers:
         values = leaves[above].value
         if not isinstance(values, tuple) or int(last) >= len(values):
-            raise InputError(f"--over {asked}: {above} = {shown(values)} has no component {last}")
+            raise InputError(f"--parameter {asked}: {above} = {shown(values)} has no component {last}")
         return [(leaves[above], int(last))]
     below = [leaf for key, leaf in leaves.items() if key.startswith(f"{asked}.") or fnmatch.fnmatchcase(key, asked)]
     numbers = [leaf for leaf in below if leaf.is_numbers and leaf.key.rpartition(".")[2] not in LIMITS]
     if numbers or asked == "controller":
         return [(leaf, None) for leaf in numbers]
     if below:
-        raise InputError(f"--over {asked}: holds no numbers to search; it has {', '.join(leaf.key for leaf in below)}")
+        raise InputError(
+            f"--parameter {asked}: holds no numbers to search; it has {', '.join(leaf.key for leaf in below)}"
+        )
     known = {*leaves, *(key.rpartition(".")[0] for key in leaves if "." in key)}
-    raise InputError(f"--over {asked}: the mission has no such key or table.{suggestion(asked, sorted(known))}")
+    raise InputError(f"--parameter {asked}: the mission has no such key or table.{suggestion(asked, sorted(known))}")
 
 
 def _check_range(asked: str, limits: Range) -> None:
@@ -146,10 +148,10 @@ def _check_range(asked: str, limits: Range) -> None:
     is_range = len(limits) == 2 and all(map(is_number, limits)) and all(map(math.isfinite, limits))
     is_words = len(limits) > 0 and all(isinstance(x, (str, bool)) for x in limits)
     if not is_range and not is_words:
-        raise InputError(f"--over {asked}={shown(list(limits))}: must be [low, high], or a list of words")
+        raise InputError(f"--parameter {asked}={shown(list(limits))}: must be [low, high], or a list of words")
     if is_range and not limits[0] < limits[1]:
         raise InputError(
-            f"--over {asked}={shown(list(limits))}: the range is empty; must be [low, high] with low < high"
+            f"--parameter {asked}={shown(list(limits))}: the range is empty; must be [low, high] with low < high"
         )
 
 
@@ -163,7 +165,9 @@ def _parameters(leaf: _Leaf, limits: Range, factor: float) -> Iterator[Tunable]:
         return
     if not leaf.is_numbers:
         what = "is left out, so a range must be given" if leaf.value is None else "is not a number"
-        raise InputError(f"--over {leaf.key}: {leaf.key} = {shown(leaf.value)} {what}, as in {leaf.key}=[0.5, 2.0]")
+        raise InputError(
+            f"--parameter {leaf.key}: {leaf.key} = {shown(leaf.value)} {what}, as in {leaf.key}=[0.5, 2.0]"
+        )
     if isinstance(leaf.value, tuple):
         for place, value in enumerate(leaf.value):
             yield _number(leaf, place, value, limits, factor, whole=False)
@@ -182,11 +186,13 @@ def _choices(leaf: _Leaf, limits: Range) -> tuple[Any, ...] | None:
     given = () if limits is None else tuple(limits)
     words = bool(given) and all(isinstance(x, (str, bool)) for x in given)
     if not allowed and words:
-        raise InputError(f"--over {leaf.key}={shown(list(given))}: the key takes no words; must be [low, high]")
+        raise InputError(f"--parameter {leaf.key}={shown(list(given))}: the key takes no words; must be [low, high]")
     if allowed and given and not (words and set(given) <= set(allowed)):
-        raise InputError(f"--over {leaf.key}={shown(list(given))}: must be a list of {', '.join(map(shown, allowed))}")
+        raise InputError(
+            f"--parameter {leaf.key}={shown(list(given))}: must be a list of {', '.join(map(shown, allowed))}"
+        )
     if allowed and len(given or allowed) < 2:
-        raise InputError(f"--over {leaf.key}: needs at least two choices")
+        raise InputError(f"--parameter {leaf.key}: needs at least two choices")
     return (given or allowed) if allowed else None
 
 
@@ -195,7 +201,7 @@ def _number(leaf: _Leaf, place: int | None, value: Any, limits: Range, factor: f
     low, high = _bounds_of(leaf)
     if limits is not None:
         if limits[0] < low or limits[1] > high:
-            raise InputError(f"--over {leaf.key}={shown(list(limits))}: the key must be from {low:g} to {high:g}")
+            raise InputError(f"--parameter {leaf.key}={shown(list(limits))}: the key must be from {low:g} to {high:g}")
         low, high = float(limits[0]), float(limits[1])
     elif value > 0.0:
         low, high = max(low, value / factor), min(high, value * factor)

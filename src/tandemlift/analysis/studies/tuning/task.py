@@ -118,7 +118,7 @@ def started(task: Task, draws: Sequence[Draw]) -> tuple[Task, Trial]:
     scales = tuple(scales_of(goal, cases, values) for goal, values in zip(task.goals, trial.values, strict=True))
     if len(task.goals) > 1 and trial.bad.all() and any(goal.target is None and not goal.targets for goal in task.goals):
         raise InputError(
-            "--for: with the present values every draw ends badly, so several goals need targets to compare"
+            "--minimize: with the present values every draw ends badly, so several goals need targets to compare"
         )
     return task._replace(sizes=sizes, scales=scales), trial
 

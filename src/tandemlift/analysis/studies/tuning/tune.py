@@ -92,7 +92,7 @@ def tune(
 def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: TuneProgress | None) -> Tuning:
     if how.aim not in ("mean", "worst"):
         raise unknown("aim", how.aim, ("mean", "worst"))
-    _check_count("--fresh", how.fresh)
+    _check_count("--holdout", how.fresh)
     loaded = source.load()
     kind, parameters = _parameters(loaded, goals, how)
     drawn = _drawn(loaded, source, how)
@@ -187,4 +187,4 @@ def _check_apart(draws: Sequence[Draw], parameters: Sequence[Tunable]) -> None:
     for key in sorted({key for draw in draws for key in draw.changes}):
         for p in parameters:
             if f"{p.key}.".startswith(f"{key}.") or key.startswith(f"{p.key}."):
-                raise InputError(f"--over {p.key}: the draws change {key}; a key is either searched or drawn")
+                raise InputError(f"--parameter {p.key}: the draws change {key}; a key is either searched or drawn")

@@ -30,7 +30,7 @@ FILES = ("tuned.toml", "evidence.json", "tune.html")
 @click.command()
 @click.argument("mission", shell_complete=MISSIONS)
 @click.option(
-    "--for",
+    "--minimize",
     "goals",
     multiple=True,
     required=True,
@@ -39,7 +39,8 @@ FILES = ("tuned.toml", "evidence.json", "tune.html")
     help="Metric to make small, by its name in metrics.json, or one component: position_rmse_m.2. Can be repeated.",
 )
 @click.option(
-    "--over",
+    "--parameter",
+    "over",
     multiple=True,
     metavar="KEY[=RANGE]",
     shell_complete=keys,
@@ -47,7 +48,7 @@ FILES = ("tuned.toml", "evidence.json", "tune.html")
     "  [default: the controller's gains]",
 )
 @click.option("--draws", default="8", show_default=True, metavar="N|FILE", help="Flights that compare candidates.")
-@click.option("--fresh", default=200, show_default=True, help="Flights that compare old and new in the end.")
+@click.option("--holdout", "fresh", default=200, show_default=True, help="Flights that compare old and new in the end.")
 @click.option("--budget", type=int, metavar="N", help="Candidates to try.  [default: 60 populations]")
 @click.option("--optimiser", metavar="cma|optuna", help="[default: cma; optuna for choices and several goals]")
 @click.option("--aim", default="mean", show_default=True, metavar="mean|worst", help="What of all draws counts.")
@@ -79,10 +80,10 @@ def tune(
 
     \b
     Examples:
-      tandemlift tune flight-ready --for position_rmse_after_10s_m --set actuators.model=rotors
-      tandemlift tune iris --for position_rmse_after_10s_m --over controller.gains --draws 16
-      tandemlift tune one-push --for human_work_j --over 'admittance.damping=[0.5, 4.0]'
-      tandemlift tune iris --for position_rmse_m.0 --for moment_max_abs_after_10s_n_m.0
+      tandemlift tune flight-ready --minimize position_rmse_after_10s_m --set actuators.model=rotors
+      tandemlift tune iris --minimize position_rmse_after_10s_m --parameter controller.gains --draws 16
+      tandemlift tune one-push --minimize human_work_j --parameter 'admittance.damping=[0.5, 4.0]'
+      tandemlift tune iris --minimize position_rmse_m.0 --minimize moment_max_abs_after_10s_n_m.0
 
     \b
     Files in the results folder (other files there are left alone):
@@ -124,7 +125,7 @@ def _search(mission: str, goals: dict[str, Any], how: dict[str, Any]) -> Tuning:
 def _goal_of(text: str) -> tuple[str, Any]:
     """The metric of METRIC[=TARGET], and its target or None."""
     name, equals, literal = (part.strip() for part in text.partition("="))
-    return name, _literal(f"--for {text}", literal) if equals else None
+    return name, _literal(f"--minimize {text}", literal) if equals else None
 
 
 def _range_of(text: str) -> tuple[str, Any]:
@@ -132,11 +133,11 @@ def _range_of(text: str) -> tuple[str, Any]:
     key, equals, literal = (part.strip() for part in text.partition("="))
     if not re.fullmatch(r"[A-Za-z0-9_*?\[\]]+(\.[A-Za-z0-9_*?\[\]]+)*", key):
         raise InputError(
-            f"--over {text}: must be KEY or KEY=[low, high] with a dotted key, such as controller.gains.xi"
+            f"--parameter {text}: must be KEY or KEY=[low, high] with a dotted key, such as controller.gains.xi"
         )
-    value = _literal(f"--over {text}", literal) if equals else None
+    value = _literal(f"--parameter {text}", literal) if equals else None
     if equals and not isinstance(value, list):
-        raise InputError(f"--over {text}: the range must be [low, high], or a list of words in quotes")
+        raise InputError(f"--parameter {text}: the range must be [low, high], or a list of words in quotes")
     return key, value
 
 

@@ -159,7 +159,7 @@ def _ending(outcome: str, quantity: str, limit: str) -> dict[str, str]:
 
 def _texts(plan: FlightPlan, rule: checks.TouchRule) -> dict[str, Any]:
     mission = plan.mission
-    by_clock = mission.pilot.guidance == "clock"
+    by_clock = mission.pilot.guidance == "scheduled"
     return {
         "unknown": texts.UNKNOWN.format(key="{key}", known=", ".join([*CHOICES, *BY_KEY])),
         "no_number": texts.NO_NUMBER,

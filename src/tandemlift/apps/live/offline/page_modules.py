@@ -51,7 +51,7 @@ def page_mission(name: str, changes: Mapping[str, Any] | None = None) -> Mission
     """A mission, with changes of its keys, as a page flies it: pushed by hand, and rounded alike on every machine."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", FlightWarning)
-        return changed(interactive_mission(load_mission(name, changes)), "mission.fused", False)
+        return changed(interactive_mission(load_mission(name, changes)), "mission.fma", False)
 
 
 def flight_manifest(mission: Mission) -> tuple[dict[str, Any], bytes]:

@@ -93,12 +93,12 @@ def check_touch(flight: RecordedFlight, vehicle: SceneVehicle, point: Sequence[f
 
 
 def check_takes_requests(mission: Mission, what: str) -> None:
-    """Refuse a request to a pilot that is guided by the clock.
+    """Refuse a request to a scheduled pilot.
 
     Raises:
         InputError: it is.
     """
-    if mission.pilot.guidance == "clock":
+    if mission.pilot.guidance == "scheduled":
         raise InputError(texts.NO_REQUESTS.format(what=what, mission=mission.mission.name))
 
 
@@ -108,7 +108,7 @@ def check_may_tare(flight: RecordedFlight, vehicle: SceneVehicle, phase: str) ->
     Raises:
         InputError: it does not hover, the beam is held, or a tare is under way.
     """
-    if flight.now.estimator.tare == "clock":
+    if flight.now.estimator.tare == "at-time":
         check_touch(flight, vehicle, ZERO)
     if phase not in [PHASE_NAMES[int(number)] for number in (GUIDED, HOLD, CONTACT)]:
         raise InputError(f"tare: only in the air, hovering; the phase is {phase}")

@@ -53,7 +53,7 @@ def components_of(channel: Array) -> Components:
 
 
 class PhaseTimes(NamedTuple):
-    """When a flight that is guided by the clock begins and ends to lift, and begins to land [s]."""
+    """When a scheduled flight begins and ends to lift, and begins to land [s]."""
 
     lift_start: Any
     lift_end: Any
@@ -73,7 +73,7 @@ def field_values(channels: Mapping[str, Components], time: Any, phases: PhaseTim
     Args:
         channels: components of each channel.
         time: [s].
-        phases: of a flight that is guided by the clock.
+        phases: of a scheduled flight.
     """
     found = {field: next((channels[n] for n in names if n in channels), None) for field, names in CHANNELS.items()}
     values = {field: channel for field, channel in found.items() if channel is not None}
@@ -143,6 +143,6 @@ def _numbers(value: Any) -> Iterator[Any]:
 
 
 def _phase_by_clock(time: Any, phases: PhaseTimes) -> Any:
-    """The phase of a flight that is guided by the clock."""
+    """The phase of a scheduled flight."""
     lifting = where(time >= phases.lift_start, where(time < phases.lift_end, LIFT, GUIDED), GUIDED)
     return where(time >= phases.land_start, LAND, lifting)

@@ -11,7 +11,7 @@ from tandemlift.missions import Mission, changed
 
 MAX_DURATION = 3600.0  # s
 NEVER = 1e6  # s
-SPRING = {"model": "grab", "stiffness": 6.0, "damping": 2.0, "lag": 0.08, "max_force": 4.0}  # N/m, N s/m, s, N
+SPRING = {"model": "virtual-hand", "stiffness": 6.0, "damping": 2.0, "lag": 0.08, "max_force": 4.0}  # N/m, N s/m, s, N
 FAINT_TURBULENCE = 1e-3  # m/s: the mission has a wind, which can be raised in flight
 
 
@@ -31,7 +31,7 @@ def with_whole_rotors(now: Mission, first: Mission) -> Mission:
 
 
 def _interactive(mission: Mission) -> Mission:
-    hand = SPRING if mission.person.model != "grab" else {}
+    hand = SPRING if mission.person.model != "virtual-hand" else {}
     mission = changed(mission, "person", {**hand, "recording": None})
     for key, value in _always(mission):
         mission = changed(mission, key, value)
@@ -57,7 +57,7 @@ def _if_possible(mission: Mission) -> Iterator[tuple[str, Any]]:
     kept = [f.model_dump(mode="json", exclude_none=True) for f in mission.faults]
     yield "faults", [*kept, *faults]
     yield "detection.model", "residual"
-    yield "supervision.model", "watch"
-    yield "contact.model", "watch"
+    yield "supervision.model", "on"
+    yield "contact.model", "on"
     if mission.wind.model == "none":
         yield "wind", {"model": "air", "turbulence": FAINT_TURBULENCE}

@@ -93,7 +93,7 @@ def _choices(mission: Mission, first: Mission) -> Iterator[SceneParameter]:
         initial=first.controller.name,
         choices=sorted(CONTROLLERS),
     )
-    if mission.pilot.guidance == "clock":  # other pilots have a dead-band instead
+    if mission.pilot.guidance == "scheduled":  # other pilots have a dead-band instead
         yield SceneParameter(
             key=GATE,
             label="gate",
@@ -110,6 +110,6 @@ def _is_tunable(mission: Mission, key: str) -> bool:
         "wind": mission.wind.model == "none",
         "sensors": mission.sensors.model == "none",
         "vehicle": mission.actuators.model == "ideal",
-        "compliance": mission.pilot.guidance != "hand",
+        "compliance": mission.pilot.guidance != "interactive",
     }
     return not absent.get(key.partition(".")[0], False)

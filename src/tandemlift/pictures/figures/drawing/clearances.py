@@ -61,7 +61,7 @@ def clearances(flight: Flight) -> Clearances:
 def grips(flight: Flight) -> Array | None:
     """Where the person of [person] holds the payload (T, 3) [m, world axes], or None without one."""
     person = flight.mission.get("person", {"model": "none"})
-    if person["model"] in ("none", "grab"):
+    if person["model"] in ("none", "virtual-hand"):
         return None
     along = 0.0 if person["model"] == "two-hands" else person["grip"]
     arm = np.array([0.0, along, 0.0]) - Vehicle.from_mission(flight.mission).center_of_mass
