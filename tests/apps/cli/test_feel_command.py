@@ -34,7 +34,7 @@ def test_it_prints_a_table_and_writes_numbers_figure_and_page(tmp_path):
 
 def test_a_check_that_fails_says_the_bound_and_ends_with_3_if_strict(tmp_path):
     quick = "admittance.feel={force=1.0, speed=1.2, time=0.5}"
-    arguments = ("one-push", "--set", quick, "--set", "pilot.guidance=hand", "--out", tmp_path)
+    arguments = ("one-push", "--set", quick, "--set", "pilot.guidance=interactive", "--out", tmp_path)
     assert call(*arguments)[0] == 0
     code, text, _ = call(*arguments, "--strict")
     assert code == 3

@@ -43,7 +43,7 @@ def test_a_recorded_mission_is_flown_by_who_watches_and_not_by_the_recording(tmp
     fly(session, 0.5)
     say(session, "save", name="first")
     again = interactive_mission(tl.load_mission(tmp_path / "first" / "recorded.toml"))
-    assert (again.person.model, again.person.recording, again.changes) == ("grab", None, ())
+    assert (again.person.model, again.person.recording, again.changes) == ("virtual-hand", None, ())
 
 
 def test_what_was_flown_is_saved_under_its_name_and_flies_again(session, tmp_path):
