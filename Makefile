@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page docs test lint types imports tests examples test-pythons test-distributions test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
+.PHONY: run live page docs test check lint types imports tests examples test-pythons test-distributions test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -45,6 +45,13 @@ imports: .venv/dev  ## imports go downward only
 
 tests: .venv/dev ## all tests
 	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto  # a process for each core: threads of linear algebra would only wait
+
+check: .venv/dev ## one room: its format, lint, types, and the tests beside it: make check ROOM=parts/guidance
+	@test -n "$(ROOM)" -a -d "src/tandemlift/$(ROOM)" || { echo "make check ROOM=$(ROOM): must be a folder below src/tandemlift, such as parts/guidance"; exit 2; }
+	$(BIN)/ruff format --check src/tandemlift/$(ROOM)
+	$(BIN)/ruff check src/tandemlift/$(ROOM)
+	$(BIN)/mypy
+	tests=tests/$(ROOM); until test -d $$tests; do tests=$$(dirname $$tests); done; OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto $$tests
 
 examples: .venv/dev  ## run the scripts of examples/, whose numbers are asserted; `make docs` runs the same code
 	$(BIN)/pytest -n auto -m examples tests/repository/test_tutorials.py
