@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from tandemlift.core.errors import InputError
 from tandemlift.core.extras import extra
 from tandemlift.core.types import Array
+from tandemlift.engines.models.camera import NEAR
 from tandemlift.engines.models.visuals import GLASS, PUSH_COLOR, SUN, WALL, VisualShape, vehicle_shapes
 from tandemlift.pictures.rendering import ground
 from tandemlift.pictures.rendering.ground import Painted, View, rgb
@@ -26,7 +27,6 @@ FINE = 2  # a picture is drawn with so many times its pixels each way, and then 
 SPINNING = 40.0  # rad/s, drawn speed of the blades; at the true speed they would alias
 SHAFT = 0.022  # m, radius of an arrow
 LAYER = 4e-4  # height of shadow, grid and path, one above the other, over the floor / distance of the vehicle
-NEAREST = 0.05  # m, of what is drawn
 WINDOWS = {  # what draws without a display: a library, and VTK's window for it
     "libEGL.so.1": "vtkEGLRenderWindow",
     "libOSMesa.so.8": "vtkOSOpenGLRenderWindow",
@@ -94,7 +94,7 @@ class Studio:
         camera, (width, height) = self._plotter.camera, self._size
         camera.position, camera.focal_point, camera.up = view.eye, view.target, view.up
         camera.view_angle = 2.0 * np.degrees(np.arctan(height / 2.0 / view.focal))
-        camera.clipping_range = (NEAREST, 2.0 * ground.DOME * ground.EDGE * view.distance)
+        camera.clipping_range = (NEAR, 2.0 * ground.DOME * ground.EDGE * view.distance)
         self._plotter.render()
         fine = self._plotter.screenshot(None, return_img=True).reshape(height, FINE, width, FINE, 3)
         picture: NDArray[np.uint8] = fine.mean(axis=(1, 3)).round().astype(np.uint8)
