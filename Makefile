@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page docs test check lint types imports tests examples test-pythons test-distributions test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
+.PHONY: run live page docs test check quick lint types imports tests examples test-pythons test-distributions test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -45,6 +45,9 @@ imports: .venv/dev  ## imports go downward only
 
 tests: .venv/dev ## all tests
 	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto  # a process for each core: threads of linear algebra would only wait
+
+quick: .venv/dev ## what neither compiles a flight, starts a process nor browses; the first run learns which
+	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto -q --quick
 
 check: .venv/dev ## one room: its format, lint, types, and the tests beside it: make check ROOM=parts/guidance
 	@test -n "$(ROOM)" -a -d "src/tandemlift/$(ROOM)" || { echo "make check ROOM=$(ROOM): must be a folder below src/tandemlift, such as parts/guidance"; exit 2; }

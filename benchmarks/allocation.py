@@ -18,18 +18,18 @@ import numpy as np
 from machine import describe, heading, number, pin, save, table
 
 import tandemlift as tl
-from tandemlift.compiler.machine_code.functions import compiled
-from tandemlift.compiler.machine_code.machine import BEST, Loaded
-from tandemlift.compiler.machine_code.machine import compiled as machine_code
-from tandemlift.compiler.trace import Function, Module, double
+from tandemlift.compiler.jit.functions import compiled
+from tandemlift.compiler.jit.machine import BEST, Loaded
+from tandemlift.compiler.jit.machine import compiled as machine_code
+from tandemlift.compiler.tracer import Function, Module, double
 from tandemlift.core.algebra.layout import flat, leaves
 from tandemlift.core.algebra.vector import Vec3, each
 from tandemlift.parts.mechanics.rigid_body import Wrench
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
 from tandemlift.parts.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
-from tandemlift.parts.vehicle import Vehicle
-from tandemlift.simulation.kernels.compiled_limit_solver import write_solver
-from tandemlift.simulation.kernels.traced_step import TracedSolver
+from tandemlift.simulation.loop_code.compiled_limit_solver import write_solver
+from tandemlift.simulation.loop_code.traced_step import TracedSolver
 
 PLACES = {
     1: [(0.0, 0.0)],

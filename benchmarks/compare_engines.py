@@ -16,16 +16,16 @@ from machine import describe, heading, table
 
 import tandemlift as tl
 from tandemlift.analysis.studies.engine_comparison import angles_between, differences, fly_in
-from tandemlift.compiler.machine_code.functions import compiled
-from tandemlift.compiler.trace import traced
+from tandemlift.compiler.jit.functions import compiled
+from tandemlift.compiler.tracer import traced
 from tandemlift.core.algebra.layout import flat, unflat
-from tandemlift.core.algebra.vector import ZERO, Nothing, each
+from tandemlift.core.algebra.vector import ZERO, Absent, each
 from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.engines.registry import engine_named
 from tandemlift.parts.mechanics.push import CentralPush, PushSamples
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
-NONE, NO_AIR, NO_PUSH = Nothing(), np.zeros(0), np.zeros(3)
+NONE, NO_AIR, NO_PUSH = Absent(), np.zeros(0), np.zeros(3)
 HALF_MINUTE = {"mission.duration": 30.0}
 FINE = {"mission.log_interval": 0.001}
 SCALED = {"plant.mass_scale": 1.1, "plant.inertia_scale": [1.2, 1.3, 1.2]}  # a beam that there can be, as Gazebo wants

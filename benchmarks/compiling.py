@@ -52,13 +52,15 @@ try:
     from tandemlift.simulation.plan import FlightPlan
 except ImportError:  # a base of before this folder
     from tandemlift.prepared import Prepared as FlightPlan
+def loop_code(plan):
+    return plan.loop_code if hasattr(plan, 'loop_code') else plan.kernels
 """
 FIRST = f"{LOAD}tl.fly(mission, progress=first)"
 BEST = f"""{LOAD}
 import importlib.util
-if importlib.util.find_spec("tandemlift.compiler.trace"):
+if importlib.util.find_spec("tandemlift.compiler"):
     exec({PLAN!r})
-    code = FlightPlan(mission).kernels.loop(1)
+    code = loop_code(FlightPlan(mission)).loop(1)
     while not code.is_best: tl.fly(mission)
 tl.fly(mission, progress=first)
 """
@@ -124,7 +126,7 @@ class Job(NamedTuple):
 
     what: str
     measure: Callable[[Checkout, dict[str, str]], Spent]
-    aim: str = ""
+    target: str = ""
     before: Callable[[Checkout, dict[str, str]], Spent] | None = None
     alone: bool = False
 
@@ -232,8 +234,8 @@ def jobs() -> list[Job]:
     firsts = {"paper": "20", "iris": "40", "zigzag": "40"}
     bests = {"paper": "8", "iris": "20", "zigzag": "20"}
     return [
-        *[Job(f"`{name}`, empty cache, first step", script(FIRST, name), aim) for name, aim in firsts.items()],
-        *[Job(f"`{name}`, empty cache, optimised", script(BEST, name), aim) for name, aim in bests.items()],
+        *[Job(f"`{name}`, empty cache, first step", script(FIRST, name), target) for name, target in firsts.items()],
+        *[Job(f"`{name}`, empty cache, optimised", script(BEST, name), target) for name, target in bests.items()],
         Job("64 `iris` by `fly_many`, empty cache", script(BLOCK, "iris"), "20"),
         Job("`live zigzag`, empty cache, served", live),
         Job("`live zigzag`, empty cache, first step", flying, "20"),
@@ -281,13 +283,13 @@ def measure_all(chosen: list[Job], checkouts: list[Checkout], rounds: int) -> di
 def row(job: Job, turns: Any) -> list[str]:
     """Cells of a row: medians, and the median over the pairs of the ratio of the base to it."""
     if not isinstance(turns, list):
-        return [f"{job.what}. **Not measured: {turns}**", *[NO_RESULT] * 6, job.aim]
+        return [f"{job.what}. **Not measured: {turns}**", *[NO_RESULT] * 6, job.target]
     columns = list(zip(*turns, strict=True))
     times = [[median(s.wall for s in column), median(s.cpu for s in column)] for column in columns]
     ratios = [[b / a for a, b in zip(*pair, strict=True)] for pair in turns if len(pair) == 2]
     less = [median(r) for r in zip(*ratios, strict=True)] or [None, None]
     base = times[1] if len(times) == 2 else [None, None]
-    return [job.what, *map(number, [*times[0], *base, *less]), f"≥ {job.aim}" if job.aim else ""]
+    return [job.what, *map(number, [*times[0], *base, *less]), f"≥ {job.target}" if job.target else ""]
 
 
 HEADER = ("", "wall, s", "processor, s", "base: wall", "processor", "times faster: wall", "processor", "target")

@@ -19,8 +19,8 @@ from typing import Any
 import numpy as np
 
 import tandemlift as tl
-from tandemlift.compiler.machine_code.code import Code
-from tandemlift.simulation.kernels import LANES, FlightMemory
+from tandemlift.compiler.jit.code import Code
+from tandemlift.simulation.loop_code import LANES, FlightMemory
 from tandemlift.simulation.plan import FlightPlan
 
 DURATION = 90.0  # s, of each
@@ -124,7 +124,7 @@ def mission_speeds(name: str, rounds: int, busy: bool = False) -> dict[str, Any]
     is between the best of the rounds.
     """
     mission = tl.load_mission(name.partition(",")[0], {"mission.duration": DURATION, **MISSIONS[name]})
-    kernels = FlightPlan(mission).kernels
+    kernels = FlightPlan(mission).loop_code
     for lanes in (1, LANES):
         best(kernels.loop(lanes))
     many = [mission] * MANY
@@ -145,7 +145,7 @@ def mujoco_speed(duration: float = 30.0, rounds: int = 5) -> dict[str, float]:
     import mujoco
 
     from tandemlift.engines.mujoco import MuJoCoBody
-    from tandemlift.parts.vehicle import Vehicle
+    from tandemlift.parts.mechanics.vehicle import Vehicle
 
     mission = tl.load_mission("paper", {"mission.duration": duration})
     body = MuJoCoBody(mission, Vehicle.from_settings(mission.vehicle))

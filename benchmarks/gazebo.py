@@ -27,7 +27,7 @@ def real_time(engine: str, seconds: float = 10.0) -> tuple[float, float]:
     """Steps a second of `hover` kept to real time, and the longest time between two [s]."""
     mission = tl.load_mission("hover", {"mission.duration": seconds + 2.0})
     p = FlightPlan(mission, engine)
-    p.kernels.parts(leaves_body=True)  # compiled before the clock runs
+    p.loop_code.parts(leaves_body=True)  # compiled before the clock runs
     os.environ[REAL_TIME] = "1"
     body = body_of(p)
     stepper = Stepper(p, body)

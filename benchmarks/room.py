@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import label, map_coordinates
 
 import tandemlift as tl
-from tandemlift.core.settings.corridor import sides
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.contact.corridor import sides
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 

@@ -90,7 +90,7 @@ def topics() -> dict[str, str]:
     from tandemlift.apps.live.session.session import Session
     from tandemlift.apps.ros.sample_queue import SampleQueue, as_flight
     from tandemlift.missions import load_mission
-    from tandemlift.parts.vehicle import Vehicle
+    from tandemlift.parts.mechanics.vehicle import Vehicle
 
     session, feed = Session(load_mission("zigzag")), SampleQueue(1, lambda step: 0)
     session.prepare()

@@ -40,7 +40,7 @@ from statistics import median
 warnings.simplefilter("ignore")
 import numpy as np
 import tandemlift as tl
-traced = importlib.util.find_spec("tandemlift.compiler.trace")
+traced = importlib.util.find_spec("tandemlift.compiler")
 
 def best(code):
     code.optimise()
@@ -58,7 +58,7 @@ def step(name, kind, repeats=5):
     missions = [tl.load_mission(name)] if kind == "alone" else [lane(name, i) for i in range(8)]
     if traced:
         exec(PLAN, globals())
-        best(FlightPlan(missions[0]).kernels.loop(len(missions)))
+        best(loop_code(FlightPlan(missions[0])).loop(len(missions)))
     found = []
     for _ in range(repeats + 1):
         flown = [tl.fly(missions[0]).metrics()] if kind == "alone" else tl.fly_many(missions, "metrics", threads=1)

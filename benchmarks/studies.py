@@ -50,7 +50,8 @@ def missions(count):
     return (template.mission(changes(i)) for i in range(count))
 
 first, = missions(1)
-code = FlightPlan(first).kernels.loop(8)
+plan = FlightPlan(first)
+code = (plan.loop_code if hasattr(plan, "loop_code") else plan.kernels).loop(8)  # a base of before
 code.optimise()
 while not code.is_best:
     time.sleep(0.05)

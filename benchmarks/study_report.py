@@ -14,9 +14,9 @@ import pyarrow as pa
 
 import tandemlift as tl
 from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.execution.checked_file import write_checked
+from tandemlift.analysis.studies.execution.store import open_folder
 from tandemlift.analysis.studies.reading.table import Study
-from tandemlift.analysis.studies.units.checked_file import write_checked
-from tandemlift.analysis.studies.units.store import open_folder
 from tandemlift.pictures.report.study.study_report import write_study_report
 
 KEYS = ("plant.mass_scale", "admittance.damping", "admittance.mass", "admittance.threshold", "wind.turbulence")
@@ -32,11 +32,11 @@ def plan_of(rows):
 
 
 def write_rows(folder, numbers):
-    """Write all units of a study, with numbers that are made up: the first two metrics follow the first two keys."""
+    """Write all chunks of a study, with numbers that are made up: the first two metrics follow the first two keys."""
     plan, store = folder.plan(), folder
     points = Study(folder.path, plan, ()).drawn_points()
     for i, name in enumerate(store.names()):
-        row = np.arange(i * store.rows_per_unit, min(store.count, (i + 1) * store.rows_per_unit))
+        row = np.arange(i * store.rows_per_chunk, min(store.count, (i + 1) * store.rows_per_chunk))
         draw, count = row % plan.point_count, len(row)
         u = [points[key][draw] for key in KEYS]
         bad = numbers.random(count) < 1e-3 * u[0]

@@ -1,10 +1,10 @@
 """Where a study runs, and what that costs: `python benchmarks/study_scaling.py overhead` and others. Prints Markdown.
 
 - `overhead`: a study of `paper` against `fly_many` with the same missions loaded, on one and two threads, in turns;
-  what each part of a unit takes; bytes of a row.
+  what each part of a chunk takes; bytes of a row.
 - `dask`: a study of 8,192 flights on two workers of one thread against two threads, in turns.
-- `tasks`: 10,000 units that do nothing, through Dask: the share of the scheduler, which runs in this process.
-- `kills`: a study is killed by SIGKILL at 50 random moments, each time resumed; only units in work fly again.
+- `tasks`: 10,000 chunks that do nothing, through Dask: the share of the scheduler, which runs in this process.
+- `kills`: a study is killed by SIGKILL at 50 random moments, each time resumed; only chunks in work fly again.
 - `workers`: Dask's workers are killed 20 times at random moments in one study.
 - `processes`: two processes on one folder.
 - `disk`: a disk of 1 MB that gets full, and a read-only one (needs root: it mounts them).
@@ -37,14 +37,14 @@ from machine import describe, heading, number, save, table
 import tandemlift as tl
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.units.anywhere import fly_study
-from tandemlift.analysis.studies.units.columns import write_columns
-from tandemlift.analysis.studies.units.dask import cluster_workers
-from tandemlift.analysis.studies.units.files import UnitFiles
-from tandemlift.analysis.studies.units.flying import fly_unit
-from tandemlift.analysis.studies.units.running import StudyWork, run_units
-from tandemlift.analysis.studies.units.store import StudyFolder, open_folder
-from tandemlift.analysis.studies.units.unit import unit_of
+from tandemlift.analysis.studies.execution.anywhere import fly_study
+from tandemlift.analysis.studies.execution.chunk import chunk_of
+from tandemlift.analysis.studies.execution.columns import write_columns
+from tandemlift.analysis.studies.execution.dask import cluster_workers
+from tandemlift.analysis.studies.execution.files import ChunkFiles
+from tandemlift.analysis.studies.execution.flying import fly_chunk
+from tandemlift.analysis.studies.execution.running import StudyWork, run_chunks
+from tandemlift.analysis.studies.execution.store import StudyFolder, open_folder
 from tandemlift.core.errors import InputError
 
 PACKAGES = ("tandemlift", "numpy", "llvmlite", "pyarrow", "distributed")
@@ -52,11 +52,11 @@ SEED = 17
 PROGRAM = "from study_scaling import child; child()"  # of a process that is killed or shares a folder
 
 
-def study_of(mission: str, rows: int, duration: float | None = None, rows_per_unit: int = 256) -> dict[str, Any]:
+def study_of(mission: str, rows: int, duration: float | None = None, rows_per_chunk: int = 256) -> dict[str, Any]:
     """A study of one mission with two numbers drawn."""
     drawn = {"distribution": "uniform", "low": 0.9, "high": 1.1}
     return {
-        "study": {"name": "scaling", "missions": [mission], "draws": rows, "rows_per_unit": rows_per_unit},
+        "study": {"name": "scaling", "missions": [mission], "draws": rows, "rows_per_chunk": rows_per_chunk},
         "set": {} if duration is None else {"mission.duration": duration},
         "draw": {"plant.mass_scale": drawn, "admittance.damping": {**drawn, "relative": True}},
     }
@@ -117,24 +117,24 @@ def overhead(rounds: int, root: Path) -> dict[str, Any]:
 
 
 def parts(plan: StudyPlan, file: Path) -> dict[str, float]:
-    """What is done for a unit of 256 rows, one after the other: ms, and bytes."""
-    unit = unit_of(plan, 0, "one")
+    """What is done for a chunk of 256 rows, one after the other: ms, and bytes."""
+    chunk = chunk_of(plan, 0, "one")
     template = plan.variants[0].template()
-    columns = fly_unit(unit)
+    columns = fly_chunk(chunk)
     steps: dict[str, Callable[[], Any]] = {
-        "rows of the plan": lambda: unit_of(plan, 0, "one"),
+        "rows of the plan": lambda: chunk_of(plan, 0, "one"),
         "template": lambda: plan.variants[0].template(),
-        "missions": lambda: [template.mission(row.changes) for row in unit.rows],
-        "unit flown, columns formed": lambda: fly_unit(unit),
-        "unit sent: pickled and read": lambda: pickle.loads(pickle.dumps(partial(fly_unit, unit))),
+        "missions": lambda: [template.mission(row.changes) for row in chunk.rows],
+        "chunk flown, columns formed": lambda: fly_chunk(chunk),
+        "chunk sent: pickled and read": lambda: pickle.loads(pickle.dumps(partial(fly_chunk, chunk))),
         "columns sent: pickled and read": lambda: pickle.loads(pickle.dumps(columns)),
         "file written": lambda: write_columns(columns, file, {}),
     }
     found = {name: 1e3 * median(seconds(step) for _ in range(7)) for name, step in steps.items()}
-    found["bytes of the unit"], found["bytes of the columns"] = len(pickle.dumps(unit)), len(pickle.dumps(columns))
+    found["bytes of the chunk"], found["bytes of the columns"] = len(pickle.dumps(chunk)), len(pickle.dumps(columns))
     found["bytes of the file"] = file.stat().st_size
     print(
-        "\nA unit of 256 rows, ms or bytes:\n",
+        "\nA chunk of 256 rows, ms or bytes:\n",
         table(("what", ""), [[k, number(v)] for k, v in found.items()]),
         sep="\n",
     )
@@ -161,7 +161,7 @@ def dask(rounds: int, root: Path) -> dict[str, Any]:
 
 
 def fly_on(plan: StudyPlan, folder: StudyFolder, workers: Any) -> int:
-    return run_units(StudyWork(plan, folder.names()), folder.files, workers)
+    return run_chunks(StudyWork(plan, folder.names()), folder.files, workers)
 
 
 def run_warm(workers: Any, path: Path) -> None:
@@ -171,7 +171,7 @@ def run_warm(workers: Any, path: Path) -> None:
 
 
 class NoWork:
-    """Units that do nothing."""
+    """Chunks that do nothing."""
 
     def __init__(self, count: int) -> None:
         self.names = [f"{i}" for i in range(count)]
@@ -183,7 +183,7 @@ class NoWork:
         return dict
 
 
-class NoFiles(UnitFiles):
+class NoFiles(ChunkFiles):
     """Files that nobody writes."""
 
     def is_flown(self, name: str) -> bool:
@@ -199,10 +199,10 @@ class NoFiles(UnitFiles):
 def tasks(rounds: int, root: Path) -> dict[str, Any]:
     count = 10_000
     with cluster_workers(2, print) as workers:
-        run_units(NoWork(100), NoFiles(root, {}), workers)
-        taken = [times(lambda: run_units(NoWork(count), NoFiles(root, {}), workers)) for _ in range(rounds)]
+        run_chunks(NoWork(100), NoFiles(root, {}), workers)
+        taken = [times(lambda: run_chunks(NoWork(count), NoFiles(root, {}), workers)) for _ in range(rounds)]
     wall, processor = (1e3 * median(column) / count for column in zip(*taken, strict=True))
-    print(f"{count:,} units that do nothing: {wall:.2f} ms each, {processor:.2f} ms of them on a processor here")
+    print(f"{count:,} chunks that do nothing: {wall:.2f} ms each, {processor:.2f} ms of them on a processor here")
     return {"seconds": taken}
 
 
@@ -216,11 +216,11 @@ def same(one: StudyFolder, other: StudyFolder) -> bool:
     return all(first[name].equals(second[name]) for name in first)
 
 
-LONG = study_of("one-push", 1024, 20.0, 8)  # 128 units of some 20 ms
+LONG = study_of("one-push", 1024, 20.0, 8)  # 128 chunks of some 20 ms
 
 
 def child() -> None:
-    """The process that is killed: flies `LONG` into a folder on two threads, and prints how many units it flew."""
+    """The process that is killed: flies `LONG` into a folder on two threads, and prints how many chunks it flew."""
     plan = load_plan(LONG)
     folder = open_folder(plan, Path(sys.argv[1]))
     print("begun", flush=True)
@@ -252,16 +252,16 @@ def kills(rounds: int, root: Path) -> dict[str, Any]:
         time.sleep(moments.expovariate(1 / 0.5))
         process.kill()
         process.wait()
-        files = UnitFiles(path / "units", {})
+        files = ChunkFiles(path / "chunks", {})
         there = [name for name in whole.names() if files.file(name).exists()]
         assert all(pq.read_table(files.file(name)).equals(pq.read_table(whole.files.file(name))) for name in there)
-        assert set(kept) <= set(there), "a unit that was flown is gone"
+        assert set(kept) <= set(there), "a chunk that was flown is gone"
         kept, runs = there, runs + 1
-        again = max(again, len(list(path.glob("units/.*.claim"))))
+        again = max(again, len(list(path.glob("chunks/.*.claim"))))
     left = len(whole.names()) - len(kept)
     assert flown(LONG, path, threads=2) == left
     assert same(whole, StudyFolder(path))
-    print(f"killed {runs} times; each time the files were whole; {left} missing units flown at the end; rows equal")
+    print(f"killed {runs} times; each time the files were whole; {left} missing chunks flown at the end; rows equal")
     return {"kills": runs, "claims": again}
 
 
@@ -294,8 +294,8 @@ def processes(rounds: int, root: Path) -> dict[str, Any]:
     both = [started(path) for _ in range(2)]
     counts = [json.loads(process.communicate()[0].split()[-1]) for process in both]
     assert same(whole, StudyFolder(path))
-    print(f"two processes flew {counts[0]} and {counts[1]} of {len(whole.names())} units; rows equal")
-    return {"units": counts}
+    print(f"two processes flew {counts[0]} and {counts[1]} of {len(whole.names())} chunks; rows equal")
+    return {"chunks": counts}
 
 
 def disk(rounds: int, root: Path) -> dict[str, Any]:
@@ -304,8 +304,8 @@ def disk(rounds: int, root: Path) -> dict[str, Any]:
     subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", there], check=True)
     try:
         said["full"] = refusal(there)
-        done = len(list(there.glob("study/units/*.parquet")))
-        next(there.glob("study/units/*.parquet")).unlink()
+        done = len(list(there.glob("study/chunks/*.parquet")))
+        next(there.glob("study/chunks/*.parquet")).unlink()
         subprocess.run(["mount", "-o", "remount,ro", there], check=True)
         said["read-only"] = refusal(there)
         subprocess.run(["mount", "-o", "remount,rw,size=100m", there], check=True)
@@ -316,7 +316,7 @@ def disk(rounds: int, root: Path) -> dict[str, Any]:
         subprocess.run(["umount", there], check=True)
     for what, line in said.items():
         print(f"- {what}: {line.replace(str(root), '…')}")
-    print(f"- space made: {left} units flown, {done - 1} kept; rows equal")
+    print(f"- space made: {left} chunks flown, {done - 1} kept; rows equal")
     return said
 
 

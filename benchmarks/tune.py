@@ -32,7 +32,7 @@ def tuned(controller: str, budget: int, seed: int) -> dict[str, Any]:
         print(f"\r{controller}: {tried} of {allowed} tried, cost {lowest.ratio:.3f}", end="", file=sys.stderr)
 
     found = tl.tune(
-        *(TRIAL, METRIC), draws=SCENES, fresh=25, aim="worst", budget=budget, seed=seed, controller=controller,
+        *(TRIAL, METRIC), draws=SCENES, holdout=25, aim="worst", budget=budget, seed=seed, controller=controller,
         progress=show,
     )  # fmt: skip
     print(f"\n{controller}: {'better' if found.is_better else 'not better'}: {found.evidence.words}", file=sys.stderr)

@@ -1,7 +1,7 @@
 """Time to tune `flight-ready` from the paper's gains: `python benchmarks/tuning.py [--budget N] [--seed S]`.
 
 The search begins with the gains of the paper, with which no flight of benchmarks/flight-ready-draws.toml ends well.
-Every candidate that was the best in its time then flies 200 fresh draws. Printed is when the first of them was found
+Every candidate that was the best in its time then flies 200 holdout draws. Printed is when the first of them was found
 that is there as good as the gains of today, in seconds of the clock, which depend on what else runs, and of processors.
 """
 
@@ -21,7 +21,7 @@ from tandemlift.analysis.studies.tuning.source import MissionSource
 from tandemlift.missions import tables_of
 
 DRAWS = Path(__file__).parent / "flight-ready-draws.toml"
-METRIC, FRESH = "position_rmse_after_10s_m", 200
+METRIC, HOLDOUT = "position_rmse_after_10s_m", 200
 FEW = 8  # draws of the search: half of those in the file, because here time counts
 TARGET = [0.08, 0.05, 0.01]  # m: about what today's gains reach, because with the first ones there is nothing to reach
 GAINS = ("xi", "eta", "lambda_1", "lambda_2")
@@ -44,16 +44,16 @@ def main() -> None:
     tables = tomllib.loads(DRAWS.read_text("utf-8"))
     tables["study"]["draws"] = FEW
     search: dict[str, Any] = {"draws": tables, "budget": given.budget, "seed": given.seed}
-    found = tl.tune("flight-ready", {METRIC: TARGET}, changes=changes, fresh=FRESH, progress=watch, **search)
-    task = found.task.for_draws(found.fresh)
-    (today,) = task._replace(source=MissionSource("flight-ready", {})).fly([{}], found.fresh)
+    found = tl.tune("flight-ready", {METRIC: TARGET}, changes=changes, holdout=HOLDOUT, progress=watch, **search)
+    task = found.task.for_draws(found.holdout)
+    (today,) = task._replace(source=MissionSource("flight-ready", {})).fly([{}], found.holdout)
     limit = task.cost(today)
     print(heading(about))
-    print(f"today's gains on {len(found.fresh)} fresh draws: {limit.bad} bad, cost {limit.ratio:.4g}")
+    print(f"today's gains on {len(found.holdout)} holdout draws: {limit.bad} bad, cost {limit.ratio:.4g}")
     paper_cost, new = found.evidence.costs
     print(f"the paper's: {paper_cost.bad} bad; those of the whole search: {new.bad} bad, cost {new.ratio:.4g}")
     for number, values in found.records:
-        (trial,) = task.fly([task.changes(values)], found.fresh)
+        (trial,) = task.fly([task.changes(values)], found.holdout)
         cost = task.cost(trial)
         if cost.rank <= limit.rank:
             _, clock, processors = next(entry for entry in times if entry[0] >= number)

@@ -42,7 +42,7 @@ def native(mission: tl.Mission) -> float:
 
 def optimised(mission: tl.Mission) -> None:
     """Wait until a mission's optimised code flies."""
-    code = FlightPlan(mission).kernels.loop(1)
+    code = FlightPlan(mission).loop_code.loop(1)
     code.optimise()
     while not code.is_best:
         time.sleep(0.05)

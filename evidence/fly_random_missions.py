@@ -5,7 +5,7 @@ python evidence/fly_random_missions.py [--families 125] [--unpushed 25] [--membe
 
 In `unpushed` families nobody pushes, and no vehicle may move by a metre.
 
-Each family is a unit of work with a file of its own in DIR: what was judged already by the same sources is left out.
+Each family is a chunk of work with a file of its own in DIR: what was judged already by the same sources is left out.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ from random_missions.generate import UNPUSHED, shortened
 from random_missions.judged import BAD, Families, Judged
 
 import tandemlift as tl
-from tandemlift.analysis.studies.units.files import UnitFiles
-from tandemlift.analysis.studies.units.running import run_units
-from tandemlift.analysis.studies.units.workers import ExecutorWorkers
+from tandemlift.analysis.studies.execution.files import ChunkFiles
+from tandemlift.analysis.studies.execution.running import run_chunks
+from tandemlift.analysis.studies.execution.workers import ExecutorWorkers
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "validation.md"
 MARK, END = (f"<!-- {edge} of what `make random-missions` prints -->" for edge in ("begin", "end"))
@@ -76,14 +76,14 @@ def report(rows: list[Judged], command: str) -> str:
     return f"{MARK}\n\n{head}\n\n{table(rows)}\n\n{summary(rows)}\n\n{END}"
 
 
-def judge_all(families: Families, files: UnitFiles, processes: int) -> list[Judged]:
+def judge_all(families: Families, files: ChunkFiles, processes: int) -> list[Judged]:
     """All missions of families, flown and judged on some processes, if their files are not there yet."""
 
     def show(done: int, total: int) -> None:
         print(f"\r{done} of {total}", end="", file=sys.stderr, flush=True)
 
     with ProcessPoolExecutor(processes, get_context("spawn")) as pool:
-        run_units(families, files, ExecutorWorkers(pool, processes), progress=show)
+        run_chunks(families, files, ExecutorWorkers(pool, processes), progress=show)
     print(file=sys.stderr)
     return families.rows(files)
 
@@ -99,7 +99,7 @@ def main() -> int:
     a.out.mkdir(parents=True, exist_ok=True)
     numbers = [*range(a.first, a.first + a.families), *range(UNPUSHED, UNPUSHED + a.unpushed)]
     families = Families(a.seed, numbers, a.members)
-    rows = judge_all(families, UnitFiles(a.out, {"seed": str(a.seed)}), a.processes)
+    rows = judge_all(families, ChunkFiles(a.out, {"seed": str(a.seed)}), a.processes)
     for r in rows:
         if not r.confirmed or r.silent:
             news = {key: value for key, value in r.changes.items() if shortened(r.base).get(key) != value}

@@ -4,17 +4,17 @@ from typing import NamedTuple
 
 import tandemlift.parts.controllers as tc
 from tandemlift.core.algebra import Vec3, vec3
-from tandemlift.core.settings import Positive3, key
+from tandemlift.core.keys import Positive3, key
 
 
 class Settings(tc.CascadeTable):
     """The keys of `[controller]`: one number for all axes, or three."""
 
-    bandwidth: Positive3 = key(2.0, "rad/s", "of the position loop, along x, y, z")
+    bandwidth: Positive3 = key(2.0, "rad/s", "bandwidth of the position loop, along x, y, z")
 
 
 class Gains(NamedTuple):
-    """What the law needs; the law is chosen by this type."""
+    """The parameters of the law, which is selected by this type."""
 
     vehicle: tc.ControllerModel
     bandwidth: Vec3
@@ -22,15 +22,16 @@ class Gains(NamedTuple):
 
 @tc.control.register(Gains)
 def my_pd(k, memory, measured, reference):
-    """One sample: from what is measured and wanted to a thrust and three moments."""
-    state, wanted, w = measured.state, reference.trajectory, k.bandwidth
-    e, de = wanted.position - state.position, wanted.velocity - state.velocity
-    wish = tc.wanted_force(k.vehicle, e * w * w + de * w * 2.0, measured, reference)
-    force, angles = tc.limit_tilt(k.vehicle.tilt, wish), tc.euler_from_quaternion(state.attitude)
+    """A thrust and three moments from the measured state and the reference."""
+    state, desired, w = measured.state, reference.trajectory, k.bandwidth
+    e, de = desired.position - state.position, desired.velocity - state.velocity
+    force = tc.wanted_force(k.vehicle, e * w * w + de * w * 2.0, measured, reference)
+    force, angles = tc.limit_tilt(k.vehicle.tilt, force), tc.euler_from_quaternion(state.attitude)
     tilt, memory = tc.tracked_attitude(k.vehicle, memory, angles, force, reference)
     rates = tc.euler_rates_from_rates(angles, state.rates)
-    turn = tilt.accelerations + (tilt.angles - angles.angles) * 36.0 + (tilt.rates - rates) * 12.0
-    return tc.command_from(k.vehicle, angles, force, turn, tilt.angles, measured), memory
+    error, rate_error = tilt.angles - angles.angles, tilt.rates - rates
+    alpha = tilt.accelerations + error * 36.0 + rate_error * 12.0
+    return tc.command_from(k.vehicle, angles, force, alpha, tilt.angles, measured), memory
 
 
 @tc.register("my-pd", Settings)

@@ -1,20 +1,42 @@
 """What all tests share: programs that need root, and hypothesis that minds no machine's speed."""
 
+import ctypes
+import gc
 import os
 import shutil
 import signal
+import sys
 
 import hypothesis
 import pytest
+from quick import Quick
 
 from tandemlift.parts.controllers import CONTROLLERS
+from tandemlift.simulation.plan import LOOP_CODE
 
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # of a job in the background: processes of tests would inherit it
     signal.signal(signal.SIGINT, lambda *_: None)
 os.environ.setdefault("TANDEMLIFT_OPTIMISE", "0")  # hundreds of variants fly once each: what is tested is asked for
+LIBC = ctypes.CDLL(None) if os.name == "posix" else None
 SLOW = hypothesis.HealthCheck.too_slow
 hypothesis.settings.register_profile("tandemlift", deadline=None, suppress_health_check=[SLOW], derandomize=True)
 hypothesis.settings.load_profile("tandemlift")
+
+
+def pytest_addoption(parser):
+    """Let `make quick` ask for quick tests."""
+    parser.addoption("--quick", action="store_true", help="only tests that neither compile, start a process nor browse")
+
+
+def pytest_configure(config):
+    """Hold quick tests to what they may do."""
+    if config.getoption("quick"):
+        config.pluginmanager.register(Quick(config))
+
+
+def pytest_collection_finish():
+    """Collect no garbage among the tests, which stay as long as the process."""
+    gc.freeze()
 
 
 def forgetting_controllers():
@@ -28,6 +50,18 @@ def forgetting_controllers():
 @pytest.fixture(autouse=True, scope="module")
 def _controllers_of_a_module():
     yield from forgetting_controllers()
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _memory_of_a_module():
+    """Free what a module compiled: of hundreds of variants, each takes megabytes."""
+    yield
+    LOOP_CODE.clear()
+    if "jax" in sys.modules:
+        sys.modules["jax"].clear_caches()
+    gc.collect()
+    if hasattr(LIBC, "malloc_trim"):
+        LIBC.malloc_trim(0)
 
 
 @pytest.fixture(autouse=True)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from law_values import BEAM, HEIGHT, paper_vehicle, quadrotor, random_vehicle, seeds
 
 from tandemlift.core.errors import InputError
-from tandemlift.parts.vehicle import Vehicle, mixer, mixer_inverse
+from tandemlift.parts.mechanics.vehicle import Vehicle, mixer, mixer_inverse
 
 counts = st.integers(1, 4)
 IRIS = ((0.13, -0.22), (-0.13, 0.20), (0.13, 0.22), (-0.13, -0.20))  # m: Gazebo's rotors 0 to 3

@@ -13,7 +13,7 @@ async function page() {
     outdir: PAGE,
     minify: true,
     legalComments: "none",
-    footer: { js: await licences() },
+    footer: { js: await licences("three", "uplot") },
   });
   await build({
     ...SHARED,
@@ -21,13 +21,15 @@ async function page() {
     outdir: PAGE,
     format: "iife",
     minify: true,
+    legalComments: "none",
+    footer: { js: await licences("@noble/hashes", "fflate", "smol-toml") },
   });
   await copyFile("src/index.html", `${PAGE}/index.html`);
 }
 
 /** The licences of what is bundled, which go where it goes. */
-async function licences() {
-  const texts = ["three", "uplot"].map(async (name) => {
+async function licences(...names) {
+  const texts = names.map(async (name) => {
     const text = await readFile(`node_modules/${name}/LICENSE`, "utf8");
     return `${name}\n\n${text.replaceAll("\r", "").trim()}`;
   });

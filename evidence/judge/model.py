@@ -169,7 +169,7 @@ def _meets(*bits: int) -> str:
     return f'contype="{sum(bits)}" conaffinity="{sum(bits)}"'
 
 
-def _soft(stiffness: float, damping: float, mass: float, friction: float) -> str:
+def _spring_damper(stiffness: float, damping: float, mass: float, friction: float) -> str:
     """Attributes of a contact that is a spring [N/m] and damper [N s/m] for a body of this mass.
 
     With a small impedance d, MuJoCo's constraint force is nearly that of a spring and damper (Computation: Parameters).
@@ -184,23 +184,27 @@ def _soft(stiffness: float, damping: float, mass: float, friction: float) -> str
 def _feet(mission: dict[str, Any], body: Body) -> list[str]:
     soles, ground = soles_of(mission, body), mission["ground"]
     sinkage, share = max(ground["sinkage"], LEAST_SINKAGE), body.mass / len(soles)
-    soft = _soft(share * GRAVITY / sinkage, 2.0 * share * math.sqrt(GRAVITY / sinkage), body.mass, ground["friction"])
+    attributes = _spring_damper(
+        share * GRAVITY / sinkage, 2.0 * share * math.sqrt(GRAVITY / sinkage), body.mass, ground["friction"]
+    )
     centers = np.add(soles, [0.0, 0.0, PAD])
     return [
-        f'<geom name="foot{i}" type="sphere" size="{PAD}" pos="{numbers(center)}" {_meets(FEET)} {soft}/>'
+        f'<geom name="foot{i}" type="sphere" size="{PAD}" pos="{numbers(center)}" {_meets(FEET)} {attributes}/>'
         for i, center in enumerate(centers)
     ]
 
 
 def _hull(mission: dict[str, Any], body: Body) -> list[str]:
     """Rotors and the guards' rings as flat ellipsoids, guards as spheres, the beam as a capsule."""
-    found, soft = (
+    found, attributes = (
         [],
-        _soft(STIFF, 2.0 * DAMPED * math.sqrt(STIFF * body.mass), body.mass, mission["ground"]["friction"]),
+        _spring_damper(STIFF, 2.0 * DAMPED * math.sqrt(STIFF * body.mass), body.mass, mission["ground"]["friction"]),
     )
 
     def add(kind: str, place: np.ndarray, *size: float, meets: int) -> None:
-        found.append(f'<geom type="{kind}" size="{numbers(size)}" pos="{numbers(place)}" {_meets(meets)} {soft}/>')
+        found.append(
+            f'<geom type="{kind}" size="{numbers(size)}" pos="{numbers(place)}" {_meets(meets)} {attributes}/>'
+        )
 
     for q, place in zip(mission["vehicle"]["quadrotors"], body.quadrotors, strict=True):
         guard, disc = q["guard_radius"], q["rotor_radius"]
@@ -215,7 +219,7 @@ def _hull(mission: dict[str, Any], body: Body) -> list[str]:
     if payload.get("length") is not None and payload.get("radius") is not None:
         half = np.array([0.0, payload["length"] / 2.0, 0.0])
         line, beam = numbers(body.payload - half, body.payload + half), numbers(payload["radius"])
-        found.append(f'<geom type="capsule" size="{beam}" fromto="{line}" {_meets(HULL, SIDES)} {soft}/>')
+        found.append(f'<geom type="capsule" size="{beam}" fromto="{line}" {_meets(HULL, SIDES)} {attributes}/>')
     return found
 
 

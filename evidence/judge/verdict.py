@@ -25,7 +25,7 @@ BANDS = {  # width of the band on either side of each threshold, within which a 
     "tilt": 0.01,  # rad
     "distance": 0.01,  # m
     "speed": 0.03,  # m/s
-    "borne": 0.1,  # of the weight
+    "ground_load": 0.1,  # of the weight
     "impulse": 0.1,  # of the threshold
 }
 
@@ -145,8 +145,10 @@ def _end(mission: dict[str, Any], flown: Replay, ground: Ground) -> tuple[str, d
     slow = (limits["landed_speed"] - speed) / BANDS["speed"]
     if mission["ground"]["model"] == "floor":
         weight = flown.model.body.mass * GRAVITY
-        borne = (ground.force[last, 2] / weight - BEARS) / BANDS["borne"]
-        lands = float(np.clip(borne[-1], -1.0, 1.0) if borne.min() < 0.0 < borne.max() else borne[-1])
+        ground_load = (ground.force[last, 2] / weight - BEARS) / BANDS["ground_load"]
+        lands = float(
+            np.clip(ground_load[-1], -1.0, 1.0) if ground_load.min() < 0.0 < ground_load.max() else ground_load[-1]
+        )
     else:
         land = phases.get("land_start")
         if land is None or land + phases["land_duration"] > mission["mission"]["duration"]:

@@ -14,8 +14,7 @@ import numpy as np
 
 from random_missions.values import varied
 from tandemlift.core.errors import FlightWarning, InputError
-from tandemlift.core.settings import Mission
-from tandemlift.missions import load_mission, tables_of
+from tandemlift.missions import Mission, load_mission, tables_of
 from tandemlift.missions.bounds import plain
 from tandemlift.missions.files import built_in
 from tandemlift.missions.key_reference.sections import Key, is_of_the_package, sections

@@ -1,4 +1,4 @@
-"""Missions at random, flown and judged: families of them as units of work, each in a file."""
+"""Missions at random, flown and judged: families of them as chunks of work, each in a file."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from pyarrow import parquet
 
 import tandemlift as tl
 from random_missions.generate import UNPUSHED, RandomMission, random_family
-from tandemlift.analysis.studies.units.columns import Columns
-from tandemlift.analysis.studies.units.files import UnitFiles
-from tandemlift.analysis.studies.units.unit import sources_digest
+from tandemlift.analysis.studies.execution.chunk import sources_digest
+from tandemlift.analysis.studies.execution.columns import Columns
+from tandemlift.analysis.studies.execution.files import ChunkFiles
 from tandemlift.flight.record import Flight
 from tandemlift.missions.files import built_in, path_of
 from tandemlift.simulation.many import fly_each
@@ -155,7 +155,7 @@ def _complaint(outcome: str, kind: str, verdict: Any) -> str:
 
 
 class Families:
-    """Families of missions as units of work: what `tandemlift.analysis.studies.units.running.run_units` flies.
+    """Families of missions as chunks of work: what `tandemlift.analysis.studies.execution.running.run_chunks` flies.
 
     Args:
         seed: of all missions.
@@ -175,7 +175,7 @@ class Families:
         """What flies and judges family i, in any process."""
         return partial(judged_family, self._seed, self._families[i], self._members)
 
-    def rows(self, files: UnitFiles) -> list[Judged]:
+    def rows(self, files: ChunkFiles) -> list[Judged]:
         """All missions whose families have been judged."""
         found = [files.file(name) for name in self.names if files.is_flown(name)]
         return [_row(values) for file in found for values in parquet.read_table(file).to_pylist()]

@@ -22,26 +22,25 @@ if TYPE_CHECKING:
     from tandemlift.analysis.studies.tuning.tune import tune
     from tandemlift.codegen.compiling import compile_mission
     from tandemlift.core.errors import FlightWarning, InputError
-    from tandemlift.core.settings import Mission
     from tandemlift.flight.record import Flight
-    from tandemlift.missions import load_mission
+    from tandemlift.missions import Mission, load_mission
     from tandemlift.parts.controllers.user_controller import load_controller
-    from tandemlift.parts.vehicle import Vehicle
+    from tandemlift.parts.mechanics.vehicle import Vehicle
     from tandemlift.pictures.report.tuning.feel_report import feel
     from tandemlift.simulation.fly import fly, fly_many
-    from tandemlift.simulation.interactive.simulation import Simulation
     from tandemlift.simulation.pilot_api import Pilot
+    from tandemlift.simulation.stepwise.simulation import Simulation
 
 _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Flight": "flight.record",
     "FlightWarning": "core.errors",
     "InputError": "core.errors",
     "LinearModel": "analysis.linearization.linear_model",
-    "Mission": "core.settings",
+    "Mission": "missions",
     "Pilot": "simulation.pilot_api",
-    "Simulation": "simulation.interactive.simulation",
+    "Simulation": "simulation.stepwise.simulation",
     "Study": "analysis.studies.reading.table",
-    "Vehicle": "parts.vehicle",
+    "Vehicle": "parts.mechanics.vehicle",
     "check": "analysis.linearization.mission_check",
     "compile_mission": "codegen.compiling",
     "feel": "pictures.report.tuning.feel_report",

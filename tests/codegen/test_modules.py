@@ -20,9 +20,9 @@ from tandemlift.codegen.mission_module import module_of
 from tandemlift.codegen.module_text import write_flight_loop, write_ramp
 from tandemlift.codegen.wasm_linker import LinkError, linked
 from tandemlift.codegen.wasm_sections import Reader, signed, unsigned
-from tandemlift.compiler.machine_code import machine
-from tandemlift.compiler.trace import Module
-from tandemlift.simulation.kernels.context import WORDS
+from tandemlift.compiler.jit import machine
+from tandemlift.compiler.tracer import Module
+from tandemlift.simulation.loop_code.context import WORDS
 from tandemlift.simulation.parameter_changes import ParameterRamp, ScheduledChange
 from tandemlift.simulation.plan import FlightPlan
 
@@ -30,13 +30,13 @@ from tandemlift.simulation.plan import FlightPlan
 def wasm_object(mission: tl.Mission) -> bytes:
     """The object of a mission's loop."""
     target = machines.MACHINES["wasm32"]
-    loop = write_flight_loop(FlightPlan(mission).kernels, target.draw_lanes, target.largest)
+    loop = write_flight_loop(FlightPlan(mission).loop_code, target.draw_lanes, target.largest)
     return machines.object_code(loop.module.text, target)
 
 
 def test_unfused_code_has_no_fused_operation() -> None:
     for fused in (True, False):
-        kernels = FlightPlan(tl.load_mission("hover", {"mission.fma": fused})).kernels
+        kernels = FlightPlan(tl.load_mission("hover", {"mission.fma": fused})).loop_code
         assert ("llvm.fma" in write_flight_loop(kernels, 1, 0).module.text) == fused
 
 

@@ -2,8 +2,8 @@
 
 import math
 
-from tandemlift.core.algebra.vector import Nothing, vec3
-from tandemlift.core.caching import KEPT, kept
+from tandemlift.core.algebra.vector import Absent, vec3
+from tandemlift.core.caching import KEPT, cached
 from tandemlift.missions import load_mission
 
 POSITION = "initial.position"
@@ -12,7 +12,7 @@ POSITION = "initial.position"
 def counted(function):
     calls = []
 
-    @kept
+    @cached
     def call(*args):
         calls.append(args)
         return function(*args)
@@ -47,7 +47,7 @@ def test_nested_values_are_kept_by_identity_and_those_without_numbers_by_type():
     a, b = vec3((1.0, 2.0, 3.0)), vec3((1.0, 2.0, 3.0))
     assert same(a) is a
     assert same(b) is b
-    assert same(Nothing()) is same(Nothing())
+    assert same(Absent()) is same(Absent())
     assert len(calls) == 3
 
 

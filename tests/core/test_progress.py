@@ -11,7 +11,7 @@ import pytest
 from tqdm import tqdm
 
 import tandemlift as tl
-from tandemlift.compiler.machine_code.compile_events import NOTICE, Compiled, publish
+from tandemlift.compiler.jit.compile_events import NOTICE, Compiled, publish
 from tandemlift.core.progress import progress_or_own, shown_progress
 
 

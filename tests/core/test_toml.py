@@ -6,8 +6,8 @@ import pytest
 
 from tandemlift.core import toml
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission
 from tandemlift.core.toml import MAX_PARTS, toml_tables
+from tandemlift.missions import Mission
 from tandemlift.missions.refusals import keys_of
 
 DEEP = {

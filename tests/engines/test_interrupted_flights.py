@@ -17,8 +17,8 @@ from tandemlift.apps.live.session.session import Session
 from tandemlift.apps.live.wire.page_messages import ResetMessage
 from tandemlift.engines import gazebo
 from tandemlift.engines.registry import EngineLost
-from tandemlift.simulation.interactive.recorded_flight import RecordedFlight
 from tandemlift.simulation.many import fly_each
+from tandemlift.simulation.stepwise.recorded_flight import RecordedFlight
 
 DT, LAST = 1e-3, 150  # s; the last step that the plugin takes
 SHORT = {"mission.duration": 0.4, "mission.log_interval": DT, "initial.euler": [0.1, -0.1, 0.3]}

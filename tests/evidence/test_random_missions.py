@@ -24,12 +24,12 @@ from random_missions.generate import (
 from random_missions.judged import Families, Judged, judged
 
 import tandemlift as tl
-from tandemlift.analysis.studies.units.files import UnitFiles
-from tandemlift.analysis.studies.units.running import StudyPart, run_units
-from tandemlift.analysis.studies.units.workers import thread_workers
-from tandemlift.core.settings import CorridorTable
+from tandemlift.analysis.studies.execution.files import ChunkFiles
+from tandemlift.analysis.studies.execution.running import StudyPart, run_chunks
+from tandemlift.analysis.studies.execution.workers import thread_workers
 from tandemlift.missions import tables_of
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.contact.corridor import CorridorTable
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 FAMILIES = range(10)  # five missions each
 
@@ -187,12 +187,12 @@ def test_the_table_counts_silent_failures_and_names_disagreements():
     assert "| crashed |  | 1 |  |  |  | 0 | 0 | 1 |" in table([good, bad])
 
 
-def test_families_are_units_of_work_whose_files_are_not_made_again(tmp_path):
-    families, files = Families(16, (3, 4), 1), UnitFiles(tmp_path, {})
+def test_families_are_chunks_of_work_whose_files_are_not_made_again(tmp_path):
+    families, files = Families(16, (3, 4), 1), ChunkFiles(tmp_path, {})
     with thread_workers(1) as workers:
-        assert run_units(families, files, workers, part=StudyPart(2, 2)) == 1
+        assert run_chunks(families, files, workers, part=StudyPart(2, 2)) == 1
         second = families.rows(files)
-        assert run_units(families, files, workers) == 1
+        assert run_chunks(families, files, workers) == 1
     rows = families.rows(files)
     assert [(r.family, r.member) for r in rows] == [(3, 0), (4, 0)]
     assert rows[1:] == second == [judged(drawn) for drawn in random_family(16, 4, 1)]

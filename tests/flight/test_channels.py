@@ -6,7 +6,7 @@ from reference_tables.channels import channel_tables
 
 import tandemlift as tl
 from tandemlift.core.algebra.layout import leaves
-from tandemlift.core.algebra.vector import Nothing
+from tandemlift.core.algebra.vector import Absent
 from tandemlift.flight.channels import CHANNELS, DERIVED
 from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
@@ -29,7 +29,7 @@ GROUPS = {
     "wind": WindChannels,
     "contact": ContactChannels,
     "measured": MeasuredChannels,
-    "additional": Nothing,
+    "additional": Absent,
     "estimated": EstimatedChannels,
     "contact_estimate": ContactEstimateChannels,
     "disturbance": DisturbanceChannels,

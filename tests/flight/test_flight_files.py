@@ -1,12 +1,8 @@
-import copy
 import dataclasses
-import functools
 import json
 import math
-import operator
 import pickle
 import random
-import re
 import sys
 import zipfile
 from pathlib import Path
@@ -127,8 +123,8 @@ def rewritten(path: Path, **changes):
 @pytest.mark.parametrize(
     ("changes", "piece"),
     [
-        ({"format": FORMAT + 1}, "written by a newer tandemlift: its format is 2, this one reads up to 1"),
-        ({"format": "new"}, "damaged or no flight"),
+        ({"format": FORMAT + 1}, "written by another version of tandemlift: its format is 3, this one reads 2"),
+        ({"format": 1}, "written by another version of tandemlift: its format is 1, this one reads 2"),
         ({"header": None}, "no flight that tandemlift saved: it has no header"),
         ({"time": None}, "damaged or no flight"),
         ({"position": None}, "damaged or no flight"),
@@ -149,16 +145,6 @@ def test_a_flight_of_a_wrong_form_is_refused(changes, piece, short, tmp_path):
     with pytest.raises(tl.InputError) as refused:
         Flight.load(path)
     assert piece in str(refused.value)
-
-
-@pytest.mark.parametrize("key", ["partner", "compliance.hearing", "supervision.watch", "vehicle.quadrotors.0.span"])
-def test_a_flight_of_a_mission_with_an_unknown_key_is_refused_by_the_key(key, short, tmp_path):
-    mission = copy.deepcopy(short.mission)
-    *above, last = (int(part) if part.isdigit() else part for part in key.split("."))
-    functools.reduce(operator.getitem, above, mission)[last] = {"speed": 1.0}
-    path = dataclasses.replace(short, mission=mission).save(tmp_path / "flight.npz")
-    with pytest.raises(tl.InputError, match=rf"flight\.npz: {re.escape(key)}: unknown key of a mission"):
-        Flight.load(path)
 
 
 def test_a_flight_with_a_channel_of_another_version_is_refused_and_one_of_the_user_s_own_loads(short, tmp_path):

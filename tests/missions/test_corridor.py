@@ -9,9 +9,8 @@ from hypothesis import strategies as st
 
 import tandemlift as tl
 from tandemlift.core.algebra.layout import unflat
-from tandemlift.core.settings import wall_tables
-from tandemlift.core.settings.corridor import CorridorTable
 from tandemlift.missions import check, tables_of
+from tandemlift.parts.contact.corridor import CorridorTable, wall_tables
 from tandemlift.parts.person.person import PATH_LEG
 from tandemlift.simulation.assembly.assemble import assemble
 

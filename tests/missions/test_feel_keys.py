@@ -5,8 +5,8 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
-from tandemlift.core.settings.admittance import FEELS
 from tandemlift.missions import changed, check, tables_of
+from tandemlift.parts.compliance.admittance import FEELS
 from tandemlift.simulation.portable_mission import portable_mission
 
 

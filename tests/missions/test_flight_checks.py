@@ -9,20 +9,20 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.core.algebra.vector import ZERO, vec3
+from tandemlift.core.checks import CLOSE, FAILS, OK, judged
 from tandemlift.missions import built_in, load_mission, tables_of
 from tandemlift.missions.flight_checks.authority import CONTROL, authority_of
 from tandemlift.missions.flight_checks.loads import SIGMAS, WindOnParts, loads_of, turbulence_of
 from tandemlift.missions.flight_checks.loops import lag_of
 from tandemlift.missions.flight_checks.passage import least_room, places_of
-from tandemlift.missions.flight_checks.result import CLOSE, FAILS, OK, judged
 from tandemlift.missions.flight_checks.schedule import heights_of, landing_duration
 from tandemlift.missions.flight_checks.sensing import noise_of
 from tandemlift.missions.flight_checks.table import CHECKS, flight_checks
-from tandemlift.missions.flight_checks.weight import weight_of
+from tandemlift.missions.tables.weight import weight_of
 from tandemlift.parts.mechanics.air_drag import air_loads
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.simulation.assembly.assemble import assemble
 
 IRIS = tables_of(load_mission("iris"))["vehicle"]["quadrotors"]

@@ -10,8 +10,7 @@ from mission_schema import EVERYTHING
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.core.settings import Mission
-from tandemlift.missions import built_in, load_mission, tables_of
+from tandemlift.missions import Mission, built_in, load_mission, tables_of
 from tandemlift.missions.bounds import table_in
 from tandemlift.missions.refusals import keys_of
 from tandemlift.missions.values import value_at

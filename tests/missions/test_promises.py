@@ -5,8 +5,8 @@ import warnings
 import pytest
 
 import tandemlift as tl
-from tandemlift.core.settings.outcomes import promise_of
 from tandemlift.missions import built_in
+from tandemlift.missions.tables.outcomes import promise_of
 
 
 @pytest.mark.parametrize(

@@ -13,8 +13,7 @@ from pydantic import ValidationError
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
-from tandemlift.core.settings import Mission
-from tandemlift.missions import DATA, built_in, load_mission, merge, tables_of
+from tandemlift.missions import DATA, Mission, built_in, load_mission, merge, tables_of
 from tandemlift.missions.key_reference.schema import mission_schema
 from tandemlift.missions.key_reference.template import template_text
 from tandemlift.missions.values import MISSING, value_at

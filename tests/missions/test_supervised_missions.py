@@ -4,7 +4,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.missions import load_mission
-from tandemlift.parts.pilot.supervision import start_requests
+from tandemlift.parts.requests import start_requests
 
 BY_HAND = {"pilot.guidance": "interactive"}
 WATCHED = {**BY_HAND, "supervision.model": "on"}
@@ -59,7 +59,7 @@ def test_two_joints_may_fail_each_on_its_own_and_a_device_be_silent_besides():
 
 def asked(*requests):
     told = [{"time": t, "action": a} for t, a in requests]
-    return start_requests(load_mission("iris", {**BY_HAND, "requests": told}))
+    return start_requests(load_mission("iris", {**BY_HAND, "requests": told}).requests)
 
 
 def test_it_starts_disabled_if_enable_is_asked_first_and_else_enabled():

@@ -10,8 +10,7 @@ from mission_schema import EVERYTHING, SCHEMA
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.core.settings import Mission
-from tandemlift.missions import DATA, built_in, format_toml, load_mission, merge, tables_of, to_toml
+from tandemlift.missions import DATA, Mission, built_in, format_toml, load_mission, merge, tables_of, to_toml
 from tandemlift.missions.bounds import allowed
 from tandemlift.missions.values import value_at
 
@@ -124,7 +123,6 @@ def test_the_paper_mission_has_the_paper_s_numbers():
             "damping": [1.6] * 3,
             "stiffness": [0.0] * 3,
             "threshold": [0.3] * 3,
-            "gate": "hard",
             "hold_after_release": False,
         },
         "allocation": {"method": "pseudo-inverse", "weights": [[1.0] * 4]},

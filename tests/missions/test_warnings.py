@@ -11,8 +11,8 @@ import tandemlift as tl
 from tandemlift.core.algebra.layout import leaves
 from tandemlift.missions import built_in, load_mission
 from tandemlift.missions.checks import sample_size
-from tandemlift.missions.flight_checks.weight import lift_of, weight_of
-from tandemlift.missions.surroundings_checks import standing_of
+from tandemlift.missions.tables.setting_checks import standing_of
+from tandemlift.missions.tables.weight import lift_of, weight_of
 from tandemlift.parts.contact.feet import sinkage_of, standing_height
 from tandemlift.simulation.assembly.assemble import assemble
 from tandemlift.simulation.plan import FlightPlan

@@ -12,8 +12,8 @@ from machine_code import answers
 
 from tandemlift.core.algebra.ops import power
 from tandemlift.core.algebra.vector import (
+    Absent,
     Mat3,
-    Nothing,
     Quarters,
     Quat,
     Vec3,
@@ -24,19 +24,21 @@ from tandemlift.core.algebra.vector import (
     hamilton,
     outer,
 )
+from tandemlift.parts import low_pass, trajectories
 from tandemlift.parts.compliance import admittance
 from tandemlift.parts.contact import feet as contact
 from tandemlift.parts.contact import hull, impulses, spheres, touches, walls
 from tandemlift.parts.contact.wall_geometry import Wall
 from tandemlift.parts.controllers import equations_of_motion, sliding_surface
-from tandemlift.parts.estimation import rotor_loss_decision, rotor_loss_detection, wind_compensation
+from tandemlift.parts.estimation import wind_compensation
 from tandemlift.parts.guidance import guidance
 from tandemlift.parts.mechanics import loads, parts, rotation, tilt
 from tandemlift.parts.mechanics.inertia import gyroscopic
 from tandemlift.parts.mechanics.push import PointPush
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench, motion
+from tandemlift.parts.rotor_loss import decision as rotor_loss_decision
+from tandemlift.parts.rotor_loss import detection as rotor_loss_detection
 from tandemlift.parts.rotors import allocation, ground_effect, rotor_faults, rotor_lag, rotors
-from tandemlift.parts.signals import low_pass, trajectories
 
 V = Vec3(0.0, 0.0, 0.0)
 M = Mat3(V, V, V)
@@ -52,7 +54,7 @@ VV, FOUR = Vec3(TWO, TWO, TWO), Quarters(TWO, TWO, TWO, TWO)
 FRAME = loads.PartsLayout(V, VV, VV, TWO, VV, FOUR, FOUR, FOUR)
 LOADS = loads.PartLoads(loads.PartLoad(V, V), loads.PartLoad(VV, VV))
 FELT = loads.PerfectReadings(V, VV, VV, V)
-FLOOR = contact.Floor(*[0.0] * 7, Quarters(VV, VV, VV, VV), V, 0.0, Nothing())
+FLOOR = contact.Floor(*[0.0] * 7, Quarters(VV, VV, VV, VV), V, 0.0, Absent())
 ROUND = hull.Ellipsoids(VV, TWO, TWO)
 HULL = hull.Hull(*[0.0] * 3, hull.Ellipsoids(Vec3(EIGHT, EIGHT, EIGHT), EIGHT, EIGHT), ROUND, ROUND, V, V, 0.0)
 PRESSED = hull.FloorContact(VV, TWO, VV)
@@ -88,7 +90,7 @@ DETECTION = rotor_loss_detection.RotorLossDetection(
 WATCHING = rotor_loss_detection.DetectionState(
     *[SMOOTHS] * 2, *[SMOOTH] * 4, rotor_loss_decision.DecisionState(EIGHT, 0.0, 0.0, EIGHT, 0.0)
 )
-HEARD = guidance.PilotInput(STATE, V, V, 0.0, Nothing())
+HEARD = guidance.PilotInput(STATE, V, V, 0.0, Absent())
 BLOWN = wind_compensation.PayloadDragState(V, 0.0, low_pass.LowPassState(V, V))
 CONSTRAINED = allocation.ConstrainedAllocation(
     MIXER, MIXER, Wrench(0.0, V), EIGHT, rotor_faults.RotorFaults(EIGHT, EIGHT)

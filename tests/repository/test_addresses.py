@@ -22,8 +22,9 @@ ALLOWED = {  # kinds of addresses: their hosts, with the path where that is part
     "conventions that a document follows": r"(?:keepachangelog|semver)\.com/.*|semver\.org/.*",
     "projects that a page compares with": r"github\.com/(?:spencerfolk/rotorpy|learnsyslab/safe-control-gym)",
     "where packages ask for support, in web/package-lock.json": (
-        r"github\.com/sponsors/.*|opencollective\.com/.*|eslint\.org/donate"
+        r"github\.com/sponsors/.*|opencollective\.com/.*|eslint\.org/donate|paulmillr\.com/funding/"
     ),
+    "the author in the licence of a package that the page holds": r"paulmillr\.com",
 }
 LOOPBACK_AND_ALL = r"127(?:\.\d+){3}|0\.0\.0\.0"  # of this machine: its own address, and all that it has
 

@@ -17,7 +17,7 @@ MODULES = set(NAMES.values())
 
 def test_no_public_class_has_the_name_of_another():
     named = Counter(name for tree in TREES.values() for name in public_classes(tree))
-    assert len(named) > 300
+    assert named
     assert [name for name, count in named.items() if count > 1] == [], "say by the name what each of them is"
 
 
@@ -57,7 +57,7 @@ def test_every_public_module_function_and_class_has_a_docstring():
 
 def test_a_helper_of_tests_that_asserts_says_so_by_its_name():
     tests = {name: tree for name, (_, tree) in python_files(TESTS).items() if "/support/" not in name}
-    assert len(tests) > 100
+    assert tests
     found = [f"{name}: {helper}" for name, tree in tests.items() for helper in asserting_helpers(tree)]
     assert_none(found, "name it assert_… or check_…, or raise where it only guards itself")
 

@@ -73,7 +73,7 @@ def test_no_arrow_leads_up_through_the_layers(container, layers, drawing):
 
     imports = [one for behind in drawing.arrows.values() for one in behind]
     inside = [one for one in imports if of(one.importer) is not None and of(one.imported) is not None]
-    assert len(inside) > 5
+    assert inside
     up = [str(one) for one in inside if of(one.importer) < of(one.imported)]
     assert up == [], "move what is imported down, or what imports it up: imports go downward only"
 

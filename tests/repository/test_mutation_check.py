@@ -1,11 +1,13 @@
 """`make mutation-check` makes mistakes where they can be made, laws included, and knows why it leaves some out."""
 
 import ast
+import importlib
 import tomllib
 
 import mutation_check
 import pytest
 from mutants.operators import mutants
+from repository import ROOT
 
 LAW = b"""@law
 def pull(k, m, dt):
@@ -61,3 +63,14 @@ def test_at_least_300_mistakes_are_drawn_more_than_half_in_laws_each_can_be_comp
 def test_a_mistake_that_no_test_can_notice_has_a_reason_in_a_line():
     reasons = tomllib.loads(mutation_check.REASONS.read_text("utf-8"))["equivalent"]
     assert [name for name, why in reasons.items() if len(why) < 20 or "\n" in why] == []
+
+
+def test_what_a_process_forgets_between_mutants_is_where_the_list_says():
+    source = (ROOT / "tools" / "mutants" / "trials.py").read_text("utf-8")
+    (remembered,) = (
+        ast.literal_eval(node.value)
+        for node in ast.parse(source).body
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "REMEMBERED"
+    )
+    for module, (name, forget) in remembered.items():
+        assert callable(getattr(getattr(importlib.import_module(f"tandemlift.{module}"), name), forget))

@@ -1,4 +1,4 @@
-"""The recipes of CONTRIBUTING.md for a key, a law, a controller and an engine, followed in a copy of the package.
+"""The recipes of CONTRIBUTING.md for what touches a few files, followed in a copy of the package.
 
 The other recipes name the tests that follow them.
 """
@@ -41,7 +41,7 @@ def with_edits(tmp_path) -> Callable[[Edits, str], None]:
 
 SPIN_UP = "    spin_up_time: NonNegative = key("
 NEW_KEY = '    idle_time: NonNegative = key(0.2, "s", "time of idling after a landing", source="chosen: short")\n'
-KEY: Edits = {"core/settings/guided.py": [(SPIN_UP, NEW_KEY + SPIN_UP)]}
+KEY: Edits = {"parts/guidance/compliance_table.py": [(SPIN_UP, NEW_KEY + SPIN_UP)]}
 KEY_IS_KNOWN = """
 import tandemlift as tl
 from tandemlift.missions.key_reference.explaining import explained
@@ -95,14 +95,12 @@ ADMITTANCE = "class Admittance(NamedTuple):"
 ANCHORED = "@elementwise\ndef anchored"
 CHOICE = '"hard": "'
 LAW: Edits = {
-    "parts/compliance/admittance.py": [(ADMITTANCE, GATE + ADMITTANCE), (ANCHORED, SMOOTH + ANCHORED)],
-    "core/settings/admittance.py": [
+    "parts/compliance/admittance.py": [
+        (ADMITTANCE, GATE + ADMITTANCE),
+        (ANCHORED, SMOOTH + ANCHORED),
         ('gate: Literal["hard", "soft"]', 'gate: Literal["hard", "soft", "smooth"]'),
         (CHOICE, '"smooth": "F³/(F² + threshold²)", ' + CHOICE),
-    ],
-    "parts/pilot/assemble.py": [
-        ("HardGate, SoftGate", "HardGate, SmoothGate, SoftGate"),
-        ("else SoftGate", 'else SmoothGate if a.gate == "smooth" else SoftGate'),
+        ("else HardGate", 'else SmoothGate if a.gate == "smooth" else HardGate'),
     ],
 }
 LAW_FLIES = """
@@ -118,6 +116,126 @@ assert np.abs(F).max() > 1.0
 
 def test_a_variant_of_a_law_touches_its_law_its_key_and_where_it_is_chosen(with_edits):
     with_edits(LAW, LAW_FLIES)
+
+
+SENSOR_LAW = """
+
+@register_sensor(additional("rangefinder", "m", "height above the floor at z = 0"))
+@law
+def floor_distance(sensor: Any, state: State, perfect: PerfectReadings) -> Number:
+    return state.position.z
+"""
+NORTH = "NORTH = Vec3(1.0, 0.0, 0.0)  # world axes; the inclination of the field is left out\n"
+CORRECTED = "    return centre_of_mass(k, after), after\n"
+USED = """    rangefinder = getattr(readings.additional, "rangefinder", None)
+    if rangefinder is not None:
+        above = rangefinder.value - centre_of_mass(k, after).position.z
+        after = after._replace(position=after.position + UP * (above * 0.5 * rangefinder.fresh))
+"""
+SENSOR: Edits = {
+    "parts/sensors/additional_sensors.py": [(NORTH, NORTH + SENSOR_LAW)],
+    "parts/estimation/navigation.py": [(CORRECTED, USED + CORRECTED)],
+}
+SENSOR_IS_USED = """
+import tandemlift as tl
+
+def error_of_height(additional):
+    flight = tl.fly(tl.load_mission("paper", {
+        "mission.duration": 3.0, "pushes": [], "sensors.model": "simulated", "pilot.state": "estimate",
+        "sensors.additional": additional,
+        "sensor_faults": [{"sensor": "position", "kind": "bias", "time": 0.0, "size": [0.0, 0.0, 0.2]}],
+    }))
+    return abs(flight["estimated_position"][-1, 2] - flight["position"][-1, 2])
+
+assert error_of_height([]) > 0.15
+assert error_of_height([{"name": "rangefinder"}]) < 0.02
+"""
+
+
+def test_a_sensor_that_an_estimator_uses_touches_its_law_and_the_estimator(with_edits):
+    with_edits(SENSOR, SENSOR_IS_USED)
+
+
+FINDING: Edits = {
+    "core/findings.py": [
+        ('    "lift-refused",\n]', '    "lift-refused",\n    "high",\n]'),
+        (
+            "KINDS = (\n",
+            'KINDS = (\n    FindingKind("high", "the vehicle was higher than 1 m", "lower `phases.height`"),\n',
+        ),
+    ],
+    "simulation/findings.py": [
+        (
+            "        *_touches(flight_state),\n",
+            "        *_high(flight_state, steps * p.dt),\n        *_touches(flight_state),\n",
+        ),
+        (
+            "def _oscillations(",
+            """def _high(flight_state: FlightState, end: float) -> Iterator[Finding]:
+    highest = flight_state.metrics.highest
+    if highest > 1.0:
+        yield finding("high", f"the vehicle was at {highest:.3g} m", time=end, value=highest, unit="m", limit=1.0)
+
+
+def _oscillations(""",
+        ),
+    ],
+}
+FINDING_IS_FOUND = """
+import tandemlift as tl
+
+def found(height, **more):
+    mission = tl.load_mission("hover", {"mission.duration": 1.0, "initial.position": [0.0, 0.0, height], **more})
+    return [f.kind for f in tl.fly(mission).findings]
+
+assert "high" in found(1.5) and "high" not in found(0.5)
+assert "high" not in found(1.5, **{"findings.ignore": ["high"]})
+"""
+
+
+def test_a_finding_touches_two_files(with_edits):
+    with_edits(FINDING, FINDING_IS_FOUND)
+
+
+METRIC: Edits = {
+    "simulation/loop/running_metrics.py": [
+        (
+            "    push_active: Number\n    height: Number\n",
+            "    push_active: Number\n    height: Number\n    speed: Number\n",
+        ),
+        ("    highest: Number\n\n\nEMPTY", "    highest: Number\n    fastest: Number\n\n\nEMPTY"),
+        ("    highest=-math.inf,\n", "    highest=-math.inf,\n    fastest=0.0,\n"),
+        (
+            "        highest=maximum(c.highest, x.height),\n",
+            "        highest=maximum(c.highest, x.height),\n        fastest=maximum(c.fastest, x.speed),\n",
+        ),
+        (
+            "        height=x.position.z,\n",
+            "        height=x.position.z,\n        speed=sqrt(maximum(dot(x.velocity, x.velocity), 1e-24)),\n",
+        ),
+        (
+            '        "push_triggers_after_10s"',
+            '        "speed_max_m_s": max(early.fastest, late.fastest),\n        "push_triggers_after_10s"',
+        ),
+    ],
+    "flight/metric_descriptions.py": [
+        (
+            '            "position_rmse_m": Metric(',
+            '            "speed_max_m_s": Metric("m/s", "largest speed"),\n            "position_rmse_m": Metric(',
+        ),
+    ],
+}
+METRIC_IS_FORMED = """
+import numpy as np
+import tandemlift as tl
+
+flight = tl.fly(tl.load_mission("paper", {"mission.duration": 3.0, "mission.log_interval": 1e-3, "mission.step": 1e-3}))
+assert flight.metrics()["speed_max_m_s"] == np.linalg.norm(flight["velocity"], axis=1).max() > 0.1
+"""
+
+
+def test_a_metric_touches_two_files(with_edits):
+    with_edits(METRIC, METRIC_IS_FORMED)
 
 
 LIST = "from tandemlift.parts.controllers import geometric"

@@ -37,7 +37,6 @@ def code_of_script(page):
 def test_there_is_a_tutorial_of_each_example_and_an_example_of_each_tutorial():
     scripts = sorted(path.stem.replace("_", "-") for path in EXAMPLES.glob("*.py") if path.name != OWN)
     assert scripts == NAMES
-    assert len(NAMES) == 8
 
 
 @pytest.mark.parametrize("page", NAMES)
@@ -60,7 +59,6 @@ def test_a_tutorial_says_what_else_to_try_and_how_it_goes_on_the_command_line(pa
     text = (PAGES / f"{page}.md").read_text("utf-8")
     assert re.search(r"^## On the command line\n\n```sh\ntandemlift ", text, flags=re.M)
     assert re.search(r"^## What to try next\n\n- ", text, flags=re.M)
-    assert len(text.split()) <= 900
 
 
 def notebook_cells():

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.compiler.machine_code.functions import compiled
+from tandemlift.compiler.jit.functions import compiled
 from tandemlift.core.algebra.layout import flat, leaves, unflat
 from tandemlift.parts.controllers import CONTROLLERS, Measured, Reference, control, nftsmc, register
-from tandemlift.simulation.kernels import COMMAND
+from tandemlift.simulation.loop_code import COMMAND
 
 SIZE = leaves(COMMAND)
 

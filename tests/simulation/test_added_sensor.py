@@ -12,14 +12,14 @@ from scipy.spatial.transform import Rotation
 import tandemlift as tl
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.vector import Nothing, Vec3
+from tandemlift.core.algebra.vector import Absent, Vec3
 from tandemlift.core.errors import InputError
-from tandemlift.core.sensors import DEVICES, SENSORS, additional, sensors_on
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.health import PerSensor
 from tandemlift.parts.sensors.readings import ImuChannels, ImuReading, MotionChannels, MotionReading, Readings
+from tandemlift.parts.sensors.sensor_list import DEVICES, SENSORS, additional, sensors_on
 from tandemlift.parts.sensors.sensor_registry import register_sensor
 
 SEA_LEVEL, DENSITY = 101325.0, 1.225  # Pa, kg/m³
@@ -207,5 +207,5 @@ def test_the_table_names_every_sensor_once_and_its_units_are_those_of_the_channe
 
 def test_the_law_is_plain_python():
     """So it can be called by itself."""
-    state = State(Vec3(0.0, 0.0, 100.0), Vec3(0.0, 0.0, 0.0), Nothing(), Vec3(0.0, 0.0, 0.0))
+    state = State(Vec3(0.0, 0.0, 100.0), Vec3(0.0, 0.0, 0.0), Absent(), Vec3(0.0, 0.0, 0.0))
     assert air_pressure(None, state, None) == pytest.approx(101325.0 - 1.225 * 9.81 * 100.0)

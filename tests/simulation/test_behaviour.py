@@ -16,10 +16,10 @@ def late(mission, changes=None):
 
 
 def test_a_hard_gate_makes_roll_spikes_that_a_soft_one_does_not():
-    hard = late("paper")["moment_max_abs_after_10s_n_m"][0]
-    soft = late("paper", {"admittance.gate": "soft"})["moment_max_abs_after_10s_n_m"][0]
-    assert hard == pytest.approx(200.0, rel=0.02)
-    assert soft == pytest.approx(7.3, rel=0.02)
+    moment_with_hard_gate = late("paper")["moment_max_abs_after_10s_n_m"][0]
+    moment_with_soft_gate = late("paper", {"admittance.gate": "soft"})["moment_max_abs_after_10s_n_m"][0]
+    assert moment_with_hard_gate == pytest.approx(200.0, rel=0.02)
+    assert moment_with_soft_gate == pytest.approx(7.3, rel=0.02)
 
 
 def test_the_disturbed_start_asks_for_more_than_a_thousand_newton_metres():

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, Vec3, hamilton
+from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, hamilton
 from tandemlift.parts.mechanics.push import CentralPush
 from tandemlift.parts.mechanics.rigid_body import State, motion
 from tandemlift.parts.pilot.pilot import PilotInput, decide
@@ -40,7 +40,7 @@ def continuous():
     def rate(t, y):
         state = State(Vec3(*y[0:3]), Vec3(*y[3:6]), Quat(*y[6:10]), Vec3(*y[10:13]))
         decision, _ = decide(
-            model.pilot, model.flight_state.memory, PilotInput(state, ZERO, ZERO, 0.0, Nothing()), t, 1.0
+            model.pilot, model.flight_state.memory, PilotInput(state, ZERO, ZERO, 0.0, Absent()), t, 1.0
         )
         u = wrench(model.plant.effect, decision.thrusts)
         return np.concatenate(motion(model.plant.body, state, u, CentralPush(ZERO)))

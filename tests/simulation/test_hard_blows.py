@@ -12,7 +12,7 @@ from thrown import arena, random_throw
 import tandemlift as tl
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.parts.contact.impulses import CORE
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.core.errors.FlightWarning")
 

@@ -10,7 +10,7 @@ import tandemlift as tl
 from tandemlift.core.errors import InputError
 from tandemlift.missions import MissionTemplate
 from tandemlift.simulation import fly as fly_module
-from tandemlift.simulation.kernels import LANES
+from tandemlift.simulation.loop_code import LANES
 from tandemlift.simulation.plan import FlightPlan
 
 SHORT = {"mission.duration": 20.0}

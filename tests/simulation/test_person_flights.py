@@ -10,7 +10,7 @@ from tandemlift.core.algebra.vector import vec3
 from tandemlift.missions import built_in
 from tandemlift.parts.person.person import PersonView
 from tandemlift.pictures.figures.drawing.clearances import clearances
-from tandemlift.simulation.kernels import leaf_offset
+from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import Stepper, fly_stepwise
 

@@ -14,12 +14,12 @@ from tandemlift.parts.contact.walls import nearest_with
 from tandemlift.parts.mechanics.push import PushSamples, push_at
 from tandemlift.parts.mechanics.wind import gust_velocity
 from tandemlift.parts.pilot.pilot import with_allocation
+from tandemlift.parts.random_numbers import normals
 from tandemlift.parts.rotors.allocation import AllocationState
 from tandemlift.parts.sensors.readings import Readings
-from tandemlift.parts.signals.random_numbers import normals
 from tandemlift.simulation.assembly.assemble import assemble
-from tandemlift.simulation.kernels import GAUSSIAN, GUST, SPAN
 from tandemlift.simulation.loop.step import StepInputs, finish_step, run_pilot, with_person
+from tandemlift.simulation.loop_code import GAUSSIAN, GUST, SPAN
 
 
 def different(a: tl.Flight, b: tl.Flight) -> list[str]:

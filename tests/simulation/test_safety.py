@@ -8,13 +8,13 @@ from reference_tables.faults import fault_rows
 from repository import ROOT
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, Nothing
+from tandemlift.core.algebra.vector import ZERO, Absent
 from tandemlift.core.faults import ALARM_TEXTS
 from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.missions.key_reference.sections import sections
 from tandemlift.parts.estimation.disturbance_observer import NONE
 from tandemlift.parts.guidance.guidance import PilotInput, checked_input, guide
-from tandemlift.parts.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
+from tandemlift.parts.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.simulation.assembly.assemble import assemble
 
 AT, STANDS = 8.5, 0.03  # s, when sensors fail; m, height of the standing vehicle
@@ -212,7 +212,7 @@ def in_plain_python(seconds, heard_at):
     model = assemble(tl.load_mission("iris", changes)).model
     guidance, memory, dt, names = model.pilot.guidance, model.flight_state.memory.guidance, 0.01, []
     for i in range(round(seconds / dt)):
-        pilot_input = PilotInput(model.flight_state.state, ZERO, ZERO, 0.0, Nothing(), NO_REQUEST, UNKNOWN_STATUS)
+        pilot_input = PilotInput(model.flight_state.state, ZERO, ZERO, 0.0, Absent(), NO_REQUEST, UNKNOWN_STATUS)
         pilot_input, lost = heard_at(pilot_input, i * dt)
         pilot_input = checked_input(guidance, memory, pilot_input, 0.0, lost)
         decided, memory = guide(guidance, memory, pilot_input, NONE, lost, i * dt, dt)

@@ -10,7 +10,7 @@ from flights import LOST, different, lanes
 
 import tandemlift as tl
 from tandemlift.missions import built_in
-from tandemlift.simulation.kernels import LANES
+from tandemlift.simulation.loop_code import LANES
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import flight_of
 from tandemlift.simulation.stepping import fly_stepwise

@@ -12,8 +12,7 @@ from scipy.spatial.transform import Rotation
 import tandemlift as tl
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.vector import ZERO
-from tandemlift.core.settings import ControllerTable
-from tandemlift.parts.controllers import CONTROLLERS, Command, control, register
+from tandemlift.parts.controllers import CONTROLLERS, Command, ControllerTable, control, register
 from tandemlift.parts.mechanics.rigid_body import Wrench
 
 FREE = {"vehicle.drag.force": 0.0, "vehicle.drag.moment": 0.0, "mission.log_interval": 0.001}

@@ -8,10 +8,10 @@ from flights import different, lanes
 from patience import COMPILING
 
 import tandemlift as tl
-from tandemlift.compiler.machine_code import code, store
+from tandemlift.compiler.jit import code, store
 from tandemlift.core.algebra.layout import leaves
 from tandemlift.simulation import fly, plan
-from tandemlift.simulation.kernels import LANES, FlightMemory
+from tandemlift.simulation.loop_code import LANES, FlightMemory
 from tandemlift.simulation.plan import FlightPlan
 
 
@@ -19,13 +19,13 @@ from tandemlift.simulation.plan import FlightPlan
 def empty(tmp_path, monkeypatch):
     """No code on disk and none in this process; none is optimised unless it is asked for."""
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setattr(plan, "KERNELS", {})
+    monkeypatch.setattr(plan, "LOOP_CODE", {})
     monkeypatch.setenv("TANDEMLIFT_OPTIMISE", "0")
 
 
 def check_optimised(mission, count):
     """The code of a mission's loop, once the optimised one is in its place."""
-    found = FlightPlan(mission).kernels.loop(count)
+    found = FlightPlan(mission).loop_code.loop(count)
     assert not found.is_best
     thread = found.optimise()
     assert found.optimise() is None  # it is being made
@@ -50,7 +50,7 @@ def test_code_is_exchanged_in_the_middle_of_a_flight(empty):
     mission = lanes("iris")[2]
     whole = tl.fly(mission)
     p = FlightPlan(mission)
-    memory = FlightMemory(p.kernels.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
+    memory = FlightMemory(p.loop_code.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
     assert memory.fly(700) == 700
     check_optimised(mission, 1)
     assert memory.fly(p.steps + 1) == p.steps
@@ -60,7 +60,7 @@ def test_code_is_exchanged_in_the_middle_of_a_flight(empty):
 
 def log_of(p):
     """The log of a flight in one go, but for its first column."""
-    memory = FlightMemory(p.kernels.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
+    memory = FlightMemory(p.loop_code.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
     memory.fly(p.steps + 1)
     return memory.log[0][:, 1:]
 
@@ -70,21 +70,21 @@ def test_a_long_flight_has_its_code_optimised_and_the_next_process_finds_it(empt
     monkeypatch.setattr(code, "PAYS", 0.0)
     monkeypatch.setattr(fly, "FIRST_STRETCH", 100)
     mission = tl.load_mission("one-push", {"mission.duration": 1.0})
-    found = FlightPlan(mission).kernels.loop(1)
+    found = FlightPlan(mission).loop_code.loop(1)
     tl.fly(mission)
     for thread in threading.enumerate():
         if thread.name == "optimising":
             thread.join(COMPILING)
     assert found.is_best
     assert sorted(f.name.split("-")[1] for f in store.folder().iterdir()) == ["best.o", "module.o", "quick.o"]
-    plan.KERNELS.clear()
-    assert FlightPlan(mission).kernels.loop(1).is_best
+    plan.LOOP_CODE.clear()
+    assert FlightPlan(mission).loop_code.loop(1).is_best
 
 
 def test_without_optimised_code_the_quick_one_flies_on(empty, monkeypatch):
     mission = tl.load_mission("one-push", {"mission.duration": 0.5})
     before = tl.fly(mission)
-    found = FlightPlan(mission).kernels.loop(1)
+    found = FlightPlan(mission).loop_code.loop(1)
     monkeypatch.setattr(code, "optimise_in_process", lambda *given: None)
     found.optimise().join(COMPILING)
     assert not found.is_best

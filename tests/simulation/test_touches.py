@@ -9,7 +9,7 @@ import pytest
 from ten_crashes import HELD, THROWN, crash_mission, crashed_in
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import Nothing, Vec3, each
+from tandemlift.core.algebra.vector import Absent, Vec3, each
 from tandemlift.parts.contact.touches import (
     UNTOUCHED,
     PartContacts,
@@ -47,12 +47,12 @@ def test_of_parts_that_touch_equally_hard_the_first_counts():
 
 
 def test_a_struck_rotor_does_not_turn_again():
-    none = SurfaceTouches(UNTOUCHED, UNTOUCHED, Nothing())
-    before = Touches(each(4)(1.0, 1.0, 1.0, 1.0), none, Nothing())
+    none = SurfaceTouches(UNTOUCHED, UNTOUCHED, Absent())
+    before = Touches(each(4)(1.0, 1.0, 1.0, 1.0), none, Absent())
     struck = touches_after(
-        before, SurfaceContacts(contacts([0.0, 1.0, 0.0, 0.0]), Nothing(), Nothing()), Nothing(), 0.0, 0.1
+        before, SurfaceContacts(contacts([0.0, 1.0, 0.0, 0.0]), Absent(), Absent()), Absent(), 0.0, 0.1
     )
-    later = touches_after(struck, SurfaceContacts(contacts([0.0] * 4), Nothing(), Nothing()), Nothing(), 1.0, 0.1)
+    later = touches_after(struck, SurfaceContacts(contacts([0.0] * 4), Absent(), Absent()), Absent(), 1.0, 0.1)
     assert tuple(struck.turning) == tuple(later.turning) == (1.0, 0.0, 1.0, 1.0)
 
 

@@ -10,8 +10,7 @@ import tandemlift as tl
 from tandemlift.core.algebra.vector import ZERO, Vec3
 from tandemlift.core.faults import CHECKS
 from tandemlift.core.phases import GUIDED, IDLE, LIFT, REASONS
-from tandemlift.core.settings import ControllerTable
-from tandemlift.parts.controllers import CONTROLLERS, Command, control, register
+from tandemlift.parts.controllers import CONTROLLERS, Command, ControllerTable, control, register
 from tandemlift.parts.guidance.supervision import PHASE
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.simulation.findings import findings_of

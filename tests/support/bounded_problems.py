@@ -13,18 +13,18 @@ import pytest
 from law_values import BEAM, quadrotor
 from scipy.optimize import lsq_linear
 
-from tandemlift.compiler.machine_code.machine import BEST, QUICK, Loaded
-from tandemlift.compiler.machine_code.machine import compiled as object_code
-from tandemlift.compiler.trace import Function, Module, Place
+from tandemlift.compiler.jit.machine import BEST, QUICK, Loaded
+from tandemlift.compiler.jit.machine import compiled as object_code
+from tandemlift.compiler.tracer import Function, Module, Place
 from tandemlift.core.algebra.layout import flat
 from tandemlift.core.algebra.vector import each, vec3
 from tandemlift.parts.mechanics.rigid_body import Wrench
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
 from tandemlift.parts.rotors.normal_equations import GAMMA
 from tandemlift.parts.rotors.thrust_limit_solver import BoundedProblem
-from tandemlift.parts.vehicle import Vehicle
-from tandemlift.simulation.kernels.compiled_limit_solver import write_solver
-from tandemlift.simulation.kernels.traced_step import TracedSolver
+from tandemlift.simulation.loop_code.compiled_limit_solver import write_solver
+from tandemlift.simulation.loop_code.traced_step import TracedSolver
 
 PRIORITIES = (30.0, 900.0, 900.0, 1.0)
 LIMIT = 7.066  # N, of IRIS

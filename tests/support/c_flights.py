@@ -11,7 +11,7 @@ import numpy as np
 from tandemlift.codegen.c.write import code_texts, written
 from tandemlift.core.algebra.layout import leaves
 from tandemlift.missions import changed
-from tandemlift.simulation.kernels import FlightMemory, leaf_offset
+from tandemlift.simulation.loop_code import FlightMemory, leaf_offset
 from tandemlift.simulation.plan import FlightPlan
 
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-ffp-contract=off")
@@ -107,7 +107,7 @@ class CFlight:
 
 def native(p, start):
     """(Step reached, log, last sample, all numbers at the end) of a flight in machine code."""
-    memory = FlightMemory(p.kernels.loop(1), [start], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
+    memory = FlightMemory(p.loop_code.loop(1), [start], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
     memory.fly(p.steps + 1)
     return memory.k, memory.log[0], memory.last, np.array(memory.numbers)
 
@@ -121,9 +121,9 @@ def drawn(mission, number):
     start = p.start()
     at = leaf_offset(p.model, "flight_state", "state", "velocity").at
     turn = leaf_offset(p.model, "flight_state", "state", "rates").at
-    hard = number % 5 == 4
-    start.numbers[at : at + 3] += chance.normal(scale=5000.0 if hard else 0.1, size=3)
-    start.numbers[turn : turn + 3] += chance.normal(scale=50.0 if hard else 0.2, size=3)
+    is_violent = number % 5 == 4
+    start.numbers[at : at + 3] += chance.normal(scale=5000.0 if is_violent else 0.1, size=3)
+    start.numbers[turn : turn + 3] += chance.normal(scale=50.0 if is_violent else 0.2, size=3)
     return p, start
 
 

@@ -13,7 +13,7 @@ from tandemlift.codegen.c.write import code_texts, written
 from tandemlift.core.algebra.layout import leaves
 from tandemlift.simulation.pilot_api import INPUT
 
-HERE = Path(__file__).parents[1] / "targets" / "cortex_m7"
+HERE = Path(__file__).parents[1] / "codegen" / "cortex_m7"
 MACHINE = ("-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard")
 OPTIONS = ("-std=c99", "-O2", "-ffp-contract=off", "-ffunction-sections", "-Wall", "-Wextra", "-pedantic")
 EMULATOR = ("qemu-system-arm", "-M", "mps2-an500", "-nographic", "-icount", "shift=0")

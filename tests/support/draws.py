@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.core.settings import Mission
+from tandemlift.missions import Mission
 from tandemlift.simulation.assembly.mission_numbers import numbers_of_mission, with_numbers
 
 SCALED = (  # key, or its beginning; largest relative change

@@ -3,7 +3,7 @@
 import numpy as np
 
 import tandemlift as tl
-from tandemlift.simulation.kernels import LANES
+from tandemlift.simulation.loop_code import LANES
 
 LOST = {5: 60.0, 7: -90.0}  # lanes, and what throws them over [N m]
 

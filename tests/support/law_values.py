@@ -8,12 +8,12 @@ import numpy as np
 from hypothesis import strategies as st
 
 from tandemlift.core.algebra.vector import ZERO, Mat3, Quat, Vec3, vec3
-from tandemlift.core.settings import Payload, Quadrotor
 from tandemlift.engines.models.parts_layout import parts_layout_from
 from tandemlift.parts.mechanics.air_drag import AirDrag
 from tandemlift.parts.mechanics.inertia import inertia_value
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import Payload, Quadrotor
 
 IRIS = {
     "mass": 1.5,

@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.compiler.machine_code.functions import compiled
-from tandemlift.compiler.machine_code.machine import BEST, Level, Loaded
-from tandemlift.compiler.machine_code.machine import compiled as object_code
-from tandemlift.compiler.trace import Function, Graph, Module, symbols
-from tandemlift.compiler.trace.fused import fused
+from tandemlift.compiler.jit.functions import compiled
+from tandemlift.compiler.jit.machine import BEST, Level, Loaded
+from tandemlift.compiler.jit.machine import compiled as object_code
+from tandemlift.compiler.tracer import Function, Graph, Module, symbols
+from tandemlift.compiler.tracer.fused import fused
 from tandemlift.core.algebra.layout import flat, leaves, rebuilt
 
 STEPS = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_void_p] * 4, ctypes.c_int64)

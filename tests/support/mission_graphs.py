@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.compiler.machine_code.machine import QUICK, Loaded, compiled
-from tandemlift.compiler.trace import Function, Module, Place, Symbol
+from tandemlift.compiler.jit.machine import QUICK, Loaded, compiled
+from tandemlift.compiler.tracer import Function, Module, Place, Symbol
 from tandemlift.core.algebra.layout import numbers_of
 from tandemlift.simulation.assembly.traced_assembly import TracedAssembly
-from tandemlift.simulation.kernels.context import aligned
+from tandemlift.simulation.loop_code.context import aligned
 
 CHOOSES = re.compile(r"controller\.gains\.a\.\d|vehicle\.quadrotors\.\d\.spins")  # a number of these picks a law
 PART = re.compile(r"(vehicle\.quadrotors)\.\d+\.")

@@ -1,6 +1,6 @@
 """All keys of a mission, by walking its tables."""
 
-from tandemlift.core.settings import Mission
+from tandemlift.missions import Mission
 from tandemlift.missions.bounds import table_in
 from tandemlift.missions.refusals import keys_of
 from tandemlift.parts.controllers import CONTROLLERS

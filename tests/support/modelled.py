@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.missions import built_in
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 PLACES = [[0.1, 1.0, 0.2], [-0.2, -1.1, 0.15], [0.9, 0.1, 0.1], [-0.8, 0.2, -0.1]]
 TILTED = {"initial.position": [1.0, -2.0, 3.0], "initial.euler": [0.4, -0.9, 2.0]}

@@ -14,10 +14,11 @@ from ten_crashes import THROWN
 
 import tandemlift as tl
 from tandemlift.core.algebra.vector import vec3
-from tandemlift.core.settings import Mission, WallTable
 from tandemlift.flight.record import Flight
+from tandemlift.missions import Mission
+from tandemlift.parts.contact.corridor import WallTable
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 BELOW = -100.0  # m, where a wall ends
 

@@ -9,7 +9,7 @@ import numpy as np
 from machine_code import Loop
 
 from tandemlift.core.algebra.layout import leaves, unflat
-from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.parts.estimation.navigation import NavigationState, Navigator, navigate, navigator, start_navigation
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, estimate, push_estimator, start_push
 from tandemlift.parts.mechanics.loads import PerfectReadings
@@ -86,7 +86,7 @@ def step_of(fixed: Any, x: Onboard, given: Given) -> Any:
 @functools.cache
 def loop() -> Loop:
     """All steps of a flight, in machine code."""
-    return Loop(step_of, Nothing(), ONBOARD, Given(LIKE, HISS, 0.0))
+    return Loop(step_of, Absent(), ONBOARD, Given(LIKE, HISS, 0.0))
 
 
 def onboard(
@@ -113,7 +113,7 @@ def perceived(x: Onboard, truth: np.ndarray, seed: int = 0, step_size: float = S
     """`Seen` with arrays over the steps of `truth` (steps × numbers of a `Happening`)."""
     normals = np.random.default_rng(seed).standard_normal((len(truth), leaves(HISS)))
     times = step_size * np.arange(len(truth))[:, None]
-    columns = iter(loop()(Nothing(), x, np.hstack([truth, normals, times])).T)
+    columns = iter(loop()(Absent(), x, np.hstack([truth, normals, times])).T)
 
     def gathered(like: Any) -> Any:
         return type(like)(*map(gathered, like)) if isinstance(like, tuple) else next(columns)

@@ -19,11 +19,11 @@ def say(session, kind, **what):
 
 
 def fly(session, seconds):
-    for _ in range(round(seconds / session._flight.dt)):
-        if session._flight.over:
+    for _ in range(round(seconds / session.flight.dt)):
+        if session.flight.over:
             return
         session._hand.expire_requests()
-        session._flight.advance()
+        session.flight.advance()
 
 
 def seen(session):

@@ -6,9 +6,9 @@ from pathlib import Path
 from tandemlift.analysis.studies.design.keys import columns_of
 from tandemlift.analysis.studies.design.plan import SEED
 from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.execution.anywhere import fly_study
+from tandemlift.analysis.studies.execution.store import open_folder
 from tandemlift.analysis.studies.reading.table import load_study
-from tandemlift.analysis.studies.units.anywhere import fly_study
-from tandemlift.analysis.studies.units.store import open_folder
 
 WHO = ("mission", "controller", "engine")
 DRAWN = {"distribution": "uniform", "low": 0.9, "high": 1.2}
@@ -19,7 +19,7 @@ GUSTS = {
         "controllers": ["nftsmc", "pid"],
         "draws": 6,
         "seeds": 2,
-        "rows_per_unit": 20,
+        "rows_per_chunk": 20,
     },
     "set": {"mission.duration": 1.0},
     "cases": [{"name": "calm"}, {"name": "turned", "set": {"mission.duration": 1.5}}],
@@ -52,8 +52,8 @@ def made_up(tables, folder: Path, measured):
     plan = load_plan(tables)
     store = open_folder(plan, folder)
     for i, name in enumerate(store.names()):
-        first = i * store.rows_per_unit
-        rows = plan.rows(first, min(plan.count, first + store.rows_per_unit))
+        first = i * store.rows_per_chunk
+        rows = plan.rows(first, min(plan.count, first + store.rows_per_chunk))
         varied = [dict(pair for key, value in row.varied.items() for pair in columns_of(key, value)) for row in rows]
         columns = {
             "row": [row.number for row in rows],

@@ -7,11 +7,11 @@ import sys
 import pyarrow.parquet as pq
 
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.units.anywhere import fly_study
-from tandemlift.analysis.studies.units.store import open_folder
+from tandemlift.analysis.studies.execution.anywhere import fly_study
+from tandemlift.analysis.studies.execution.store import open_folder
 
 TWELVE = {
-    "study": {"name": "twelve", "missions": ["one-push"], "draws": 48, "rows_per_unit": 4},
+    "study": {"name": "twelve", "missions": ["one-push"], "draws": 48, "rows_per_chunk": 4},
     "set": {"mission.duration": 0.5},
     "draw": {"plant.mass_scale": {"distribution": "uniform", "low": 0.9, "high": 1.1}},
 }
@@ -24,8 +24,8 @@ PROGRAM = """
 import json, sys
 from pathlib import Path
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.units.anywhere import fly_study
-from tandemlift.analysis.studies.units.store import open_folder
+from tandemlift.analysis.studies.execution.anywhere import fly_study
+from tandemlift.analysis.studies.execution.store import open_folder
 
 if __name__ == "__main__":
     plan = load_plan(json.loads(sys.argv[1]))
@@ -36,14 +36,14 @@ if __name__ == "__main__":
 
 
 def fly(tables, folder, **where):
-    """Fly a study into a folder; returns the number of units flown."""
+    """Fly a study into a folder; returns the number of chunks flown."""
     plan = load_plan(tables)
     return fly_study(plan, open_folder(plan, folder), **where)
 
 
 def files_of(folder):
     """The files of results, by name."""
-    return {path.name: path for path in (folder / "units").glob("*.parquet") if not path.name.startswith(".")}
+    return {path.name: path for path in (folder / "chunks").glob("*.parquet") if not path.name.startswith(".")}
 
 
 def assert_same_rows(one, other):
@@ -51,11 +51,11 @@ def assert_same_rows(one, other):
     first, second = files_of(one), files_of(other)
     assert first.keys() == second.keys()
     assert [name for name in first if not pq.read_table(first[name]).equals(pq.read_table(second[name]))] == []
-    assert {path.name for path in (other / "units").iterdir()} == second.keys()
+    assert {path.name for path in (other / "chunks").iterdir()} == second.keys()
 
 
 def started(tables, folder, largest_file=None, **options):
-    """A process of its own that flies a study on two threads; it prints the rows flown, and last the units.
+    """A process of its own that flies a study on two threads; it prints the rows flown, and last the chunks.
 
     `largest_file`: bytes that a file of it may have.
     """

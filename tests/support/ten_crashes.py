@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import tandemlift as tl
-from tandemlift.core.settings import Mission
 from tandemlift.flight.record import Flight
+from tandemlift.missions import Mission
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import flight_of
 from tandemlift.simulation.stepping import body_of, fly_stepwise

@@ -10,20 +10,20 @@ from machine_code import Loop
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.compiler.machine_code.machine import QUICK
+from tandemlift.compiler.jit.machine import QUICK
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, each, total, vec3
-from tandemlift.core.settings import Mission
+from tandemlift.core.algebra.vector import ZERO, Absent, Quat, each, total, vec3
 from tandemlift.engines.compiled import advance, plant_from
 from tandemlift.engines.compiled_contact import CompiledPlant, hull_contact_with
 from tandemlift.engines.compiled_touches import wall_contact_with
+from tandemlift.missions import Mission
 from tandemlift.parts.contact.feet import start_foot_grip
 from tandemlift.parts.contact.wall_geometry import wall
 from tandemlift.parts.contact.walls import nearest_with, no_walls_near
 from tandemlift.parts.mechanics.push import CentralPush, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 NO_PUSH = PushSamples(*[CentralPush(ZERO)] * 3)
 START = State(vec3([0.0, 0.0, 2.0]), ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
@@ -50,7 +50,7 @@ class Given(NamedTuple):
     step: Any
 
 
-class Shown(NamedTuple):
+class StepSample(NamedTuple):
     """State and grip at the start of a step; sums of the normal forces of the floor on the hull, and of walls [N]."""
 
     state: State
@@ -78,9 +78,9 @@ def step_of(world: World, x: Thrown, given: Given) -> Any:
     plant, s = world.plant, x.state
     near, rotors = near_now(world, s), 4 * len(plant.frame.mass)
     still = each(rotors)(*[0.0] * rotors)
-    moved = advance(plant, s, x.grip, near, still, Nothing(), NO_PUSH, given.step)
+    moved = advance(plant, s, x.grip, near, still, Absent(), NO_PUSH, given.step)
     on_hull, on_walls = hull_contact_with(plant.floor, s), wall_contact_with(plant.walls, near, plant.frame, s)
-    return Shown(s, x.grip, pressure(on_hull), pressure(on_walls)), Thrown(moved.state, moved.grip)
+    return StepSample(s, x.grip, pressure(on_hull), pressure(on_walls)), Thrown(moved.state, moved.grip)
 
 
 class ThrownFlight:
@@ -138,8 +138,8 @@ class Arena:
         self.mission, vehicle = mission, Vehicle.from_settings(mission.vehicle)
         self.plant, self.mass, self.inertia = plant_from(mission, vehicle), vehicle.mass, vehicle.inertia
         table = [wall(w.start, w.end, w.top) for w in mission.all_walls]
-        nowhere = no_walls_near(self.plant.walls) if table else Nothing()
-        self._world = World(self.plant, record("Table", table) if table else Nothing(), nowhere)
+        nowhere = no_walls_near(self.plant.walls) if table else Absent()
+        self._world = World(self.plant, record("Table", table) if table else Absent(), nowhere)
         self._loop = Loop(step_of, self._world, self._begun(START), Given(0.001), QUICK)
 
     def _begun(self, start: State) -> Thrown:

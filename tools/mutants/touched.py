@@ -91,27 +91,27 @@ class Touched:
 
     def _watch_compiled_code(self) -> None:
         """Once the package is imported: whoever asks for compiled code has called what was traced for it."""
-        from tandemlift.compiler.machine_code.code import Code
-        from tandemlift.simulation.kernels.compiled_flight import Kernels
+        from tandemlift.compiler.jit.code import Code
+        from tandemlift.simulation.loop_code.compiled_flight import LoopCode
 
         if hasattr(Code, "touched"):
             return
-        make, ask = Code.__init__, Kernels._code
+        make, ask = Code.__init__, LoopCode._code
 
         def made(code: Any, key: str, *more: Any, **options: Any) -> None:
             with self._collected(key):
                 make(code, key, *more, **options)
             self._remember(key, set())
 
-        def asked(kernels: Any, *more: Any, **options: Any) -> Any:
-            with self._collected(id(kernels)):
-                code = ask(kernels, *more, **options)
-            self._remember(code._key, self.sets[id(kernels)])  # its parts share one trace
-            self.sets[id(kernels)] |= self.sets[code._key]
-            self._count(self.sets[id(kernels)])
+        def asked(loop_code: Any, *more: Any, **options: Any) -> Any:
+            with self._collected(id(loop_code)):
+                code = ask(loop_code, *more, **options)
+            self._remember(code._key, self.sets[id(loop_code)])  # its parts share one trace
+            self.sets[id(loop_code)] |= self.sets[code._key]
+            self._count(self.sets[id(loop_code)])
             return code
 
-        Code.touched, Code.__init__, Kernels._code = True, made, asked  # type: ignore[attr-defined, method-assign]
+        Code.touched, Code.__init__, LoopCode._code = True, made, asked  # type: ignore[attr-defined, method-assign]
 
     def _remember(self, key: str, more: set[Any]) -> None:
         file = self.traced / key

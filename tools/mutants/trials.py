@@ -35,9 +35,9 @@ BUSY = 20.0  # times as long may it take on a busy machine
 FAILED, BROKEN, NONE = 1, 2, 5  # exit codes of pytest: a test failed, a module of tests cannot be imported, no tests
 QUIET = ["-q", "-s", "-p", "no:cacheprovider", "-p", "no:xdist", "--tb=line", "-W", "ignore::pytest.PytestWarning"]
 REMEMBERED = {  # what a process remembers of sources and compiled code, and how it forgets
-    "trace.fused": ("_copy", "cache_clear"),
-    "machine_code.store": ("_content", "cache_clear"),
-    "simulation.plan": ("KERNELS", "clear"),
+    "compiler.tracer.fused": ("_copy", "cache_clear"),
+    "compiler.jit.store": ("_content", "cache_clear"),
+    "simulation.plan": ("LOOP_CODE", "clear"),
 }
 
 for module in ("hypothesis.extra.numpy", "llvmlite.binding", "pydantic", "scipy.integrate", "scipy.optimize"):
@@ -135,6 +135,8 @@ class Chosen:
         self.tests, self.failed, self.items = tests, failed, dict[str, Any]()
 
     def pytest_runtestloop(self, session: Any) -> bool:  # noqa: D102
+        if session.testsfailed:
+            raise session.Interrupted("a module of tests cannot be imported")
         self.items = {item.nodeid: item for item in session.items}
         self.run()
         return True

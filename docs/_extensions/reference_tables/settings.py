@@ -1,21 +1,23 @@
-"""The tables of `tandemlift.core.settings`: the types that a value of a key may have, and the tables of a mission."""
+"""The types that a value of a key may have, and the tables of a mission."""
 
 from __future__ import annotations
 
-from typing import get_origin
+from collections.abc import Iterator
+from typing import Any, get_args, get_origin
 
 from pydantic import BaseModel
 
 from reference_tables.markdown import table
-from tandemlift.core import settings
+from tandemlift.core import keys
+from tandemlift.core.toml import shown
+from tandemlift.missions import Mission
 from tandemlift.missions.bounds import allowed
-from tandemlift.missions.values import shown
 from tandemlift.parts.controllers import CascadeTable
 
 
 def value_types() -> str:
     """Every type of a value, and what a key of it may be."""
-    rows = [(f"`{name}`", allowed(kind)) for name in settings.__all__ if get_origin(kind := getattr(settings, name))]
+    rows = [(f"`{name}`", allowed(kind)) for name in keys.__all__ if get_origin(kind := getattr(keys, name))]
     return table(("type", "a key may be"), rows)
 
 
@@ -24,17 +26,25 @@ def cascade_keys() -> str:
     rows = []
     for name, field in CascadeTable.model_fields.items():
         if name != "name":
-            said = settings.description_of(field)
+            said = keys.description_of(field)
             rows.append((f"`{name}`", said.unit or "", f"`{shown(field.default)}`", said.meaning))
     return table(("key", "unit", "default", "meaning"), rows)
 
 
 def tables() -> str:
     """Every table of a mission, with the first line of what it says of itself."""
-    kinds = {name: getattr(settings, name) for name in settings.__all__ if name != "Table"}
-    rows = [
-        (f"`{name}`", (kind.__doc__ or "").partition("\n")[0])
-        for name, kind in kinds.items()
-        if isinstance(kind, type) and issubclass(kind, BaseModel)
-    ]
-    return table(("class", "what it is"), rows)
+    kinds = dict.fromkeys(_tables_in(Mission))
+    return table(
+        ("class", "what it is"),
+        [(f"`{kind.__name__}`", (kind.__doc__ or "").partition("\n")[0]) for kind in kinds],
+    )
+
+
+def _tables_in(kind: Any) -> Iterator[type[BaseModel]]:
+    """The tables that a type holds, itself first."""
+    if isinstance(kind, type) and issubclass(kind, BaseModel):
+        yield kind
+        for field in kind.model_fields.values():
+            yield from _tables_in(field.annotation)
+    for part in get_args(kind):
+        yield from _tables_in(part)

@@ -15,7 +15,7 @@ from tandemlift.apps.ros.ros2 import ONLY_ROS2
 from tandemlift.apps.ros.topics import ONLY_LIVE
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.missions import load_mission
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 HEAD = ("topic", "type, and frame", "what")
 SEVERAL = 4  # channels that a cell names

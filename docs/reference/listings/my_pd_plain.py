@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.core.algebra import GRAVITY, Vec3
-from tandemlift.core.settings import ControllerTable, NonNegative3, Positive3, key
-from tandemlift.parts.controllers import Command, control, register
+from tandemlift.core.keys import NonNegative3, Positive3, key
+from tandemlift.parts.controllers import Command, ControllerTable, control, register
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates
 from tandemlift.parts.mechanics.tilt import TiltZXY, desired_orientation, total_thrust

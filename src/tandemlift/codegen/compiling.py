@@ -11,7 +11,7 @@ from tandemlift.codegen.machines import MACHINES
 from tandemlift.codegen.mission_module import module_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import atomic_write
-from tandemlift.core.settings import Mission
+from tandemlift.missions import Mission
 
 TARGETS = {"c": "C99 sources, for any compiler", **{name: machine.meaning for name, machine in MACHINES.items()}}
 ENDINGS = {"wasm32": "wasm"}

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import llvmlite.binding as llvm
 
-from tandemlift.compiler.machine_code.machine import Level
+from tandemlift.compiler.jit.machine import Level
 from tandemlift.core.errors import InputError
 
 

@@ -10,7 +10,7 @@ from tandemlift.codegen.number_facts import number_facts
 from tandemlift.core.algebra.layout import leaves
 from tandemlift.flight.channels import channel_of
 from tandemlift.simulation.assembly.traced_assembly import TracedAssembly
-from tandemlift.simulation.kernels.context import POINTERS, WORDS
+from tandemlift.simulation.loop_code.context import POINTERS, WORDS
 from tandemlift.simulation.parameter_changes import hand_place
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import channels_of
@@ -42,11 +42,11 @@ def manifest_of(plan: FlightPlan, traced: TracedAssembly, about: dict[str, Any])
             "work": about["work"],
             "prepare_work": prepare_work,
             "ring_rows": len(start.ring),
-            "ring_row": plan.kernels.delayed.size,
+            "ring_row": plan.loop_code.delayed.size,
             "sample": leaves(plan.sample),
         },
         "prepared": spans,
-        "delayed": [list(span) for span in plan.kernels.delayed if span.size],
+        "delayed": [list(span) for span in plan.loop_code.delayed if span.size],
         "delays": plan.delays.tolist(),
         "keys": [float(key) for key in plan.seeds],
         "steps": plan.steps,

@@ -14,9 +14,9 @@ from tandemlift.codegen.manifest import manifest_of
 from tandemlift.codegen.module_text import ValuesFunction, write_flight_loop, write_ramp, write_values_function
 from tandemlift.codegen.prepare_text import PreparedLayout, write_prepare
 from tandemlift.codegen.wasm_linker import linked
-from tandemlift.compiler.machine_code import store
-from tandemlift.core.settings import Mission
+from tandemlift.compiler.jit import store
 from tandemlift.core.version import __version__
+from tandemlift.missions import Mission
 from tandemlift.simulation.assembly.traced_assembly import TracedAssembly, trace_assembly
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.portable_mission import portable_mission
@@ -98,7 +98,7 @@ def _sources(functions: Sequence[ValuesFunction]) -> str:
 def _written(
     plan: FlightPlan, traced: TracedAssembly, machine: Machine, functions: Sequence[ValuesFunction]
 ) -> WrittenModule:
-    loop = write_flight_loop(plan.kernels, machine.draw_lanes, machine.largest)
+    loop = write_flight_loop(plan.loop_code, machine.draw_lanes, machine.largest)
     write_ramp(loop.module)
     sizes = {f.name: (f.width, write_values_function(loop.module, f)) for f in functions}
     prepared = write_prepare(loop.module, traced)

@@ -1,7 +1,7 @@
 """The LLVM text of a mission's module: its loop over steps, the ramps of its numbers, and functions of values.
 
     prepare(numbers, prepared, work) → 0, or 1 + …               see `prepare_text`
-    fly(context) → the step reached                              as in `kernels`
+    fly(context) → the step reached                              as in `loop_code`
     ramp(flight, before, after, active, first, count, k, begin, steps) → 1 while the ramp goes on
     NAME(x, y) → 0                                               y = function(x), numbers one after another
 
@@ -14,11 +14,11 @@ import itertools
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from tandemlift.compiler.trace import Function, Graph, Module, Place, double, rounded_twice, symbols
+from tandemlift.compiler.tracer import Function, Graph, Module, Place, double, rounded_twice, symbols
 from tandemlift.core.algebra.layout import leaves
-from tandemlift.simulation.kernels import Kernels
-from tandemlift.simulation.kernels.context import ScratchLayout
-from tandemlift.simulation.kernels.loops import LoopWriter
+from tandemlift.simulation.loop_code import LoopCode
+from tandemlift.simulation.loop_code.context import ScratchLayout
+from tandemlift.simulation.loop_code.loops import LoopWriter
 
 
 class ValuesFunction(NamedTuple):
@@ -41,9 +41,9 @@ class LoopText(NamedTuple):
     scratch: ScratchLayout
 
 
-def write_flight_loop(kernels: Kernels, draw_lanes: int, largest: int) -> LoopText:
-    """The module of a flight's loop, for one flight; arguments as for `simulation.kernels.step_writer.StepWriter`."""
-    writer = LoopWriter(kernels.traced, 1, draw_lanes, largest)
+def write_flight_loop(loop_code: LoopCode, draw_lanes: int, largest: int) -> LoopText:
+    """The module of a flight's loop, for one flight; arguments as for `simulation.loop_code.step_writer.StepWriter`."""
+    writer = LoopWriter(loop_code.traced, 1, draw_lanes, largest)
     writer.write_loop()
     return LoopText(writer.module, writer.scratch)
 

@@ -6,7 +6,8 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from tandemlift.core.settings import Mission, description_of
+from tandemlift.core.keys import description_of
+from tandemlift.missions import Mission
 from tandemlift.missions.key_reference.schema import schema_of
 
 BOUNDS = ("minimum", "exclusiveMinimum", "maximum", "exclusiveMaximum")

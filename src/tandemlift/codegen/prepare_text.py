@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.compiler.trace import LEAVES, Function, Module, Place, Symbol, symbols
+from tandemlift.compiler.tracer import LEAVES, Function, Module, Place, Symbol, symbols
 from tandemlift.simulation.assembly.traced_assembly import TracedAssembly
-from tandemlift.simulation.kernels import InputTables
-from tandemlift.simulation.kernels.context import ScratchLayout
-from tandemlift.simulation.kernels.scratch import ScratchValues
+from tandemlift.simulation.loop_code import InputTables
+from tandemlift.simulation.loop_code.context import ScratchLayout
+from tandemlift.simulation.loop_code.scratch import ScratchValues
 
 PIECE = 600  # operations of a function
 ARGUMENTS = "ptr noalias %numbers, ptr noalias %work"

@@ -22,7 +22,7 @@ PLAIN = {float, int, bool, str, tuple, type(None)}
 _TRACE: ContextVar[dict[Any, Any] | None] = ContextVar("trace", default=None)
 
 
-def kept(function: F) -> F:
+def cached(function: F) -> F:
     """A function that keeps its last results.
 
     Its arguments are tables, nested values, plain ones and objects. The very same tables and nested values are found at
@@ -76,7 +76,7 @@ def _text(arg: Any) -> Any:
 
 
 @contextmanager
-def kept_for_a_trace() -> Iterator[None]:
+def cached_for_a_trace() -> Iterator[None]:
     """Within it, results are kept by the identity of arguments, and no longer than it lasts."""
     before = _TRACE.set({})
     try:

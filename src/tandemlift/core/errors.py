@@ -1,9 +1,10 @@
-"""What can go wrong, in words that name the place, the value and what is allowed."""
+"""What can go wrong, in words that name the place, the value and what is allowed; and packages that are missing."""
 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 
 class InputError(ValueError):
@@ -32,3 +33,26 @@ def unknown(what: str, given: object, known: Iterable[str]) -> InputError:
     names, text = list(known), str(given)
     shown = repr(text if len(text) <= 80 else f"{text[:79]}…")
     return InputError(f"unknown {what} {shown}; there are {', '.join(names)}.{suggestion(text, names)}")
+
+
+@contextmanager
+def extra(name: str, user: str) -> Iterator[None]:
+    """Import optional packages within it.
+
+    Args:
+        name: of the extra of tandemlift that has the packages.
+        user: what needs them.
+
+    Raises:
+        InputError: a package is not installed; with the command that installs it.
+    """
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        package = (error.name or "").partition(".")[0]
+        raise InputError(f"{user} needs {package}: {install_command(name)}") from None
+
+
+def install_command(name: str) -> str:
+    """The command that installs an extra."""
+    return f"pip install 'tandemlift[{name}]'"

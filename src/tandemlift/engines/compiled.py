@@ -12,10 +12,9 @@ import numpy as np
 
 from tandemlift.core.algebra.arrays import array, inverse, square_roots
 from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.vector import Nothing, vec3
-from tandemlift.core.caching import kept
-from tandemlift.core.settings import Mission, VehicleTable
-from tandemlift.core.settings.world import DisturbanceTable, InitialTable, PlantTable
+from tandemlift.core.algebra.types import Number, PerRotor
+from tandemlift.core.algebra.vector import Absent, Quarters, vec3
+from tandemlift.core.caching import cached
 from tandemlift.engines.compiled_contact import (
     BodySurroundings,
     CompiledPlant,
@@ -30,31 +29,36 @@ from tandemlift.engines.compiled_contact import (
     with_load,
 )
 from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.engines.models.scene import Scene
 from tandemlift.engines.models.surroundings import floor_from, walls_from
+from tandemlift.parts.contact.feet import Floor
+from tandemlift.parts.contact.touches import Touches
+from tandemlift.parts.contact.walls import NearWalls, Walls
 from tandemlift.parts.mechanics.inertia import Inertia, inertia_value
-from tandemlift.parts.mechanics.loads import PerfectReadings, perfect_readings, readings_with_load
+from tandemlift.parts.mechanics.loads import PartLoads, PerfectReadings, perfect_readings, readings_with_load
 from tandemlift.parts.mechanics.parts import Acceleration
-from tandemlift.parts.mechanics.push import PushSamples
-from tandemlift.parts.mechanics.rigid_body import RigidBody, State, motion, rigid_body_motion, rk4
+from tandemlift.parts.mechanics.plant_table import DisturbanceTable, PlantTable
+from tandemlift.parts.mechanics.push import CentralPush, PointPush, PushSamples
+from tandemlift.parts.mechanics.rigid_body import InitialTable, RigidBody, State, Wrench, motion, rigid_body_motion, rk4
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
-from tandemlift.parts.rotors.allocation import Mixer, mixer_from, wrench
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.rotors.allocation import mixer_of, wrench
 
 
 class BodyStep(NamedTuple):
     """Result of a step of the body: the state after it, the readings at its start, grip of the feet and touches after.
 
-    `touches`: a `Touches`, or `Nothing` without floor.
+    `touches`: a `Touches`, or `Absent` without floor.
     """
 
     state: State
     readings: PerfectReadings
-    grip: Any
-    touches: Any
+    grip: Quarters | Absent
+    touches: Touches | Absent
 
 
 @motion.register(BodySurroundings)
-def surrounded_motion(b: BodySurroundings, s: State, u: Any, push: Any) -> State:
+def surrounded_motion(b: BodySurroundings, s: State, u: Wrench, push: CentralPush | PointPush) -> State:
     """The motion of the body among its surroundings."""
     plant, q = b.plant, s.attitude
     free = with_load(b.air, plant.body, rigid_body_motion(plant.body, s, u, push))
@@ -64,7 +68,9 @@ def surrounded_motion(b: BodySurroundings, s: State, u: Any, push: Any) -> State
 
 
 @law
-def readings_in(b: BodySurroundings, s: State, k1: State, air: Any, thrusts: Any, impulses: Any) -> PerfectReadings:
+def readings_in(
+    b: BodySurroundings, s: State, k1: State, air: PartLoads | Absent, thrusts: PerRotor, impulses: PartLoads | Absent
+) -> PerfectReadings:
     """Perfect readings in state `s`, whose motion is `k1`, under thrusts [N] and loads of air and impulses on parts."""
     frame, q = b.plant.frame, s.attitude
     floor, hull, walls = floor_loads(b.plant.floor, b, s), hull_loads_in(b, s), wall_loads(b.plant.walls, b, s)
@@ -82,7 +88,7 @@ def readings_in(b: BodySurroundings, s: State, k1: State, air: Any, thrusts: Any
 
 @law
 def first_motion(
-    plant: CompiledPlant, s: State, grip: Any, near: Any, thrusts: Any, air: Any, hand: PushSamples
+    plant: CompiledPlant, s: State, grip: Quarters, near: NearWalls, thrusts: PerRotor, air: Any, hand: PushSamples
 ) -> State:
     """The motion at the start of a step."""
     b = BodySurroundings(plant, load_about_center(air, plant.frame, s.attitude), grip, near)
@@ -91,7 +97,14 @@ def first_motion(
 
 @law
 def advance(
-    plant: CompiledPlant, s: State, grip: Any, near: Any, thrusts: Any, air: Any, hand: PushSamples, dt: Any
+    plant: CompiledPlant,
+    s: State,
+    grip: Quarters | Absent,
+    near: NearWalls | Absent,
+    thrusts: PerRotor,
+    air: PartLoads | Absent,
+    hand: PushSamples,
+    dt: Number,
 ) -> BodyStep:
     """One step of dt [s] with rotor thrusts [N] and the air's loads held, and the push continuous.
 
@@ -106,25 +119,25 @@ def advance(
     after = rk4(b, struck.state, k1, u, hand, dt)
     mean = with_load(load_about_center(struck.loads, plant.frame, q), plant.body, k1)
     readings = readings_in(b, struck.state, mean, air, thrusts, struck.loads)
-    return BodyStep(after, readings, grip_after(plant.floor, grip, after), Nothing())
+    return BodyStep(after, readings, grip_after(plant.floor, grip, after), Absent())
 
 
-@kept
+@cached
 def readings_at_rest(
-    plant: CompiledPlant, s: State, grip: Any, near: Any, thrusts: Any, hand: PushSamples
+    plant: CompiledPlant,
+    s: State,
+    grip: Quarters | Absent,
+    near: NearWalls | Absent,
+    thrusts: PerRotor,
+    hand: PushSamples,
 ) -> PerfectReadings:
     """Perfect readings in still air in state `s` under rotor thrusts [N]."""
-    b = BodySurroundings(plant, Nothing(), grip, near)
+    b = BodySurroundings(plant, Absent(), grip, near)
     k1 = motion(b, s, wrench(plant.effect, thrusts), hand.start)
-    return readings_in(b, s, k1, Nothing(), thrusts, Nothing())
+    return readings_in(b, s, k1, Absent(), thrusts, Absent())
 
 
-@kept
-def _effect(vehicle: VehicleTable) -> Mixer:
-    return mixer_from(Vehicle.from_settings(vehicle).effect)
-
-
-@kept
+@cached
 def _inertia(vehicle: Vehicle, inertia_scale: tuple[float, ...]) -> tuple[Inertia, Inertia]:
     """The true inertia of a vehicle and its inverse."""
     scale = np.diag(square_roots(array(inertia_scale)))
@@ -132,16 +145,16 @@ def _inertia(vehicle: Vehicle, inertia_scale: tuple[float, ...]) -> tuple[Inerti
     return inertia_value(J), inertia_value(inverse(J))
 
 
-def start_plant(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> CompiledPlant:
-    """The body of a mission, on a floor and between walls, or `Nothing`."""
-    body = _body(vehicle, mission.plant, mission.disturbance)
-    return _plant(_effect(mission.vehicle), body, parts_layout_from(vehicle), floor, walls)
+def start_plant(scene: Scene, vehicle: Vehicle, floor: Floor | Absent, walls: Walls | Absent) -> CompiledPlant:
+    """The body of a scene, on a floor and between walls, or `Absent`."""
+    body = _body(vehicle, scene.plant, scene.disturbance)
+    return _plant(mixer_of(vehicle), body, parts_layout_from(vehicle), floor, walls)
 
 
-_plant = kept(CompiledPlant)
+_plant = cached(CompiledPlant)
 
 
-@kept
+@cached
 def _body(vehicle: Vehicle, plant: PlantTable, disturbance: DisturbanceTable) -> RigidBody:
     inertia, inverse_inertia = _inertia(vehicle, plant.inertia_scale)
     return RigidBody(
@@ -155,17 +168,17 @@ def _body(vehicle: Vehicle, plant: PlantTable, disturbance: DisturbanceTable) ->
     )
 
 
-def plant_from(mission: Mission, vehicle: Vehicle) -> CompiledPlant:
-    """The body of a mission with its floor and its walls, each `Nothing` if the mission has none."""
-    return start_plant(mission, vehicle, floor_from(mission, vehicle), walls_from(mission, vehicle))
+def plant_from(scene: Scene, vehicle: Vehicle) -> CompiledPlant:
+    """The body of a mission with its floor and its walls, each `Absent` if the mission has none."""
+    return start_plant(scene, vehicle, floor_from(scene, vehicle), walls_from(scene, vehicle))
 
 
-def start_state(mission: Mission) -> State:
+def start_state(scene: Scene) -> State:
     """The state of a mission at t = 0."""
-    return _state(mission.initial)
+    return _state(scene.initial)
 
 
-@kept
+@cached
 def _state(initial: InitialTable) -> State:
     attitude = quaternion_from_euler(vec3(initial.euler))
     return State(vec3(initial.position), vec3(initial.velocity), attitude, vec3(initial.rates))

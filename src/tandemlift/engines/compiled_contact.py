@@ -1,6 +1,6 @@
 """Contact of the compiled body: loads of floor and walls on its parts, and what they do to its motion and readings.
 
-What a mission does not have is `Nothing`, and costs nothing. What is out of reach for a step (`DistantFloor`,
+What a mission does not have is `Absent`, and costs nothing. What is out of reach for a step (`DistantFloor`,
 `DistantWalls`) gives zero loads, added like any other.
 """
 
@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.vector import ZERO, Nothing
+from tandemlift.core.algebra.vector import ZERO, Absent
 from tandemlift.parts.contact.feet import Floor, feet_load, grips_after_step
 from tandemlift.parts.contact.hull import Hull, HullContact, hull_contact, hull_loads
 from tandemlift.parts.contact.impulses import WallImpulses, impulses_of_walls
@@ -77,8 +77,8 @@ def without_contact(plant: CompiledPlant) -> CompiledPlant:
     """The same body, with floor and walls out of reach."""
     floor, walls = plant.floor, plant.walls
     return plant._replace(
-        floor=floor if isinstance(floor, Nothing) else DistantFloor(floor),
-        walls=walls if isinstance(walls, Nothing) else DistantWalls(walls),
+        floor=floor if isinstance(floor, Absent) else DistantFloor(floor),
+        walls=walls if isinstance(walls, Absent) else DistantWalls(walls),
     )
 
 
@@ -86,14 +86,14 @@ def on_feet_only(plant: CompiledPlant) -> CompiledPlant:
     """The same body, with nothing but its feet within reach of the floor, and walls out of reach."""
     floor, walls = plant.floor, plant.walls
     return plant._replace(
-        floor=floor if isinstance(floor, Nothing) else floor._replace(hull=DistantHull(floor.hull)),
-        walls=walls if isinstance(walls, Nothing) else DistantWalls(walls),
+        floor=floor if isinstance(floor, Absent) else floor._replace(hull=DistantHull(floor.hull)),
+        walls=walls if isinstance(walls, Absent) else DistantWalls(walls),
     )
 
 
 @choice(absent="floor")
 def floor_loads(floor: Any, b: BodySurroundings, s: State) -> Any:
-    """Loads of the floor on the quadrotors, or `Nothing`."""
+    """Loads of the floor on the quadrotors, or `Absent`."""
 
 
 @floor_loads.register(DistantFloor)
@@ -108,7 +108,7 @@ def _floor(floor: Floor, b: BodySurroundings, s: State) -> Any:
 
 @choice(absent="walls")
 def wall_loads(walls: Any, b: BodySurroundings, s: State) -> Any:
-    """Loads of the walls on all parts, or `Nothing`."""
+    """Loads of the walls on all parts, or `Absent`."""
 
 
 @wall_loads.register(DistantWalls)
@@ -126,28 +126,28 @@ def struck_by_walls(walls: Any, b: BodySurroundings, s: State, u: Any, push: Any
     """The `WallImpulses` at the start of a step of dt [s]."""
 
 
-@struck_by_walls.register(Nothing)
+@struck_by_walls.register(Absent)
 @struck_by_walls.register(DistantWalls)
 def _not_struck(walls: Any, b: BodySurroundings, s: State, u: Any, push: Any, dt: Any) -> WallImpulses:
-    return WallImpulses(s, Nothing(), Nothing())
+    return WallImpulses(s, Absent(), Absent())
 
 
 @struck_by_walls.register(Walls)
 def _struck(walls: Walls, b: BodySurroundings, s: State, u: Any, push: Any, dt: Any) -> WallImpulses:
     plant = b.plant
-    free, sprung = motion(b._replace(plant=plant._replace(walls=Nothing())), s, u, push), motion(b, s, u, push)
+    free, sprung = motion(b._replace(plant=plant._replace(walls=Absent())), s, u, push), motion(b, s, u, push)
     contact = near_wall_contact(walls, b.near, plant.frame, s)
     return impulses_of_walls(walls, contact, plant.frame, plant.body, s, free, sprung, dt)
 
 
 @choice(absent="floor")
 def hull_contact_with(floor: Any, s: State) -> Any:
-    """Contact of rotors, guards and beam with the floor; `Nothing` where it is out of reach."""
+    """Contact of rotors, guards and beam with the floor; `Absent` where it is out of reach."""
 
 
 @hull_contact_with.register(DistantFloor)
-def _hull_out_of_reach(floor: DistantFloor, s: State) -> Nothing:
-    return Nothing()
+def _hull_out_of_reach(floor: DistantFloor, s: State) -> Absent:
+    return Absent()
 
 
 @hull_contact_with.register(Floor)
@@ -157,7 +157,7 @@ def _hull(floor: Floor, s: State) -> Any:
 
 @choice(absent="hull")
 def contact_of_hull(hull: Any, floor: Floor, s: State) -> Any:
-    """`hull_contact`, or `Nothing` without a hull."""
+    """`hull_contact`, or `Absent` without a hull."""
 
 
 @contact_of_hull.register(Hull)
@@ -166,13 +166,13 @@ def _with_floor(hull: Hull, floor: Floor, s: State) -> HullContact:
 
 
 @contact_of_hull.register(DistantHull)
-def _distant_hull(hull: DistantHull, floor: Floor, s: State) -> Nothing:
-    return Nothing()
+def _distant_hull(hull: DistantHull, floor: Floor, s: State) -> Absent:
+    return Absent()
 
 
 @choice(absent="contact")
 def loads_of_hull(contact: Any, frame: PartsLayout, s: State) -> Any:
-    """Loads of a `HullContact` on all parts, or `Nothing`."""
+    """Loads of a `HullContact` on all parts, or `Absent`."""
 
 
 @loads_of_hull.register(HullContact)
@@ -182,13 +182,13 @@ def _of_hull(contact: HullContact, frame: PartsLayout, s: State) -> PartLoads:
 
 @law
 def hull_loads_in(b: BodySurroundings, s: State) -> Any:
-    """Loads of the floor on rotors, guards and beam, or `Nothing` where it is out of reach."""
+    """Loads of the floor on rotors, guards and beam, or `Absent` where it is out of reach."""
     return loads_of_hull(hull_contact_with(b.plant.floor, s), b.plant.frame, s)
 
 
 @choice(absent="load")
 def load_about_center(load: Any, frame: PartsLayout, attitude: Any) -> Any:
-    """A load about the centre of mass: of everything, of the quadrotors (vectors of sets), or `Nothing`."""
+    """A load about the centre of mass: of everything, of the quadrotors (vectors of sets), or `Absent`."""
 
 
 @load_about_center.register(PartLoads)
@@ -219,7 +219,7 @@ def _with_load(load: PartLoad, body: RigidBody, rate: State) -> State:
 
 @choice(absent="loads")
 def quadrotor_loads(loads: Any) -> Any:
-    """The part of loads that acts on the quadrotors, or `Nothing`."""
+    """The part of loads that acts on the quadrotors, or `Absent`."""
 
 
 @quadrotor_loads.register(PartLoads)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from tandemlift.core.algebra.law import choice
-from tandemlift.core.algebra.vector import Nothing
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import Absent
 from tandemlift.engines.compiled_contact import CompiledPlant, DistantWalls, hull_contact_with
 from tandemlift.parts.contact.hull import HullContact
 from tandemlift.parts.contact.touches import (
@@ -15,29 +16,29 @@ from tandemlift.parts.contact.touches import (
     touches_after,
     wall_contacts,
 )
-from tandemlift.parts.contact.walls import NearWallContact, Walls, near_wall_contact
+from tandemlift.parts.contact.walls import NearWallContact, NearWalls, Walls, near_wall_contact
 from tandemlift.parts.mechanics.loads import PartsLayout
 from tandemlift.parts.mechanics.rigid_body import State
 
 
 @choice(absent="walls")
 def wall_contact_with(walls: Any, near: Any, frame: PartsLayout, s: State) -> Any:
-    """Contact with the near walls; `Nothing` where they are out of reach."""
+    """Contact with the near walls; `Absent` where they are out of reach."""
 
 
 @wall_contact_with.register(DistantWalls)
-def _untouched_walls(walls: DistantWalls, near: Any, frame: PartsLayout, s: State) -> Nothing:
-    return Nothing()
+def _untouched_walls(walls: DistantWalls, near: NearWalls, frame: PartsLayout, s: State) -> Absent:
+    return Absent()
 
 
 @wall_contact_with.register(Walls)
-def _near_walls(walls: Walls, near: Any, frame: PartsLayout, s: State) -> NearWallContact:
+def _near_walls(walls: Walls, near: NearWalls, frame: PartsLayout, s: State) -> NearWallContact:
     return near_wall_contact(walls, near, frame, s)
 
 
 @choice(absent="contact")
 def parts_touched(contact: Any, s: State) -> Any:
-    """The `SurfaceContacts` of a contact with floor or walls in state `s`, or `Nothing`."""
+    """The `SurfaceContacts` of a contact with floor or walls in state `s`, or `Absent`."""
 
 
 @parts_touched.register(HullContact)
@@ -56,6 +57,8 @@ def touches_in(touches: Any, plant: CompiledPlant, near: Any, s: State, t: Any, 
 
 
 @touches_in.register(Touches)
-def _touches(touches: Touches, plant: CompiledPlant, near: Any, s: State, t: Any, dt: Any) -> Touches:
+def _touches(
+    touches: Touches, plant: CompiledPlant, near: NearWalls | Absent, s: State, t: Number, dt: Number
+) -> Touches:
     floor, walls = hull_contact_with(plant.floor, s), wall_contact_with(plant.walls, near, plant.frame, s)
     return touches_after(touches, parts_touched(floor, s), parts_touched(walls, s), t, dt)

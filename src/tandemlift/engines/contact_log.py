@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra.layout import flat
-from tandemlift.core.algebra.vector import Nothing, Vec3, set_of
+from tandemlift.core.algebra.vector import Absent, Vec3, set_of
 from tandemlift.core.types import Array
 from tandemlift.parts.contact.touches import PartContacts, SurfaceContacts, start_touches, touches_after
 
@@ -19,8 +19,8 @@ class ContactLog:
     """Touches of a body, step by step.
 
     Args:
-        floor: a `parts.contact.feet.Floor`, or `Nothing`.
-        walls: a `parts.contact.walls.Walls`, or `Nothing`.
+        floor: a `parts.contact.feet.Floor`, or `Absent`.
+        walls: a `parts.contact.walls.Walls`, or `Absent`.
         quadrotors: how many.
         step: [s].
 
@@ -57,7 +57,7 @@ class ContactLog:
     def end_step(self) -> None:
         """Enter the contacts at the end of a step into the record."""
         self._k += 1
-        if self._found and not isinstance(self._touches, Nothing):
+        if self._found and not isinstance(self._touches, Absent):
             floor, walls = (self._surface(surface) for surface in SURFACES)
             t = self._k * self._step
             self._touches = touches_after(self._touches, floor, walls, t, self._step)
@@ -65,13 +65,13 @@ class ContactLog:
             self._found.clear()
 
     def _surface(self, surface: str) -> Any:
-        """The contacts with a surface, or `Nothing`."""
+        """The contacts with a surface, or `Absent`."""
         parts = [self._contacts(surface, kind) for kind in KINDS]
-        return Nothing() if all(isinstance(part, Nothing) for part in parts) else SurfaceContacts(*parts)
+        return Absent() if all(isinstance(part, Absent) for part in parts) else SurfaceContacts(*parts)
 
     def _contacts(self, surface: str, kind: str) -> Any:
         found = self._found.get((surface, kind))
         if found is None:
-            return Nothing()
+            return Absent()
         sums, _, (x, y, z) = found
         return PartContacts(set_of(sums.tolist()), Vec3(*[set_of(axis.tolist()) for axis in (x, y, z)]))

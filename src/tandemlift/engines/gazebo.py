@@ -21,18 +21,18 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from tandemlift.core.algebra.vector import Nothing, vec3
+from tandemlift.core.algebra.vector import Absent, vec3
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Array
 from tandemlift.engines.contact_log import KINDS, SURFACES, ContactLog
 from tandemlift.engines.gazebo_server import GazeboServer, free_port
 from tandemlift.engines.gazebo_wire import STATE, PluginAnswer, Wire
 from tandemlift.engines.models import sdf
+from tandemlift.engines.models.scene import Scene
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
-NONE = Nothing()
+NONE = Absent()
 UNSOUND = 1e8  # N, beyond which the flight has diverged
 RESTING = 0.1  # s, between messages that keep the session alive while no step is taken
 STARTING, STEPPING = 60.0, 10.0  # s, after which a server that does not answer is given up
@@ -64,9 +64,9 @@ class PluginLink(Protocol):
         """End the session and close the connection."""
 
 
-def _connect(mission: Mission, vehicle: Vehicle) -> tuple[GazeboServer | None, PluginLink]:
+def _connect(scene: Scene, vehicle: Vehicle) -> tuple[GazeboServer | None, PluginLink]:
     """Connect to the plugin over UDP, of a server started for the flight unless a port is named."""
-    server, port = _find_server(mission)
+    server, port = _find_server(scene)
     return server, Wire(port, vehicle.count, STEPPING, server.check if server else CHECKS.get(port))
 
 
@@ -76,8 +76,8 @@ class GazeboBody:
     Args:
         mission: its step, `initial`, `plant`, `disturbance`, `ground` and `walls` are the body's.
         vehicle: the vehicle that the pilot knows.
-        floor: a `parts.contact.feet.Floor` to stand on, or `Nothing`.
-        walls: a `parts.contact.walls.Walls` that says how the mission's walls press, or `Nothing`.
+        floor: a `parts.contact.feet.Floor` to stand on, or `Absent`.
+        walls: a `parts.contact.walls.Walls` that says how the mission's walls press, or `Absent`.
         connect: finds or starts a server, and connects to its plugin.
 
     Attributes:
@@ -86,45 +86,45 @@ class GazeboBody:
         server: the server that was started; None if one was joined.
 
     Raises:
-        InputError: there is no Gazebo, or the world does not fit the mission.
+        InputError: there is no Gazebo, or the world does not fit the scene.
         OSError: the server ended, or did not answer.
     """
 
     def __init__(
         self,
-        mission: Mission,
+        scene: Scene,
         vehicle: Vehicle,
         floor: Any = NONE,
         walls: Any = NONE,
-        connect: Callable[[Mission, Vehicle], tuple[GazeboServer | None, PluginLink]] = _connect,
+        connect: Callable[[Scene, Vehicle], tuple[GazeboServer | None, PluginLink]] = _connect,
     ) -> None:
-        self.server, self._wire = connect(mission, vehicle)
+        self.server, self._wire = connect(scene, vehicle)
         wire = self._wire
         self._closing = weakref.finalize(self, _close, wire, self.server)
         real_time = os.environ.get(REAL_TIME, "0") not in ("", "0")
         self._hello = partial(
-            wire.hello, mission.mission.step, sdf.rotors_of(vehicle), start_state_from(mission), real_time
+            wire.hello, scene.mission.step, sdf.rotors_of(vehicle), start_state_from(scene), real_time
         )
         self._begun, self._rested = False, 0.0
-        self._handshake(mission, vehicle)
+        self._handshake(scene, vehicle)
         answer = wire.answer
         self.state, self.readings, self.pushed = answer.state, answer.readings, answer.pushed
         self.readings.fill(0.0)
         self._velocity, self._rates, self._contact = answer.state[3:6], answer.state[10:], answer.readings[-3:]
-        self._touching = not (isinstance(floor, Nothing) and isinstance(walls, Nothing))
-        self._log = ContactLog(floor, walls, vehicle.count, mission.mission.step)
+        self._touching = not (isinstance(floor, Absent) and isinstance(walls, Absent))
+        self._log = ContactLog(floor, walls, vehicle.count, scene.mission.step)
         self.touches, self._normals, self._parts = self._log.numbers, answer.touches[..., 0], _parts(vehicle.count)
         self._force, self._moment = wire.wrench[:3], wire.wrench[3:]
-        self._disturbing_force = np.array(mission.disturbance.force)
-        self._disturbing_moment = np.array(mission.disturbance.moment)
+        self._disturbing_force = np.array(scene.disturbance.force)
+        self._disturbing_moment = np.array(scene.disturbance.moment)
         self._drag_force, self._drag_moment = np.array(vehicle.drag.force), np.array(vehicle.drag.moment)
 
-    def _handshake(self, mission: Mission, vehicle: Vehicle) -> None:
-        """Wait for the plugin, and check that its world fits the mission."""
+    def _handshake(self, scene: Scene, vehicle: Vehicle) -> None:
+        """Wait for the plugin, and check that its world fits the scene."""
         try:
             if self.server:
                 self._wire.patience = STARTING
-            _check_world(self._hello(), mission, vehicle)
+            _check_world(self._hello(), scene, vehicle)
             self._wire.patience = STEPPING
         except TimeoutError as error:
             output = self.server.last_output() if self.server else ""
@@ -192,20 +192,20 @@ def _close(wire: PluginLink, server: GazeboServer | None) -> None:
     wire.close()
 
 
-def _find_server(mission: Mission) -> tuple[GazeboServer | None, int]:
+def _find_server(scene: Scene) -> tuple[GazeboServer | None, int]:
     """The server and the port of its plugin: a new server, unless a running one is named."""
     given = os.environ.get(PORT)
     if not given:
         port = free_port(socket.SOCK_DGRAM)
-        return GazeboServer(world_from(mission, port)), port
+        return GazeboServer(world_from(scene, port)), port
     if not given.isdecimal() or not 0 < int(given) < 65536:
         raise InputError(f"{PORT} = {given}: must be a UDP port, 1 to 65535")
     return None, int(given)
 
 
-def world_from(mission: Mission, plugin: int | str, **more: str) -> str:
+def world_from(scene: Scene, plugin: int | str, **more: str) -> str:
     """The world for one flight of a mission: it waits for its pilot without limit, and ends with it."""
-    top = ElementTree.fromstring(sdf.world(mission, plugin).encode())
+    top = ElementTree.fromstring(sdf.world(scene, plugin).encode())
     settings = top.find(".//plugin[@name='tandemlift']")
     assert settings is not None
     for name, text in {"wait": "true", "patience": "0", "stay": "false", **more}.items():
@@ -213,20 +213,20 @@ def world_from(mission: Mission, plugin: int | str, **more: str) -> str:
     return ElementTree.tostring(top, "unicode")
 
 
-def start_state_from(mission: Mission) -> Array:
+def start_state_from(scene: Scene) -> Array:
     """The state (13,) that a mission starts in."""
-    initial = mission.initial
+    initial = scene.initial
     attitude = quaternion_from_euler(vec3(initial.euler))
     state = np.array([*initial.position, *initial.velocity, *attitude, *initial.rates])
     assert state.size == STATE
     return state
 
 
-def _check_world(answer: PluginAnswer, mission: Mission, vehicle: Vehicle) -> None:
+def _check_world(answer: PluginAnswer, scene: Scene, vehicle: Vehicle) -> None:
     """Refuse a world whose step or mass differs from the mission's."""
     _, step, mass = answer.clock
-    true_mass = vehicle.mass * mission.plant.mass_scale
-    for what, given, wanted, unit in (("step", step, mission.mission.step, "s"), ("mass", mass, true_mass, "kg")):
+    true_mass = vehicle.mass * scene.plant.mass_scale
+    for what, given, wanted, unit in (("step", step, scene.mission.step, "s"), ("mass", mass, true_mass, "kg")):
         if abs(given - wanted) > CLOSE * wanted:
             raise InputError(
                 f"engine 'gazebo': the world in Gazebo has a {what} of {given:g} {unit}, the mission {wanted:g} "

@@ -17,14 +17,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Array
 from tandemlift.engines.gazebo import NONE, STEPPING, GazeboBody, world_from
 from tandemlift.engines.gazebo_server import GazeboServer
 from tandemlift.engines.gazebo_wire import PluginAnswer
+from tandemlift.engines.models.scene import Scene
 from tandemlift.engines.ros_master import joined, node, ros_environment
 from tandemlift.engines.rospy import message_type
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 Stamp = tuple[int, int]  # s, ns
 ROOT = "/tandemlift/gazebo"
@@ -37,18 +37,18 @@ WAITING = 0.02  # s, between requests to become the pilot
 _taken: set[str] = set()
 
 
-def over_ros(mission: Mission, vehicle: Vehicle, floor: Any = NONE, walls: Any = NONE) -> GazeboBody:
+def over_ros(scene: Scene, vehicle: Vehicle, floor: Any = NONE, walls: Any = NONE) -> GazeboBody:
     """A mission's vehicle in Gazebo; see `gazebo.GazeboBody`."""
-    return GazeboBody(mission, vehicle, floor, walls, _connect)
+    return GazeboBody(scene, vehicle, floor, walls, _connect)
 
 
-def _connect(mission: Mission, vehicle: Vehicle) -> tuple[GazeboServer | None, RosWire]:
+def _connect(scene: Scene, vehicle: Vehicle) -> tuple[GazeboServer | None, RosWire]:
     node()
     if joined() == "world":
         return None, RosWire(vehicle.count, STEPPING)
     place = next(place for place in PLACES if place not in _taken)
     _taken.add(place)
-    server = GazeboServer(world_from(mission, "ros", namespace=place), ros_environment(), ENDING)
+    server = GazeboServer(world_from(scene, "ros", namespace=place), ros_environment(), ENDING)
     return server, RosWire(vehicle.count, STEPPING, server.check, place)
 
 

@@ -10,17 +10,17 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.core.algebra.vector import Nothing, vec3
-from tandemlift.core.settings import Mission
+from tandemlift.core.algebra.vector import Absent, vec3
 from tandemlift.core.types import Array
 from tandemlift.engines.contact_log import ContactLog
 from tandemlift.engines.models.mujoco_bodies import model_of
 from tandemlift.engines.models.mujoco_contact import touching_parts
 from tandemlift.engines.models.mujoco_import import mujoco
+from tandemlift.engines.models.scene import Scene
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
-NONE = Nothing()
+NONE = Absent()
 UNSOUND = 1e8  # N, beyond which the flight has diverged; MuJoCo takes a command beyond 1e10 for zero
 
 
@@ -30,24 +30,24 @@ class MuJoCoBody:
     Args:
         mission: its step, `initial`, `plant`, `disturbance` and `walls` are the body's.
         vehicle: the vehicle that the pilot knows.
-        floor: a `parts.contact.feet.Floor` to stand on, or `Nothing`.
-        walls: a `parts.contact.walls.Walls` that says how the mission's walls press, or `Nothing`.
+        floor: a `parts.contact.feet.Floor` to stand on, or `Absent`.
+        walls: a `parts.contact.walls.Walls` that says how the mission's walls press, or `Absent`.
     """
 
-    def __init__(self, mission: Mission, vehicle: Vehicle, floor: Any = NONE, walls: Any = NONE) -> None:
-        self.model = model_of(mission, vehicle, floor, walls)
+    def __init__(self, scene: Scene, vehicle: Vehicle, floor: Any = NONE, walls: Any = NONE) -> None:
+        self.model = model_of(scene, vehicle, floor, walls)
         self.data = mujoco.MjData(self.model)
         N = vehicle.count
         self.state, self.readings = np.zeros(13), np.zeros(6 * N + 6)
-        self._disturbing_force = np.array(mission.disturbance.force)
-        self._disturbing_moment = np.array(mission.disturbance.moment)
+        self._disturbing_force = np.array(scene.disturbance.force)
+        self._disturbing_moment = np.array(scene.disturbance.moment)
         self._payload, self._R = skew(-vehicle.center_of_mass), np.empty((3, 3))
         self._turned = np.empty((3, N))
         self._made, self._of_rotors = rotor_loads_at_joints(vehicle), np.empty(6 * N)
-        self._log, self._parts = ContactLog(floor, walls, N, mission.mission.step), touching_parts(self.model)
+        self._log, self._parts = ContactLog(floor, walls, N, scene.mission.step), touching_parts(self.model)
         self.touches, self._contact_load = self._log.numbers, np.zeros(6)
         self._view_memory(N, touching=self.model.npair > 0)
-        self._set_start(mission)
+        self._set_start(scene)
 
     def _view_memory(self, N: int, *, touching: bool) -> None:
         """Make views of MuJoCo's memory and of ours, part by part, so that a step only copies."""
@@ -67,9 +67,9 @@ class MuJoCoBody:
         self._contact_force, self._contact_sensor = readings[6 * N + 3 :], d.sensordata[6 * N + 3 :]
         self._touching = touching
 
-    def _set_start(self, mission: Mission) -> None:
+    def _set_start(self, scene: Scene) -> None:
         """Put the body where the mission starts."""
-        initial = mission.initial
+        initial = scene.initial
         self._true_position[:], self._true_velocity[:] = initial.position, initial.velocity
         self._true_attitude[:], self._true_rates[:] = quaternion_from_euler(vec3(initial.euler)), initial.rates
         self._read_state()

@@ -2,7 +2,7 @@
 
 The inputs of an engine are rotor thrusts, loads of the air and the person's push. It advances its body by a step, and
 returns the state after it and perfect sensor readings at its start. It knows neither the pilot nor sensor errors; it
-reads vehicle, initial state, ground and walls of the mission.
+reads vehicle, initial state, ground and walls of the scene.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 from tandemlift.core.errors import unknown
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Array
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.engines.models.scene import Scene
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
 class EngineLost(ConnectionError):
@@ -79,7 +79,7 @@ class PushedBody(Protocol):
     pushed: Array
 
 
-Make = Callable[[Mission, Vehicle, Any, Any], EngineBody]
+Make = Callable[[Scene, Vehicle, Any, Any], EngineBody]
 
 
 def _mujoco() -> Make:
@@ -115,14 +115,14 @@ class Engine(NamedTuple):
     load: Callable[[], Make] | None = None
     pushable: bool = False
 
-    def start(self, mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> EngineBody:
-        """The body of a mission at t = 0; `floor`: a `Floor`, `walls`: a `Walls` (laws.mechanics), or `Nothing`.
+    def start(self, scene: Scene, vehicle: Vehicle, floor: Any, walls: Any) -> EngineBody:
+        """The body of a mission at t = 0; `floor`: a `Floor`, `walls`: a `Walls` (laws.mechanics), or `Absent`.
 
         Raises:
-            InputError: the engine is not installed, or cannot take the mission.
+            InputError: the engine is not installed, or cannot take the scene.
         """
         assert self.load is not None, "the compiled engine has no body of its own"
-        return self.load()(mission, vehicle, floor, walls)
+        return self.load()(scene, vehicle, floor, walls)
 
 
 ENGINES = {

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from tandemlift.core.extras import extra
+from tandemlift.core.errors import extra
 from tandemlift.core.types import Array
 from tandemlift.flight.channels import Channel
 

@@ -17,16 +17,16 @@ from tandemlift.core.errors import InputError, suggestion, unknown
 from tandemlift.core.files import atomic_write, unpacked_size
 from tandemlift.core.findings import Finding, finding_from
 from tandemlift.core.outcomes import FAILURES, INTERRUPTED
-from tandemlift.core.settings.mission import check_keys
 from tandemlift.core.types import Array
 from tandemlift.flight.channels import CHANNELS, DERIVED, OTHER, Channel, channel_of
 from tandemlift.flight.data_frames import to_pandas, to_xarray
+from tandemlift.parts.contact.corridor import wall_tables
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
-FORMAT = 1
+FORMAT = 2
 LATE = 10.0
 """Time [s] from which metrics with `after_10s` in their names are formed: the disturbed start is left out."""
 
@@ -82,6 +82,11 @@ class Flight(Mapping[str, Array]):
     def name(self) -> str:
         """The mission's name."""
         return self.mission["mission"]["name"]
+
+    @property
+    def walls(self) -> list[dict[str, Any]]:
+        """The mission's walls as tables: those of `walls`, then the corridor's."""
+        return wall_tables(self.mission)
 
     @property
     def outcome(self) -> str:
@@ -224,14 +229,15 @@ def _read(file: BinaryIO) -> tuple[dict[str, Any], dict[str, Array]]:
             raise InputError("no flight that tandemlift saved: it has no header")
         header = json.loads(str(content["header"]))
         number = header["format"]
-        if number > FORMAT:
-            raise InputError(f"written by a newer tandemlift: its format is {number}, this one reads up to {FORMAT}")
+        if number != FORMAT:  # no earlier format has been released
+            raise InputError(
+                f"written by another version of tandemlift: its format is {number}, this one reads {FORMAT}"
+            )
         return header, {name: content[name] for name in dict.fromkeys(("time", *header["channels"]))}
 
 
 def _check_names(header: dict[str, Any]) -> None:
-    """Refuse keys and channels that another version had; a channel of the user's own is described as that."""
-    check_keys(header["mission"])
+    """Refuse channels that another version had; a channel of the user's own is described as that."""
     for name, said in header["channels"].items():
         if channel_of(name) == OTHER and said != _described(OTHER) and not name.startswith("measured_"):
             raise unknown("channel", name, CHANNELS)

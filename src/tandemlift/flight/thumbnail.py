@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.core.settings import wall_tables
 from tandemlift.core.types import Array
 from tandemlift.flight.data_frames import LoggedFlight
+from tandemlift.parts.contact.corridor import wall_tables
 
 BLUE, VERMILLION, GREY = "#2a8bcc", "#e0701f", "#8c8c8c"  # that are seen on white and on black
 INK = "#123456"  # stands for the colour of the notebook's text

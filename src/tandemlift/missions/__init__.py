@@ -1,13 +1,13 @@
-"""Missions: from TOML files, with changes on top, to a checked `settings.Mission`; warnings; the reference of keys.
+"""Missions: from TOML files, with changes on top, to a checked `Mission`; warnings; the reference of keys.
 
 A file may start from another mission with `extends = "NAME or path"` and change some keys; tables merge, everything
 else is replaced, and another `controller.name` starts from that controller's defaults.
 """
 
-from tandemlift.core.settings import Mission
 from tandemlift.missions.checking import changed, check, in_turn
 from tandemlift.missions.files import DATA, built_in
 from tandemlift.missions.loading import MissionTemplate, load_mission
+from tandemlift.missions.tables.mission import Mission, check_keys
 from tandemlift.missions.values import merge
 from tandemlift.missions.writing import format_toml, tables_of, to_toml
 
@@ -18,6 +18,7 @@ __all__ = [
     "built_in",
     "changed",
     "check",
+    "check_keys",
     "format_toml",
     "in_turn",
     "load_mission",

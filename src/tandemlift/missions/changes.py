@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission, PerAxis
-from tandemlift.core.settings.admittance import with_feel
-from tandemlift.core.settings.value_types import is_number
-from tandemlift.core.toml import parts_of
+from tandemlift.core.keys import PerAxis, is_number
+from tandemlift.core.toml import parts_of, shown
 from tandemlift.missions.bounds import table_in
-from tandemlift.missions.values import Tables, merge, shown, value_at
+from tandemlift.missions.tables.mission import Mission
+from tandemlift.missions.values import Tables, merge, value_at
+from tandemlift.parts.compliance.admittance import with_feel
 from tandemlift.parts.controllers import CONTROLLERS
 
 

@@ -8,15 +8,18 @@ from typing import Any, NamedTuple
 
 from pydantic import BaseModel, ValidationError
 
+from tandemlift.core.checks import accepted
 from tandemlift.core.errors import FlightWarning, InputError, suggestion
-from tandemlift.core.settings import ControllerTable, Mission
+from tandemlift.core.toml import shown
 from tandemlift.missions.changes import changed_tables
-from tandemlift.missions.checks import check_flyable, warn
+from tandemlift.missions.checks import mission_checks, refusals
 from tandemlift.missions.files import Layer
+from tandemlift.missions.flight_checks.table import worst_failures
 from tandemlift.missions.refusals import Problem, problems_in
-from tandemlift.missions.values import MISSING, Place, Tables, shown, value_at
+from tandemlift.missions.tables.mission import Mission
+from tandemlift.missions.values import MISSING, Place, Tables, value_at
 from tandemlift.missions.writing import tables_of
-from tandemlift.parts.controllers import CONTROLLERS
+from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
 
 MAX_PROBLEMS = 8  # reported at once
 
@@ -58,12 +61,12 @@ def check(
     if problems:
         _refuse(problems, tables, source, layers)
     try:
-        check_flyable(mission)
+        results = accepted(refusals(mission) if quiet else mission_checks(mission))
         list(in_turn(mission))
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
-    if not quiet:
-        warn(mission, source)
+    for result in worst_failures(results):
+        warnings.warn(f"{source}: {result.text}", FlightWarning, stacklevel=4)
     return mission
 
 

@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 from tandemlift.core.errors import InputError, suggestion, unknown
 from tandemlift.core.files import DATA
-from tandemlift.core.toml import toml_tables
+from tandemlift.core.toml import shown, toml_tables
 from tandemlift.missions.recording import unpacked_recording
-from tandemlift.missions.values import MISSING, Tables, merge, shown, value_at
+from tandemlift.missions.values import MISSING, Tables, merge, value_at
 
 MAX_FILE = 1_000_000  # bytes
 _parsed = functools.lru_cache(maxsize=32)(toml_tables)  # for sweeps of one mission; not to be modified

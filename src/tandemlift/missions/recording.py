@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import atomic_write, unpacked_size
-from tandemlift.core.settings import Mission
+from tandemlift.missions.tables.mission import Mission
 
 WIDTH = 14  # numbers of a `VirtualHandInput`
 ENGINE = "compiled"  # the default engine

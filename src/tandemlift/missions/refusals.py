@@ -9,8 +9,9 @@ from typing import Any, NamedTuple, get_args, get_origin
 from pydantic import ValidationError
 
 from tandemlift.core.errors import nearest
+from tandemlift.core.toml import dotted, shown
 from tandemlift.missions.bounds import Model, allowed, plain, table_in
-from tandemlift.missions.values import MISSING, Place, dotted, shown, value_at
+from tandemlift.missions.values import MISSING, Place, value_at
 
 BY_ANNOTATION = (  # the beginnings of the kinds of error for which the annotation says what is allowed
     *("missing", "axes", "float_", "int_", "bool_", "string_type", "finite_", "greater_", "less_"),

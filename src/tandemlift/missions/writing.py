@@ -8,7 +8,7 @@ from typing import Any
 
 import tomli_w
 
-from tandemlift.core.settings import Mission
+from tandemlift.missions.tables.mission import Mission
 from tandemlift.missions.values import Tables
 
 

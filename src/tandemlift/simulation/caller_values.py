@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission
+from tandemlift.core.toml import shown
 from tandemlift.core.types import Array
-from tandemlift.missions.values import shown
+from tandemlift.missions import Mission
 
 MOST_SEED = 10**18  # as `mission.seed`
 

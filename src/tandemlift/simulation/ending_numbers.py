@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import atan2, maximum, sqrt, where
 from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import Vec3, dot
 from tandemlift.core.outcomes import LEFT_FENCE, STRUCK, TURNED_OVER
 from tandemlift.parts.guidance.fault_detection import distance_outside
@@ -20,8 +21,8 @@ DEGREE = 57.29577951308232  # 180/π
 class EndingMoment(NamedTuple):
     """The moment of an ending: its number in `core.outcomes`, 0 for none; time [s]; state; impulse [N·s]."""
 
-    number: Any
-    time: Any
+    number: Number
+    time: Number
     state: State
     impulse: Any
 
@@ -32,10 +33,10 @@ class EndingNumbers(NamedTuple):
     `not_finite`: from 1, the place of the part of the state that is not finite, of which the value is one; else 0.
     """
 
-    number: Any
-    time: Any
-    value: Any
-    not_finite: Any
+    number: Number
+    time: Number
+    value: Number
+    not_finite: Number
     place: Vec3
 
 
@@ -56,7 +57,7 @@ def impulse_of(strike: Any, impulse: Any) -> Any:
 
 
 @impulse_of.register(Strike)
-def _impulse_of(strike: Strike, impulse: Any) -> Any:
+def _impulse_of(strike: Strike, impulse: Number) -> Number:
     return impulse
 
 
@@ -76,7 +77,7 @@ def ending_numbers(limits: CrashLimits, crash: Any, now: EndingMoment) -> Ending
 
     Args:
         limits: what ends a flight.
-        crash: the memory of a crash, or `Nothing`.
+        crash: the memory of a crash, or `Absent`.
         now: the number of the ending that stops the flight now, at this time and in this state.
     """
     found = moment_of(crash, now)

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
 
-from tandemlift.core.algebra.vector import Nothing, dot, total
+from tandemlift.core.algebra.vector import Absent, dot, total
 from tandemlift.core.faults import ALARM_TEXTS, CHECKS
 from tandemlift.core.findings import Finding, FindingName, finding
 from tandemlift.core.phases import IDLE, LAND, LIFT, REASONS, STOPPED
-from tandemlift.core.settings import Mission
-from tandemlift.core.settings.outcomes import Promise, promise_of
+from tandemlift.missions import Mission
+from tandemlift.missions.tables.outcomes import Promise, promise_of
 from tandemlift.parts.compliance.following import FollowingState
-from tandemlift.parts.guidance.supervision import ALARM, PHASE, SupervisionState
+from tandemlift.parts.guidance.supervision import ALARM, PHASE, EventLog, SupervisionState
+from tandemlift.simulation.loop.detectors import Detectors
 from tandemlift.simulation.loop.excess import Excess
-from tandemlift.simulation.loop.oscillation import HalfPeriods
+from tandemlift.simulation.loop.oscillation import HalfPeriods, Swings
 from tandemlift.simulation.loop.step import FlightState
 from tandemlift.simulation.outcome import landing_time
 from tandemlift.simulation.plan import FlightPlan
@@ -57,7 +57,7 @@ def findings_of(p: FlightPlan, flight_state: FlightState, steps: int, outcome: s
     return tuple(sorted((f for f in found if f.kind not in mission.findings.ignore), key=lambda f: f.time))
 
 
-def _oscillations(swings: Any, mission: Mission) -> Iterator[Finding]:
+def _oscillations(swings: Swings, mission: Mission) -> Iterator[Finding]:
     f = mission.findings
     for name, m in zip(swings._fields, swings, strict=True):
         if m.halves:
@@ -99,7 +99,7 @@ def _excess(
     )
 
 
-def _deviations(d: Any, promise: Promise, mission: Mission, dt: float) -> Iterator[Finding]:
+def _deviations(d: Detectors, promise: Promise, mission: Mission, dt: float) -> Iterator[Finding]:
     far, reach = math.sqrt(d.distance.worst), mission.findings.reach_distance
     if d.distance.steps and far > reach:
         text = f"the reference is {far:.3g} m from the vehicle, which it has left behind"
@@ -137,9 +137,9 @@ def _degrees(angle: float) -> str:
     return f"{math.degrees(angle):.3g}°"
 
 
-def _saturations(m: Any, steps: int, mission: Mission, dt: float) -> Iterator[Finding]:
+def _saturations(m: Excess | Absent, steps: int, mission: Mission, dt: float) -> Iterator[Finding]:
     f = mission.findings
-    if isinstance(m, Nothing) or not steps:
+    if isinstance(m, Absent) or not steps:
         return
     fraction, long = m.steps / steps, m.stretch > f.saturated_time
     if not long and fraction <= f.saturated_fraction:
@@ -158,8 +158,8 @@ def _saturations(m: Any, steps: int, mission: Mission, dt: float) -> Iterator[Fi
     )
 
 
-def _out_of_reach(m: Any, p: FlightPlan) -> Iterator[Finding]:
-    if isinstance(m, Nothing) or not m.steps or m.stretch <= p.mission.findings.reach_time:
+def _out_of_reach(m: Excess | Absent, p: FlightPlan) -> Iterator[Finding]:
+    if isinstance(m, Absent) or not m.steps or m.stretch <= p.mission.findings.reach_time:
         return
     needed, most = math.sqrt(m.worst), math.sqrt(p.model.finding_limits.thrust)
     text = f"the reference asks for {needed:.4g} N of thrust, the rotors have {most:.4g} N"
@@ -244,14 +244,14 @@ def _by_events(flight_state: FlightState, mission: Mission) -> Iterator[Finding]
         yield finding("lift-refused", f"a lift was refused: {text}", time=refused[0], quantity=text)
 
 
-def _events(log: Any) -> list[tuple[float, float]]:
+def _events(log: EventLog) -> list[tuple[float, float]]:
     return list(zip(log.time, log.code, strict=True))[: int(log.count)]
 
 
 def _by_lost_rotor(p: FlightPlan, flight_state: FlightState) -> Iterator[Finding]:
     """The landing after a failed rotor that was found, where no supervision reports it."""
     detection, guidance = p.model.pilot.detection, flight_state.memory.guidance
-    if isinstance(detection, Nothing) or isinstance(getattr(guidance, "supervision", None), SupervisionState):
+    if isinstance(detection, Absent) or isinstance(getattr(guidance, "supervision", None), SupervisionState):
         return
     verdict = flight_state.memory.detection.verdict
     if p.mission.pilot.guidance != "interactive" or not total(verdict.lost):

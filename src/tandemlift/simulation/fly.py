@@ -11,17 +11,17 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any, Literal, NamedTuple
 from weakref import WeakKeyDictionary
 
-from tandemlift.compiler.machine_code.code import Code
-from tandemlift.compiler.machine_code.compile_events import Stopped, always
+from tandemlift.compiler.jit.code import Code
+from tandemlift.compiler.jit.compile_events import Stopped, always
 from tandemlift.core.algebra.layout import leaves, unflat
 from tandemlift.core.errors import InputError
 from tandemlift.core.progress import progress_or_own
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
+from tandemlift.missions import Mission
 from tandemlift.missions.recording import engine_of
-from tandemlift.simulation.kernels import LANES, FlightMemory
 from tandemlift.simulation.loop.running_metrics import EMPTY
+from tandemlift.simulation.loop_code import LANES, FlightMemory
 from tandemlift.simulation.parameter_changes import changes_in_flight
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
@@ -65,7 +65,7 @@ def _fly_compiled(
     p, count = flights[0], len(flights)
     lanes = [*flights, *[flights[-1]] * (LANES - count)] if count > 1 else flights
     memory = FlightMemory(
-        p.kernels.loop(len(lanes), going), [f.start() for f in lanes], p.grid(rows, every), leaves(p.sample)
+        p.loop_code.loop(len(lanes), going), [f.start() for f in lanes], p.grid(rows, every), leaves(p.sample)
     )
     began, early = time.perf_counter(), [EMPTY] * len(lanes)
     for k in _stretches(p, memory, going):

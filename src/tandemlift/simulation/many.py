@@ -7,9 +7,9 @@ from typing import Any, Literal
 
 from tandemlift.core.errors import InputError
 from tandemlift.core.outcomes import INTERRUPTED
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Progress
 from tandemlift.engines.registry import EngineLost, engine_named
+from tandemlift.missions import Mission
 from tandemlift.simulation.fly import fly, fly_many
 
 Keep = Literal["flights", "metrics"]

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3
 from tandemlift.core.outcomes import ENDING_OF, FAR, LEFT_FENCE, STRUCK, TURNED_OVER
-from tandemlift.core.settings import Mission
 from tandemlift.flight.record import Ending
+from tandemlift.missions import Mission
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.simulation.ending_numbers import EndingMoment, ending_numbers
+from tandemlift.simulation.loop.log_sample import Sample
 from tandemlift.simulation.loop.step import FlightState
 from tandemlift.simulation.plan import FlightPlan
 
@@ -42,14 +43,14 @@ def limit_of(p: FlightPlan, number: float) -> str:
     limits = p.model.limits
     if number == TURNED_OVER:
         return f"must stay within {math.degrees(p.mission.crash.tilt):g} degrees"
-    if number == STRUCK and not isinstance(limits.strike, Nothing):
+    if number == STRUCK and not isinstance(limits.strike, Absent):
         return f"must stay below {limits.strike.impulse:.3g} N s"
     if number == LEFT_FENCE:
         return f"must stay below {p.mission.crash.fence_margin:g} m"
     return f"must stay below {FAR:g} m"
 
 
-def outcome_of(p: FlightPlan, s: FlightState, last: Any, highest: float, end: float) -> str:
+def outcome_of(p: FlightPlan, s: FlightState, last: Sample, highest: float, end: float) -> str:
     """The name of the outcome of a flight that was not stopped before its end.
 
     Args:
@@ -82,7 +83,7 @@ def _lifted(mission: Mission) -> float:
 def _stands(p: FlightPlan, state: State, last: Any, start: float, end: float) -> bool:
     """Whether a vehicle stands at the end [s]; without a floor, whether it is where its landing leaves it."""
     mission, slow = p.mission, math.dist(state.velocity, ZERO) < p.mission.outcome.landed_speed
-    if not isinstance(last.contact, Nothing):
+    if not isinstance(last.contact, Absent):
         return slow and last.contact.contact_force.z > BORNE * p.model.limits.strike.weight
     land = mission.phases.land_start
     if land is None or land + mission.phases.land_duration > end:

@@ -14,13 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.core.algebra.layout import flat, leaves
-from tandemlift.core.algebra.vector import Nothing, layout
+from tandemlift.core.algebra.vector import Absent, layout
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Array
-from tandemlift.missions import in_turn
+from tandemlift.missions import Mission, in_turn
 from tandemlift.missions.recording import read_recording
-from tandemlift.simulation.kernels import leaf_offset
+from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.plan import FlightPlan
 
 STEADY = {"changes": ()}
@@ -64,7 +63,7 @@ def scheduled_changes(p: FlightPlan) -> list[ScheduledChange]:
 def _kept(p: FlightPlan) -> tuple[Any, ...]:
     """Everything that a change must keep: layouts except that of the controller's memory, and data."""
     flight_state, plant = p.model.flight_state, p.model.plant
-    rest = flight_state._replace(memory=flight_state.memory._replace(controller=Nothing()))
+    rest = flight_state._replace(memory=flight_state.memory._replace(controller=Absent()))
     data = (plant, *p.tables, p.delays, p.seeds)
     numbers = [np.asarray(_numbers(x)).tobytes() for x in data]
     grid = p.steps, p.every, p.dt, p.mission.mission.fma

@@ -8,27 +8,27 @@ from functools import cached_property
 
 import numpy as np
 
-from tandemlift.compiler.machine_code.code import Code
-from tandemlift.compiler.machine_code.store import key_of
+from tandemlift.compiler.jit.code import Code
+from tandemlift.compiler.jit.store import key_of
 from tandemlift.core.algebra.layout import flat, leaves, unflat
-from tandemlift.core.algebra.vector import ZERO, Nothing, Quat
+from tandemlift.core.algebra.vector import ZERO, Absent, Quat
 from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import Refusals
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Array
+from tandemlift.missions import Mission
 from tandemlift.parts.controllers import control
-from tandemlift.parts.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.pilot.assemble import start_pilot
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.pilot import PilotInput
 from tandemlift.parts.pilot.refusals import refusals_of
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.requests import NO_REQUEST, UNKNOWN_STATUS
+from tandemlift.simulation.assembly.pilot import start_pilot
 from tandemlift.simulation.assembly.traced_assembly import assembled_by_graph
-from tandemlift.simulation.kernels.context import aligned
-from tandemlift.simulation.kernels.pilot_sampling import PilotData, PilotSampler
+from tandemlift.simulation.loop_code.context import aligned
+from tandemlift.simulation.loop_code.pilot_sampling import PilotData, PilotSampler
 
 INPUT = PilotInput(
-    State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Nothing(), NO_REQUEST, UNKNOWN_STATUS
+    State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Absent(), NO_REQUEST, UNKNOWN_STATUS
 )
 SHAPE, FLOAT64 = (16,), np.dtype(np.float64)
 

@@ -10,18 +10,19 @@ import numpy as np
 
 from tandemlift.core.algebra.layout import layout_and_numbers
 from tandemlift.core.algebra.vector import ZERO, each, layout
-from tandemlift.core.settings import Mission
 from tandemlift.engines.registry import engine_named
 from tandemlift.flight.record import LATE
+from tandemlift.missions import Mission
 from tandemlift.parts.controllers import NoMemory, control
 from tandemlift.parts.person.caller_inputs import CallerInput
 from tandemlift.parts.person.outside_push import OutsidePush
 from tandemlift.simulation.assembly.traced_assembly import assembled_flight
-from tandemlift.simulation.kernels import FlightStart, Kernels, PythonController, TimeGrid
+from tandemlift.simulation.loop.log_sample import Sample
+from tandemlift.simulation.loop_code import FlightStart, LoopCode, PythonController, TimeGrid
 
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second
 
-KERNELS: dict[Any, Kernels] = {}
+LOOP_CODE: dict[Any, LoopCode] = {}
 
 
 class FlightPlan:
@@ -71,9 +72,9 @@ class FlightPlan:
         return layout_and_numbers(self.model)
 
     @property
-    def sample(self) -> Any:
+    def sample(self) -> Sample:
         """The layout of a row of the log."""
-        return self.kernels.templates.sample
+        return self.loop_code.templates.sample
 
     @property
     def late_step(self) -> int:
@@ -81,12 +82,12 @@ class FlightPlan:
         return math.ceil(LATE / self.dt - 1e-9)
 
     @cached_property
-    def kernels(self) -> Kernels:
+    def loop_code(self) -> LoopCode:
         """The compiled loops of this variant."""
-        found = KERNELS.get(self.variant)
+        found = LOOP_CODE.get(self.variant)
         if found is None:  # another thread may have made them by now
-            made = Kernels(self.model, self.given, fuses=self.mission.mission.fma)
-            found = KERNELS.setdefault(self.variant, made)
+            made = LoopCode(self.model, self.given, fuses=self.mission.mission.fma)
+            found = LOOP_CODE.setdefault(self.variant, made)
         return found
 
     def start(self) -> FlightStart:
@@ -102,7 +103,7 @@ class FlightPlan:
         """The delay lines of this flight, filled with the values at t = 0: `numbers`, those of its model."""
         if not self.delays.any():
             return np.zeros((1, 0))
-        row = np.concatenate([numbers[span.at : span.at + span.size] for span in self.kernels.delayed])
+        row = np.concatenate([numbers[span.at : span.at + span.size] for span in self.loop_code.delayed])
         return np.tile(row, (1 << int(self.delays.max()).bit_length(), 1))
 
 

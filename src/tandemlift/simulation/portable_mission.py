@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission
-from tandemlift.missions import changed
+from tandemlift.missions import Mission, changed
 from tandemlift.parts.controllers import control
 from tandemlift.simulation.pilot_api import pilot_at_start
 

@@ -3,31 +3,29 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
-from importlib import metadata
 from typing import Any
 
 import numpy as np
 
 from tandemlift.core.algebra.layout import flat, leaves, unflat
-from tandemlift.core.algebra.vector import Nothing, Vec3, dot
+from tandemlift.core.algebra.vector import Absent, Vec3, dot
 from tandemlift.core.faults import ALARM_TEXTS, CHECKS
 from tandemlift.core.outcomes import FAILURES
 from tandemlift.core.phases import CONTACT as PHASE_CONTACT
 from tandemlift.core.phases import IDLE, PHASE_NAMES
 from tandemlift.core.types import Array
-from tandemlift.core.version import __version__
+from tandemlift.core.version import versions
 from tandemlift.flight.record import Ending, Flight
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
 from tandemlift.parts.guidance.supervision import ALARM, CONTACT, PHASE, SupervisionState
 from tandemlift.simulation.contact_texts import describe_contact
 from tandemlift.simulation.findings import findings_of
-from tandemlift.simulation.kernels import leaf_offset
 from tandemlift.simulation.loop.running_metrics import EMPTY, RunningMetrics, summary
 from tandemlift.simulation.loop.step import FlightModel, FlightState
+from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.outcome import ending_of, outcome_of
 from tandemlift.simulation.plan import FlightPlan
 
@@ -108,7 +106,7 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
 def metric_names(p: FlightPlan) -> list[str]:
     """The names of the metrics of a flight, known before it is flown."""
     empty = p.model.flight_state.metrics
-    detected = DETECTION if not isinstance(p.model.pilot.detection, Nothing) else ()
+    detected = DETECTION if not isinstance(p.model.pilot.detection, Absent) else ()
     return [*summary(empty, empty, p.dt), *detected, *OF_ANY_FLIGHT]
 
 
@@ -150,19 +148,12 @@ def describe_event(now: EventCode, before: EventCode) -> str:
 def _detection_metrics(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     """Metrics of the rotor-loss detection: number of detections, and delay [s] of the correct one (None without)."""
     detection, memory = p.model.pilot.detection, flown.flight_state.memory.detection
-    if isinstance(detection, Nothing):
+    if isinstance(detection, Absent):
         return {}
     v = memory.verdict
     lost = int(dot(v.lost, detection.numbers))
     times = [f.time for f in p.mission.faults if 4 * (f.quadrotor - 1) + f.rotor == lost]
     return dict(zip(DETECTION, (v.named, v.since - times[0] if times else None), strict=True))
-
-
-@cache
-def versions(engine: str) -> Mapping[str, str]:
-    """Versions of the packages that a flight in an engine uses."""
-    packages = ("llvmlite", "numpy", *(["mujoco"] if engine == "mujoco" else []))
-    return {"tandemlift": __version__, **{name: metadata.version(name) for name in packages}}
 
 
 def channels_of(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:

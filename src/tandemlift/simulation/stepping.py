@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.compiler.machine_code.compile_events import Stopped, always
+from tandemlift.compiler.jit.compile_events import Stopped, always
 from tandemlift.core.algebra.layout import flat, leaves, unflat
 from tandemlift.core.algebra.vector import layout
 from tandemlift.core.refusals import Refusals
@@ -20,10 +20,10 @@ from tandemlift.core.types import Array, Progress
 from tandemlift.engines.registry import EngineBody, EngineLost, PushedBody, TouchingBody, WaitingBody, engine_named
 from tandemlift.flight.record import interruption
 from tandemlift.parts.controllers import control
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.refusals import refusals_of
-from tandemlift.parts.vehicle import Vehicle
-from tandemlift.simulation.kernels import GIVEN, FlightMemory, leaf_offset
 from tandemlift.simulation.loop.running_metrics import EMPTY
+from tandemlift.simulation.loop_code import GIVEN, FlightMemory, leaf_offset
 from tandemlift.simulation.parameter_changes import ParameterChanges, ScheduledChange, hand_place
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, take_metrics
@@ -69,7 +69,7 @@ class Stepper:
         self.p, self.interpreted = p, p.interpreted
         leaves_body = self.body is not None
         self.by_parts = leaves_body or self.interpreted is not None
-        self.code = p.kernels.parts(leaves_body=leaves_body) if self.by_parts else p.kernels.loop(1)
+        self.code = p.loop_code.parts(leaves_body=leaves_body) if self.by_parts else p.loop_code.loop(1)
         start = p.start()
         if before is not None:
             start = start._replace(ring=before.ring.reshape(start.ring.shape))
@@ -85,12 +85,12 @@ class Stepper:
             name: self.memory.work[self.memory.span(name)]
             for name in ("asked", "answer", "external", "acting", "push", "moved", "outside")
         }
-        acting = self.p.kernels.templates.acting
+        acting = self.p.loop_code.templates.acting
         thrusts, air = leaf_offset(acting, "thrusts"), leaf_offset(acting, "wind", "loads")
         self.x, self.y, self.v, self.push = view["asked"], view["answer"], view["moved"], view["push"]
         self.external, self.outside = view["external"], view["outside"]
         if self.body is not None:
-            moved = self.p.kernels.templates.moved
+            moved = self.p.loop_code.templates.moved
             self.touches = self.body.touches if isinstance(self.body, TouchingBody) else NO_TOUCHES
             self.v[:] = flat(moved._replace(touches=self.p.model.flight_state.touches))
         self.thrusts = view["acting"][thrusts.at : thrusts.at + thrusts.size]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from tandemlift.core.algebra.vector import Absent
 from tandemlift.parts.contact.touches import SurfaceTouches, Touches, TouchRecord
 from tandemlift.simulation.loop.step import FlightState
 
@@ -48,7 +49,7 @@ def struck_rotors(flight_state: FlightState) -> list[tuple[int, int]]:
     return [(i // 4 + 1, i % 4 + 1) for i, turning in enumerate(touches.turning) if not turning > 0.5]
 
 
-def _of_surface(records: Any, surface: str) -> list[TouchReport]:
+def _of_surface(records: SurfaceTouches | Absent, surface: str) -> list[TouchReport]:
     if not isinstance(records, SurfaceTouches):
         return []
     found = []

@@ -76,11 +76,11 @@ def test_the_lag_that_iris_bears_is_the_one_at_which_its_flights_begin_to_oscill
 def test_the_closed_forms_of_a_load_agree_with_the_linear_model(controller):
     mission = load_mission("iris", controller=controller)
     lag, loop = lag_of(mission), loop_of("iris", controller)
-    borne = {found.axis: found.bears for found in loop_delays(mission)}
+    max_delay = {found.axis: found.bears for found in loop_delays(mission)}
     cut = loop.L / (1.0 + 1j * loop.w * lag)[:, None, None]
     for i, axis in enumerate(("z", "roll", "pitch", "yaw")):
         delay, _ = delay_to_crossing(loop.w, single_loop(cut, i))
-        assert borne[axis] == pytest.approx(delay + 0.0015, rel=0.08), axis  # beside the step and the readings
+        assert max_delay[axis] == pytest.approx(delay + 0.0015, rel=0.08), axis  # beside the step and the readings
 
 
 def test_margins_are_those_of_python_control():
@@ -150,8 +150,8 @@ def test_the_closed_forms_agree_with_the_linear_model_wherever_the_quadrotors_ar
         warnings.simplefilter("ignore", tl.FlightWarning)
         mission = load_mission("iris", changes, controller=("nftsmc", "pid", "geometric", "smc")[case])
     lag, loop = lag_of(mission), open_loop(mission)
-    borne = min(found.bears for found in loop_delays(mission))
-    assert borne == pytest.approx(largest(lambda delay: is_stable(loop, delay, lag)) + 0.0015, rel=0.06)
+    max_delay = min(found.bears for found in loop_delays(mission))
+    assert max_delay == pytest.approx(largest(lambda delay: is_stable(loop, delay, lag)) + 0.0015, rel=0.06)
 
 
 @pytest.mark.parametrize("mirrored", [1.0, -1.0])

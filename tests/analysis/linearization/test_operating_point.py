@@ -7,8 +7,7 @@ import pytest
 from linearized import QUIET
 
 import tandemlift as tl
-from tandemlift.core.settings import Mission
-from tandemlift.missions import built_in, load_mission
+from tandemlift.missions import Mission, built_in, load_mission
 
 QUIETLY = {"pushes": [], "mission.duration": 14.0, "phases.land_start": 60.0}
 SEEDS = range(6)

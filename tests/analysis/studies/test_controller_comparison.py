@@ -178,7 +178,7 @@ FAILING = '''
 """Fails in flight."""
 from typing import NamedTuple
 from tandemlift.parts.controllers import NoMemory, control, register
-from tandemlift.core.settings import ControllerTable
+from tandemlift.parts.controllers import ControllerTable
 class Gains(NamedTuple):
     """None."""
 @control.register(Gains, compiled=False)

@@ -10,6 +10,7 @@ from study_runs import TWELVE, fly
 import tandemlift as tl
 from tandemlift.analysis.studies import controller_comparison
 from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.execution import estimate
 from tandemlift.analysis.studies.feel.closed_form import _free
 from tandemlift.analysis.studies.feel.feel_checks import drift_checks
 from tandemlift.analysis.studies.feel.feel_study import _both
@@ -18,24 +19,23 @@ from tandemlift.analysis.studies.reading.html import MOST_NAMES, study_html
 from tandemlift.analysis.studies.study import mission_of_row
 from tandemlift.analysis.studies.tuning.candidates import _trial
 from tandemlift.analysis.studies.tuning.front import front_of
-from tandemlift.analysis.studies.tuning.searches import PARTS, _Coordinate
-from tandemlift.analysis.studies.units import estimate
+from tandemlift.analysis.studies.tuning.optimisers import PARTS, _Coordinate
 
 
 def test_an_estimate_grows_with_the_rows_and_with_the_files(monkeypatch):
     """Files of 1,000 bytes and 10 more for each row, blocks that take 2 s: as many files and rows as the plan has."""
     clock = iter(np.arange(0.0, 99.0, 2.0))
     monkeypatch.setattr(estimate, "time", SimpleNamespace(perf_counter=lambda: float(next(clock))))
-    monkeypatch.setattr(estimate, "fly_unit", lambda unit: {"row": [row.number for row in unit.rows]})
+    monkeypatch.setattr(estimate, "fly_chunk", lambda chunk: {"row": [row.number for row in chunk.rows]})
 
     def write(columns, path, about):
         path.write_bytes(b"x" * (1000 + 10 * len(columns["row"])))
 
     monkeypatch.setattr(estimate, "write_columns", write)
-    study = {"name": "many", "missions": ["one-push"], "draws": 48_000, "rows_per_unit": 1000}
+    study = {"name": "many", "missions": ["one-push"], "draws": 48_000, "rows_per_chunk": 1000}
     draw = {"plant.mass_scale": {"distribution": "uniform", "low": 0.9, "high": 1.1}}
     found = estimate.estimate(load_plan({"study": study, "draw": draw}))
-    assert (found.rows, found.units) == (48_000, 48)
+    assert (found.rows, found.chunks) == (48_000, 48)
     assert found.seconds == pytest.approx(2.0 * 48_000 / 8)
     assert found.size == pytest.approx(48 * (1000 + 10 * 1000), rel=0.01)
 

@@ -238,8 +238,7 @@ def test_a_folder_without_permission_is_refused_before_the_flight(run, tmp_path,
 def test_a_flight_that_fails_leaves_no_folder_behind(run, tmp_path):
     Path("bad.py").write_text(
         "from typing import NamedTuple\n"
-        "from tandemlift.parts.controllers import control, register\n"
-        "from tandemlift.core.settings import ControllerTable\n"
+        "from tandemlift.parts.controllers import ControllerTable, control, register\n"
         "class Settings(ControllerTable): pass\n"
         "class Gains(NamedTuple): pass\n"
         "@control.register(Gains, compiled=False)\n"
@@ -250,7 +249,7 @@ def test_a_flight_that_fails_leaves_no_folder_behind(run, tmp_path):
         "    return Gains(), None\n"
     )
     message = check_refused(run("run", "hover", "--controller", "bad.py", "--out", "deep/er"))
-    assert "controller 'bad' fails: bad.py, line 8: ZeroDivisionError: float division by zero" in message
+    assert "controller 'bad' fails: bad.py, line 7: ZeroDivisionError: float division by zero" in message
     assert [path.name for path in tmp_path.iterdir()] == ["bad.py"]
 
 

@@ -175,7 +175,8 @@ def test_processes_that_optimise_are_ended_with_it(begin, tmp_path):
 
 
 TESTS = """
-import importlib.util, signal, subprocess, sys
+import importlib.util, pathlib, signal, subprocess, sys
+sys.path.append(str(pathlib.Path(sys.argv[1]).parent / "support"))
 signal.signal(signal.SIGINT, signal.SIG_IGN)
 spec = importlib.util.spec_from_file_location("conftest", sys.argv[1])
 spec.loader.exec_module(importlib.util.module_from_spec(spec))

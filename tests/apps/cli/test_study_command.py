@@ -10,7 +10,7 @@ WITH_A_FILE = '''
 from pathlib import Path
 
 import tandemlift.parts.controllers as tc
-from tandemlift.core.settings import ControllerTable
+from tandemlift.parts.controllers import ControllerTable
 
 
 class Settings(ControllerTable):
@@ -29,7 +29,7 @@ name = "weights"
 missions = ["hover"]
 controllers = ["with_a_file.py", "lqr"]
 draws = 3
-rows_per_unit = 3
+rows_per_chunk = 3
 
 [set]
 "mission.duration" = 0.2

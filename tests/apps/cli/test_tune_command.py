@@ -27,7 +27,7 @@ def test_it_prints_old_against_new_and_writes_mission_evidence_figures_and_page(
     )
     assert code == 0
     assert "hover: 6 values searched by CMA-ES: 16 candidates on 2 draws each; budget spent" in text
-    assert "better on 8 fresh draws" in text
+    assert "better on 8 holdout draws" in text
     assert "position_rmse_m.2" in text
     assert sorted(p.name for p in out.iterdir()) == ["evidence.json", "figures", "tune.html", "tuned.toml"]
     assert sorted(p.name for p in (out / "figures").iterdir()) == [
@@ -40,14 +40,14 @@ def test_it_prints_old_against_new_and_writes_mission_evidence_figures_and_page(
     assert page.amiss == []
     assert "http" not in page.text
     assert page.text.count("<img") == 2
-    assert "<strong>Better</strong> on fresh draws" in page.text
+    assert "<strong>Better</strong> on holdout draws" in page.text
     assert ["controller.gains.xi.0", "1.200"] in [row[:2] for row in page.rows]
 
 
 def test_values_that_are_not_better_end_with_1(tmp_path):
     code, text, _ = call("hover", "--minimize", "position_rmse_m", *SMALL, "--budget", 0, "--out", tmp_path)
     assert code == 1
-    assert "not better on 8 fresh draws" in text
+    assert "not better on 8 holdout draws" in text
     assert tl.load_mission(tmp_path / "tuned.toml").controller == tl.load_mission("hover").controller
 
 

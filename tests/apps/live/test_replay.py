@@ -28,6 +28,7 @@ from tandemlift.apps.live.replay import replay_files, replay_html, scene_and_fra
 from tandemlift.apps.live.server import PageServer
 from tandemlift.apps.live.session.scene_builder import scene_of
 from tandemlift.apps.live.wire.frames import layout_for, read_frames
+from tandemlift.engines.models.visuals import FRONT, REAR
 
 
 @pytest.fixture(scope="module")
@@ -182,6 +183,26 @@ def test_a_scene_is_the_vehicle_of_the_mission():
     assert scene["threshold"] == list(mission.admittance.threshold)
     assert scene["parameters"] == [{"key": "a"}]
     assert scene["fields"][-1] == ["thrusts", 8]
+
+
+def test_the_shapes_of_a_scene_are_where_the_vehicle_has_its_parts():
+    mission = tl.load_mission("zigzag")
+    vehicle = scene_of(mission, "compiled")["vehicle"]
+    beam, payload = vehicle["shapes"][0], vehicle["payload"]
+    ends = np.array(beam["position"]) + np.outer([0.5, -0.5], beam["size"][1] * np.array(beam["axes"][6:]))
+    assert np.allclose(ends - payload["position"], [[0.0, payload["length"] / 2.0, 0.0], [0.0, -1.0, 0.0]], atol=1e-6)
+    for quadrotor in vehicle["quadrotors"]:
+        for rotor in quadrotor["rotors"]:
+            assert np.allclose(np.subtract(rotor["blades"]["position"], rotor["position"])[:2], 0.0, atol=1e-6)
+            assert rotor["blades"]["position"] == rotor["disc"]["position"]
+            assert rotor["disc"]["size"][0] == rotor["radius"]
+            front = rotor["position"][0] > quadrotor["position"][0]
+            assert rotor["disc"]["color"] == (FRONT if front else REAR)
+    feet = [shape["position"] for shape in vehicle["shapes"] if shape["kind"] == "sphere"]
+    spread, depth = mission.vehicle.quadrotors[0].feet_spread, mission.vehicle.quadrotors[0].feet_depth
+    corners = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]]) * spread
+    soles = [np.add(q["position"], [x, y, -depth]) for q in vehicle["quadrotors"] for x, y in corners]
+    assert np.allclose(feet, soles, atol=0.01)
 
 
 def test_the_walls_of_a_scene_are_half_a_width_from_the_centreline():

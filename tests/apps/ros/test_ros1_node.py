@@ -43,7 +43,7 @@ def surroundings(tmp_path_factory, program):
     ended(process)
 
 
-class Tried(NamedTuple):
+class ClientRun(NamedTuple):
     """What the client saw, the bag, what `rosbag` knows of it, its odometry, the folder saved, what is left, logs."""
 
     told: dict
@@ -56,7 +56,7 @@ class Tried(NamedTuple):
 
 
 @pytest.fixture(scope="module")
-def tried(surroundings, program):
+def client_run(surroundings, program):
     """What came of a node that was recorded, pushed and asked."""
     environment, folder = surroundings
     bag, saved, log = folder / "tried.bag", folder / "saved", folder / "node.log"
@@ -77,34 +77,34 @@ def tried(surroundings, program):
     info = output(program("rosbag"), "info", "-y", str(bag))
     with ServerProxy(environment["ROS_MASTER_URI"]) as master:
         _, _, left = master.getParamNames("/test")
-    return Tried(json.loads(told.splitlines()[-1]), bag, info, odometry, saved, left, log.read_text("utf-8"))
+    return ClientRun(json.loads(told.splitlines()[-1]), bag, info, odometry, saved, left, log.read_text("utf-8"))
 
 
-def test_a_push_by_a_message_moves_the_beam_and_bad_ones_are_refused(tried):
-    assert tried.told["moved"] > 0.1
-    events = tried.told["events"]
+def test_a_push_by_a_message_moves_the_beam_and_bad_ones_are_refused(client_run):
+    assert client_run.told["moved"] > 0.1
+    events = client_run.told["events"]
     assert any("push refused: frame_id = 'mars'" in event for event in events)
     assert any("push refused: the wrench must be finite" in event for event in events)
 
 
-def test_services_answer_and_parameters_are_heeded_or_set_back(tried):
-    asked = tried.told["asked"]
+def test_services_answer_and_parameters_are_heeded_or_set_back(client_run):
+    asked = client_run.told["asked"]
     assert asked["land"] == [True, "land"]
     assert asked["lift"][0] is False
     assert asked["lift"][1].startswith("Lift is refused: ")
-    assert asked["lift"][1] in tried.told["events"]
-    assert asked["lift"][1] in tried.log
+    assert asked["lift"][1] in client_run.told["events"]
+    assert asked["lift"][1] in client_run.log
     assert "reads no sensor" in asked["tare"][1]
-    assert tried.told["phases"][-1] == "idle"
-    assert tomllib.loads(tried.told["mission"])["admittance"]["mass"] == [4.0, 4.0, 4.0]
-    assert any('parameter refused: admittance.threshold = "none"' in event for event in tried.told["events"])
+    assert client_run.told["phases"][-1] == "idle"
+    assert tomllib.loads(client_run.told["mission"])["admittance"]["mass"] == [4.0, 4.0, 4.0]
+    assert any('parameter refused: admittance.threshold = "none"' in event for event in client_run.told["events"])
 
 
-def test_the_next_node_finds_no_parameters_of_this_one(tried):
-    assert not [name for name in tried.left if name.startswith("/tandemlift")]
+def test_the_next_node_finds_no_parameters_of_this_one(client_run):
+    assert not [name for name in client_run.left if name.startswith("/tandemlift")]
 
 
-def test_rosbag_knows_every_topic_and_type(tried):
+def test_rosbag_knows_every_topic_and_type(client_run):
     for topic, kind in {
         "/tandemlift/odometry": "nav_msgs/Odometry",
         "/tandemlift/joint_2/wrench": "geometry_msgs/WrenchStamped",
@@ -112,28 +112,28 @@ def test_rosbag_knows_every_topic_and_type(tried):
         "/tandemlift/reference/path": "nav_msgs/Path",
         "/tf": "tf2_msgs/TFMessage",
     }.items():
-        assert f"topic: {topic}\n      type: {kind}\n" in tried.info
+        assert f"topic: {topic}\n      type: {kind}\n" in client_run.info
 
 
-def test_numbers_in_the_bag_are_those_of_the_flight_that_was_saved(tried):
-    flight = Flight.load(tried.saved / "flight.npz")
-    places = np.array([[leaves[f"pose.pose.position.{axis}"] for axis in "xyz"] for leaves in tried.odometry])
+def test_numbers_in_the_bag_are_those_of_the_flight_that_was_saved(client_run):
+    flight = Flight.load(client_run.saved / "flight.npz")
+    places = np.array([[leaves[f"pose.pose.position.{axis}"] for axis in "xyz"] for leaves in client_run.odometry])
     rows = [np.flatnonzero((flight["position"] == place).all(axis=1)) for place in places]
     assert all(len(row) for row in rows)
     assert len(rows) > 100, "a busy machine loses some on the way"
 
 
-def test_the_flight_that_was_saved_flies_again_to_the_last_bit(tried):
-    saved = Flight.load(tried.saved / "flight.npz")
-    again = tl.fly(tl.load_mission(tried.saved / "recorded.toml"))
+def test_the_flight_that_was_saved_flies_again_to_the_last_bit(client_run):
+    saved = Flight.load(client_run.saved / "flight.npz")
+    again = tl.fly(tl.load_mission(client_run.saved / "recorded.toml"))
     assert all(np.array_equal(again[name], saved[name], equal_nan=True) for name in saved.channels)
     assert np.abs(again["push_force"]).max() > 1.0
     (change,) = again.mission["changes"]
     assert (change["key"], change["value"]) == ("admittance.mass", 4.0)
 
 
-def test_the_bag_that_rosbag_recorded_becomes_a_flight_with_its_report(tried, tmp_path, monkeypatch):
-    saved, found = Flight.load(tried.saved / "flight.npz"), read_bag(tried.bag)
+def test_the_bag_that_rosbag_recorded_becomes_a_flight_with_its_report(client_run, tmp_path, monkeypatch):
+    saved, found = Flight.load(client_run.saved / "flight.npz"), read_bag(client_run.bag)
     rows = [int(np.flatnonzero((saved["position"] == place).all(axis=1))[0]) for place in found["position"]]
     assert np.array_equal(found["attitude"], saved["attitude"][rows])
     later = np.diff(found.time) - np.diff(saved.time[rows])  # s, by which a busy machine was late for good meanwhile
@@ -143,7 +143,7 @@ def test_the_bag_that_rosbag_recorded_becomes_a_flight_with_its_report(tried, tm
     assert whole.any()
     assert same[whole].any()  # where a message was lost the one before stands
     assert any(what == "land" for _, what in found.metrics()["events"])
-    monkeypatch.setattr("sys.argv", ["tandemlift", "report", str(tried.bag), "--out", str(tmp_path / "out")])
+    monkeypatch.setattr("sys.argv", ["tandemlift", "report", str(client_run.bag), "--out", str(tmp_path / "out")])
     with pytest.raises(SystemExit) as end:
         main()
     assert not end.value.code

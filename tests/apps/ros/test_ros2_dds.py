@@ -21,7 +21,7 @@ from tandemlift.apps.export.messages import MessageTypes, message_maker, modern
 from tandemlift.apps.export.topics import topics_from
 from tandemlift.apps.ros.dds_types import DdsTypes
 from tandemlift.apps.ros.ros2 import LOG, ROSOUT, WARN, Ros2, _domain, _qos, _value
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 pytestmark = pytest.mark.ros
 COUNT = 300

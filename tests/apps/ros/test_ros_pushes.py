@@ -9,7 +9,7 @@ import pytest
 from ros_trial import UP, wrench
 from scipy.spatial.transform import Rotation
 
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
 def push_after(trial, seconds=0.3):

@@ -10,7 +10,7 @@ from tandemlift.apps.export.coordinate_frames import fixed
 from tandemlift.apps.live.session.scene_builder import scene_of
 from tandemlift.apps.ros.scenery import still
 from tandemlift.missions import load_mission
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 PUSHED = ("base_world", (1.5, 0.5, 0.0))
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from tandemlift.compiler.trace.fused import FUSES
-from tandemlift.compiler.trace.valued_graph import ValuedGraph
+from tandemlift.compiler.tracer.fused import FUSES
+from tandemlift.compiler.tracer.valued_graph import ValuedGraph
 from tandemlift.core.algebra.arrays import (
     array,
     condition_number,

@@ -8,7 +8,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import Nothing, Quat, Vec3, each, mat3, vec3
+from tandemlift.core.algebra.vector import Absent, Quat, Vec3, each, mat3, vec3
 from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.engines.models.parts_layout import parts_layout_from
 from tandemlift.parts.contact.feet import floor, sole_positions, standing_height, start_foot_grip
@@ -17,7 +17,7 @@ from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PerfectReading
 from tandemlift.parts.mechanics.push import CentralPush, PointPush, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 mujoco = pytest.importorskip("mujoco")
 body_file = importlib.import_module("tandemlift.engines.mujoco")
@@ -98,7 +98,7 @@ def excited(mission, vehicle, seconds):
     """Fly both bodies with the same thrusts; yields (state, felt) of the compiled one and MuJoCo's body."""
     body, plant, state = (
         MuJoCoBody(mission, vehicle),
-        start_plant(mission, vehicle, Nothing(), Nothing()),
+        start_plant(mission, vehicle, Absent(), Absent()),
         start_state(mission),
     )
     rng, weight, J = np.random.default_rng(3), vehicle.weight * mission.plant.mass_scale, np.diag(vehicle.inertia)
@@ -109,7 +109,7 @@ def excited(mission, vehicle, seconds):
         q, w = np.array(state.attitude), np.array(state.rates)
         upright = allocation @ [weight, *(-J * (20.0 * q[1:] + 6.0 * w))]  # or it would tumble within seconds
         thrusts = upright + 0.3 * weight / vehicle.rotor_count * np.sin(rate * k * DT + phase)
-        moved = advance(plant, state, Nothing(), Nothing(), rotors(*thrusts), Nothing(), hand, DT)
+        moved = advance(plant, state, Absent(), Absent(), rotors(*thrusts), Absent(), hand, DT)
         body.advance(thrusts, CALM, NONE, NONE)
         state = moved.state
         yield state, moved.readings, body
@@ -230,11 +230,11 @@ def test_friction_holds_below_its_limit_and_yields_above_it():
 def test_a_crooked_landing_goes_as_in_the_compiled_engine():
     fall = {"initial.euler": [0.02, -0.015, 0.3], "initial.position": [0.0, 0.0, 0.03], "initial.velocity": 0.2}
     body, ground, mission, vehicle = standing("paper", fall)
-    state, plant = start_state(mission), start_plant(mission, vehicle, ground, Nothing())
+    state, plant = start_state(mission), start_plant(mission, vehicle, ground, Absent())
     grip, off, still = start_foot_grip(ground, state), each(8)(*[0.0] * 8), CentralPush(vec3(NONE))
     apart = []
     for _ in range(600):
-        moved = advance(plant, state, grip, Nothing(), off, Nothing(), PushSamples(still, still, still), DT)
+        moved = advance(plant, state, grip, Absent(), off, Absent(), PushSamples(still, still, still), DT)
         state, grip = moved.state, moved.grip
         body.advance(np.zeros(8), CALM, NONE, NONE)
         apart.append(np.abs(body.state - numbers(state))[:3])

@@ -22,7 +22,7 @@ from tandemlift.parts.compliance.admittance import (
     gate,
 )
 from tandemlift.parts.mechanics.push import GaussianPush, gaussian_force
-from tandemlift.parts.signals.trajectories import Trajectory
+from tandemlift.parts.trajectories import Trajectory
 
 MASS, DAMPING, STIFFNESS = Vec3(1.0, 2.0, 0.5), Vec3(1.6, 0.7, 3.0), Vec3(0.0, 4.0, 2.0)
 THRESHOLD = Vec3(0.3, 0.1, 0.2)

@@ -5,8 +5,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, vec3
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.core.phases import GUIDED
+from tandemlift.parts.compliance.admittance import admittance_from
 from tandemlift.parts.compliance.compliance import (
     BIAS_CLIP,
     QUIET_TIME,
@@ -18,11 +19,10 @@ from tandemlift.parts.compliance.compliance import (
 from tandemlift.parts.compliance.energy_tank import EnergyTank, EnergyTankState, passivity_damping
 from tandemlift.parts.guidance.phases import PhaseOutput
 from tandemlift.parts.guidance.yaw_compliance import yaw_step
-from tandemlift.parts.pilot.assemble import admittance_from
-from tandemlift.parts.pilot.guidance import start_hand_guidance
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import NoFaults
-from tandemlift.parts.signals.trajectories import SmoothStep
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.trajectories import SmoothStep
+from tandemlift.simulation.assembly.hand_guidance import start_hand_guidance
 
 H = 1e-3
 BAND = DeadBand(0.3, 0.2, 0.016, 1.0 / 20.0)
@@ -55,7 +55,7 @@ def motion(push, seconds, changes=None, across=100.0):
     g, m = guided(changes)
     k, m, out = g.compliance, m.compliance, []
     for i in range(round(seconds / H)):
-        m = compliance_step(k, m, vec3(push(i * H)), 1.0, 0.0, across, Nothing(), H)
+        m = compliance_step(k, m, vec3(push(i * H)), 1.0, 0.0, across, Absent(), H)
         out.append([*m.position, *m.velocity, *m.acceleration, *m.jerk])
     return np.array(out).reshape(-1, 4, 3).swapaxes(0, 1)
 

@@ -5,9 +5,10 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, each, vec3
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, each, vec3
 from tandemlift.core.phases import REASONS
 from tandemlift.parts.compliance.above_ground import GroundClearance, above_ground
+from tandemlift.parts.compliance.admittance import admittance_from
 from tandemlift.parts.compliance.available import (
     AvailableForce,
     available_acceleration,
@@ -23,10 +24,9 @@ from tandemlift.parts.compliance.following import (
     must_land,
     update_following,
 )
-from tandemlift.parts.pilot.assemble import admittance_from
-from tandemlift.parts.pilot.guidance import start_hand_guidance
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import NoFaults, rotor_faults
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.simulation.assembly.hand_guidance import start_hand_guidance
 
 H = 1e-3
 WEIGHT = Vec3(0.0, 0.0, 30.0)
@@ -119,7 +119,7 @@ def lowest(clearance, push, start=1.0, seconds=8.0):
     m, heights = m.compliance, []
     for i in range(round(seconds / H)):
         k = above_ground(clearance, g.compliance, m, m.position.z + start)
-        m = compliance_step(k, m, vec3((0.0, 0.0, push(i * H))), 1.0, 0.0, 10.0, Nothing(), H)
+        m = compliance_step(k, m, vec3((0.0, 0.0, push(i * H))), 1.0, 0.0, 10.0, Absent(), H)
         heights.append(m.position.z + start)
     return np.array(heights)
 
@@ -129,10 +129,10 @@ def test_no_push_moves_the_reference_down_to_the_ground(force):
     heights = lowest(GroundClearance(0.1), lambda t: force)
     assert heights.min() > 0.05  # the jerk is limited, so it brakes a little late
     assert 0.05 < heights[-1] < 0.13
-    assert lowest(Nothing(), lambda t: force).min() < 0.0
+    assert lowest(Absent(), lambda t: force).min() < 0.0
 
 
 def test_from_there_a_push_upwards_lifts_it_as_ever():
     up = lowest(GroundClearance(0.1), lambda t: -5.0 if t < 4.0 else 2.0)
-    free = lowest(Nothing(), lambda t: 0.0 if t < 4.0 else 2.0, start=0.1)
+    free = lowest(Absent(), lambda t: 0.0 if t < 4.0 else 2.0, start=0.1)
     assert up[-1] - up[4000] == pytest.approx(free[-1] - free[4000], rel=0.05)

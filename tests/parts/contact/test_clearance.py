@@ -6,7 +6,7 @@ from law_values import array, paper_vehicle, random_state, seeds
 from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import Nothing
+from tandemlift.core.algebra.vector import Absent
 from tandemlift.engines.models.parts_layout import parts_layout_from
 from tandemlift.parts.contact.clearance import clearance, smaller_clearance
 from tandemlift.parts.contact.wall_geometry import wall
@@ -65,4 +65,4 @@ def test_the_lesser_of_two_clearances_is_taken_part_by_part():
     assert tuple(both.guards) == tuple(map(min, found[0].guards, found[1].guards))
     assert tuple(both.beam.ends) == tuple(map(min, found[0].beam.ends, found[1].beam.ends))
     assert both.beam.length == min(found[0].beam.length, found[1].beam.length)
-    assert smaller_clearance(Nothing(), Nothing()) == Nothing()
+    assert smaller_clearance(Absent(), Absent()) == Absent()

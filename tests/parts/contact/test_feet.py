@@ -33,7 +33,7 @@ from tandemlift.parts.contact.feet import (
 from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, resultant
 from tandemlift.parts.mechanics.push import CentralPush
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench, rigid_body_motion
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
 UNTOUCHED = PartLoad(ZERO, ZERO)

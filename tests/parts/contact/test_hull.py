@@ -15,15 +15,15 @@ from thrown import arena, random_throw
 import tandemlift as tl
 from tandemlift.core.algebra.layout import flat
 from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, vec3
-from tandemlift.core.settings import Mission
 from tandemlift.engines.models.parts_layout import parts_layout_from
 from tandemlift.engines.models.surroundings import feet_and_floor_from
+from tandemlift.missions import Mission
 from tandemlift.parts.contact.feet import may_touch
 from tandemlift.parts.contact.hull import hull_contact, hull_loads, hull_may_touch
 from tandemlift.parts.mechanics.loads import resultant
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 MISSION = tl.load_mission("iris", {"ground.height": 0.0, "initial.position": [0.0, 0.0, 1.0], "pushes": []})
 VEHICLE = Vehicle.from_settings(MISSION.vehicle)

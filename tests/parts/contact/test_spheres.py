@@ -8,7 +8,7 @@ from law_values import BEAM, quadrotor
 from thrown import arena, random_throw
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, vec3
+from tandemlift.core.algebra.vector import ZERO, Absent, Quat, vec3
 from tandemlift.engines.models.parts_layout import parts_layout_from
 from tandemlift.engines.models.surroundings import wall_contact_from
 from tandemlift.parts.contact.clearance import clearance
@@ -16,7 +16,7 @@ from tandemlift.parts.contact.spheres import RotorSpheres
 from tandemlift.parts.contact.wall_geometry import wall
 from tandemlift.parts.contact.walls import near_wall_loads, nearest_with, no_walls_near
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 CORNERS = [[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]]
 TOPS = [9.0, 9.0, 1.0, 9.0]
@@ -34,7 +34,7 @@ def walls_with(guard: float) -> tuple:
 @pytest.mark.parametrize(("guard", "bare"), [(0.375, False), (0.359, False), (0.357, True), (0.2, True)])
 def test_a_rotor_has_a_shape_of_its_own_where_its_rim_is_two_centimetres_out_of_the_guard(guard, bare):
     w, _ = walls_with(guard)
-    assert isinstance(w.rotors, RotorSpheres if bare else Nothing)
+    assert isinstance(w.rotors, RotorSpheres if bare else Absent)
     if bare:
         assert list(w.rotors.radius) == [0.128] * 4
         assert [w.rotors.hub.z[j] for j in range(4)] == [0.05] * 4

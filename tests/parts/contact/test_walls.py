@@ -20,7 +20,7 @@ from tandemlift.parts.contact.wall_geometry import Wall, offset, wall
 from tandemlift.parts.contact.walls import near_wall_loads, nearest_with
 from tandemlift.parts.mechanics.loads import PartLoads, resultant
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 # Distances
 
@@ -54,8 +54,8 @@ def test_the_nearest_point_of_a_wall_is_that_of_bounded_least_squares(seed):
 
 def meet_near(p: Vec3, one: Wall, other: Wall) -> bool:
     """Whether the point of one wall that is nearest to p is a point of the other wall, too."""
-    gaps = [offset(b, p - offset(a, p)) for a, b in ((one, other), (other, one))]
-    return min(float(np.linalg.norm(gap)) for gap in gaps) < 1e-3
+    separations = [offset(b, p - offset(a, p)) for a, b in ((one, other), (other, one))]
+    return min(float(np.linalg.norm(separation)) for separation in separations) < 1e-3
 
 
 @EACH_COUNT

@@ -21,8 +21,8 @@ from tandemlift.parts.controllers.geometric import (
 from tandemlift.parts.controllers.pid import PIDGains, PIDStageState, back_calculated, pid_step
 from tandemlift.parts.controllers.smc import layer_reaching_time, linear_surface, switched_acceleration
 from tandemlift.parts.controllers.super_twisting import super_twisting_step, twisting_gains
+from tandemlift.parts.low_pass import LowPassState, low_pass
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.signals.low_pass import LowPassState, low_pass
 
 STEP = 0.001
 

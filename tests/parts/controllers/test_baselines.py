@@ -16,7 +16,7 @@ from tandemlift.parts.controllers import CONTROLLERS, Disturbance, Measured, Ref
 from tandemlift.parts.controllers.lqr import LQRSettings, integrator_chain, regulator
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
-from tandemlift.parts.signals.trajectories import Trajectory
+from tandemlift.parts.trajectories import Trajectory
 
 VEHICLE, STEP = paper_vehicle(), 0.001
 MASS, J = VEHICLE.mass, np.diag(VEHICLE.inertia)

@@ -11,8 +11,7 @@ from listings import GUIDE, LAW, PLAIN
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.core.settings import ControllerTable
-from tandemlift.parts.controllers import CONTROLLERS, controller, load_controller, register
+from tandemlift.parts.controllers import CONTROLLERS, ControllerTable, controller, load_controller, register
 
 REGISTERED = sorted(CONTROLLERS)
 AWAY = {"mission.duration": 1.0, "initial.position": [0.1, 0.0, 0.0]}
@@ -40,7 +39,7 @@ def edited(text: str, *changes: tuple[str, str]) -> str:
 CACHED = """
 import sys
 import tandemlift as tl
-from tandemlift.compiler.machine_code import machine
+from tandemlift.compiler.jit import machine
 made, compiled = [], machine.compiled
 machine.compiled = lambda *args: made.append(args) or compiled(*args)
 tl.fly(tl.load_mission("hover", {"mission.duration": 0.1}, controller=tl.load_controller(sys.argv[1])))
@@ -52,10 +51,10 @@ HELPER = """
 from tandemlift.core.algebra.law import law
 
 @law
-def soft(v):
+def scaled(v):
     return v * 0.9
 """
-IMPORTED = "from my_helpers import soft"
+IMPORTED = "from my_helpers import scaled"
 
 
 def test_a_second_process_finds_the_compiled_law_until_it_changes(own, tmp_path):
@@ -77,7 +76,7 @@ def test_a_second_process_finds_the_compiled_law_until_it_changes(own, tmp_path)
 
 def test_an_edit_of_another_file_whose_law_is_called_is_compiled_anew(own, tmp_path):
     """In a process of its own, which imports it anew."""
-    called = ("tilt - attitude.angles", "soft(tilt - attitude.angles)")
+    called = ("tilt - attitude.angles", "scaled(tilt - attitude.angles)")
     own(edited(LAW, called, ("class Settings", f"{IMPORTED}\n\n\nclass Settings")))
     folders = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
     environment = {**os.environ, "TANDEMLIFT_CACHE": str(tmp_path / "cache"), "PYTHONPATH": folders}

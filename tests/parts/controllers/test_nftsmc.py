@@ -37,7 +37,7 @@ from tandemlift.parts.mechanics.rotation import (
     quaternion_from_euler,
     wrap_angle,
 )
-from tandemlift.parts.signals.trajectories import Trajectory
+from tandemlift.parts.trajectories import Trajectory
 from tandemlift.simulation.assembly.assemble import assemble
 
 DRAG = Vec3(0.1, 0.2, 0.3)

@@ -3,7 +3,7 @@
 import pytest
 from law_values import paper_vehicle
 
-from tandemlift.compiler.trace.graph import Graph
+from tandemlift.compiler.tracer.graph import Graph
 from tandemlift.core.errors import InputError
 from tandemlift.parts.controllers import controller
 from tandemlift.parts.controllers.trial_run import check_started

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.parts.contact.wall_geometry import Wall
 from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.estimation.contact_detection import (
@@ -32,11 +32,17 @@ from tandemlift.parts.estimation.contact_evidence import (
     start_evidence,
     touching_part,
 )
-from tandemlift.parts.estimation.contact_map import UNMATCHED, BeamMatch, GuardMatch, TouchGeometry, guards_matched
+from tandemlift.parts.estimation.contact_map import (
+    UNMATCHED,
+    BeamMatch,
+    GuardMatch,
+    TouchGeometry,
+    guards_matched,
+)
 from tandemlift.parts.estimation.push_estimate import PushEstimator
 from tandemlift.parts.estimation.tare import SideForces
+from tandemlift.parts.low_pass import LowPassState, low_pass
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.signals.low_pass import LowPassState, low_pass
 
 PAIR, DT = each(2), 1e-3
 GEOMETRY = TouchGeometry(
@@ -199,14 +205,14 @@ def test_a_force_away_from_a_near_wall_is_explained_by_the_first_wall_that_can()
     far, near = wall_beside([5.0, 5.0]), wall_beside([0.1 + 0.32, -0.1 + 0.42])  # within the margin of both guards
     out = Vec3(PAIR(-3.0, -3.0), PAIR(1.0, 3.9), PAIR(0.0, 0.0))  # of the second, the cosine is just above the least
     for first, second in ((near, far), (far, near), (near, near)):
-        found = guards_matched(NearWalls(first, second, Nothing(), Nothing()), GEOMETRY, level, out)
+        found = guards_matched(NearWalls(first, second, Absent(), Absent()), GEOMETRY, level, out)
         assert found.matched == PAIR(1.0, 1.0)
         assert np.array(found.offset) == pytest.approx(np.array([[-0.32, -0.42], [0.0, 0.0], [0.0, 0.0]]))
-    none = NearWalls(far, far, Nothing(), Nothing())
-    walls = NearWalls(near, far, Nothing(), Nothing())
+    none = NearWalls(far, far, Absent(), Absent())
+    walls = NearWalls(near, far, Absent(), Absent())
     sideways = Vec3(PAIR(-3.0, -3.0), PAIR(4.1, -4.1), PAIR(0.0, 0.0))
     into = Vec3(PAIR(3.0, 3.0), PAIR(0.0, 0.0), PAIR(0.0, 0.0))
-    for known, force in ((none, out), (walls, sideways), (walls, into), (Nothing(), out)):
+    for known, force in ((none, out), (walls, sideways), (walls, into), (Absent(), out)):
         found = guards_matched(known, GEOMETRY, level, force)
         assert found.matched == PAIR(0.0, 0.0)
         assert not np.array(found.offset).any()
@@ -218,7 +224,7 @@ def test_of_two_posts_that_explain_a_force_the_first_counts():
     far = near._replace(x=PAIR(5.0, 5.0))
     out = Vec3(PAIR(-2.0, -2.0), PAIR(-2.5, -3.0), zero)
     for first, second in ((near, near), (near, far), (far, near)):
-        found = guards_matched(NearWalls(first, second, Nothing(), Nothing()), GEOMETRY, level, out)
+        found = guards_matched(NearWalls(first, second, Absent(), Absent()), GEOMETRY, level, out)
         assert found.matched == PAIR(1.0, 1.0)
         assert np.array(found.offset) == pytest.approx(np.array([[-0.2, -0.2], [-0.25, -0.3], [0.0, 0.0]]))
 

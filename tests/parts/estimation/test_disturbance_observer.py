@@ -8,11 +8,10 @@ from scipy.signal import StateSpace, lsim
 
 import tandemlift as tl
 from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, each, vec3
-from tandemlift.parts.estimation.disturbance_observer import correction, growth, observer_step
+from tandemlift.parts.estimation.disturbance_observer import correction, growth, observer_step, start_observer
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.pilot.disturbance_observer import start_observer
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import mixer_from
-from tandemlift.parts.vehicle import Vehicle
 
 H = 1e-3
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
@@ -28,7 +27,14 @@ def started(**keys):
     changes = {f"observer.{key}": value for key, value in keys.items()}
     mission = tl.load_mission("iris", {"vehicle.drag.force": 0.0, "vehicle.drag.moment": 0.0, **changes})
     vehicle = Vehicle.from_settings(mission.vehicle)
-    return vehicle, *start_observer(mission, vehicle, mixer_from(vehicle.effect))
+    return vehicle, *start_observer(
+        mission.observer,
+        vehicle,
+        mixer_from(vehicle.effect),
+        mission.mission.step,
+        mission.initial,
+        hovers=mission.actuators.start == "hover",
+    )
 
 
 def hover(vehicle):

@@ -8,12 +8,16 @@ from law_values import array
 from newton_euler import Given, paper_parts, solved, unit
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Nothing, each
+from tandemlift.core.algebra.vector import ZERO, Absent, each
 from tandemlift.missions import load_mission
 from tandemlift.parts.estimation.push_estimate import estimate, push_estimator, start_push
-from tandemlift.parts.estimation.wind_compensation import start_payload_drag, tare_mean, wind_on_payload
-from tandemlift.parts.vehicle import Vehicle
-from tandemlift.simulation.assembly.sensors import payload_drag_from
+from tandemlift.parts.estimation.wind_compensation import (
+    payload_drag_from,
+    start_payload_drag,
+    tare_mean,
+    wind_on_payload,
+)
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 VEHICLE = Vehicle.from_settings(load_mission("iris").vehicle)
 DENSITY, STEP = 1.225, 1e-3
@@ -92,7 +96,7 @@ def test_noise_of_the_joints_comes_through_times_the_ratio_of_drags_as_told():
 
 def test_without_a_tare_and_without_compensation_nothing_is_taken_off():
     assert array(tare_mean(start_payload_drag(payload_drag_from(VEHICLE, 12.0, STEP)))) == pytest.approx(np.zeros(3))
-    assert wind_on_payload(Nothing(), Nothing(), each(2)(1.0, 1.0), each(2)(1.0, 1.0), 1.0, 0.0, 1.0) == (
+    assert wind_on_payload(Absent(), Absent(), each(2)(1.0, 1.0), each(2)(1.0, 1.0), 1.0, 0.0, 1.0) == (
         ZERO,
-        Nothing(),
+        Absent(),
     )

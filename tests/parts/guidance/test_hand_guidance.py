@@ -5,20 +5,20 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, Vec3, vec3
+from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, vec3
 from tandemlift.core.phases import GUIDED, IDLE, LAND, LIFT
+from tandemlift.parts.compliance.admittance import admittance_from
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.guidance import PilotInput, guide
 from tandemlift.parts.guidance.hand_guidance import grounded_at, presses_on_ground, with_lift_and_landing
 from tandemlift.parts.guidance.phases import PhaseOutput
 from tandemlift.parts.guidance.supervised_reference import fenced, usable_input, with_blind_descent
+from tandemlift.parts.low_pass import LowPassState, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.pilot.assemble import admittance_from
-from tandemlift.parts.pilot.guidance import start_hand_guidance
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import NoFaults
-from tandemlift.parts.signals.low_pass import LowPassState, low_pass_step
-from tandemlift.parts.signals.trajectories import SmoothStep, Trajectory
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.trajectories import SmoothStep, Trajectory
+from tandemlift.simulation.assembly.hand_guidance import start_hand_guidance
 
 MISSION = tl.load_mission("iris", {"supervision.model": "on"})
 GUIDANCE, MEMORY = start_hand_guidance(
@@ -78,7 +78,7 @@ def test_the_heading_yields_to_the_moment_about_the_vertical_however_the_vehicle
     )
     tilted, moment = Rotation.from_euler("zxy", [0.7, 0.3, -0.2]), [0.5, -0.3, 0.8]
     state = STATE._replace(attitude=Quat(*tilted.as_quat(scalar_first=True).tolist()))
-    pilot_input = PilotInput(state, ZERO, vec3(moment), 0.0, Nothing())
+    pilot_input = PilotInput(state, ZERO, vec3(moment), 0.0, Absent())
     none = DisturbanceEstimate(ZERO, ZERO, ZERO, ZERO)
     after = guide(g, m, pilot_input, none, 0.0, 0.0, 1e-3)[1].heading.filtered
     wanted = low_pass_step(g.heading.input_filter, m.heading.filtered, tilted.apply(moment)[2])
@@ -86,7 +86,7 @@ def test_the_heading_yields_to_the_moment_about_the_vertical_however_the_vehicle
     assert after.value == pytest.approx(wanted.value)
 
 
-ALONE = GUIDANCE._replace(supervision=Nothing())
+ALONE = GUIDANCE._replace(supervision=Absent())
 
 
 def stepped(m, pilot_input):
@@ -94,14 +94,14 @@ def stepped(m, pilot_input):
     return guide(ALONE, m, pilot_input, DisturbanceEstimate(ZERO, ZERO, ZERO, ZERO), 0.0, 20.0, 1e-3)[1]
 
 
-HOVERING = MEMORY._replace(phase=MEMORY.phase._replace(phase=GUIDED, lift_fraction=1.0), supervision=Nothing())
+HOVERING = MEMORY._replace(phase=MEMORY.phase._replace(phase=GUIDED, lift_fraction=1.0), supervision=Absent())
 
 
 def test_a_vehicle_that_has_lost_its_heading_for_too_long_lands():
     for lost, phase in ((0.9, GUIDED), (1.1, LAND)):
         time = lost * GUIDANCE.following.heading_timeout
         m = HOVERING._replace(following=HOVERING.following._replace(heading=time))
-        assert stepped(m, PilotInput(STATE, ZERO, ZERO, 0.0, Nothing())).phase.phase == phase
+        assert stepped(m, PilotInput(STATE, ZERO, ZERO, 0.0, Absent())).phase.phase == phase
 
 
 def test_everything_is_the_same_above_a_higher_ground():
@@ -119,7 +119,7 @@ def test_everything_is_the_same_above_a_higher_ground():
         )
         m = HOVERING._replace(compliance=falling, phase=HOVERING.phase._replace(ground=ground))
         state = STATE._replace(position=Vec3(0.0, 0.0, ground + 0.12))
-        found.append(stepped(m, PilotInput(state, Vec3(0.0, 0.0, -down), ZERO, 0.0, Nothing())).compliance)
+        found.append(stepped(m, PilotInput(state, Vec3(0.0, 0.0, -down), ZERO, 0.0, Absent())).compliance)
     assert found[1].acceleration == pytest.approx(found[0].acceleration)
     assert found[0].acceleration.z > 0.0  # it brakes, although it is pushed down
 

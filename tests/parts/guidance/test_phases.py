@@ -2,7 +2,7 @@
 
 import pytest
 
-from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, PHASE_NAMES, STOPPED
 from tandemlift.parts.guidance.phases import (
     SETTLING_TIME,
@@ -15,7 +15,8 @@ from tandemlift.parts.guidance.phases import (
     reached,
     update_phase,
 )
-from tandemlift.parts.guidance.requests import (
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.requests import (
     NO_REQUEST,
     OperatorRequest,
     RequestCounts,
@@ -23,11 +24,10 @@ from tandemlift.parts.guidance.requests import (
     requests_until,
     with_operator,
 )
-from tandemlift.parts.mechanics.rigid_body import State
 
 FREE = PhaseBounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 LEVEL, DT, NEVER = Quat(1.0, 0.0, 0.0, 0.0), 0.05, 1e18
-PHASING = PhaseSettings(1.0, 1.0, 0.5, NEVER, 0.5, 0.03, 0.3, 0.0, 10.0, Nothing())
+PHASING = PhaseSettings(1.0, 1.0, 0.5, NEVER, 0.5, 0.03, 0.3, 0.0, 10.0, Absent())
 BEFORE = PhaseState(IDLE, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -SETTLING_TIME)
 
 
@@ -168,7 +168,7 @@ def test_hovering_counts_from_steady_flight():
 
 
 def test_nobody_asks_for_nothing():
-    assert requests_until(Nothing(), 1.0) == RequestCounts(0.0, 0.0, 0.0, 1.0)
+    assert requests_until(Absent(), 1.0) == RequestCounts(0.0, 0.0, 0.0, 1.0)
     assert {IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED, CONTACT, LIMITED} == set(map(float, range(len(PHASE_NAMES))))
 
 
@@ -193,7 +193,7 @@ def test_being_limited_is_not_the_beginning_of_another_hover():
 def test_a_landing_ends_just_above_the_ground_where_the_vehicle_still_turns(rate, height, ends):
     m = BEFORE._replace(phase=LAND, land_rate=0.1)
     state = State(Vec3(0.0, 0.0, height), ZERO, LEVEL, Vec3(0.0, 0.0, rate))
-    after = update_phase(PHASING, m, state, requests_until(Nothing(), 1.0), (0.0, 0.0), FREE, 1.0, DT)
+    after = update_phase(PHASING, m, state, requests_until(Absent(), 1.0), (0.0, 0.0), FREE, 1.0, DT)
     assert (after.phase == IDLE) == ends
 
 

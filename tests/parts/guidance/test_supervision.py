@@ -6,6 +6,7 @@ import tandemlift as tl
 from tandemlift.core.algebra.vector import ZERO
 from tandemlift.core.faults import REACTIONS
 from tandemlift.core.phases import GUIDED, HOLD, IDLE
+from tandemlift.parts.compliance.admittance import admittance_from
 from tandemlift.parts.guidance.fault_detection import FaultReaction
 from tandemlift.parts.guidance.preflight_checks import SensorStatus
 from tandemlift.parts.guidance.supervision import (
@@ -17,11 +18,10 @@ from tandemlift.parts.guidance.supervision import (
     supervision_output,
     update_reaction,
 )
-from tandemlift.parts.pilot.assemble import admittance_from
-from tandemlift.parts.pilot.guidance import start_hand_guidance
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import NoFaults
 from tandemlift.parts.sensors.health import WELL
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.simulation.assembly.hand_guidance import start_hand_guidance
 
 MISSION = tl.load_mission("iris", {"supervision.model": "on"})
 GUIDANCE, MEMORY = start_hand_guidance(

@@ -14,13 +14,12 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, vec3
-from tandemlift.core.settings import Payload
 from tandemlift.engines.models.parts_layout import parts_layout_from
-from tandemlift.parts.mechanics.air_drag import AirDrag, air_loads
+from tandemlift.parts.mechanics.air_drag import AirDrag, air_drag_from, air_loads
 from tandemlift.parts.mechanics.loads import resultant
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.vehicle import Vehicle
-from tandemlift.simulation.assembly.disturbances import air_drag_from
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import Payload
 
 DENSITY = 1.225
 

@@ -25,7 +25,7 @@ from tandemlift.parts.mechanics.parts import (
 from tandemlift.parts.mechanics.push import CentralPush
 from tandemlift.parts.mechanics.rigid_body import State, Wrench, motion
 from tandemlift.parts.mechanics.rotation import body_z_axis, rotation_from_quaternion
-from tandemlift.parts.vehicle import Vehicle, mixer, mixer_inverse
+from tandemlift.parts.mechanics.vehicle import Vehicle, mixer, mixer_inverse
 
 NO_PUSH = CentralPush(ZERO)
 WEIGHT = np.array([0.0, 0.0, GRAVITY])

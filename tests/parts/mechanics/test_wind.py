@@ -20,7 +20,7 @@ from scipy.linalg import expm, solve_continuous_lyapunov
 from scipy.signal import welch
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3
 from tandemlift.engines.models.parts_layout import parts_layout_from
 from tandemlift.parts.mechanics.air_drag import AirDrag, air_loads
 from tandemlift.parts.mechanics.rigid_body import State
@@ -34,11 +34,11 @@ from tandemlift.parts.mechanics.turbulence import (
     turbulence_velocity,
 )
 from tandemlift.parts.mechanics.wind import Gust, Wind, gust_velocity, wind_step
-from tandemlift.parts.signals.random_numbers import key_from_seed, normals
+from tandemlift.parts.random_numbers import key_from_seed, normals
 
 FOOT = 0.3048
 NO_EDDIES, NO_WHIFFS = TurbulenceState(*[0.0] * 5), WindNoise(*[0.0] * 5)
-STEADY = Wind(Vec3(4.0, -2.0, 0.5), Nothing())
+STEADY = Wind(Vec3(4.0, -2.0, 0.5), Absent())
 X = (1.0, 0.0, 0.0)
 
 
@@ -220,8 +220,8 @@ def test_the_variance_of_a_long_flight_is_that_of_the_standard(flown):
 
 def test_wind_without_turbulence_is_steady():
     gust = Vec3(1.0, 2.0, 3.0)
-    assert wind_step(STEADY, Nothing(), gust, Nothing()) == (Vec3(5.0, 0.0, 3.5), Nothing())
-    assert start_turbulence(Nothing(), [0.0] * 5) == Nothing()
+    assert wind_step(STEADY, Absent(), gust, Absent()) == (Vec3(5.0, 0.0, 3.5), Absent())
+    assert start_turbulence(Absent(), [0.0] * 5) == Absent()
 
 
 def test_noise_moves_the_turbulence_of_the_next_step_and_not_that_of_now():
@@ -276,7 +276,7 @@ class Given(NamedTuple):
 def everything(x: Given, frame: Any) -> Any:
     gust = gust_velocity(x.gust, x.time)
     air, eddies = wind_step(x.dryden, x.eddies, gust, x.whiffs)
-    steady, none = wind_step(Wind(gust, Nothing()), Nothing(), gust, Nothing())
+    steady, none = wind_step(Wind(gust, Absent()), Absent(), gust, Absent())
     return air, eddies, steady, none, air_loads(x.drag, frame, x.state, air)
 
 

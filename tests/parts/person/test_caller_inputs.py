@@ -5,7 +5,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.core.algebra.layout import flat
-from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, Vec3, each, mat3, vec3
+from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, each, mat3, vec3
 from tandemlift.parts.mechanics.push import CentralPush, PointPush, PushSamples, push_moment
 from tandemlift.parts.person.caller_inputs import CallerInput, commanded_thrusts, with_caller_push
 from tandemlift.simulation.loop.step import step_flight
@@ -44,8 +44,8 @@ def test_thrusts_are_the_pilots_unless_they_are_overridden():
     own, given = ROTORS(*range(8)), [7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0, 0.0]
     assert commanded_thrusts(external(), own) == own
     assert commanded_thrusts(external(thrusts=given), own) == tuple(given)
-    assert commanded_thrusts(Nothing(), own) is own
-    assert with_caller_push(Nothing(), CENTRAL) is CENTRAL
+    assert commanded_thrusts(Absent(), own) is own
+    assert with_caller_push(Absent(), CENTRAL) is CENTRAL
 
 
 @pytest.mark.parametrize("point", [[0.0, 0.0, 0.0], [0.0, -0.5, 0.1]])

@@ -14,14 +14,14 @@ from scipy.spatial.transform import Rotation
 import tandemlift as tl
 from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, mat3, vec3
 from tandemlift.engines.compiled import start_state
+from tandemlift.parts.low_pass import LowPassState
 from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_moment
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.person.person import PathLeg, PersonState, aim, landing_request, person_step, person_view
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.person.person import PathLeg, PersonState, hand_target, landing_request, person_step, person_view
+from tandemlift.parts.person.person_table import Walk, path_legs_from, start_person
 from tandemlift.parts.person.tremor import STILL, TremorNoise, tremor, tremor_step
-from tandemlift.parts.signals.low_pass import LowPassState
-from tandemlift.parts.vehicle import Vehicle
 from tandemlift.simulation.assembly.assemble import assemble
-from tandemlift.simulation.assembly.persons import path_legs_from, start_person
 
 DT = 0.001
 NOBODY = PointPush(ZERO, mat3([[0.0] * 3] * 3))
@@ -37,8 +37,9 @@ def company(model: str, path: Any = ((5.0, 0.0),), **changes: Any) -> tuple[Any,
     keys = {f"person.{k}": v for k, v in {"model": model, "path": points, "height_fraction": 0.0, **changes}.items()}
     mission = tl.load_mission("hover", keys)
     vehicle, state = Vehicle.from_settings(mission.vehicle), start_state(mission)
-    person, memory, _ = start_person(mission, vehicle, state)
-    return person, memory, path_legs_from(mission, person, state)
+    walk = Walk(mission.person.path, state, mission.initial.euler[2], mission.phases.height)
+    person, memory, _ = start_person(mission.person, vehicle, mission.mission.step, walk)
+    return person, memory, path_legs_from(mission.person, person, walk)
 
 
 def at(position: Any, velocity: Any = (0.0, 0.0, 0.0), yaw: float = 0.0) -> State:
@@ -184,6 +185,6 @@ def test_two_hands_turn_the_beam_as_a_spring_and_a_damper_about_the_vertical():
     assert legs[0].heading == 0.0
     for yaw, rate in ((0.1, 0.0), (-0.2, 0.4), (0.0, -0.5)):
         turning = at((0.0, 0.0, 1.0), yaw=yaw)._replace(rates=Vec3(0.0, 0.0, rate))
-        couple = aim(person, memory._replace(view=person_view(person.grip, turning), leg=legs[0])).couple
+        couple = hand_target(person, memory._replace(view=person_view(person.grip, turning), leg=legs[0])).couple
         assert couple == pytest.approx(-s.yaw_gain * (yaw + rate * ahead) - s.yaw_damping * rate, rel=1e-12)
     assert s.yaw_damping * 0.4 > 0.05

@@ -8,10 +8,10 @@ from tandemlift.core.algebra.vector import ZERO, Quat, mat3, vec3
 from tandemlift.engines.compiled import start_state
 from tandemlift.parts.mechanics.push import PointPush, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.person.person import aim, landing_request, person_step, person_view
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.person.person import hand_target, landing_request, person_step, person_view
+from tandemlift.parts.person.person_table import Walk, path_legs_from, start_person
 from tandemlift.parts.person.tremor import TremorNoise
-from tandemlift.parts.vehicle import Vehicle
-from tandemlift.simulation.assembly.persons import path_legs_from, start_person
 
 DT = 0.001
 NO_PUSH = PushSamples(*[PointPush(ZERO, mat3([[0.0] * 3] * 3))] * 3)
@@ -22,8 +22,10 @@ def company(path, **changes):
     """A person who steers, their memory and the legs of their path, beside a vehicle that stands at 0."""
     keys = {"model": "steer", "path": [{"point": list(p)} for p in path], "height_fraction": 0.0, "tremor": 0.0}
     mission = tl.load_mission("hover", {f"person.{k}": v for k, v in {**keys, "start_time": 0.0, **changes}.items()})
-    person, memory, _ = start_person(mission, Vehicle.from_settings(mission.vehicle), start_state(mission))
-    return person, memory, path_legs_from(mission, person, start_state(mission))
+    vehicle, state = Vehicle.from_settings(mission.vehicle), start_state(mission)
+    walk = Walk(mission.person.path, state, mission.initial.euler[2], mission.phases.height)
+    person, memory, _ = start_person(mission.person, vehicle, mission.mission.step, walk)
+    return person, memory, path_legs_from(mission.person, person, walk)
 
 
 def at(position, velocity=(0.0, 0.0, 0.0)):
@@ -46,7 +48,7 @@ def test_the_trim_is_the_integral_of_the_wanted_force_across_the_path():
     person, memory, legs = company(((9.0, 0.0),), max_force=50.0)
     beside = at((1.0, 0.3, 1.0))
     memory = memory._replace(leg=legs[0], view=person_view(person.grip, beside), begun=1.0)
-    across = aim(person, memory).across
+    across = hand_target(person, memory).across
     for k in range(400):
         memory = person_step(person, memory, NO_PUSH, beside, CALM, k * DT, DT).memory
     assert across.y < -0.1

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.compiler.machine_code.functions import compiled
+from tandemlift.compiler.jit.functions import compiled
 from tandemlift.core.algebra.layout import flat, unflat
 from tandemlift.core.faults import CHECKS, FAULTS
 from tandemlift.core.refusals import REASONS, REQUESTS, refusal_of
 from tandemlift.parts.pilot.refusals import refusal_numbers
-from tandemlift.simulation.kernels.pilot_sampling import PilotData
+from tandemlift.simulation.loop_code.pilot_sampling import PilotData
 
 BY_HAND = {"pilot.guidance": "interactive", "phases.rotors": "flight", "ground.model": "floor"}
 SUPERVISED = BY_HAND | {"supervision.model": "on", "phases.lift_start": 1e6, "phases.land_start": 2e6}

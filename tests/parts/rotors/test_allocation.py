@@ -14,7 +14,7 @@ from tandemlift.core.algebra.vector import each, vec3
 from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
 from tandemlift.parts.mechanics.rigid_body import Wrench
-from tandemlift.parts.pilot.assemble import start_pilot
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import (
     ConstrainedAllocation,
     allocate,
@@ -26,7 +26,7 @@ from tandemlift.parts.rotors.allocation import (
     wrench,
 )
 from tandemlift.parts.rotors.rotor_faults import RotorFaults
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.simulation.assembly.pilot import start_pilot
 
 counts = st.integers(1, 4)
 ONE = ((1.0, 1.0, 1.0, 1.0),)

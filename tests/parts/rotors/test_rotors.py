@@ -7,15 +7,14 @@ import pytest
 from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.missions import load_mission
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import wrench_scale
 from tandemlift.parts.rotors.ground_effect import FreeAir, ground_effect_ratio
 from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults
-from tandemlift.parts.rotors.rotors import IdealRotors, RotorState, rotors_step
-from tandemlift.parts.vehicle import Vehicle
-from tandemlift.simulation.assembly.actuators import ground_effect_from, rotors_from
+from tandemlift.parts.rotors.rotors import IdealRotors, RotorState, ground_effect_from, rotors_from, rotors_step
 
 VEHICLE = Vehicle.from_settings(load_mission("paper").vehicle)
 UP, DOWN, CONSTANT, MOST = 0.0125, 0.025, 5.84e-6, 5.84e-6 * 1100.0**2
@@ -130,4 +129,4 @@ def test_each_rotor_of_a_tilted_vehicle_gains_by_its_own_height():
 
 def test_ideal_rotors_give_any_thrust_at_once():
     command = EIGHT(-3.0, 0.0, 100.0, *(1.0,) * 5)
-    assert rotors_step(IdealRotors(), Nothing(), command, LEVEL, 0.0) == (command, Nothing())
+    assert rotors_step(IdealRotors(), Absent(), command, LEVEL, 0.0) == (command, Absent())

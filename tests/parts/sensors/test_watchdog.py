@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, each, vec3
-from tandemlift.core.sensors import SENSORS
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotated_by
 from tandemlift.parts.sensors.health import (
@@ -29,6 +28,7 @@ from tandemlift.parts.sensors.sensor_faults import (
     apply_faults,
     sensor_fault,
 )
+from tandemlift.parts.sensors.sensor_list import SENSORS
 from tandemlift.parts.sensors.substitutes import PredictedReadings
 from tandemlift.parts.sensors.watchdog import Watchdog, start_watchdog, watchdog_step
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.core.settings import wall_tables
 from tandemlift.flight.record import Ending
 from tandemlift.missions import tables_of
+from tandemlift.parts.contact.corridor import wall_tables
 from tandemlift.pictures.figures.corridor import NEWTON, arrows, instants
 from tandemlift.pictures.figures.drawing.clearances import clearances, grips
 from tandemlift.pictures.figures.registry import figures, figures_for

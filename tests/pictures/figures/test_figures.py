@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.flight.record import Ending
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing import style as figure_style
 from tandemlift.pictures.figures.drawing.series import decimate, intervals, normalised
 from tandemlift.pictures.figures.drawing.skeleton import skeleton

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 import tandemlift as tl
 from tandemlift.engines.models.surroundings import floor_from
 from tandemlift.flight.record import Ending
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.figure_style import IEEE
 from tandemlift.pictures.figures.drawing.ground import clearance, floor_height
 from tandemlift.pictures.figures.drawing.scene import NEAR, on_paper

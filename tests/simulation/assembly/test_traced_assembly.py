@@ -14,7 +14,7 @@ from odd_numbers import bits
 
 import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
-from tandemlift.compiler.trace.valued_graph import evaluated
+from tandemlift.compiler.tracer.valued_graph import evaluated
 from tandemlift.core.algebra.layout import flat, numbers_of
 from tandemlift.core.algebra.vector import layout
 from tandemlift.missions import built_in, changed

@@ -19,7 +19,9 @@ import numpy as np
 from tandemlift.core.algebra import Number, Vec3, ZERO
 from tandemlift.parts.controllers import Command, NoMemory, control, register
 from tandemlift.parts.mechanics.rigid_body import Wrench
-from tandemlift.core.settings import ControllerTable, Positive, key
+from tandemlift.parts.controllers import ControllerTable
+from tandemlift.core.keys import Positive
+from tandemlift.core.keys import key
 
 class Settings(ControllerTable):
     """Of this controller."""

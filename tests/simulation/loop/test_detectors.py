@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.parts.guidance.guidance import ThrustFraction
 from tandemlift.parts.rotors.allocation import mixer_from
 from tandemlift.parts.rotors.rotors import IdealRotors
@@ -123,14 +123,14 @@ BAD = {  # beyond one limit each
 
 def detected(sample, seconds=3.0, running=1.0):
     """The memory of all detectors after a flight whose samples are given, as a function of time."""
-    memory = ASLEEP._replace(saturation=Nothing())
+    memory = ASLEEP._replace(saturation=Absent())
     effect = mixer_from(np.ones((4, 4)))
-    pilot = SimpleNamespace(detection=Nothing(), allocation=effect)
+    pilot = SimpleNamespace(detection=Absent(), allocation=effect)
     guidance = SimpleNamespace(flying=1.0, running=ThrustFraction(running), force=ZERO, admittance=STILL)
     decision = SimpleNamespace(guidance=guidance, thrusts=each(4)(1.0, 1.0, 1.0, 1.0))
-    output = SimpleNamespace(decision=decision, estimates=Nothing())
+    output = SimpleNamespace(decision=decision, estimates=Absent())
     for k in range(round(seconds / DT)):
-        state = SimpleNamespace(detectors=memory, memory=SimpleNamespace(detection=Nothing()))
+        state = SimpleNamespace(detectors=memory, memory=SimpleNamespace(detection=Absent()))
         model = SimpleNamespace(finding_limits=FOUND, flight_state=state, pilot=pilot, rotors=IdealRotors())
         memory = detect(model, output, SimpleNamespace(**{**CALM, **sample(k * DT)}), k * DT, DT)
     return memory
@@ -138,7 +138,7 @@ def detected(sample, seconds=3.0, running=1.0):
 
 def test_nothing_wakes_the_detectors_of_a_calm_flight():
     calm = detected(lambda t: {})
-    assert calm._replace(steps=0.0, unpushed=ASLEEP.unpushed) == ASLEEP._replace(saturation=Nothing())
+    assert calm._replace(steps=0.0, unpushed=ASLEEP.unpushed) == ASLEEP._replace(saturation=Absent())
     assert calm.steps == pytest.approx(200.0)
 
 

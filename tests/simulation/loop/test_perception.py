@@ -4,18 +4,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, Vec3, vec3
+from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, vec3
 from tandemlift.parts.estimation.push_estimate import PushEstimate
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.simulation.loop.estimate_channels import estimated_channels
 from tandemlift.simulation.loop.fault_tolerant_perception import CheckedEstimates
-from tandemlift.simulation.loop.perception import (
-    Estimates,
-    EstimateSource,
-    MeasurementSource,
-    NominalVehicle,
-    read_push,
-)
+from tandemlift.simulation.loop.perception import Estimates
+from tandemlift.simulation.loop.sources import EstimateSource, MeasurementSource, NominalVehicle, read_push
 
 VEHICLE = NominalVehicle(
     payload=Vec3(0.1, -0.2, -0.3), drag_force=Vec3(0.2, 0.3, 0.4), drag_moment=Vec3(0.01, 0.02, 0.03)
@@ -36,7 +31,7 @@ PUSH = PushEstimate(
 
 def used(source, **push):
     """Force and moment that the pilot uses."""
-    known = Estimates(PUSH._replace(**push), STATE, VEHICLE, Nothing())
+    known = Estimates(PUSH._replace(**push), STATE, VEHICLE, Absent())
     found = read_push(source, None, STATE, known)
     return np.array(found.force), np.array(found.moment)
 
@@ -61,7 +56,7 @@ def test_a_push_that_is_not_trusted_or_not_armed_is_none(source, doubt):
 
 @pytest.mark.parametrize(("trusted", "armed"), [(1.0, 1.0), (0.0, 1.0), (1.0, 0.0)])
 def test_the_channels_of_estimates_are_the_estimates_checked_or_not(trusted, armed):
-    known = Estimates(PUSH._replace(trusted=trusted, armed=armed), STATE, VEHICLE, Nothing())
+    known = Estimates(PUSH._replace(trusted=trusted, armed=armed), STATE, VEHICLE, Absent())
     shown = estimated_channels(known)
     assert (shown.estimated_position, shown.estimated_rates) == (STATE.position, STATE.rates)
     assert (shown.push_measured, shown.push_estimate) == (PUSH.measured, PUSH.force)

@@ -5,8 +5,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tandemlift.core.algebra.vector import Nothing, Vec3, vec3
-from tandemlift.simulation.loop.running_metrics import EMPTY, NO_EFFORT, StepErrors, added, count, effort_of, summary
+from tandemlift.core.algebra.vector import Absent, Vec3, vec3
+from tandemlift.simulation.loop.running_metrics import (
+    EMPTY,
+    NO_EFFORT,
+    StepContribution,
+    added,
+    count,
+    effort_of,
+    summary,
+)
 
 VECTORS = ("position", "velocity", "attitude", "tilt", "moment", "push")
 NUMBERS = ("thrust", "power", "height")
@@ -24,7 +32,7 @@ def counted(rows, part=slice(None)):
     memory = EMPTY
     for k in range(len(rows["power"]))[part]:
         numbers = {name: vec3(row[k]) if name in VECTORS else float(row[k]) for name, row in rows.items()}
-        memory = count(memory, StepErrors(**numbers, clearance=Nothing(), effort=Nothing()))
+        memory = count(memory, StepContribution(**numbers, clearance=Absent(), effort=Absent()))
     return memory
 
 

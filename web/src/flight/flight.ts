@@ -101,7 +101,7 @@ export class Flight {
     module.view(this.trial).set(now);
     if (module.prepare(this.trial, this.spare)) throw new Refusal(page.texts.other_laws, { key });
     if (this.touchesPlant()) throw new Refusal(page.texts.later, { key });
-    const ramp = this.newRamp(Math.max(1, roundHalfEven(duration / module.manifest.dt)));
+    const ramp = this.newRamp(Math.max(1, Math.round(duration / module.manifest.dt)));
     if (!module.view(ramp.active).includes(1) && differs) {
       this.idle.push(ramp);
       throw new Refusal(page.texts.no_effect, { key });
@@ -197,11 +197,4 @@ export class Flight {
     }
     this.ramps.push(ramp);
   }
-}
-
-/** As Python rounds: a half goes to the even neighbour. */
-export function roundHalfEven(x: number): number {
-  const floor = Math.floor(x);
-  if (x - floor !== 0.5) return Math.round(x);
-  return floor % 2 === 0 ? floor : floor + 1;
 }

@@ -4,10 +4,9 @@ import type { PageMessage, Vector } from "../wire/messages.generated.ts";
 import type { Flight } from "./flight.ts";
 import type { PageManifest } from "./manifest.ts";
 import type { FlightModule } from "./module.ts";
-import { float } from "./python_text.ts";
-import { Refusal } from "./refusal.ts";
+import { Refusal, shown } from "./refusal.ts";
 
-type Message<T extends PageMessage["type"]> = Extract<PageMessage, { type: T }>;
+export type Message<T extends PageMessage["type"]> = Extract<PageMessage, { type: T }>;
 
 const ZERO: Vector = [0, 0, 0];
 
@@ -82,7 +81,7 @@ export class HandControl {
     const hovered = page.hover_time < 0 ? 0 : flight.number(page.hover_time);
     const [refusal] = this.module.values("touch_refusal", [...page.touch_rule, flight.time, hovered, ...point]);
     const text = page.texts.touch[String(refusal)];
-    if (text) throw new Refusal(text, { point: `[${point.map(float).join(", ")}]` });
+    if (text) throw new Refusal(text, { point: shown(point) });
   }
 
   private moved(target: Vector): Vector {

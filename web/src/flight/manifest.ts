@@ -1,8 +1,15 @@
 // What a page is given of a mission: its module, and the manifest that Python wrote with it (`live.offline`).
 
+import { sha256 } from "@noble/hashes/sha2.js";
+import { bytesToHex } from "@noble/hashes/utils.js";
+
 import type { FlightScene, Phase, SceneParameter, StatusRefusals } from "../wire/messages.generated.ts";
-import { sha256 } from "./sha256.ts";
-import type { Tables } from "./toml.ts";
+
+/** The tables of a mission. */
+export interface Tables {
+  [key: string]: TomlValue;
+}
+export type TomlValue = number | string | boolean | readonly TomlValue[] | Tables;
 
 export type Span = readonly [at: number, size: number];
 
@@ -29,24 +36,13 @@ export interface ModuleManifest {
 export const TABLES = ["pushes", "gusts", "walls", "legs"] as const;
 export type Table = (typeof TABLES)[number];
 
-/** Bounds of a parameter and the numbers of its list (0 if it takes none), and the texts of what breaks them. */
-export interface ParameterBounds {
-  min: number;
-  max: number;
-  count: number;
+/** A parameter of the scene, and the mission's keys that it stands for. */
+export interface TunableParameter {
+  shown: SceneParameter & { min: number; max: number };
+  keys: string[];
+  count: number; // of its list; 0 if it takes none
   out_of_bounds: string;
   wrong_shape: string;
-}
-
-/** A parameter of the scene, and the mission's keys that it stands for. */
-export interface TunableParameter extends ParameterBounds {
-  shown: SceneParameter;
-  keys: string[];
-}
-
-/** A parameter that this mission does not have, and why it is refused. */
-export interface AbsentParameter extends ParameterBounds {
-  refusal: string;
 }
 
 export interface Rotor {
@@ -103,7 +99,7 @@ export interface PageManifest {
   scene: FlightScene;
   tables: Tables; // of the mission
   parameters: TunableParameter[];
-  absent: Record<string, AbsentParameter>;
+  absent: Record<string, string>; // why a parameter is refused that this mission does not have
   rotors: Rotor[];
   never: number; // s: the time of a fault that has not happened
   hand: Record<string, Span>; // of each part of the hand in its numbers
@@ -162,7 +158,7 @@ export function unpacked(
   entry: MissionEntry,
   index: FlightIndex,
 ): [FlightManifest, Uint8Array<ArrayBuffer>] {
-  if (sha256(bytes) !== entry.sha256) throw new BrokenFlight(index.broken);
+  if (bytesToHex(sha256(bytes)) !== entry.sha256) throw new BrokenFlight(index.broken);
   const size = new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true);
   const manifest = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + size))) as FlightManifest;
   if (manifest.format !== FORMAT || manifest.version !== index.version) throw new BrokenFlight(index.other_version);

@@ -2,8 +2,7 @@
 
 import type { PageMessage } from "../wire/messages.generated.ts";
 import type { FieldRule, PageManifest } from "./manifest.ts";
-import { shown } from "./python_text.ts";
-import { Refusal } from "./refusal.ts";
+import { Refusal, shown } from "./refusal.ts";
 
 /** Refuses a message with numbers out of bounds, or with a name that no file may have. */
 export function checkMessage(message: PageMessage, page: PageManifest): void {
@@ -18,12 +17,6 @@ function check(field: string, rule: FieldRule, given: unknown): void {
   const entry = rule.count > 0;
   [given].flat().forEach((value: unknown, i) => {
     if (typeof value !== "number" || (value >= rule.min && value <= rule.max)) return;
-    throw new Refusal(rule.wrong, { key: entry ? `${field}.${i}` : field, value: sent(entry ? value : given) });
+    throw new Refusal(rule.wrong, { key: entry ? `${field}.${i}` : field, value: shown(entry ? value : given) });
   });
-}
-
-/** A value as Python shows what came as JSON, where a number without fraction is a whole one. */
-function sent(value: unknown): string {
-  if (Array.isArray(value)) return `[${value.map(sent).join(", ")}]`;
-  return Number.isInteger(value) ? BigInt(value as number).toString() : shown(value);
 }

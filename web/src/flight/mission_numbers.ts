@@ -1,7 +1,6 @@
 // A mission as it is now: its tables and its numbers by their keys.
 
-import type { FlightManifest } from "./manifest.ts";
-import type { Tables, TomlValue } from "./toml.ts";
+import type { FlightManifest, Tables, TomlValue } from "./manifest.ts";
 
 export type Value = number | readonly number[];
 
@@ -42,9 +41,11 @@ export class MissionNumbers {
     return true;
   }
 
+  /** A value as a list where the key has one; 0 for −0, which a saved mission could not tell apart. */
   private shaped(key: string, value: Value): Value {
+    if (typeof value !== "number") return value.map((part) => part + 0);
     const now = this.value(key);
-    return Array.isArray(now) && typeof value === "number" ? (now as number[]).map(() => value) : value;
+    return typeof now === "number" ? value + 0 : now.map(() => value + 0);
   }
 
   private find(key: string): { table: Tables; last: string; value: TomlValue } {

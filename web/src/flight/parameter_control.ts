@@ -4,9 +4,8 @@ import type { ChangedMessage, ParameterValue, RefusedMessage, SceneParameter } f
 import type { Flight } from "./flight.ts";
 import type { FlightManifest, TunableParameter } from "./manifest.ts";
 import { MissionNumbers, type Value } from "./mission_numbers.ts";
-import { general, shown } from "./python_text.ts";
 import type { RecordedChange } from "./recording.ts";
-import { Refusal } from "./refusal.ts";
+import { Refusal, shown } from "./refusal.ts";
 
 type Answer = ChangedMessage | RefusedMessage;
 
@@ -51,9 +50,9 @@ export class ParameterControl {
   stopRotor(flight: Flight, rotor: number): void {
     const { rotors, never, texts } = this.manifest.page;
     const key = rotors.find((one) => one.rotor === rotor)?.key;
-    if (key === undefined) throw new Refusal(texts.whole_rotors, { rotor: String(rotor) });
+    if (key === undefined) throw new Refusal(texts.whole_rotors, { rotor });
     const time = this.now.value(key) as number;
-    if (time < never) throw new Refusal(texts.failed_already, { rotor: String(rotor), time: general(time) });
+    if (time < never) throw new Refusal(texts.failed_already, { rotor, time });
     this.change(flight, key, flight.time, 0);
   }
 
@@ -73,18 +72,14 @@ export class ParameterControl {
   private checked(key: string, value: ParameterValue): TunableParameter {
     const { texts, absent } = this.manifest.page;
     const parameter = this.known.get(key);
-    const bounds = parameter ?? (key in absent ? absent[key] : null);
-    if (!bounds) throw new Refusal(texts.unknown, { key });
     const said = { key, value: shown(value) };
-    if (!bounds.out_of_bounds) throw new Refusal(absent[key].refusal, said);
+    if (!parameter) throw new Refusal(absent[key] ?? texts.unknown, said);
+    const { min, max } = parameter.shown;
     for (const number of [value].flat()) {
       if (typeof number !== "number") throw new Refusal(texts.no_number, said);
-      if (!(number >= bounds.min && number <= bounds.max)) throw new Refusal(bounds.out_of_bounds, said);
+      if (!(number >= min && number <= max)) throw new Refusal(parameter.out_of_bounds, said);
     }
-    if (Array.isArray(value) && (value as unknown[]).length !== bounds.count) {
-      throw new Refusal(bounds.wrong_shape, said);
-    }
-    if (!parameter) throw new Refusal(absent[key].refusal, said);
+    if (Array.isArray(value) && value.length !== parameter.count) throw new Refusal(parameter.wrong_shape, said);
     return parameter;
   }
 

@@ -33,8 +33,7 @@ export class RealTimeLoop {
   receive(message: PageMessage, seq: number): void {
     this.lastMessage = this.clock();
     try {
-      const answers = this.session.apply(message, seq);
-      for (const answer of answers) this.post(answer);
+      this.session.apply(message, seq);
       if (message.type === "move") this.movedAt ??= this.lastMessage;
     } catch (error) {
       if (!(error instanceof Refusal)) throw error;

@@ -1,10 +1,12 @@
 // A flight as files that `tandemlift run` flies again. As `simulation.recorded_flight` writes them.
 
-import { npyOfDoubles, npyOfIntegers, npyOfText, zip } from "./archive.ts";
+import { strToU8 } from "fflate";
+import { stringify } from "smol-toml";
+
+import { npy, npyOfText, zip } from "./archive.ts";
 import type { Flight } from "./flight.ts";
-import type { PageManifest } from "./manifest.ts";
+import type { PageManifest, Tables } from "./manifest.ts";
 import { Refusal } from "./refusal.ts";
-import { type Tables, toml } from "./toml.ts";
 
 /** A change in flight, as a mission's `[[changes]]` has it. */
 export interface RecordedChange extends Tables {
@@ -27,17 +29,16 @@ export function recordedFlight(
   if (flight.step < 2) throw new Refusal(page.texts.empty);
   const steps = flight.lost ? flight.step : flight.step - 1;
   const entries = flight.recorded.filter((entry) => entry.step <= steps);
+  const width = page.released.length;
+  const hands = new Float64Array(entries.length * width);
+  entries.forEach((entry, i) => hands.set(entry.hand, i * width));
   const hand = zip({
-    "step.npy": npyOfIntegers(entries.map((entry) => entry.step)),
-    "hand.npy": npyOfDoubles(
-      entries.flatMap((entry) => [...entry.hand]),
-      [entries.length, page.released.length],
-    ),
+    "step.npy": npy(BigInt64Array.from(entries, (entry) => BigInt(entry.step)), "<i8"),
+    "hand.npy": npy(hands, "<f8", [entries.length, width]),
     "engine.npy": npyOfText(page.engine),
   });
-  const text = new TextEncoder().encode(missionText(name, steps, page, start, changes));
-  const last = npyOfDoubles([...flight.sample], [flight.sample.length]);
-  return zip({ [page.files.mission]: text, [page.files.hand]: hand, [LAST]: last });
+  const text = strToU8(missionText(name, steps, page, start, changes));
+  return zip({ [page.files.mission]: text, [page.files.hand]: hand, [LAST]: npy(flight.sample, "<f8") });
 }
 
 function missionText(
@@ -55,5 +56,5 @@ function missionText(
     person: { ...(start["person"] as Tables), recording: page.files.hand },
     changes: changes.filter(({ time }) => Math.round(time / step) <= steps),
   };
-  return `# Flies again: tandemlift run ${page.files.mission}\n\n${toml(tables)}`;
+  return `# Flies again: tandemlift run ${page.files.mission}\n\n${stringify(tables)}`;
 }

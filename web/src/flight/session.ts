@@ -10,10 +10,9 @@ import type {
   StatusRefusals,
 } from "../wire/messages.generated.ts";
 import { Layout } from "../wire/frames.ts";
-import { endingOf } from "./endings.ts";
 import { Flight } from "./flight.ts";
-import { HandControl } from "./hand_control.ts";
-import type { FlightManifest } from "./manifest.ts";
+import { HandControl, type Message } from "./hand_control.ts";
+import type { FlightManifest, Tables } from "./manifest.ts";
 import { checkMessage } from "./message_rules.ts";
 import { MissionNumbers } from "./mission_numbers.ts";
 import type { FlightModule } from "./module.ts";
@@ -21,13 +20,13 @@ import { Pacer } from "./pacer.ts";
 import { ParameterControl } from "./parameter_control.ts";
 import { recordedFlight } from "./recording.ts";
 import { Refusal } from "./refusal.ts";
-import { refusalsNow } from "./refusals.ts";
-import type { Tables } from "./toml.ts";
+import { endingOf, refusalsNow } from "./status_texts.ts";
 
 export type Answer = Exclude<ServerMessage, { type: "status" | "pong" | "done" }> | SavedFile;
 
-type TouchMessage = Extract<PageMessage, { type: "grab" | "move" | "release" | "force" }>;
-type RequestMessage = Extract<PageMessage, { type: "ask" | "enable" }>;
+/** What is done with each message of a page. */
+type Handlers = { [T in PageMessage["type"]]: (message: Message<T>) => void };
+const OF_THE_HAND: readonly string[] = ["grab", "move", "release", "force"];
 
 /** A file that the page offers to the person. */
 export interface SavedFile {
@@ -45,11 +44,13 @@ export class Session {
   private failed = false;
   private lastGrab = 0;
   private readonly layout: Layout;
+  private readonly handlers = this.handlersOf();
 
   constructor(
     private readonly module: FlightModule,
     private readonly manifest: FlightManifest,
     clock: () => number, // s
+    private readonly answer: (answer: Answer) => void,
   ) {
     this.pacer = new Pacer(module.manifest.dt, manifest.page.pacing, clock);
     this.layout = new Layout(manifest.page.scene.fields);
@@ -147,76 +148,53 @@ export class Session {
     return refused;
   }
 
-  /** Does what a message says; what to answer. */
-  apply(message: PageMessage, seq: number): Answer[] {
+  /** Does what a message says, and answers. */
+  apply(message: PageMessage, seq: number): void {
     checkMessage(message, this.manifest.page);
-    switch (message.type) {
-      case "grab":
-      case "move":
-      case "release":
-      case "force":
-        this.hand.seq = seq;
-        if (message.type === "grab") this.lastGrab = seq;
-        return this.touch(message);
-      case "set":
-      case "restore":
-      case "kill":
-      case "reset":
-      case "save":
-      case "tare":
-      case "ping":
-        return this.change(message);
-      case "ask":
-      case "enable":
-        return this.request(message);
-      case "pause":
-        this.pacer.paused = message.on;
-        return [];
-      case "speed":
-        this.pacer.speed = message.factor;
-        return [];
-    }
+    if (OF_THE_HAND.includes(message.type)) this.hand.seq = seq;
+    if (message.type === "grab") this.lastGrab = seq;
+    (this.handlers[message.type] as (message: PageMessage) => void)(message);
   }
 
-  private change(message: Exclude<PageMessage, TouchMessage | RequestMessage | { type: "pause" | "speed" }>): Answer[] {
-    switch (message.type) {
-      case "set":
-        return this.parameters.set(this.flight, message.key, message.value);
-      case "restore":
-        return this.parameters.restore(this.flight, message.key);
-      case "kill":
-        this.parameters.stopRotor(this.flight, message.rotor);
-        return [];
-      case "reset":
-        this.begin(this.parameters.withWholeRotors());
-        return [{ type: "scene", ...this.scene }];
-      case "save":
-        return [this.saved(message.name)];
-      case "tare":
-        throw new Refusal(this.manifest.page.texts.only_server, { what: message.type });
-      case "ping":
-        return [];
-    }
+  private handlersOf(): Handlers {
+    const answerAll = (answers: readonly Answer[]): void => answers.forEach((one) => this.answer(one));
+    return {
+      grab: (message) => this.hand.grab(message, this.value("attitude")),
+      move: (message) => this.hand.move(message),
+      release: () => this.hand.release(),
+      force: (message) => this.hand.push(message),
+      ask: (message) => this.ask(message),
+      enable: ({ on }) => this.takingRequests("enable").enable(on),
+      set: ({ key, value }) => answerAll(this.parameters.set(this.flight, key, value)),
+      restore: ({ key }) => answerAll(this.parameters.restore(this.flight, key)),
+      kill: ({ rotor }) => this.parameters.stopRotor(this.flight, rotor),
+      reset: () => this.reset(),
+      save: ({ name }) => this.answer(this.saved(name)),
+      tare: ({ type }) => {
+        throw new Refusal(this.manifest.page.texts.only_server, { what: type });
+      },
+      ping: () => undefined,
+      pause: ({ on }) => (this.pacer.paused = on),
+      speed: ({ factor }) => (this.pacer.speed = factor),
+    };
   }
 
-  private touch(message: TouchMessage): [] {
-    if (message.type === "grab") this.hand.grab(message, this.value("attitude"));
-    else if (message.type === "move") this.hand.move(message);
-    else if (message.type === "force") this.hand.push(message);
-    else this.hand.release();
-    return [];
-  }
-
-  private request(message: RequestMessage): Answer[] {
-    const { no_requests: none } = this.manifest.page.texts;
-    if (none) throw new Refusal(none, { what: message.type === "ask" ? message.what : "enable" });
-    if (message.type === "enable") {
-      this.hand.enable(message.on);
-      return [];
-    }
-    this.hand.ask(message);
+  private ask(message: Message<"ask">): void {
+    this.takingRequests(message.what).ask(message);
     const reason = message.what === "stop" ? "" : this.refusals()[message.what];
-    return reason ? [{ type: "refused", what: message.type, reason }] : [];
+    if (reason) this.answer({ type: "refused", what: message.type, reason });
+  }
+
+  /** The hand, if the pilot takes requests. */
+  private takingRequests(what: string): HandControl {
+    const { no_requests: none } = this.manifest.page.texts;
+    if (none) throw new Refusal(none, { what });
+    return this.hand;
+  }
+
+  private reset(): void {
+    this.begin(this.parameters.withWholeRotors());
+    this.answer({ type: "scene", ...this.scene });
   }
 
   private refusals(): StatusRefusals {

@@ -1,5 +1,6 @@
 // The worker: opens a flight, flies it in real time, and answers the page.
 
+import { bytes, NOT_LIVE } from "../wire/replay.ts";
 import { BrokenFlight, unpacked } from "./manifest.ts";
 import { FlightModule } from "./module.ts";
 import type { FromWorker, OpenRequest, ToWorker } from "./protocol.ts";
@@ -13,30 +14,12 @@ function post(message: FromWorker, moved: Transferable[] = []): void {
   self.postMessage(message, { transfer: moved });
 }
 
-const FAILED = {
-  type: "status",
-  phase: "failed",
-  alarm: "",
-  enabled: true,
-  paused: false,
-  speed: 1,
-  factor: 0,
-  behind_ms: 0,
-  recorded_s: 0,
-  failed_rotors: [],
-  refusals: { lift: "", land: "", push: "" },
-  ending: null,
-  viewers: 1,
-  holder: "none",
-  last_grab: 0,
-} as const;
-
 let loop: RealTimeLoop | null = null;
 
 async function open(request: OpenRequest): Promise<void> {
   const [manifest, code] = unpacked(await content(request), request.entry, request.index);
   const module = new FlightModule(await WebAssembly.compile(code), manifest.module);
-  const session = new Session(module, manifest, clock);
+  const session = new Session(module, manifest, clock, post);
   const refused = session.take(request.settings);
   post({ type: "scene", ...session.scene });
   for (const answer of refused) post(answer);
@@ -45,8 +28,7 @@ async function open(request: OpenRequest): Promise<void> {
 }
 
 async function content({ entry, file }: OpenRequest): Promise<Uint8Array<ArrayBuffer>> {
-  const compressed = file ?? Uint8Array.from(atob(entry.data!), (letter) => letter.charCodeAt(0)).buffer;
-  const stream = new Blob([compressed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const stream = new Blob([file ?? bytes(entry.data!)]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
@@ -64,8 +46,6 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>): void => {
 
 /** Says why the flight cannot be flown. */
 function fail(failure: string): void {
-  post({
-    ...FAILED,
-    preparing: { step: "", seconds: 0, failure },
-  });
+  const preparing = { step: "", seconds: 0, failure };
+  post({ ...NOT_LIVE, phase: "failed", alarm: "", paused: false, speed: 1, factor: 0, ending: null, preparing });
 }

@@ -2,7 +2,7 @@
 
 import type uPlot from "uplot";
 
-import { ahead } from "../view/quadrotor.ts";
+import { ahead } from "../view/rotors.ts";
 import type { Graphics } from "../view/graphics.ts";
 import type { Frame } from "../wire/frames.ts";
 import type { FlightScene, Vector } from "../wire/messages.generated.ts";

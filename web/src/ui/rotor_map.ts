@@ -1,7 +1,7 @@
 // The vehicle from above: each rotor is filled by its thrust; two presses stop it for good.
 
 import type { FlightScene, PageMessage, ScenePayload, SceneQuadrotor } from "../wire/messages.generated.ts";
-import { ahead } from "../view/quadrotor.ts";
+import { ahead } from "../view/rotors.ts";
 import { el, svg } from "./dom.ts";
 
 const CONFIRM_WITHIN = 3000; // ms, for the second press

@@ -1,17 +1,8 @@
-// The colours of the project's pictures.
-
-export const METAL = "#8d949e";
-export const SHELL = "#d9dce0";
-export const WOOD = "#c2853f";
-export const FRONT = "#e8641b"; // the rotors of a quadrotor's front half, to show its heading
-export const REAR = "#2f6fb0";
-export const JOINT = "#f0b429";
+// The colours of what is drawn beside the vehicle, whose own come with its shapes.
 
 export type Theme = "light" | "dark";
 
 const LIGHT = {
-  carbon: "#2b2f36",
-  guard: "#5b636e",
   push: "#d5281b",
   contact: "#c47a00",
   hand: "#7a3fb5",
@@ -29,8 +20,6 @@ const LIGHT = {
 };
 
 const DARK: typeof LIGHT = {
-  carbon: "#5c6672",
-  guard: "#8b95a1",
   push: "#ff5f52",
   contact: "#ffb938",
   hand: "#c08cff",
@@ -47,9 +36,17 @@ const DARK: typeof LIGHT = {
   shade: "#11161b",
 };
 
+/** Colours of the vehicle that are too dark on a dark floor, and those in their place. */
+const LIGHTER: Record<string, string> = { "#2b2f36": "#5c6672", "#5b636e": "#8b95a1" };
+
 /** The colours that differ between the themes, as they are now; a picture takes them when it is built. */
 export const palette = { ...LIGHT };
 
 export function setPalette(theme: Theme): void {
   Object.assign(palette, theme === "dark" ? DARK : LIGHT);
+}
+
+/** A colour of the vehicle as it is drawn in the present theme. */
+export function inTheme(color: string): string {
+  return palette.floor === DARK.floor ? (LIGHTER[color] ?? color) : color;
 }

@@ -1,27 +1,26 @@
 // All rotors of the vehicle: blades, the blur of their discs, and an arrow for the thrust of each.
 
 import {
-  BufferGeometry,
+  BoxGeometry,
+  type BufferGeometry,
   CircleGeometry,
   Color,
   ConeGeometry,
   CylinderGeometry,
   DoubleSide,
-  Float32BufferAttribute,
   FrontSide,
   Group,
   InstancedMesh,
   Matrix4,
   MeshBasicMaterial,
   MeshLambertMaterial,
-  Quaternion,
   Vector3,
 } from "three";
 
-import type { FlightScene } from "../wire/messages.generated.ts";
+import type { FlightScene, SceneQuadrotor, SceneShape } from "../wire/messages.generated.ts";
 import type { Graphics } from "./graphics.ts";
-import { FRONT, REAR, palette } from "./palette.ts";
-import { ahead, hubHeight } from "./quadrotor.ts";
+import { inTheme } from "./palette.ts";
+import { placeOf } from "./shapes.ts";
 
 const TURN = 26; // rad/s as shown at full thrust; the true speed would be a blur
 const TALL = 0.45; // m, length of the arrow at full thrust
@@ -31,12 +30,18 @@ const HARD = new Color("#d5281b");
 const AXIS = new Vector3(0, 0, 1);
 
 interface Place {
+  blades: SceneShape;
+  still: Matrix4; // of the blades
   hub: Vector3;
   radius: number;
   spin: number;
   most: number;
-  color: Color;
   angle: number;
+}
+
+/** Whether a rotor is in front of its quadrotor's centre. */
+export function ahead(quadrotor: SceneQuadrotor, rotor: number): boolean {
+  return quadrotor.rotors[rotor].position[0] > quadrotor.position[0] + 1e-6;
 }
 
 export class Rotors {
@@ -49,26 +54,21 @@ export class Rotors {
   private readonly heads: InstancedMesh;
 
   constructor(scene: FlightScene, graphics: Graphics) {
-    this.places = scene.vehicle.quadrotors.flatMap((quadrotor) =>
-      quadrotor.rotors.map((rotor, i) => ({
-        hub: new Vector3(rotor.position[0], rotor.position[1], hubHeight(quadrotor, i)),
-        radius: rotor.radius,
-        spin: rotor.spin,
-        most: rotor.max_thrust,
-        color: new Color(ahead(quadrotor, i) ? FRONT : REAR),
-        angle: 0.7 + i,
-      })),
-    );
+    const rotors = scene.vehicle.quadrotors.flatMap((quadrotor) => quadrotor.rotors);
+    this.places = rotors.map(({ blades, radius, spin, max_thrust: most }) => {
+      return { blades, still: placeOf(blades), hub: new Vector3(...blades.position), radius, spin, most, angle: 0 };
+    });
     const sides = graphics === "full" ? 12 : 6;
-    this.blades = this.instances(bladePair(), new MeshLambertMaterial({ color: palette.carbon, side: DoubleSide }));
+    this.blades = this.instances(new BoxGeometry(1, 1, 1), new MeshLambertMaterial());
     this.discs = this.instances(new CircleGeometry(1, 28), seenThrough(0.26, true));
     this.shafts = this.instances(onFoot(new CylinderGeometry(1, 1, 1, sides)), seenThrough(0.85));
     this.heads = this.instances(onFoot(new ConeGeometry(1, 1, sides)), seenThrough(0.85));
     this.blades.castShadow = graphics === "full";
     this.arrows.add(this.shafts, this.heads);
     this.group.add(this.blades, this.discs, this.arrows);
-    this.places.forEach(({ color }, i) => {
-      this.discs.setColorAt(i, color);
+    rotors.forEach(({ blades, disc }, i) => {
+      this.blades.setColorAt(i, new Color(inTheme(blades.color)));
+      this.discs.setColorAt(i, new Color(disc.color));
     });
   }
 
@@ -77,8 +77,10 @@ export class Rotors {
     this.places.forEach((place, i) => {
       const share = Math.min(Math.max((thrusts[i] ?? 0) / place.most, 0), 1.2);
       if (share > STOPPED) place.angle -= place.spin * TURN * Math.sqrt(share) * passed;
-      this.blades.setMatrixAt(i, turnedAt(place.hub, place.angle, place.radius));
-      this.discs.setMatrixAt(i, turnedAt(place.hub, 0, share > STOPPED ? place.radius : 0));
+      const turn = new Matrix4().makeRotationZ(place.angle);
+      this.blades.setMatrixAt(i, place.still.clone().multiply(turn).scale(new Vector3(...place.blades.size)));
+      const radius = share > STOPPED ? place.radius : 0;
+      this.discs.setMatrixAt(i, new Matrix4().makeScale(radius, radius, radius).setPosition(place.hub));
       this.arrow(i, place, share);
     });
     for (const mesh of [this.blades, this.discs, this.shafts, this.heads]) {
@@ -116,34 +118,6 @@ function onFoot(shape: BufferGeometry): BufferGeometry {
   return shape.rotateX(Math.PI / 2).translate(0, 0, 0.5);
 }
 
-function turnedAt(hub: Vector3, angle: number, scale: number): Matrix4 {
-  const turn = new Quaternion().setFromAxisAngle(AXIS, angle);
-  return new Matrix4().compose(hub, turn, new Vector3(scale, scale, scale));
-}
-
 function stretched(foot: Vector3, width: number, height: number): Matrix4 {
   return new Matrix4().makeScale(width, width, Math.max(height, 1e-4)).setPosition(foot);
-}
-
-/** Two blades of radius 1 that taper and twist from root to tip. */
-function bladePair(): BufferGeometry {
-  const corners: number[] = [];
-  const faces: number[] = [];
-  const STATIONS = 7;
-  for (const side of [1, -1]) {
-    const first = corners.length / 3;
-    for (let i = 0; i < STATIONS; i++) {
-      const r = 0.08 + (0.9 * i) / (STATIONS - 1);
-      const chord = 0.09 * Math.sin(Math.PI * Math.min(0.25 + 0.7 * r, 0.97)) + 0.02;
-      const pitch = 0.5 - 0.35 * r;
-      const [dy, dz] = [chord * Math.cos(pitch), chord * Math.sin(pitch)];
-      corners.push(side * r, side * -dy, -dz, side * r, side * dy, dz);
-      if (i) faces.push(...[0, 1, 2, 2, 1, 3].map((k) => first + 2 * (i - 1) + k));
-    }
-  }
-  const shape = new BufferGeometry();
-  shape.setAttribute("position", new Float32BufferAttribute(corners, 3));
-  shape.setIndex(faces);
-  shape.computeVertexNormals();
-  return shape;
 }

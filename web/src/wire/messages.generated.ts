@@ -55,10 +55,13 @@ export const LIMITS = {
   speed: { factor: { min: 0.1, max: 1 } },
 } as const;
 
-/** The four feet of a quadrotor. */
-export interface SceneFeet {
-  spread: number; // of each foot from the quadrotor's centre along x and along y; m
-  depth: number; // from the quadrotor's centre down to the soles; m
+/** A part of the vehicle as drawn. */
+export interface SceneShape {
+  kind: "box" | "sphere" | "cylinder";
+  size: readonly number[]; // edges of a box, radius of a sphere, radius and length of a cylinder, m
+  position: Vector; // of its centre; m, body axes
+  axes: readonly number[]; // columns of its rotation to body axes (9); a cylinder lies along its z
+  color: string; // #rrggbb
 }
 
 /** A rotor. */
@@ -67,19 +70,18 @@ export interface SceneRotor {
   spin: number; // 1 or -1: sign of its reaction torque about body z
   radius: number; // m
   max_thrust: number; // N
+  blades: SceneShape; // as it stands still
+  disc: SceneShape; // as it turns, transparent
 }
 
 /** A quadrotor. */
 export interface SceneQuadrotor {
   position: Vector; // m, body axes
-  joint: Vector; // where it is fixed to the payload; m, body axes
-  arm: number; // mean distance of its rotors from its centre; m
   guard: number; // radius of the sphere that touches walls; m
-  feet: SceneFeet;
   rotors: SceneRotor[];
 }
 
-/** The payload as drawn: a beam along body y. */
+/** The payload as it can be held: a beam along body y. */
 export interface ScenePayload {
   position: Vector; // m, body axes
   length: number; // m
@@ -91,6 +93,7 @@ export interface ScenePayload {
 export interface SceneVehicle {
   quadrotors: SceneQuadrotor[];
   payload: ScenePayload;
+  shapes: SceneShape[]; // all that does not turn
   mass: number; // kg
 }
 

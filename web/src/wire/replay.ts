@@ -4,7 +4,8 @@ import { between, floats, Frame, Layout } from "./frames.ts";
 import type { FlightScene, StatusMessage } from "./messages.generated.ts";
 import type { FlightListener, FlightSource } from "./source.ts";
 
-const NOT_LIVE = {
+/** The status of what is not flown now, but for phase, ending and pace. */
+export const NOT_LIVE = {
   type: "status",
   enabled: true,
   behind_ms: 0,

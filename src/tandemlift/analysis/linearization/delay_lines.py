@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.core.types import Array
-from tandemlift.simulation.kernels.offsets import delayed_spans
-from tandemlift.simulation.kernels.step_output import COMMAND_LINE
+from tandemlift.simulation.loop_code.offsets import delayed_spans
+from tandemlift.simulation.loop_code.step_output import COMMAND_LINE
 from tandemlift.simulation.plan import FlightPlan
 
 

@@ -17,8 +17,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.compiler.trace import LEAVES, Graph
-from tandemlift.compiler.trace.valued_graph import OPERATIONS
+from tandemlift.compiler.tracer import LEAVES, Graph
+from tandemlift.compiler.tracer.valued_graph import OPERATIONS
 from tandemlift.core.types import Array
 from tandemlift.parts.sensors.noise_bias_drift import displayed
 

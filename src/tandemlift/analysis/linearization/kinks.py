@@ -11,7 +11,7 @@ import numpy as np
 from tandemlift.analysis.linearization.derivative import CURVED, Derivative, Sides, meet
 from tandemlift.analysis.linearization.period import LinearizationPlan, PeriodDerivative
 from tandemlift.analysis.linearization.step_derivative import StepDerivative
-from tandemlift.compiler.trace import LEAVES
+from tandemlift.compiler.tracer import LEAVES
 
 PACKAGE = Path(__file__).parents[2]
 SAME = 1e-9  # relative, of directions; and of the entries of two models to their largest

@@ -11,8 +11,7 @@ import numpy as np
 
 from tandemlift.analysis.linearization.kinks import Kink
 from tandemlift.analysis.linearization.variables import Variable
-from tandemlift.core.errors import InputError
-from tandemlift.core.extras import extra
+from tandemlift.core.errors import InputError, extra
 from tandemlift.core.files import atomic_write
 from tandemlift.core.types import Array
 

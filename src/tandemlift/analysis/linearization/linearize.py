@@ -24,14 +24,14 @@ from tandemlift.analysis.linearization.period import LinearizationPlan, PeriodDe
 from tandemlift.analysis.linearization.step_graph import step_graph
 from tandemlift.analysis.linearization.variables import Outputs, outputs_from, state_variable
 from tandemlift.core.algebra.layout import flat, unflat
-from tandemlift.core.algebra.vector import Nothing
+from tandemlift.core.algebra.vector import Absent
 from tandemlift.core.errors import InputError, unknown
-from tandemlift.core.settings import Mission
+from tandemlift.core.toml import shown
 from tandemlift.core.types import Array
-from tandemlift.missions.values import shown
+from tandemlift.missions import Mission
 from tandemlift.parts.mechanics.push import push_moment
 from tandemlift.parts.rotors.rotor_lag import by_direction
-from tandemlift.simulation.interactive.simulation import Simulation
+from tandemlift.simulation.stepwise.simulation import Simulation
 
 PARTS = ("loop", "body")
 LOOP_OUTPUTS = (
@@ -139,7 +139,7 @@ def _flight_state(point: OperatingPoint) -> Any:
 
 def sensor_period(sensors: Any) -> int:
     """The common period of all sensors in steps; 1 without sensors."""
-    if isinstance(sensors, Nothing):
+    if isinstance(sensors, Absent):
         return 1
     devices = [sensors.imu, sensors.motion, *sensors.additional]
     return math.lcm(*[round(device.period) for device in devices])
@@ -217,9 +217,9 @@ def assumptions(r: LinearizationPlan, made: PeriodDerivative, of: str) -> list[s
     said = ["Inputs are held over the sample time; outputs are at its start, the rotor thrusts act until its end."]
     speed = np.abs(made.x1 - made.x0)[3:6].max() / (r.steps * plan.dt)
     said.append(f"The point moves: the velocity changes by {speed:.1e} m/s^2 (point.x0 and point.x1 have all states).")
-    if not isinstance(plan.given.noise, Nothing) and len(flat(plan.given.noise)):
+    if not isinstance(plan.given.noise, Absent) and len(flat(plan.given.noise)):
         said.append("Noise is 0 from the point on; the flight to the point has it.")
-    if not isinstance(plan.model.sensors, Nothing):
+    if not isinstance(plan.model.sensors, Absent):
         said.append("The resolution of sensors is taken as a straight line.")
     lags, left = averaged_lags(plan.mission), tare_left(plan, r.point.numbers, r.point.k * plan.dt)
     if of == "loop" and lags:

@@ -23,10 +23,9 @@ from tandemlift.analysis.linearization.analysis import Mode, frequency_response,
 from tandemlift.analysis.linearization.linear_model import LinearModel
 from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.core.errors import FlightWarning
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Array
-from tandemlift.missions import check, tables_of
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.missions import Mission, check, tables_of
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 AXES = ("z", "roll", "pitch", "yaw")
 LOWEST, HIGHEST, POINTS = 0.1, 3000.0, 240  # rad/s

@@ -14,12 +14,12 @@ from tandemlift.analysis.linearization.loop_margins import (
     rotors_response,
     slowest_modes,
 )
+from tandemlift.core.checks import CLOSE, FAILS, REFUSED, CheckResult, judged, noted
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission
-from tandemlift.missions.checks import setting_warnings
+from tandemlift.missions import Mission
+from tandemlift.missions.checks import mission_checks
 from tandemlift.missions.flight_checks.loops import lag_of
-from tandemlift.missions.flight_checks.result import CLOSE, FAILS, CheckResult, judged, noted
-from tandemlift.missions.flight_checks.table import FlightCheck, flight_checks
+from tandemlift.missions.flight_checks.table import FlightCheck
 
 NEAR_PHASE = 1.0 / 6.0  # of 180 deg: less than 30 deg of phase left is close
 NEAR_GAIN = 0.4  # a gain that may grow by less than a factor of 1.7, or fall by less, is close
@@ -62,10 +62,10 @@ def check(mission: Mission) -> tuple[CheckResult, ...]:
         mission: flown calmly to a hover, to be linearized there.
 
     Returns:
-        A result for each check; its verdict is "ok", "close" or "fails".
+        A result for each check; its verdict is "ok", "close" or "fails"; or the one that is "refused".
     """
-    settings = [noted("settings", text, verdict=FAILS) for text in setting_warnings(mission)]
-    return (*flight_checks(mission), *settings, *loop_results(mission))
+    results = tuple(mission_checks(mission))
+    return results if results and results[-1].verdict == REFUSED else (*results, *loop_results(mission))
 
 
 def loop_results(mission: Mission) -> Iterator[CheckResult]:
@@ -83,13 +83,13 @@ def loop_results(mission: Mission) -> Iterator[CheckResult]:
         )
         yield noted("loop", text, verdict=FAILS)
         return
-    yield from borne(loop, delay, lag)
+    yield from delay_and_lag_limits(loop, delay, lag)
     if is_stable(loop, delay, lag):
         yield from margins(loop, delay, lag)
         yield from modes(mission, lag)
 
 
-def borne(loop: OpenLoop, delay: float, lag: float) -> Iterator[CheckResult]:
+def delay_and_lag_limits(loop: OpenLoop, delay: float, lag: float) -> Iterator[CheckResult]:
     """The delay that the loop bears with the rotors' lag, and the lag with their delay."""
     bears_lag, bears_delay = is_stable(loop, 0.0, lag), is_stable(loop, delay, 0.0)
     if bears_lag:

@@ -10,13 +10,13 @@ import numpy as np
 from tandemlift.analysis.linearization.step_graph import NO_PUSH
 from tandemlift.analysis.linearization.variables import Variable
 from tandemlift.core.algebra.layout import flat, unflat
-from tandemlift.core.algebra.vector import Nothing, Quat, Vec3
+from tandemlift.core.algebra.vector import Absent, Quat, Vec3
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_at
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.wind import gust_velocity
-from tandemlift.simulation.kernels import GAUSSIAN, GUST, InputTables
-from tandemlift.simulation.kernels.offsets import leaf_offset
+from tandemlift.simulation.loop_code import GAUSSIAN, GUST, InputTables
+from tandemlift.simulation.loop_code.offsets import leaf_offset
 from tandemlift.simulation.plan import FlightPlan
 
 LOOP = ("push_force", "push_moment", "disturbance_force", "disturbance_moment", "wind_velocity")
@@ -47,7 +47,7 @@ def input_columns(p: FlightPlan, chosen: Sequence[str] | None, of: str, attitude
     """
     known = BODY if of == "body" else LOOP
     allowed = known if of == "body" else (*known, *ON_REQUEST)
-    windless = isinstance(p.model.wind, Nothing)
+    windless = isinstance(p.model.wind, Absent)
     for name in chosen or ():
         if name not in allowed:
             raise unknown(f"input of the {of}", name, allowed)

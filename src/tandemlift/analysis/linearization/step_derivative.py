@@ -11,7 +11,7 @@ from tandemlift.analysis.linearization.derivative import Derivative, Sides
 from tandemlift.analysis.linearization.step_graph import StepGraph
 from tandemlift.core.types import Array
 from tandemlift.parts.rotors.normal_equations import GAMMA
-from tandemlift.simulation.kernels.traced_step import LimitProblem, TracedSolver
+from tandemlift.simulation.loop_code.traced_step import LimitProblem, TracedSolver
 
 REFINED = 2  # further steps at the active set, in which the derivative loses the error of a long step
 MADE = ("moved", "solved")  # inputs that are made within the step

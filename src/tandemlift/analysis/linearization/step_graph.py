@@ -13,11 +13,11 @@ from typing import Any, NamedTuple
 
 from tandemlift.analysis.linearization.derivative import smooth_arguments
 from tandemlift.core.algebra.layout import is_value, leaves
-from tandemlift.core.algebra.vector import ZERO, Mat3, Nothing
+from tandemlift.core.algebra.vector import ZERO, Absent, Mat3
 from tandemlift.parts.mechanics.push import PointPush, PushSamples
-from tandemlift.simulation.kernels.offsets import leaf_offset
-from tandemlift.simulation.kernels.templates import templates_from
-from tandemlift.simulation.kernels.traced_step import TracedStep
+from tandemlift.simulation.loop_code.offsets import leaf_offset
+from tandemlift.simulation.loop_code.templates import templates_from
+from tandemlift.simulation.loop_code.traced_step import TracedStep
 from tandemlift.simulation.plan import FlightPlan
 
 NO_PUSH = PointPush(ZERO, Mat3(ZERO, ZERO, ZERO))
@@ -65,7 +65,7 @@ class StepGraph:
 
     def __init__(self, p: FlightPlan) -> None:
         hand = PushSamples(NO_PUSH, NO_PUSH, NO_PUSH)
-        templates = templates_from(p.model, p.given._replace(hand=hand, external=Nothing()))
+        templates = templates_from(p.model, p.given._replace(hand=hand, external=Absent()))
         self.traced = TracedStep(templates, fuses=p.mission.mission.fma, rolls=False)
         self.graph, self.sample = self.traced.graph, templates.sample
         self.next = [s.node for s in self.traced.next_state]

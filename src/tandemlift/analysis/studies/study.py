@@ -9,14 +9,14 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.execution.anywhere import fly_study
+from tandemlift.analysis.studies.execution.running import part_from
+from tandemlift.analysis.studies.execution.store import StudyFolder, open_folder
 from tandemlift.analysis.studies.reading.table import Study, load_study
-from tandemlift.analysis.studies.units.anywhere import fly_study
-from tandemlift.analysis.studies.units.running import part_from
-from tandemlift.analysis.studies.units.store import StudyFolder, open_folder
 from tandemlift.core.errors import InputError
 from tandemlift.core.progress import progress_or_own
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Progress
+from tandemlift.missions import Mission
 
 
 def study(
@@ -36,8 +36,8 @@ def study(
         study: path of a study file, or its tables.
         out: folder of the study; by default out/NAME.
         threads: number of threads; by default one for each processor.
-        executor: flies the units in place of threads of this process; `threads` is then the number of its workers.
-        scheduler: address of a Dask scheduler, whose workers fly the units; see docs/how-to/scaling.md.
+        executor: flies the chunks in place of threads of this process; `threads` is then the number of its workers.
+        scheduler: address of a Dask scheduler, whose workers fly the chunks; see docs/how-to/scaling.md.
         cluster: "local:N" for N processes of this machine, under Dask.
         part: "K/N" to fly part K of N only; the parts may run at the same time, on machines that share the folder.
         progress: called with (rows flown, rows in all); by default, a notebook shows a bar.

@@ -131,7 +131,7 @@ def _fly_by_hand(mission: Mission, window: bool) -> tuple[Flight, Photographs]:
     """Fly a mission without its own pushes until Ctrl-C; pushes come by Gazebo's topic."""
     from tandemlift.apps.gazebo_app.flying import running_gazebo
     from tandemlift.apps.live.session.interactive_mission import interactive_mission
-    from tandemlift.simulation.interactive.recorded_flight import RecordedFlight
+    from tandemlift.simulation.stepwise.recorded_flight import RecordedFlight
 
     mission = interactive_mission(mission)
     with running_gazebo(mission, window=window, real_time=True) as gazebo, _stop_signals() as stopped:

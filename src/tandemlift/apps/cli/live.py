@@ -15,7 +15,7 @@ import click
 from tandemlift.apps.cli.terminal.completion import MISSIONS
 from tandemlift.apps.cli.terminal.console import echo, exit_now
 from tandemlift.apps.cli.terminal.mission_options import engine_option, load, set_option
-from tandemlift.core.extras import extra
+from tandemlift.core.errors import extra
 
 if TYPE_CHECKING:
     from tandemlift.apps.live.server import PageServer

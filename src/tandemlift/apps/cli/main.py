@@ -28,7 +28,7 @@ from tandemlift.apps.cli.studies.feel import feel
 from tandemlift.apps.cli.studies.study import study
 from tandemlift.apps.cli.studies.tune import tune
 from tandemlift.apps.cli.terminal.console import compile_notices, echo, exit_now, handle_interrupts
-from tandemlift.compiler.machine_code.compile_events import watching
+from tandemlift.compiler.jit.compile_events import watching
 from tandemlift.core.errors import FlightWarning, InputError, suggestion
 from tandemlift.core.version import __version__
 

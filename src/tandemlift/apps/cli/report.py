@@ -74,7 +74,7 @@ def report(flight: str, out: str | None, no_figures: bool, style: str | None, me
 
 def _is_study(path: Path) -> bool:
     """Whether a folder is that of a study, be it damaged."""
-    from tandemlift.analysis.studies.units.store import PLAN, STUDY
+    from tandemlift.analysis.studies.execution.store import PLAN, STUDY
 
     return (path / PLAN).is_file() or (path / STUDY).is_file()
 

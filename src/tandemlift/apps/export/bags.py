@@ -18,11 +18,11 @@ import numpy as np
 from tandemlift.apps.export.coordinate_frames import fixed
 from tandemlift.apps.export.messages import SECOND, MessageTypes, Transforms, event_maker, message_maker, modern
 from tandemlift.apps.export.topics import DIAGNOSTICS, MISSION, TF, TF_STATIC, topics_from
-from tandemlift.core.extras import extra
+from tandemlift.core.errors import extra
 from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 START = SECOND  # ns, stamp of the flight's time 0
 CALLER, NAME = "/tandemlift", "flight"  # the publisher in a ROS 1 bag, and the name of a ROS 2 bag

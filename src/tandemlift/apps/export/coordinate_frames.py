@@ -10,7 +10,7 @@ import numpy as np
 from tandemlift.core.algebra.vector import Mat3, Quat, Vec3, apply, apply_transposed
 from tandemlift.core.types import Array
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, quaternion_from_euler, rotation_from_quaternion
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 WORLD, BASE, ALIGNED, PAYLOAD = "world", "base_link", "base_world", "payload"
 

@@ -28,14 +28,13 @@ from tandemlift.apps.export.topics import (
     all_recipes,
     topics_from,
 )
-from tandemlift.core.errors import InputError
-from tandemlift.core.extras import extra
-from tandemlift.core.settings.mission import check_keys
+from tandemlift.core.errors import InputError, extra
 from tandemlift.core.toml import toml_tables
 from tandemlift.core.types import Array
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.flight.record import LATE, Flight
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.missions import check_keys
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 BASE = f"{ROOT}/odometry"
 VALUES = f"{ROOT}/pilot"

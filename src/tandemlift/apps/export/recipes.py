@@ -23,7 +23,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.flight.record import Flight
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 ODOMETRY, POSE, IMU = "nav_msgs/Odometry", "geometry_msgs/PoseStamped", "sensor_msgs/Imu"
 VECTOR, POINT = "geometry_msgs/Vector3Stamped", "geometry_msgs/PointStamped"

@@ -30,7 +30,7 @@ from tandemlift.apps.export.recipes import (
 )
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.flight.record import Flight
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 ROOT = "/tandemlift"
 

@@ -14,10 +14,10 @@ from typing import NamedTuple
 
 from tandemlift.apps.gazebo_app.camera_views import ViewRequest
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission
 from tandemlift.engines.gazebo import CHECKS, PORT, REAL_TIME, world_from
 from tandemlift.engines.gazebo_server import GazeboServer, free_port, root, shell_command, with_gazebo_environment
 from tandemlift.engines.models.sdf_cameras import PICTURES, add_cameras
+from tandemlift.missions import Mission
 
 EVERY = 0.5  # s, from one picture of a camera to the next
 PATIENCE = 60.0  # s, in which every camera must save its first picture

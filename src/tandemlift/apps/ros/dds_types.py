@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Any
 
 from tandemlift.apps.export.messages import modern
-from tandemlift.core.extras import extra
+from tandemlift.core.errors import extra
 
 PACKAGES = ("cyclonedds", "rosbags")
 NUMBERS = {"byte": "uint8", "char": "uint8"}  # what IDL calls otherwise

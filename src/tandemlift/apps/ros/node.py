@@ -19,7 +19,7 @@ from tandemlift.apps.ros.sample_queue import Clock, SampleBatch, SampleQueue, as
 from tandemlift.apps.ros.topics import LatchedTopics, MarkerTopics, SampleTopics
 from tandemlift.flight.record import Flight
 from tandemlift.missions import tables_of
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 PUSH = f"{ROOT}/push"
 RATE = 100.0  # Hz

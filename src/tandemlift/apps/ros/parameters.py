@@ -18,8 +18,8 @@ from tandemlift.apps.live.wire.page_messages import SetMessage
 from tandemlift.apps.ros.diagnostics import Notify
 from tandemlift.apps.ros.middleware import Middleware
 from tandemlift.core.errors import InputError, unknown
+from tandemlift.core.toml import shown
 from tandemlift.missions import Mission
-from tandemlift.missions.values import shown
 
 DAMPING, RATIO = "admittance.damping", "admittance.damping_ratio"
 SPRING = ("person.stiffness", "person.damping")  # of a page's hand; here pushes are forces

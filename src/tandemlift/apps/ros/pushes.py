@@ -20,8 +20,8 @@ from tandemlift.apps.live.wire.page_messages import ForceMessage
 from tandemlift.apps.ros.diagnostics import Notify
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
-from tandemlift.parts.vehicle import Vehicle
-from tandemlift.simulation.interactive.recorded_flight import RecordedFlight
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.simulation.stepwise.recorded_flight import RecordedFlight
 
 HELD = 0.5  # s of the flight, for which a push acts without another message
 FELT, AGAIN = 0.4, 1.0  # s of the flight, from the begin of a push to a look at whether it is followed, and to the next

@@ -13,7 +13,7 @@ from tandemlift.apps.live.session.frame_values import points_of
 from tandemlift.apps.ros.markers import MARKERS, MarkerWriter
 from tandemlift.core.types import Array
 from tandemlift.engines.models.visuals import PUSH_COLOR, VisualShape, payload_shapes, vehicle_shapes, wall_shape
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 GROUND, LINE = "#ffffff", "#c3c9d1"
 THICK = 0.02  # m, of the floor as drawn

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 
 from tandemlift.apps.ros.dds_types import missing_packages
 from tandemlift.apps.ros.middleware import Middleware
-from tandemlift.core.errors import InputError
-from tandemlift.core.extras import install_command
+from tandemlift.core.errors import InputError, install_command
 from tandemlift.engines.rospy import has_rospy
 
 VERSIONS = ("1", "2")

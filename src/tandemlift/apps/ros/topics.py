@@ -17,7 +17,7 @@ from tandemlift.apps.ros.markers import MARKERS
 from tandemlift.apps.ros.middleware import Middleware, TopicPublisher
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 PATH = "nav_msgs/Path"
 FLOWN = OtherTopic(f"{ROOT}/path", PATH, "path flown in the last minute, 5 times a second", (WORLD,))

@@ -11,17 +11,17 @@ from tandemlift.codegen.c.language.law_functions import law_function
 from tandemlift.codegen.c.language.literals import number
 from tandemlift.codegen.c.language.unit import Unit
 from tandemlift.codegen.c.source_file import SourceFile
-from tandemlift.compiler.trace.structured import TracedLaw
+from tandemlift.compiler.tracer.structured import TracedLaw
 from tandemlift.core.algebra.layout import leaves, rebuilt
 from tandemlift.core.algebra.vector import ZERO
 from tandemlift.parts.contact.wall_geometry import WALL
 from tandemlift.parts.person.person import PATH_LEG
 from tandemlift.simulation.assembly.assemble import AssembledFlight
-from tandemlift.simulation.kernels.external_inputs import GAUSSIAN, GUST, InputTables
-from tandemlift.simulation.kernels.offsets import delayed_spans
-from tandemlift.simulation.kernels.step_output import COMMAND_LINE
-from tandemlift.simulation.kernels.templates import templates_from
-from tandemlift.simulation.kernels.traced_step import TracedStep
+from tandemlift.simulation.loop_code.external_inputs import GAUSSIAN, GUST, InputTables
+from tandemlift.simulation.loop_code.offsets import delayed_spans
+from tandemlift.simulation.loop_code.step_output import COMMAND_LINE
+from tandemlift.simulation.loop_code.templates import templates_from
+from tandemlift.simulation.loop_code.traced_step import TracedStep
 
 ROWS = InputTables(GAUSSIAN, GUST, WALL, PATH_LEG)
 

@@ -12,10 +12,10 @@ from tandemlift.codegen.c.limits import Solver, write_limits
 from tandemlift.codegen.c.source_file import SourceFile
 from tandemlift.core.algebra.layout import leaves, rebuilt
 from tandemlift.core.algebra.vector import ZERO
-from tandemlift.simulation.kernels.traced_step import Symbols, TracedStep
+from tandemlift.simulation.loop_code.traced_step import Symbols, TracedStep
 
 COMMENT = """/* One step of a flight from time t [s] by dt [s]: its state after it, and the sample at its start
- * (tandemlift.simulation.kernels.traced_step). */
+ * (tandemlift.simulation.loop_code.traced_step). */
 """
 
 

@@ -8,7 +8,7 @@ from tandemlift.codegen.c.language.unit import Unit
 from tandemlift.core.algebra.layout import leaves, rebuilt
 from tandemlift.parts.rotors.allocation import AllocationState, ConstrainedAllocation
 from tandemlift.parts.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
-from tandemlift.simulation.kernels.traced_step import LimitProblem
+from tandemlift.simulation.loop_code.traced_step import LimitProblem
 
 SOLVE = """/* The thrusts within limits that come closest to the wanted wrench
  * (tandemlift.parts.rotors.thrust_limit_solver.limited_thrusts); it ends after {most} steps at the latest. */

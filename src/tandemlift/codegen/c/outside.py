@@ -12,9 +12,9 @@ from tandemlift.parts.contact.wall_geometry import Wall
 from tandemlift.parts.contact.walls import nearest_with
 from tandemlift.parts.mechanics.push import GaussianPush, push_at
 from tandemlift.parts.mechanics.wind import Gust, gust_velocity
-from tandemlift.parts.signals.random_numbers import Normals, normals
-from tandemlift.simulation.kernels.external_inputs import SPAN, is_active
+from tandemlift.parts.random_numbers import Normals, normals
 from tandemlift.simulation.loop.step import FlightModel
+from tandemlift.simulation.loop_code.external_inputs import SPAN, is_active
 
 
 def push_is_active(row: GaussianPush, opens: Any, closes: Any) -> Any:

@@ -9,11 +9,11 @@ from tandemlift.codegen.c.language.law_functions import law_function
 from tandemlift.codegen.c.language.statements import Statements
 from tandemlift.codegen.c.limits import Solver, write_limits
 from tandemlift.codegen.c.source_file import SourceFile
-from tandemlift.compiler.trace import Graph
+from tandemlift.compiler.tracer import Graph
 from tandemlift.core.algebra.layout import leaves, rebuilt
 from tandemlift.core.algebra.vector import each
 from tandemlift.parts.pilot.pilot import PilotInput
-from tandemlift.simulation.kernels.pilot_sampling import PilotData, PilotDataState, PilotSampler
+from tandemlift.simulation.loop_code.pilot_sampling import PilotData, PilotDataState, PilotSampler
 
 
 class PilotFile:
@@ -74,7 +74,7 @@ class PilotFile:
             last.append(f"pilot->memory = {body.value(after.memory)};")
         last.append(f"pilot->samples = {body.value(after.samples)};")
         head = FunctionHead(
-            "/* A sample of the pilot (tandemlift.simulation.kernels.pilot_sampling). */\n",
+            "/* A sample of the pilot (tandemlift.simulation.loop_code.pilot_sampling). */\n",
             "void",
             "sample",
             [

@@ -13,7 +13,7 @@ from tandemlift.codegen.c.language.statements import Statements
 from tandemlift.codegen.c.language.structs import leaf_paths
 from tandemlift.codegen.c.language.unit import Unit
 from tandemlift.codegen.c.source_file import SourceFile
-from tandemlift.compiler.trace import Symbol
+from tandemlift.compiler.tracer import Symbol
 from tandemlift.core.algebra.layout import rebuilt
 from tandemlift.simulation.assembly.assemble import AssembledFlight
 from tandemlift.simulation.assembly.traced_assembly import TracedAssembly

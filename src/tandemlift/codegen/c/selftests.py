@@ -10,12 +10,11 @@ from tandemlift.codegen.c.language.function_text import wrapped
 from tandemlift.codegen.c.language.literals import number
 from tandemlift.codegen.c.source_file import SourceFile
 from tandemlift.core.algebra.layout import leaves
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.missions import changed
+from tandemlift.missions import Mission, changed
 from tandemlift.simulation.fly import fly
-from tandemlift.simulation.kernels import FlightMemory
+from tandemlift.simulation.loop_code import FlightMemory
 from tandemlift.simulation.pilot_api import INPUT, Pilot
 from tandemlift.simulation.plan import FlightPlan
 
@@ -79,7 +78,7 @@ def sum_over(log: Array) -> int:
 def flight_selftest(file: SourceFile, mission: Mission) -> str:
     """The program that compares the whole flight."""
     p = FlightPlan(mission)
-    memory = FlightMemory(p.kernels.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
+    memory = FlightMemory(p.loop_code.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
     memory.fly(p.steps + 1)
     log = memory.log[0][: min(memory.k, p.steps) // p.every + 1]
     if memory.k < p.steps and memory.k % p.every == 0:  # it diverged before the sample of that step

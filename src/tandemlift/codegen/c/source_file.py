@@ -12,7 +12,7 @@ from tandemlift.codegen.c.language.identifiers import identifier
 from tandemlift.codegen.c.language.literals import number
 from tandemlift.codegen.c.language.structs import Struct, Structs, parts_of
 from tandemlift.codegen.c.language.unit import Unit
-from tandemlift.compiler.trace.structured import is_nested
+from tandemlift.compiler.tracer.structured import is_nested
 
 TEXTS = files("tandemlift") / "data" / "c"
 BLOCK = re.compile(r"^ *//if (\w+)\n(.*?)^ *//end \1\n", re.MULTILINE | re.DOTALL)

@@ -9,7 +9,7 @@ from tandemlift.codegen.c.pilot_file import PilotFile
 from tandemlift.codegen.c.prepare_file import PrepareFile
 from tandemlift.codegen.c.selftests import flight_selftest, native_flight, pilot_selftest
 from tandemlift.codegen.c.source_file import SourceFile
-from tandemlift.core.settings import Mission
+from tandemlift.missions import Mission
 from tandemlift.simulation.assembly.traced_assembly import assembled_by_graph, assembled_flight, trace_assembly
 from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
 from tandemlift.simulation.portable_mission import portable_mission

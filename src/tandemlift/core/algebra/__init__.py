@@ -4,7 +4,7 @@ A controller of one's own imports all that it needs from here.
 """
 
 from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import Nothing, choice, elementwise, law
+from tandemlift.core.algebra.law import Absent, choice, elementwise, law
 from tandemlift.core.algebra.ops import (
     absolute,
     atan2,
@@ -26,8 +26,8 @@ from tandemlift.core.algebra.vector import ZERO, Mat3, Quat, Vec3, apply, apply_
 __all__ = [
     "GRAVITY",
     "ZERO",
+    "Absent",
     "Mat3",
-    "Nothing",
     "Number",
     "PerQuadrotor",
     "PerRotor",

@@ -1,6 +1,6 @@
 """Marks that say what a function is, so that one source serves plain Python, NumPy, JAX, CasADi and machine code.
 
-Nothing here compiles anything. Each mark records the function; `tandemlift.compiler.trace` reads the records when
+Nothing here compiles anything. Each mark records the function; `tandemlift.compiler.tracer` reads the records when
 something first flies, so a law can be imported, called and differentiated without a compiler.
 
 A law is a pure function of numbers and value types: no branch on data (`where`, `minimum`, `clip` instead), no state,
@@ -57,12 +57,12 @@ def elementwise(scalar: Callable[..., Any]) -> Elementwise:
     return Elementwise(law(scalar))
 
 
-class Nothing(NamedTuple):
+class Absent(NamedTuple):
     """Stands where a part or its memory is absent; it holds no numbers and costs nothing."""
 
 
 def _without(signature: Callable[..., Any], absent: Any) -> Callable[..., Any]:
-    """The law of a choice for `Nothing`, from the argument `absent` of `choice`."""
+    """The law of a choice for `Absent`, from the argument `absent` of `choice`."""
     code = signature.__code__
     names = code.co_varnames[: code.co_argcount]
     parts = absent if type(absent) is tuple else (absent,)
@@ -131,8 +131,8 @@ def choice(signature: Callable[..., Any] | None = None, *, absent: Any = REQUIRE
 
     Args:
         signature: the function: its arguments, and what the laws return.
-        absent: what is returned where the first argument is `Nothing`: the name of an argument, a value, or a tuple of
-            names and values. Without it, `Nothing` is refused unless a law is registered for it.
+        absent: what is returned where the first argument is `Absent`: the name of an argument, a value, or a tuple of
+            names and values. Without it, `Absent` is refused unless a law is registered for it.
 
     Raises:
         TypeError: `absent` names an argument that the function does not have.
@@ -145,5 +145,5 @@ def choice(signature: Callable[..., Any] | None = None, *, absent: Any = REQUIRE
 def _choice(signature: Callable[..., Any], absent: Any) -> Choice:
     made = Choice(signature)
     if absent is not REQUIRED:
-        made.register(Nothing)(_without(signature, absent))
+        made.register(Absent)(_without(signature, absent))
     return made

@@ -11,7 +11,7 @@ import operator
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
 
-from tandemlift.core.algebra.law import Nothing as Nothing
+from tandemlift.core.algebra.law import Absent as Absent
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.layout import layout_and_numbers
 from tandemlift.core.algebra.types import number
@@ -207,7 +207,7 @@ def set_of(values: Any) -> Any:
 
 
 def is_rolled(value: Any) -> bool:
-    """Whether a value is a set that is one symbol (`compiler.trace.graph`)."""
+    """Whether a value is a set that is one symbol (`compiler.tracer.graph`)."""
     return bool(getattr(value, "rolled", 0))
 
 

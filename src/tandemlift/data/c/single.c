@@ -1,4 +1,4 @@
-/* Elementary functions in single precision, from the C library; limits as in tandemlift.compiler.trace.elementary. */
+/* Elementary functions in single precision, from the C library; limits as in tandemlift.compiler.tracer.elementary. */
 static float elementary_exp(float x)
 {
     return expf(x < -87.0f ? -87.0f : x > 88.0f ? 88.0f : x);

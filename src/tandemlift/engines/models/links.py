@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Array
-from tandemlift.parts.vehicle import Vehicle, parallel_axis_term
+from tandemlift.engines.models.scene import Scene
+from tandemlift.parts.mechanics.vehicle import Vehicle, parallel_axis_term
 
 ROUNDING = 1e-9  # relative tolerance of the triangle inequality of principal moments
 
@@ -36,7 +36,7 @@ class Link(NamedTuple):
     inertia: Array
 
 
-def links_of(mission: Mission, vehicle: Vehicle) -> list[Link]:
+def links_of(scene: Scene, vehicle: Vehicle) -> list[Link]:
     """The bodies of a mission's true vehicle, the payload first.
 
     Raises:
@@ -44,21 +44,21 @@ def links_of(mission: Mission, vehicle: Vehicle) -> list[Link]:
     """
     fleet = zip(vehicle.quadrotors, vehicle.lever_arms, strict=True)
     return [
-        _payload(mission, vehicle),
+        _payload(scene, vehicle),
         *(Link(f"quadrotor_{i}", d, q.mass, np.zeros(3), np.diag(q.inertia)) for i, (q, d) in enumerate(fleet, 1)),
     ]
 
 
-def _payload(mission: Mission, vehicle: Vehicle) -> Link:
+def _payload(scene: Scene, vehicle: Vehicle) -> Link:
     """The payload, with the difference between the true and the nominal vehicle."""
-    own, place, plant = vehicle.payload, 0.0 - vehicle.center_of_mass, mission.plant
+    own, place, plant = vehicle.payload, 0.0 - vehicle.center_of_mass, scene.plant
     known = Link("payload", place, own.mass, np.zeros(3), np.diag(own.moments))
     if plant.mass_scale == 1.0 and plant.inertia_scale == (1.0, 1.0, 1.0):
         return known
     scale, J, more = np.diag(np.sqrt(plant.inertia_scale)), vehicle.inertia, (plant.mass_scale - 1.0) * vehicle.mass
     mass = own.mass + more
     if mass <= 0.0:
-        raise _no_body(mission, f"a mass of {mass:g} kg")
+        raise _no_body(scene, f"a mass of {mass:g} kg")
     center = own.mass / mass * place  # from the system's, where the difference is concentrated
     inertia = (
         known.inertia
@@ -69,12 +69,12 @@ def _payload(mission: Mission, vehicle: Vehicle) -> Link:
     )
     least, middle, most = np.linalg.eigvalsh(inertia)
     if least <= 0.0 or least + middle < most * (1.0 - ROUNDING):
-        raise _no_body(mission, f"principal moments of {least:g}, {middle:g} and {most:g} kg m2")
+        raise _no_body(scene, f"principal moments of {least:g}, {middle:g} and {most:g} kg m2")
     return known._replace(mass=mass, center=center - place, inertia=inertia)
 
 
-def _no_body(mission: Mission, what: str) -> InputError:
-    plant = mission.plant
+def _no_body(scene: Scene, what: str) -> InputError:
+    plant = scene.plant
     return InputError(
         f"plant.mass_scale = {plant.mass_scale:g}, plant.inertia_scale = {list(plant.inertia_scale)}: the difference "
         f"is part of the payload, which would have {what}; a model file needs a physical mass and inertia"

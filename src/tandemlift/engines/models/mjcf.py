@@ -15,16 +15,16 @@ import numpy as np
 
 from tandemlift.core.algebra.vector import vec3
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Array
 from tandemlift.engines.models.links import Link, links_of
 from tandemlift.engines.models.mujoco_bodies import specification
 from tandemlift.engines.models.mujoco_contact import set_contact_stiffness
 from tandemlift.engines.models.mujoco_import import mujoco
+from tandemlift.engines.models.scene import Scene
 from tandemlift.engines.models.surroundings import floor_from, walls_from
 from tandemlift.engines.models.visuals import GLASS, SUN, WALL, VisualShape, payload_shapes, quadrotor_shapes
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 GROUND, SKY, ZENITH = "#b9bdc3", "#dbe6f2", "#8fb0d3"
 CONTACT_GROUP = 3  # geom group of contact shapes, which MuJoCo's viewer hides by default
@@ -47,20 +47,20 @@ EXACT = {  # elements whose attributes MuJoCo rounds to six digits: object type,
 }
 
 
-def model_text(mission: Mission) -> str:
-    """The MJCF text of a mission.
+def model_text(scene: Scene) -> str:
+    """The MJCF text of a scene.
 
     Raises:
         InputError: the true vehicle has no such model (`links_of`), MuJoCo refuses it, or MuJoCo is not installed.
     """
-    vehicle = Vehicle.from_settings(mission.vehicle)
-    floor, walls = floor_from(mission, vehicle), walls_from(mission, vehicle)
-    spec = specification(mission, vehicle, floor, walls)
-    spec.modelname = mission.mission.name
-    _set_inertias(spec, links_of(mission, vehicle))
+    vehicle = Vehicle.from_settings(scene.vehicle)
+    floor, walls = floor_from(scene, vehicle), walls_from(scene, vehicle)
+    spec = specification(scene, vehicle, floor, walls)
+    spec.modelname = scene.mission.name
+    _set_inertias(spec, links_of(scene, vehicle))
     _add_drag(spec, [*vehicle.drag.force, *vehicle.drag.moment])
-    _set_start(spec, mission)
-    _add_visuals(spec, mission, vehicle)
+    _set_start(spec, scene)
+    _add_visuals(spec, scene, vehicle)
     try:
         model = spec.compile()
         set_contact_stiffness(model, floor, walls)
@@ -69,7 +69,7 @@ def model_text(mission: Mission) -> str:
         text = _with_all_digits(spec.to_xml(), model)
         mujoco.MjModel.from_xml_string(text)
     except ValueError as error:
-        raise InputError(f"mission {mission.mission.name!r}: MuJoCo refuses the vehicle: {error}") from error
+        raise InputError(f"mission {scene.mission.name!r}: MuJoCo refuses the vehicle: {error}") from error
     return text
 
 
@@ -108,15 +108,15 @@ def _add_drag(spec: Any, damping: Sequence[float]) -> None:
         )
 
 
-def _set_start(spec: Any, mission: Mission) -> None:
+def _set_start(spec: Any, scene: Scene) -> None:
     """Set the initial pose; the key frame `start` has the initial velocities too."""
-    initial, body = mission.initial, spec.body("payload")
+    initial, body = scene.initial, spec.body("payload")
     quat = quaternion_from_euler(vec3(initial.euler))
     body.pos, body.quat = initial.position, quat
     spec.add_key(name="start", qpos=[*initial.position, *quat], qvel=[*initial.velocity, *initial.rates])
 
 
-def _add_visuals(spec: Any, mission: Mission, vehicle: Vehicle) -> None:
+def _add_visuals(spec: Any, scene: Scene, vehicle: Vehicle) -> None:
     """Add colours, light and visual shapes without contact; hide the contact shapes."""
     for geom in spec.geoms:
         if geom.name == "floor":
@@ -131,11 +131,11 @@ def _add_visuals(spec: Any, mission: Mission, vehicle: Vehicle) -> None:
     )
     for i, q in enumerate(vehicle.quadrotors, 1):
         _add_shapes(spec.body(f"quadrotor{i}"), quadrotor_shapes(q, depth), np.zeros(3))
-    sun = spec.worldbody.add_light(name="sun", pos=20.0 * SUN, dir=-SUN, castshadow=not mission.all_walls)
+    sun = spec.worldbody.add_light(name="sun", pos=20.0 * SUN, dir=-SUN, castshadow=not scene.all_walls)
     sun.type = mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
     sky = spec.add_texture(name="sky", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX, width=64, height=384)
     sky.builtin, sky.rgb1, sky.rgb2 = mujoco.mjtBuiltin.mjBUILTIN_GRADIENT, _rgba(SKY)[:3], _rgba(ZENITH)[:3]
-    spec.stat.center, spec.stat.extent = mission.initial.position, float(np.abs(vehicle.lever_arms).max()) + 1.0
+    spec.stat.center, spec.stat.extent = scene.initial.position, float(np.abs(vehicle.lever_arms).max()) + 1.0
 
 
 def _add_shapes(body: Any, shapes: Sequence[VisualShape], origin: Array) -> None:

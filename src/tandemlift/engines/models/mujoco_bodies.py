@@ -16,13 +16,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.settings import Mission, Quadrotor
 from tandemlift.core.types import Array
 from tandemlift.engines.models.mujoco_contact import add_floor, add_vehicle_shapes, add_walls, set_contact_stiffness
 from tandemlift.engines.models.mujoco_import import mujoco
+from tandemlift.engines.models.scene import Scene
 from tandemlift.parts.contact.feet import Floor
 from tandemlift.parts.contact.walls import Walls
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 
 Weight = tuple[float, ArrayLike]  # kg; kg m², principal moments
 
@@ -30,7 +31,7 @@ FRICTION_IMPEDANCE = 1e7  # MuJoCo's impratio: the inertia of friction is a thou
 NET_FORCE = 3  # MuJoCo's contact sensor: all contacts reduced to one wrench, in world axes
 
 
-def model_of(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
+def model_of(scene: Scene, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
     """The compiled `mujoco.MjModel` of a mission's true vehicle.
 
     Actuator 4 i + j is rotor j of quadrotor i; its control is the thrust [N]. The sensors, in order: accelerometer at
@@ -40,14 +41,14 @@ def model_of(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
     Args:
         mission: gives step, `plant` and walls.
         vehicle: the nominal vehicle.
-        floor: a `parts.contact.feet.Floor`, or `Nothing`.
-        walls: a `parts.contact.walls.Walls`, or `Nothing` for a mission without walls.
+        floor: a `parts.contact.feet.Floor`, or `Absent`.
+        walls: a `parts.contact.walls.Walls`, or `Absent` for a mission without walls.
 
     Raises:
         TypeError: the mission has walls, but `walls` is not a `Walls`.
     """
-    spec = specification(mission, vehicle, floor, walls)
-    difference = _add_difference(spec, mission, vehicle)
+    spec = specification(scene, vehicle, floor, walls)
+    difference = _add_difference(spec, scene, vehicle)
     model = spec.compile()
     quadrotors = [(q.mass, q.inertia) for q in vehicle.quadrotors]
     _set_inertias(model, [(vehicle.payload.mass, vehicle.payload.moments), *quadrotors, *difference])
@@ -56,16 +57,16 @@ def model_of(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
     return model
 
 
-def specification(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
+def specification(scene: Scene, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
     """The `mujoco.MjSpec` of `model_of`, before inertias, drag and contact stiffness are set.
 
     Raises:
         TypeError: the mission has walls, but `walls` is not a `Walls`.
     """
     spec, standing, walled = mujoco.MjSpec(), isinstance(floor, Floor), isinstance(walls, Walls)
-    if mission.all_walls and not walled:
+    if scene.all_walls and not walled:
         raise TypeError("a mission with walls needs a laws.contact.walls.Walls with their contact parameters")
-    _set_options(spec, mission.mission.step, touching=standing or walled)
+    _set_options(spec, scene.mission.step, touching=standing or walled)
     _add_payload(spec, vehicle)
     for i, (quadrotor, center) in enumerate(zip(vehicle.quadrotors, vehicle.lever_arms, strict=True), 1):
         _add_quadrotor(spec, f"quadrotor{i}", quadrotor, center)
@@ -74,7 +75,7 @@ def specification(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) ->
     if standing:
         add_floor(spec, floor, shapes)
     if walled:
-        add_walls(spec, walls, mission.all_walls, shapes)
+        add_walls(spec, walls, scene.all_walls, shapes)
     return spec
 
 
@@ -107,13 +108,13 @@ def _add_quadrotor(spec: Any, name: str, quadrotor: Quadrotor, center: Array) ->
         spec.add_actuator(name=rotor, target=rotor, trntype=mujoco.mjtTrn.mjTRN_SITE, gear=gear)
 
 
-def _add_difference(spec: Any, mission: Mission, vehicle: Vehicle) -> list[Weight]:
+def _add_difference(spec: Any, scene: Scene, vehicle: Vehicle) -> list[Weight]:
     """Add a body at the centre of mass with the difference in inertia between true and nominal vehicle.
 
     Its mass and principal moments may be negative. No body is added if there is no difference.
     """
-    scale, J = np.diag(np.sqrt(mission.plant.inertia_scale)), vehicle.inertia
-    mass = (mission.plant.mass_scale - 1.0) * vehicle.mass
+    scale, J = np.diag(np.sqrt(scene.plant.inertia_scale)), vehicle.inertia
+    mass = (scene.plant.mass_scale - 1.0) * vehicle.mass
     moments, axes = np.linalg.eigh(scale @ J @ scale - J)
     if not mass and not moments.any():
         return []

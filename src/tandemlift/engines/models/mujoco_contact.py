@@ -16,14 +16,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.core.settings import WallTable
 from tandemlift.core.types import Array
 from tandemlift.engines.models.mujoco_import import mujoco
+from tandemlift.parts.contact.corridor import WallTable
 from tandemlift.parts.contact.feet import Floor
 from tandemlift.parts.contact.hull import Ellipsoids, Hull
 from tandemlift.parts.contact.spheres import RotorSpheres
 from tandemlift.parts.contact.walls import Beam, Walls
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 SOFT = 1e-4  # impedance d of contacts, MuJoCo's smallest: almost a pure spring and damper
 STICKING = 0.2  # fraction of a foot's sliding speed that friction below its limit removes in one step
@@ -65,8 +65,8 @@ def add_vehicle_shapes(spec: Any, floor: Any, walls: Any, vehicle: Vehicle) -> V
 
     Args:
         spec: the `mujoco.MjSpec`.
-        floor: a `parts.contact.feet.Floor`, or `Nothing`.
-        walls: a `parts.contact.walls.Walls`, or `Nothing`.
+        floor: a `parts.contact.feet.Floor`, or `Absent`.
+        walls: a `parts.contact.walls.Walls`, or `Absent`.
         vehicle: the vehicle.
     """
     shapes = VehicleShapes([], [], [])

@@ -5,8 +5,7 @@ Raises, when imported: InputError: it is not installed, or too old.
 
 from __future__ import annotations
 
-from tandemlift.core.errors import InputError
-from tandemlift.core.extras import extra, install_command
+from tandemlift.core.errors import InputError, extra, install_command
 
 with extra("mujoco", "engine 'mujoco'"):
     import mujoco

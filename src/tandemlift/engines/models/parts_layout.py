@@ -6,12 +6,12 @@ import numpy as np
 
 from tandemlift.core.algebra.types import number
 from tandemlift.core.algebra.vector import each, quarters, spread, vec3
-from tandemlift.core.caching import kept
+from tandemlift.core.caching import cached
 from tandemlift.parts.mechanics.loads import PartsLayout
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
-@kept
+@cached
 def parts_layout_from(vehicle: Vehicle) -> PartsLayout:
     """The layout of a vehicle's parts."""
     quadrotors, N = vehicle.quadrotors, vehicle.count

@@ -18,10 +18,10 @@ from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.vector import vec3
-from tandemlift.core.settings import Mission, WallTable
 from tandemlift.core.types import Array
 from tandemlift.engines.models.camera import CAMERAS
 from tandemlift.engines.models.links import Link, links_of
+from tandemlift.engines.models.scene import Scene
 from tandemlift.engines.models.sdf_collisions import (
     FASTEST,
     FLOOR_BIT,
@@ -34,9 +34,10 @@ from tandemlift.engines.models.sdf_collisions import (
 from tandemlift.engines.models.sdf_elements import Element, add, fill, geometry, numbers, pose, rgba
 from tandemlift.engines.models.surroundings import floor_from
 from tandemlift.engines.models.visuals import GLASS, LEVEL, SUN, WALL, VisualShape, payload_shapes, quadrotor_shapes
+from tandemlift.parts.contact.corridor import WallTable
 from tandemlift.parts.contact.feet import Floor
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 MODEL = "tandemlift"
 PLUGIN, OVER_ROS = "libtandemlift_gazebo.so", "libtandemlift_gazebo_ros.so"
@@ -50,7 +51,7 @@ DIGITS = 6  # decimals [m, rad] of visuals
 FAR = 3.5  # distance of the first view, as a multiple of the vehicle's reach
 
 
-def world(mission: Mission, plugin: int | str | None = None) -> str:
+def world(scene: Scene, plugin: int | str | None = None) -> str:
     """The text of a mission's world.
 
     Args:
@@ -61,22 +62,22 @@ def world(mission: Mission, plugin: int | str | None = None) -> str:
     Raises:
         InputError: the true vehicle has no such model (`links_of`).
     """
-    vehicle = Vehicle.from_settings(mission.vehicle)
+    vehicle = Vehicle.from_settings(scene.vehicle)
     root = Element("sdf", version="1.7")
     top = add(root, "world", name="default")
-    _add_environment(top, mission, vehicle)
-    if mission.ground.model != "none":
-        _add_floor(top, floor_from(mission, vehicle), mission)
-    if mission.all_walls:
-        _add_walls(top, mission, floor_from(mission, vehicle))
-    _add_vehicle(top, mission, vehicle, plugin)
+    _add_environment(top, scene, vehicle)
+    if scene.ground.model != "none":
+        _add_floor(top, floor_from(scene, vehicle), scene)
+    if scene.all_walls:
+        _add_walls(top, scene, floor_from(scene, vehicle))
+    _add_vehicle(top, scene, vehicle, plugin)
     ElementTree.indent(root)
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(root, "unicode")}\n'
 
 
-def _add_environment(top: Element, mission: Mission, vehicle: Vehicle) -> None:
+def _add_environment(top: Element, scene: Scene, vehicle: Vehicle) -> None:
     """Add gravity, physics steps, light and the camera of the window."""
-    step = mission.mission.step
+    step = scene.mission.step
     fill(top, {"gravity": [0.0, 0.0, -GRAVITY]})
     physics = add(top, "physics", name="ode", type="ode", default="1")
     fill(physics, {"max_step_size": step, "real_time_factor": 1.0, "real_time_update_rate": 1.0 / step})
@@ -96,7 +97,7 @@ def _add_environment(top: Element, mission: Mission, vehicle: Vehicle) -> None:
     view, reach = CAMERAS["follow"], float(np.linalg.norm(vehicle.lever_arms, axis=1).max()) + 0.5
     azimuth, height = np.radians([view.azimuth, view.elevation])
     back = np.array([np.cos(height) * np.cos(azimuth), np.cos(height) * np.sin(azimuth), np.sin(height)])
-    eye = mission.initial.position + FAR * reach * back
+    eye = scene.initial.position + FAR * reach * back
     add(camera, "pose", numbers([*eye, 0.0, height, azimuth + np.pi], DIGITS))
     add(camera, "view_controller", "orbit")
     near, far = 0.8 * FAR * reach, 1.2 * FAR * reach
@@ -125,10 +126,10 @@ def _add_static_link(top: Element, name: str, position: ArrayLike) -> Element:
     return add(model, "link", name=name)
 
 
-def _add_floor(top: Element, floor: Floor, mission: Mission) -> None:
+def _add_floor(top: Element, floor: Floor, scene: Scene) -> None:
     """Add a horizontal plane, visible below the initial position and all walls."""
-    ends = [end for w in mission.all_walls for end in (w.start, w.end)]
-    places = np.array([mission.initial.position[:2], *ends])
+    ends = [end for w in scene.all_walls for end in (w.start, w.end)]
+    places = np.array([scene.initial.position[:2], *ends])
     low, high = places.min(axis=0) - MARGIN, places.max(axis=0) + MARGIN
     low, high = np.floor(low / MESH) * MESH, np.ceil(high / MESH) * MESH
     link = _add_static_link(top, "floor", [*(low + high) / 2.0, floor.height])
@@ -152,10 +153,10 @@ def _grid_lines(size: Array) -> Iterator[VisualShape]:
             yield VisualShape(f"line_{letter}_{k}", "box", (sides[0], sides[1], sides[2]), middle, LEVEL, LINE)
 
 
-def _add_walls(top: Element, mission: Mission, floor: Floor) -> None:
+def _add_walls(top: Element, scene: Scene, floor: Floor) -> None:
     """Add each wall: a thin box for contact and a thicker one as visual."""
-    link, surface = _add_static_link(top, "walls", np.zeros(3)), CollisionSurface(WALL_BIT, mission.ground.friction)
-    for k, wall in enumerate(mission.all_walls, 1):
+    link, surface = _add_static_link(top, "walls", np.zeros(3)), CollisionSurface(WALL_BIT, scene.ground.friction)
+    for k, wall in enumerate(scene.all_walls, 1):
         shape = _wall(f"wall_{k}", wall, floor.height)
         add_collision(link, shape, surface)
         _add_visual(link, shape._replace(size=(shape.size[0], SHOWN, shape.size[2])))
@@ -172,14 +173,14 @@ def _wall(name: str, wall: WallTable, floor: float) -> VisualShape:
     return VisualShape(name, "box", (length, THIN, wall.top - foot), middle, axes, WALL, GLASS)
 
 
-def _add_vehicle(top: Element, mission: Mission, vehicle: Vehicle, plugin: int | str | None) -> None:
+def _add_vehicle(top: Element, scene: Scene, vehicle: Vehicle, plugin: int | str | None) -> None:
     """Add the vehicle in the initial state of the mission; Gazebo never disables it when it rests."""
     model = add(top, "model", name=MODEL)
-    R = np.array(rotation_from_quaternion(quaternion_from_euler(vec3(mission.initial.euler))))
-    pose(model, mission.initial.position, R)
+    R = np.array(rotation_from_quaternion(quaternion_from_euler(vec3(scene.initial.euler))))
+    pose(model, scene.initial.position, R)
     fill(model, {"allow_auto_disable": "false", "self_collide": "false"})
-    payload, *quadrotors = links_of(mission, vehicle)
-    collisions, fleet, depth = VehicleCollisions(mission, vehicle), vehicle.quadrotors, vehicle.payload.radius or 0.0
+    payload, *quadrotors = links_of(scene, vehicle)
+    collisions, fleet, depth = VehicleCollisions(scene, vehicle), vehicle.quadrotors, vehicle.payload.radius or 0.0
     element = _add_link(model, payload, payload_shapes(vehicle.payload, tuple(fleet)))
     collisions.add_to_payload(element, payload)
     for i, (link, q) in enumerate(zip(quadrotors, fleet, strict=True)):

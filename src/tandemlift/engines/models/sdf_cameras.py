@@ -14,7 +14,7 @@ import numpy as np
 from tandemlift.core.types import Array
 from tandemlift.engines.models.camera import ANGLE, NEAR
 from tandemlift.engines.models.sdf_elements import numbers
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 FAR = 300.0  # m, distance of the far clipping plane
 PICTURES = "pictures"  # folder of pictures, relative to the working directory of the server

@@ -19,17 +19,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.vector import Nothing
-from tandemlift.core.settings import Mission
+from tandemlift.core.algebra.vector import Absent
 from tandemlift.core.types import Array
 from tandemlift.engines.models.links import Link
+from tandemlift.engines.models.scene import Scene
 from tandemlift.engines.models.sdf_elements import Element, add, fill, geometry, pose
 from tandemlift.engines.models.surroundings import feet_and_floor_from, wall_contact_from
 from tandemlift.engines.models.visuals import VisualShape, frame_along
 from tandemlift.parts.contact.feet import Floor
 from tandemlift.parts.contact.hull import Ellipsoids
 from tandemlift.parts.contact.walls import Beam, Walls
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 FLOOR_BIT, WALL_BIT = 1, 2  # of collide_bitmask
 HARD = 1e15  # N/m, of floor and walls: large compared with the vehicle's stiffness
@@ -72,8 +72,8 @@ class VehicleCollisions:
         vehicle: the vehicle that the pilot knows.
     """
 
-    def __init__(self, mission: Mission, vehicle: Vehicle) -> None:
-        self._floor, self._walls = feet_and_floor_from(mission, vehicle), wall_contact_from(mission, vehicle)
+    def __init__(self, scene: Scene, vehicle: Vehicle) -> None:
+        self._floor, self._walls = feet_and_floor_from(scene, vehicle), wall_contact_from(scene, vehicle)
         floor, hull, walls = self._floor, self._floor.hull, self._walls
         self._foot = CollisionSurface(FLOOR_BIT, floor.friction, floor.stiffness, floor.damping)
         self._hull = CollisionSurface(FLOOR_BIT, floor.friction, hull.stiffness, hull.damping)
@@ -114,7 +114,7 @@ def _shapes(shapes: Any, name: str, origin: Array, chosen: slice = slice(None)) 
 
 def _rotor_balls(walls: Walls, four: slice, origin: Array) -> Iterator[VisualShape]:
     """The spheres of rotors that stand out of their guard, with the numbers of the rotors."""
-    if isinstance(walls.rotors, Nothing):
+    if isinstance(walls.rotors, Absent):
         return
     rows = list(zip(*walls.rotors.hub, walls.rotors.radius, strict=True))[four]
     for j, (x, y, z, radius) in enumerate(rows, 1):

@@ -5,29 +5,29 @@ from __future__ import annotations
 from typing import Any
 
 from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import Nothing
-from tandemlift.core.caching import kept
-from tandemlift.core.settings import Mission
-from tandemlift.core.settings.surroundings import GroundTable
+from tandemlift.core.algebra.vector import Absent
+from tandemlift.core.caching import cached
+from tandemlift.engines.models.scene import Scene
 from tandemlift.parts.contact.feet import Floor, floor, sole_positions, standing_height
+from tandemlift.parts.contact.ground_table import GroundTable
 from tandemlift.parts.contact.hull import hull
 from tandemlift.parts.contact.spheres import rotor_spheres
 from tandemlift.parts.contact.walls import Walls, walls
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
-def floor_from(mission: Mission, vehicle: Vehicle) -> Any:
-    """The floor of a mission, or `Nothing`."""
-    return Nothing() if mission.ground.model == "none" else feet_and_floor_from(mission, vehicle)
+def floor_from(scene: Scene, vehicle: Vehicle) -> Any:
+    """The floor of a scene, or `Absent`."""
+    return Absent() if scene.ground.model == "none" else feet_and_floor_from(scene, vehicle)
 
 
-def feet_and_floor_from(mission: Mission, vehicle: Vehicle) -> Floor:
-    """The floor of a mission, its feet and its hull, even if `ground.model` is "none"."""
-    start = mission.initial.position[2] if mission.ground.height is None else 0.0
-    return _floor(vehicle, mission.ground, mission.plant.mass_scale, mission.mission.step, start)
+def feet_and_floor_from(scene: Scene, vehicle: Vehicle) -> Floor:
+    """The floor of a scene, its feet and its hull, even if `ground.model` is "none"."""
+    start = scene.initial.position[2] if scene.ground.height is None else 0.0
+    return _floor(vehicle, scene.ground, scene.plant.mass_scale, scene.mission.step, start)
 
 
-@kept
+@cached
 def _floor(vehicle: Vehicle, g: GroundTable, mass_scale: float, step: float, start: float) -> Floor:
     """The floor under a vehicle; unless its height is given, the vehicle stands on it with its centre at `start`."""
     fleet, mass = vehicle.quadrotors, vehicle.mass * mass_scale
@@ -39,17 +39,17 @@ def _floor(vehicle: Vehicle, g: GroundTable, mass_scale: float, step: float, sta
     return at_zero._replace(height=start - standing_height(at_zero, mass * GRAVITY))
 
 
-def walls_from(mission: Mission, vehicle: Vehicle) -> Any:
-    """The contact shapes and parameters for a mission's walls, or `Nothing` without walls."""
-    return wall_contact_from(mission, vehicle) if mission.all_walls else Nothing()
+def walls_from(scene: Scene, vehicle: Vehicle) -> Walls | Absent:
+    """The contact shapes and parameters for a mission's walls, or `Absent` without walls."""
+    return wall_contact_from(scene, vehicle) if scene.all_walls else Absent()
 
 
-def wall_contact_from(mission: Mission, vehicle: Vehicle) -> Walls:
+def wall_contact_from(scene: Scene, vehicle: Vehicle) -> Walls:
     """The contact shapes and parameters for walls, even if the mission has none."""
-    return _walls(vehicle, mission.ground.friction, mission.plant.mass_scale, mission.mission.step)
+    return _walls(vehicle, scene.ground.friction, scene.plant.mass_scale, scene.mission.step)
 
 
-@kept
+@cached
 def _walls(vehicle: Vehicle, friction: float, mass_scale: float, step: float) -> Walls:
     fleet, hubs = vehicle.quadrotors, vehicle.rotor_hubs
     guards = [q.guard_radius for q in fleet]

@@ -1,21 +1,21 @@
 """Looks of a vehicle and its surroundings: boxes, spheres and cylinders, which every simulator has, and their colours.
 
-Front parts are orange and rear parts blue, so that the heading is visible. Pictures, MuJoCo, Gazebo and RViz draw this
-one list; the live page has shapes of its own, in the same colours.
+Front parts are orange and rear parts blue, so that the heading is visible. Pictures, the live page, MuJoCo, Gazebo and
+RViz draw this one list.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.core.settings import Payload, Quadrotor
 from tandemlift.core.types import Array
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import Payload, Quadrotor
 
 CARBON, METAL, SHELL, WOOD = "#2b2f36", "#8d949e", "#d9dce0", "#c2853f"
 FRONT, REAR, JOINT, GUARD = "#e8641b", "#2f6fb0", "#f0b429", "#5b636e"
@@ -23,6 +23,7 @@ PUSH_COLOR, WALL = "#d5281b", "#7f8fa3"
 BLUR, GLASS = 0.3, 0.35  # opacity of rotors and of walls
 SUN = np.array([0.35, -0.42, 0.84]) / np.linalg.norm([0.35, -0.42, 0.84])  # unit vector towards the sun
 SHAPELESS = 0.2  # m, edge of the box that represents a payload without length
+BEAM_RADIUS = 0.03  # m, of a beam whose radius is not given
 SEGMENTS = 16  # straight pieces of a guard ring
 LEVEL = np.eye(3)
 SHORTEST = 1e-6  # m, a shorter cylinder is left out
@@ -56,7 +57,7 @@ class VisualShape(NamedTuple):
     """
 
     name: str
-    kind: str
+    kind: Literal["box", "sphere", "cylinder"]
     size: tuple[float, ...]
     position: Array
     axes: Array = LEVEL
@@ -83,7 +84,7 @@ def payload_shapes(payload: Payload, quadrotors: tuple[Quadrotor, ...]) -> list[
     if not payload.length:
         shapes, half = [_box("payload", np.zeros(3), [SHAPELESS] * 3, WOOD)], 0.0
     else:
-        radius, half = payload.radius or 0.03, payload.length / 2.0
+        radius, half = payload.radius or BEAM_RADIUS, payload.length / 2.0
         shapes = cylinder("beam", [0.0, -half, 0.0], [0.0, half, 0.0], radius, WOOD)
         for i, end in enumerate((half, -half), 1):
             cap = 0.25 * radius

@@ -12,12 +12,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tandemlift.core.settings import Mission
+from tandemlift.core.checks import CheckResult, judged
 from tandemlift.core.types import Array
 from tandemlift.missions.flight_checks.loads import ALWAYS, VehicleLoads, loads_of
-from tandemlift.missions.flight_checks.result import CheckResult, judged
-from tandemlift.missions.flight_checks.weight import lift_of, weight_of
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.missions.tables.mission import Mission
+from tandemlift.missions.tables.weight import lift_of, weight_of
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 AXES = ("roll", "pitch", "yaw")
 CONTROL = 0.15  # of the largest moment, left for control; as supervision.checks.thrust_fraction leaves of the thrust

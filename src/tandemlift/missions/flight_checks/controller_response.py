@@ -12,15 +12,16 @@ import numpy as np
 
 from tandemlift.core.algebra.layout import flat, unflat
 from tandemlift.core.algebra.vector import ZERO, vec3
-from tandemlift.core.caching import kept
-from tandemlift.core.settings import ControllerTable, Mission, VehicleTable
+from tandemlift.core.caching import cached
 from tandemlift.core.types import Array
+from tandemlift.missions.tables.mission import Mission
 from tandemlift.parts.controllers import CONTROLLERS, control
-from tandemlift.parts.controllers.interface import NO_DISTURBANCE, Measured
+from tandemlift.parts.controllers.interface import NO_DISTURBANCE, ControllerTable, Measured
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
-from tandemlift.parts.signals.trajectories import Reference, Trajectory
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import VehicleTable
+from tandemlift.parts.trajectories import Reference, Trajectory
 
 INPUTS = 5  # position, velocity, angles, rates, push: vectors
 CHANGE = 1e-6  # of an input or a memory, in its unit
@@ -56,7 +57,7 @@ def controller_response(m: Mission) -> ControllerResponse | None:
     return _response(m.controller, CONTROLLERS[m.controller.name].start, m.vehicle, m.mission.step)
 
 
-@kept
+@cached
 def _response(
     settings: ControllerTable, start: Callable[..., Any], table: VehicleTable, step: float
 ) -> ControllerResponse | None:

@@ -14,11 +14,11 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.core.algebra.vector import vec3
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Array
+from tandemlift.missions.tables.mission import Mission
 from tandemlift.parts.mechanics.turbulence import dryden
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.wind import Gust, gust_velocity
-from tandemlift.parts.vehicle import Vehicle
 
 SIGMAS = 2.0  # standard deviations of turbulence
 ALWAYS = "always"  # when loads act that neither pushes nor gusts make

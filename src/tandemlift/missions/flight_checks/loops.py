@@ -30,11 +30,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.settings import Mission
+from tandemlift.core.checks import CheckResult, judged
 from tandemlift.core.types import Array
 from tandemlift.missions.flight_checks.controller_response import INPUTS, controller_response
-from tandemlift.missions.flight_checks.result import CheckResult, judged
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.missions.tables.mission import Mission
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 LOOPS = ("z", "roll", "pitch", "yaw")
 LOWEST, HIGHEST, POINTS = 0.02, 1000.0, 120  # rad/s

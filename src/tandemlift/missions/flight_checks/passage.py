@@ -14,10 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.settings import Mission
+from tandemlift.core.checks import CheckResult, judged
 from tandemlift.core.types import Array
-from tandemlift.missions.flight_checks.result import CheckResult, judged
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.missions.tables.mission import Mission
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 APART = 0.1  # m, between places on the way
 MOST = 4000  # places

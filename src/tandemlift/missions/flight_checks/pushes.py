@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from tandemlift.core.settings import Mission
-from tandemlift.missions.flight_checks.result import FAILS, CheckResult, judged
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.core.checks import FAILS, CheckResult, judged
+from tandemlift.missions.tables.mission import Mission
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 BESIDE = 0.05  # m, from the box of all parts
 

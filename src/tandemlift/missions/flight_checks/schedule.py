@@ -1,4 +1,4 @@
-"""Heights and times of a mission that cannot be, or do not fit each other: lift, landing, pushes, a person's way."""
+"""Heights and times of a mission that do not fit each other: lift, landing, pushes, a person's way."""
 
 from __future__ import annotations
 
@@ -7,27 +7,14 @@ import math
 from collections.abc import Iterator
 
 from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission
-from tandemlift.core.settings.world import PushTable
-from tandemlift.missions.flight_checks.result import CLOSE, FAILS, CheckResult, judged, noted
-from tandemlift.missions.flight_checks.weight import lift_of, weight_of
+from tandemlift.core.checks import CLOSE, FAILS, CheckResult, judged, noted
+from tandemlift.missions.tables.mission import Mission
+from tandemlift.missions.tables.weight import lift_of, weight_of
+from tandemlift.parts.mechanics.push import PushTable
 
 STEEPEST = 1.875  # of the quintic smooth step: its largest slope
 SHARPEST = 10.0 / math.sqrt(3.0)  # and its largest second derivative
 UNLIMITED = 100.0  # m/s², of ideal actuators, which give any thrust
-
-
-def check_heights(m: Mission) -> None:
-    """Refuse a lift that leads down into a floor.
-
-    Raises:
-        InputError: with the key, its value and what is allowed.
-    """
-    if m.ground.model == "floor" and m.phases.height < 0.0:
-        raise InputError(
-            f"phases.height = {m.phases.height}: must be 0 or above over a floor, or the reference leads into it"
-        )
 
 
 def schedule_checks(m: Mission) -> Iterator[CheckResult]:

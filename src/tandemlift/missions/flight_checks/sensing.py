@@ -11,10 +11,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tandemlift.core.settings import Mission
+from tandemlift.core.checks import CheckResult, judged
 from tandemlift.core.types import Array
 from tandemlift.missions.flight_checks.loads import SIGMAS, gust_times, payload_gusting, wind_on_payload
-from tandemlift.missions.flight_checks.result import CheckResult, judged
+from tandemlift.missions.tables.mission import Mission
 
 REMOVED = 0.75  # of the wind on the payload, that estimator.wind_compensation takes off
 CARRIED = 2.0  # m, by which gusts may carry a vehicle in turbulence, as in mission gusts

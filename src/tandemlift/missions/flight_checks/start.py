@@ -13,11 +13,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tandemlift.core.settings import Mission
+from tandemlift.core.checks import CheckResult, judged
 from tandemlift.missions.flight_checks.authority import AXES, authority_of
 from tandemlift.missions.flight_checks.controller_response import controller_response
-from tandemlift.missions.flight_checks.result import CheckResult, judged
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.missions.tables.mission import Mission
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 BEYOND = 4.0  # times the rotors' moment, up to which flights recover; found by flights of mission flight-ready
 TILTED = 0.4  # rad, of the attitude that is asked for; likewise

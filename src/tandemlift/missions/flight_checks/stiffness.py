@@ -10,15 +10,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tandemlift.core.settings import Mission
-from tandemlift.core.settings.outcomes import promise_of
+from tandemlift.core.checks import FAILS, CheckResult, judged, noted
 from tandemlift.core.types import Array
 from tandemlift.missions.flight_checks.controller_response import controller_response
 from tandemlift.missions.flight_checks.loads import WindOnParts
-from tandemlift.missions.flight_checks.result import FAILS, CheckResult, judged, noted
 from tandemlift.missions.flight_checks.start import SETTLED
-from tandemlift.missions.flight_checks.weight import weight_of
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.missions.tables.mission import Mission
+from tandemlift.missions.tables.outcomes import promise_of
+from tandemlift.missions.tables.weight import weight_of
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 DRIVEN = {"lambda_1": "far from its surface", "lambda_2": "against disturbances"}  # of nftsmc, what a gain is for
 AXES = ("x", "y", "z", "roll", "pitch", "yaw")

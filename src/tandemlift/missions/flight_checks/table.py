@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.settings import Mission
+from tandemlift.core.checks import CLOSE, FAILS, SETTINGS, CheckResult, noted
 from tandemlift.missions.flight_checks.authority import authority_checks
 from tandemlift.missions.flight_checks.loops import loop_checks
 from tandemlift.missions.flight_checks.passage import passage_checks
 from tandemlift.missions.flight_checks.pushes import point_checks, push_checks
-from tandemlift.missions.flight_checks.result import CLOSE, FAILS, CheckResult, noted
 from tandemlift.missions.flight_checks.schedule import schedule_checks
 from tandemlift.missions.flight_checks.sensing import sensing_checks
 from tandemlift.missions.flight_checks.start import start_checks
 from tandemlift.missions.flight_checks.stiffness import stiffness_checks
+from tandemlift.missions.tables.mission import Mission
 
 
 class FlightCheck(NamedTuple):
@@ -200,11 +200,13 @@ def _results(part: Callable[[Mission], Iterator[CheckResult]], m: Mission) -> It
         yield noted(name, f"the {name} end here: the mission's numbers are too extreme for them", verdict=CLOSE)
 
 
-def flight_warnings(m: Mission) -> Iterator[str]:
-    """The sentence of the worst failure of each check."""
-    failed = [result for result in flight_checks(m) if result.verdict == FAILS]
-    for name in dict.fromkeys(result.check for result in failed):
-        yield max((r for r in failed if r.check == name), key=_excess).text
+def worst_failures(results: Iterable[CheckResult]) -> Iterator[CheckResult]:
+    """The worst failure of each check; of settings, each."""
+    failed: dict[str, list[CheckResult]] = {}
+    for result in results:
+        if result.verdict == FAILS:
+            failed.setdefault(result.text if result.check == SETTINGS else result.check, []).append(result)
+    yield from (max(many, key=_excess) for many in failed.values())
 
 
 def _excess(result: CheckResult) -> float:

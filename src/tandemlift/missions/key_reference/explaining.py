@@ -6,9 +6,8 @@ import difflib
 from collections.abc import Iterable
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.toml import parts_of
+from tandemlift.core.toml import parts_of, shown
 from tandemlift.missions.key_reference.sections import EXTENDS, Key, Section, default_words, sections
-from tandemlift.missions.values import shown
 
 NEAREST = 3
 

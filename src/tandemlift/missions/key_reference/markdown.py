@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from tandemlift.core.toml import shown
 from tandemlift.missions.key_reference.sections import EXTENDS, Key, Section, default_words, is_of_the_package, sections
-from tandemlift.missions.values import shown
 
 COLUMNS = "| key | unit | default | meaning |\n|---|---|---|---|"
 

@@ -12,10 +12,12 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
-from tandemlift.core.settings import AdmittanceTable, ControllerTable, Mission, description_of
+from tandemlift.core.keys import description_of
 from tandemlift.missions.bounds import Model, bounds, table_in
 from tandemlift.missions.key_reference.sections import EXTENDS, Section, compact
-from tandemlift.parts.controllers import CONTROLLERS
+from tandemlift.missions.tables.mission import Mission
+from tandemlift.parts.compliance.admittance import AdmittanceTable
+from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
 
 Schema = dict[str, Any]
 KEYWORDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}

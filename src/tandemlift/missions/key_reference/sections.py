@@ -8,10 +8,11 @@ from typing import Any, NamedTuple, get_origin
 
 from pydantic.fields import FieldInfo
 
-from tandemlift.core.settings import ControllerTable, KeyDescription, Mission, description_of
+from tandemlift.core.keys import KeyDescription, description_of
+from tandemlift.core.toml import written
 from tandemlift.missions.bounds import Model, allowed, table_in
-from tandemlift.missions.values import written
-from tandemlift.parts.controllers import CONTROLLERS
+from tandemlift.missions.tables.mission import Mission
+from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
 
 PAPER = "nftsmc"  # whose keys stand for `[controller]` in the template
 EXTENDS = KeyDescription(

@@ -6,8 +6,8 @@ import textwrap
 from collections.abc import Iterator
 from typing import Any
 
+from tandemlift.core.toml import shown, written
 from tandemlift.missions.key_reference.sections import EXTENDS, PAPER, Key, Section, default_words, sections
-from tandemlift.missions.values import shown, written
 
 HEAD = """\
 # A mission of tandemlift with every key. SI units, angles in rad. World axes have z up; body axes are fixed to the

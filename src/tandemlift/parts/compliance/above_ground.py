@@ -4,10 +4,13 @@ A push downwards, or wind on the beam that looks like one, would else carry the 
 press, what presses back is taken for a disturbance, and the vehicle may turn over.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import choice
 from tandemlift.core.algebra.ops import clip, where
+from tandemlift.core.algebra.types import Number
 from tandemlift.parts.compliance.compliance import Compliance, ComplianceState, with_speed
 
 APPROACH_GAIN = 2.0  # 1/s: largest speed downwards over the height that is left
@@ -16,7 +19,7 @@ APPROACH_GAIN = 2.0  # 1/s: largest speed downwards over the height that is left
 class GroundClearance(NamedTuple):
     """Where there is a floor: height above it [m] below which a push does not move the reference further down."""
 
-    height: Any
+    height: Number
 
 
 @choice(absent=0.0)
@@ -25,7 +28,7 @@ def has_floor(k: Any) -> Any:
 
 
 @has_floor.register(GroundClearance)
-def _floor(k: GroundClearance) -> Any:
+def _floor(k: GroundClearance) -> Number:
     return 1.0
 
 
@@ -35,7 +38,7 @@ def above_ground(k: Any, compliance: Compliance, m: ComplianceState, height: Any
 
 
 @above_ground.register(GroundClearance)
-def _above(k: GroundClearance, compliance: Compliance, m: ComplianceState, height: Any) -> Compliance:
+def _above(k: GroundClearance, compliance: Compliance, m: ComplianceState, height: Number) -> Compliance:
     speed, pull = compliance.limits.speed, m.output.value.z
     down = where(pull == 0.0, m.velocity.z, pull)
     slower = clip(APPROACH_GAIN * (height - k.height), 0.0, speed.z)

@@ -5,12 +5,133 @@ the person on the vehicle. Erratum: the paper prints T_d − T_r, which would mo
 T̈_r is computed at the sample and held over the step.
 """
 
-from typing import Any, NamedTuple
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, Literal, NamedTuple
+
+from pydantic import ValidationError
+from pydantic_core import PydanticCustomError
 
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import absolute, clip, where
-from tandemlift.core.algebra.vector import Vec3
-from tandemlift.parts.signals.trajectories import Trajectory
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import Vec3, vec3
+from tandemlift.core.caching import cached
+from tandemlift.core.checks import CheckResult, refused
+from tandemlift.core.keys import NonNegative3, Positive3, Table, is_number, key
+from tandemlift.parts.trajectories import Trajectory
+
+LN_20 = 2.995732273553991  # time constants until 95 %
+
+
+class Feel(NamedTuple):
+    """The response to a push of `force` [N]: `speed` [m/s] that it leads to, `time` [s] until 95 % of it."""
+
+    force: float
+    speed: float
+    time: float
+
+
+FEELS = {  # their damping keeps mean forces near 2 N; less mass than about 1 kg oscillates with a person who sees late
+    "light": Feel(1.0, 0.5, 2.5),  # its acceleration begins with ln 20 · speed/time, 0.6 m/s²
+    "firm": Feel(2.0, 0.6, 1.5),  # 1.2 m/s²
+    "slow": Feel(1.0, 0.2, 1.5),  # 0.4 m/s²
+}
+TRIED = (
+    "chosen: accelerations up to 1.2 m/s², of 2.5 that the tilt of mission iris gives; in `zigzag`, none "
+    "of 400 random persons touches a wall with any of them"
+)
+
+
+class FeelTable(Table):
+    """`[admittance.feel]`: the response to a push, in place of mass and damping: a force, a speed and a time.
+
+    M v' + C v = F beyond the threshold: mass M and damping C follow, along each axis. A soft gate passes what exceeds
+    the threshold; guidance by hand always has one.
+    """
+
+    preset: Literal["light", "firm", "slow"] = key(
+        "light",
+        None,
+        "numbers by name; those that are given beside it count instead",
+        choices={name: f"{f.force:g} N gives {f.speed:g} m/s in {f.time:g} s" for name, f in FEELS.items()},
+        source=TRIED,
+    )
+    force: Positive3 | None = key(
+        None, "N", "a push of this force", rule="above the threshold", unset="that of the preset", example=1.0
+    )
+    speed: Positive3 | None = key(None, "m/s", "speed that the push leads to", unset="that of the preset", example=0.6)
+    time: Positive3 | None = key(
+        None, "s", "time in which 95 % of that speed is reached", unset="that of the preset", example=1.5
+    )
+
+    @property
+    def axes(self) -> tuple[Feel, Feel, Feel]:
+        """The numbers along x, y and z: those given, else the preset's."""
+        given = (getattr(self, name) or (number,) * 3 for name, number in FEELS[self.preset]._asdict().items())
+        x, y, z = (Feel(*numbers) for numbers in zip(*given, strict=True))
+        return x, y, z
+
+
+class AdmittanceTable(Table):
+    """`[admittance]`: virtual mass, damping and stiffness that a push moves, along each world axis."""
+
+    feel: FeelTable | None = None
+
+    mass: Positive3 = key(..., "kg", "virtual mass M", example=1.0)
+    damping: NonNegative3 = key(
+        ...,
+        "N s/m",
+        "virtual damping C; a push of impulse I moves the vehicle by about I/C",
+        rule="from stiffness · step / 2 to 2 · mass / step",
+        example=1.6,
+    )
+    stiffness: NonNegative3 = key(
+        (0.0, 0.0, 0.0), "N/m", "virtual stiffness K; with 0 the vehicle stays where it was pushed"
+    )
+    threshold: NonNegative3 = key(..., "N", "forces up to this are ignored", example=0.3)
+    gate: Literal["hard", "soft"] | None = key(
+        None,
+        None,
+        "how much of a force beyond the threshold acts",
+        rule='not "hard" where pilot.guidance is "interactive"',
+        unset="hard scheduled, soft interactive",
+        example="soft",
+        choices={"hard": "the whole force", "soft": "only what exceeds the threshold"},
+    )
+    hold_after_release: bool = key(
+        False, None, "with stiffness: true makes the vehicle stay where its motion has died, instead of springing back"
+    )
+
+
+def with_feel(tables: dict[str, Any]) -> dict[str, Any]:
+    """A mission's tables with mass and damping by `[admittance.feel]`: v(t) = v (1 − exp(−C t/M)).
+
+    They are unchanged without a feel, and where something is wrong that the keys' own rules explain. The dead band of
+    guidance by hand is a soft gate.
+
+    Raises:
+        PydanticCustomError: a force is not above the threshold.
+    """
+    admittance, pilot = tables.get("admittance"), tables.get("pilot")
+    try:
+        feel, threshold = FeelTable(**admittance["feel"]), admittance["threshold"]  # type: ignore[index]
+        thresholds = [float(x) for x in ([threshold] * 3 if is_number(threshold) else threshold)]
+        pairs = list(zip(feel.axes, thresholds, strict=True))
+    except (ValidationError, KeyError, TypeError, ValueError):
+        return tables
+    for axis, (given, least) in zip("xyz", pairs, strict=True):
+        if given.force <= least:
+            force = f"admittance.feel.force = {given.force:g}"
+            words = f"{force}: must be above admittance.threshold = {least:g} along {axis}"
+            raise PydanticCustomError("feel", "{words}", {"words": words})
+    by_hand = isinstance(pilot, dict) and pilot.get("guidance") == "interactive"
+    is_soft = by_hand or admittance.get("gate") == "soft"  # type: ignore[union-attr]
+    damping = tuple((given.force - (least if is_soft else 0.0)) / given.speed for given, least in pairs)
+    mass = tuple(c * given.time / LN_20 for c, given in zip(damping, feel.axes, strict=True))
+    return {**tables, "admittance": {**admittance, "damping": damping, "mass": mass}}  # type: ignore[dict-item]
+
 
 # m/s; far below any motion. A velocity that decays ends near 1e-114, and never in slow denormal numbers.
 REST = Vec3(1e-100, 1e-100, 1e-100)
@@ -34,11 +155,11 @@ class Admittance(NamedTuple):
     `hold_after_release`: 1 if T_d moves to T_r after a push, else 0.
     """
 
-    gate: Any
+    gate: HardGate | SoftGate
     inverse_mass: Vec3
     damping: Vec3
     stiffness: Vec3
-    hold_after_release: Any
+    hold_after_release: Number
 
 
 class AdmittanceState(NamedTuple):
@@ -55,29 +176,29 @@ def gate(kind: Any, F: Any) -> Any:
 
 
 @elementwise
-def hard(F: Any, threshold: Any) -> Any:
+def hard_threshold(F: Number, threshold: Number) -> Number:
     """F where |F| > threshold, else 0."""
     return where(absolute(F) > threshold, F, 0.0)
 
 
 @elementwise
-def soft(F: Any, threshold: Any) -> Any:
+def soft_threshold(F: Number, threshold: Number) -> Number:
     """F − threshold sgn F where |F| > threshold, else 0."""
     return F - clip(F, -threshold, threshold)
 
 
 @gate.register(HardGate)
-def _hard(kind: HardGate, F: Any) -> Any:
-    return hard(F, kind.threshold)
+def _hard_gate(kind: HardGate, F: Vec3) -> Vec3:
+    return hard_threshold(F, kind.threshold)
 
 
 @gate.register(SoftGate)
-def _soft(kind: SoftGate, F: Any) -> Any:
-    return soft(F, kind.threshold)
+def _soft_gate(kind: SoftGate, F: Vec3) -> Vec3:
+    return soft_threshold(F, kind.threshold)
 
 
 @elementwise
-def anchored(anchor: Any, position: Any, velocity: Any, force: Any, hold_after_release: Any) -> Any:
+def anchored(anchor: Number, position: Number, velocity: Number, force: Number, hold_after_release: Number) -> Number:
     """T_d of one axis, moved to T_r once the gate passes no force and the motion away from T_d has ended.
 
     From then on the spring is unloaded: T_r comes to rest under its damping, and stays.
@@ -95,8 +216,37 @@ def admittance_response(a: Admittance, m: AdmittanceState, F: Vec3) -> Trajector
 
 
 @law
-def admittance_step(a: Admittance, m: AdmittanceState, F: Vec3, now: Trajectory, dt: Any) -> AdmittanceState:
+def admittance_step(a: Admittance, m: AdmittanceState, F: Vec3, now: Trajectory, dt: Number) -> AdmittanceState:
     """The memory after a step of `dt` [s] with T̈_r held."""
     position = m.position + m.velocity * dt + now.acceleration * (0.5 * dt * dt)
     velocity = (m.velocity + now.acceleration * dt + REST) - REST
     return AdmittanceState(position, velocity, anchored(m.anchor, position, velocity, F, a.hold_after_release))
+
+
+@cached
+def admittance_from(a: AdmittanceTable) -> Admittance:
+    """M, C, K and the gate of a mission."""
+    kind = SoftGate if a.gate == "soft" else HardGate
+    inverse_mass = vec3(1.0 / m for m in a.mass)
+    return Admittance(
+        kind(vec3(a.threshold)), inverse_mass, vec3(a.damping), vec3(a.stiffness), float(a.hold_after_release)
+    )
+
+
+def gate_checks(a: AdmittanceTable, guidance: str) -> Iterator[CheckResult]:
+    """A hard gate with guidance by hand, whose dead band is a soft one; `guidance`: `pilot.guidance`."""
+    if a.gate == "hard" and guidance == "interactive":
+        yield refused('admittance.gate = "hard": must be "soft" or left out where pilot.guidance is "interactive"')
+
+
+def admittance_checks(a: AdmittanceTable, step: float) -> Iterator[CheckResult]:
+    """An admittance that grows without a push when sampled: an eigenvalue beyond the unit circle."""
+    for axis, M, C, K in zip("xyz", a.mass, a.damping, a.stiffness, strict=True):
+        # z² − (2 − c − k/2) z + 1 − c + k/2 with c = Ch/M, k = Kh²/M; Jury's conditions come to k/2 ≤ c ≤ 2
+        least, most = K * step / 2.0, 2.0 * M / step
+        if not least * (1.0 - 1e-12) <= C <= most * (1.0 + 1e-12):
+            yield refused(
+                f"admittance.damping = {C} along {axis}: must be from stiffness*step/2 = {least:.6g} to "
+                f"2*mass/step = {most:.6g} N s/m with mass {M:g} kg, stiffness {K:g} N/m and step {step:g} s, "
+                "or the admittance swings up by itself"
+            )

@@ -1,12 +1,16 @@
 """What rotors and tilt can give beside weight, disturbance and push."""
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import maximum, sqrt, where
-from tandemlift.core.algebra.vector import Vec3, total
+from tandemlift.core.algebra.ops import maximum, sqrt, tan, where
+from tandemlift.core.algebra.types import Number, PerRotor
+from tandemlift.core.algebra.vector import Vec3, each, total
 from tandemlift.parts.mechanics.rigid_body import UP
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at
 
 
@@ -16,11 +20,11 @@ class AvailableForce(NamedTuple):
     `limits` [N] of all rotors, a set, and the faults `known` to the pilot.
     """
 
-    mass: Any
-    max_thrust: Any
-    tangent: Any
-    limits: Any
-    known: Any
+    mass: Number
+    max_thrust: Number
+    tangent: Number
+    limits: PerRotor
+    known: NoFaults | RotorFaults
 
 
 @choice
@@ -29,17 +33,17 @@ def remaining_fraction(known: NoFaults | RotorFaults, limits: Any, t: Any) -> An
 
 
 @remaining_fraction.register(NoFaults)
-def _all(known: NoFaults, limits: Any, t: Any) -> Any:
+def _all(known: NoFaults, limits: PerRotor, t: Number) -> Number:
     return 1.0
 
 
 @remaining_fraction.register(RotorFaults)
-def _remaining(known: RotorFaults, limits: Any, t: Any) -> Any:
+def _remaining(known: RotorFaults, limits: PerRotor, t: Number) -> Number:
     return total(limits * efficiency_at(known, t)) / total(limits)
 
 
 @law
-def usable_thrust(k: AvailableForce, t: Any) -> Any:
+def usable_thrust(k: AvailableForce, t: Number) -> Number:
     """The largest thrust [N] that may be used at time t [s]."""
     return k.max_thrust * remaining_fraction(k.known, k.limits, t)
 
@@ -51,7 +55,7 @@ def needed_force(k: AvailableForce, load: Vec3) -> Vec3:
 
 
 @law
-def available_acceleration(k: AvailableForce, disturbance: Vec3, max_thrust: Any) -> Any:
+def available_acceleration(k: AvailableForce, disturbance: Vec3, max_thrust: Number) -> Number:
     """The horizontal acceleration [m/s²] that rotors and tilt can give beside weight and disturbance [N]."""
     d = disturbance
     up = maximum(k.mass * GRAVITY - d.z, 0.0)
@@ -59,3 +63,17 @@ def available_acceleration(k: AvailableForce, disturbance: Vec3, max_thrust: Any
     across = sqrt(maximum(d.x * d.x + d.y * d.y, 1e-24))
     limit = where(thrust < up * k.tangent, thrust, up * k.tangent)
     return maximum(limit - across, 0.0) / k.mass
+
+
+def start_available(
+    vehicle: Vehicle, thrust_fraction: Number, max_tilt: Number, known: NoFaults | RotorFaults
+) -> AvailableForce:
+    """What a vehicle has with a fraction of its thrust and a largest tilt [rad]; `known`: the known rotor faults."""
+    rotors = each(vehicle.rotor_count)
+    return AvailableForce(
+        mass=vehicle.mass,
+        max_thrust=vehicle.max_thrust * thrust_fraction,
+        tangent=tan(max_tilt),
+        limits=rotors(*[q.max_thrust for q in vehicle.quadrotors for _ in range(4)]),
+        known=known,
+    )

@@ -10,13 +10,16 @@ a slow mean of the measured push becomes its bias.
 Passivity: `parts.compliance.energy_tank`. Yaw: `parts.guidance.yaw_compliance`.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import absolute, clip, maximum, minimum, sqrt, where
-from tandemlift.core.algebra.vector import Vec3
-from tandemlift.parts.compliance.admittance import Admittance, anchored, soft
-from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.parts.compliance.admittance import Admittance, anchored, soft_threshold
+from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass_step
 
 QUIET_TIME = 2.0  # s without a push, after which the bias is estimated
 BIAS_CLIP = 0.3  # of the threshold: the largest deviation from the mean that counts for the bias
@@ -31,8 +34,22 @@ class DeadBand(NamedTuple):
 
     threshold: Any
     release: Any
-    dwell: Any
-    bias_rate: Any
+    dwell: Number
+    bias_rate: Number
+
+
+class PushFilters(NamedTuple):
+    """What a push passes before it counts: filters before and after a dead band."""
+
+    input: LowPass
+    output: LowPass
+    release_fraction: Number
+    dwell: Number
+    bias_time_constant: Number
+
+    def dead_band(self, threshold: Any) -> DeadBand:
+        """The dead band for a threshold [N or N·m]."""
+        return DeadBand(threshold, threshold * self.release_fraction, self.dwell, 1.0 / self.bias_time_constant)
 
 
 class DeadBandState(NamedTuple):
@@ -54,7 +71,7 @@ class MotionLimits(NamedTuple):
     speed: Vec3
     acceleration: Vec3
     jerk: Vec3
-    braking_gain: Any
+    braking_gain: Number
 
 
 class Compliance(NamedTuple):
@@ -69,8 +86,8 @@ class Compliance(NamedTuple):
     output_filter: LowPass
     admittance: Admittance
     limits: MotionLimits
-    force_lead: Any
-    reference_lead: Any
+    force_lead: Number
+    reference_lead: Number
 
 
 class ComplianceState(NamedTuple):
@@ -94,31 +111,31 @@ def is_active(active: Any, above_time: Any, force: Any, threshold: Any, release:
 
 
 @elementwise
-def time_above(above_time: Any, force: Any, threshold: Any, dt: Any) -> Any:
+def time_above(above_time: Number, force: Number, threshold: Number, dt: Number) -> Number:
     """For how long a push has been above the threshold [s]."""
     return where(absolute(force) > threshold, above_time + dt, 0.0)
 
 
 @elementwise
-def time_inactive(inactive_time: Any, active: Any, dt: Any) -> Any:
+def time_inactive(inactive_time: Number, active: Number, dt: Number) -> Number:
     """For how long no push has been active [s]."""
     return (inactive_time + dt) * (1.0 - active)
 
 
 @elementwise
-def bias_input(force: Any, bound: Any, inactive_time: Any) -> Any:
+def bias_input(force: Number, bound: Number, inactive_time: Number) -> Number:
     """What the mean follows: the force within a bound, once no push was active for `QUIET_TIME`."""
     return where(inactive_time < QUIET_TIME, 0.0, clip(force, -bound, bound))
 
 
 @elementwise
-def unless_active(active: Any, old: Any, new: Any) -> Any:
+def unless_active(active: Number, old: Number, new: Number) -> Number:
     """The old value while a push is active, else the new one."""
     return where(active > 0.0, old, new)
 
 
 @law
-def dead_band(k: DeadBand, m: DeadBandState, force: Any, enabled: Any, dt: Any) -> Any:
+def dead_band(k: DeadBand, m: DeadBandState, force: Any, enabled: Number, dt: Number) -> Any:
     """(the part of an active force beyond the threshold, the new memory); while `enabled` is 0, no push is active."""
     f = force - m.bias
     above = time_above(m.above_time, f, k.threshold, dt) * enabled
@@ -127,23 +144,23 @@ def dead_band(k: DeadBand, m: DeadBandState, force: Any, enabled: Any, dt: Any) 
     deviation = bias_input(force - m.mean, k.threshold * BIAS_CLIP, inactive)
     mean = unless_active(active, m.bias, m.mean + deviation * (k.bias_rate * dt))
     bias = m.bias + (mean - m.bias) * (BIAS_RATE * dt)
-    return soft(f, k.threshold) * active, DeadBandState(active, above, inactive, mean, bias)
+    return soft_threshold(f, k.threshold) * active, DeadBandState(active, above, inactive, mean, bias)
 
 
 @elementwise
-def speed_limited(acceleration: Any, velocity: Any, max_speed: Any, gain: Any) -> Any:
+def speed_limited(acceleration: Number, velocity: Number, max_speed: Number, gain: Number) -> Number:
     """An acceleration that does not carry the speed beyond a limit: it brakes towards the limit."""
     return clip(acceleration, -gain * (max_speed + velocity), gain * (max_speed - velocity))
 
 
 @elementwise
-def moved_towards(value: Any, target: Any, step: Any) -> Any:
+def moved_towards(value: Number, target: Number, step: Number) -> Number:
     """A value moved towards its target by at most a step."""
     return value + clip(target - value, -step, step)
 
 
 @law
-def with_horizontal_limit(a: Vec3, limit: Any) -> Vec3:
+def with_horizontal_limit(a: Vec3, limit: Number) -> Vec3:
     """An acceleration whose horizontal part is at most `limit` [m/s²]."""
     size = sqrt(maximum(a.x * a.x + a.y * a.y, 1e-24))
     factor = minimum(limit / size, 1.0)
@@ -151,7 +168,9 @@ def with_horizontal_limit(a: Vec3, limit: Any) -> Vec3:
 
 
 @law
-def admittance_acceleration(k: Compliance, m: ComplianceState, force: Vec3, damping: Any, horizontal: Any) -> Vec3:
+def admittance_acceleration(
+    k: Compliance, m: ComplianceState, force: Vec3, damping: Number, horizontal: Number
+) -> Vec3:
     """The admittance's response [m/s²] to a force beyond the threshold, within limits."""
     a = k.admittance
     pull = force - (a.damping + Vec3(damping, damping, damping)) * m.velocity - a.stiffness * (m.position - m.anchor)
@@ -166,7 +185,14 @@ def within(boundary: Any, acceleration: Vec3) -> Any:
 
 @law
 def compliance_step(
-    k: Compliance, m: ComplianceState, push: Vec3, enabled: Any, damping: Any, horizontal: Any, boundary: Any, dt: Any
+    k: Compliance,
+    m: ComplianceState,
+    push: Vec3,
+    enabled: Number,
+    damping: Number,
+    horizontal: Number,
+    boundary: Any,
+    dt: Number,
 ) -> ComplianceState:
     """The memory after a step.
 
@@ -177,7 +203,7 @@ def compliance_step(
         enabled: 1 while the vehicle follows pushes, else 0.
         damping: to be added to C [N·s/m].
         horizontal: the largest horizontal acceleration that the rotors can still give [m/s²].
-        boundary: which the reference must not cross, or `Nothing`.
+        boundary: which the reference must not cross, or `Absent`.
         dt: of the step [s].
     """
     filtered = low_pass_step(k.input_filter, m.filtered, push)
@@ -209,3 +235,18 @@ def with_speed(k: Compliance, speed: Vec3) -> Compliance:
 def compensated_push(k: Compliance, m: ComplianceState) -> Vec3:
     """The push that the controller compensates [N, world axes]: the filtered one, by its lead time ahead."""
     return m.filtered.value + m.filtered.rate * k.force_lead
+
+
+def start_compliance(position: Vec3) -> ComplianceState:
+    """The memory before the first sample, without a push, at a position [m]."""
+    no_push = LowPassState(ZERO, ZERO)
+    return ComplianceState(
+        filtered=no_push,
+        band=DeadBandState(active=ZERO, above_time=ZERO, inactive_time=ZERO, mean=ZERO, bias=ZERO),
+        output=no_push,
+        position=position,
+        velocity=ZERO,
+        acceleration=ZERO,
+        jerk=ZERO,
+        anchor=position,
+    )

@@ -9,11 +9,33 @@ Sources: Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 
 Ferraguti et al., An energy tank-based interactive control architecture, 2015.
 """
 
-from typing import Any, NamedTuple
+from __future__ import annotations
+
+from typing import Any, Literal, NamedTuple
 
 from tandemlift.core.algebra.law import choice
 from tandemlift.core.algebra.ops import clip, maximum
-from tandemlift.core.algebra.vector import dot
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import Absent, Vec3, dot
+from tandemlift.core.keys import NonNegative, Positive, Table, key
+
+
+class TankTable(Table):
+    """`[compliance.tank]`: an energy tank that keeps guidance by hand passive.
+
+    Damping is added where the person has put in too little energy.
+    """
+
+    model: Literal["none", "tank"] = key(
+        "none", None, "passivity by an energy tank", choices={"none": "no tank", "tank": "an energy tank"}
+    )
+    capacity: Positive = key(2.0, "J", "energy that the tank holds at most", source="chosen")
+    low_energy: Positive = key(1.0, "J", "energy below which damping is added", source="chosen: half of the capacity")
+    max_damping: Positive = key(20.0, "N s/m", "largest added damping", source="chosen")
+    refill_fraction: NonNegative = key(
+        0.5, "1", "fraction of the power dissipated by the virtual damping that fills the tank", source="chosen"
+    )
+    fade_time: Positive = key(2.0, "s", "time constant with which added damping fades", source="chosen")
 
 
 class EnergyTank(NamedTuple):
@@ -22,18 +44,18 @@ class EnergyTank(NamedTuple):
     `refill_fraction`: of the dissipated energy that refills the tank; `decay_rate` [1/s]: of the added damping.
     """
 
-    capacity: Any
-    low_energy: Any
-    max_damping: Any
-    refill_fraction: Any
-    decay_rate: Any
+    capacity: Number
+    low_energy: Number
+    max_damping: Number
+    refill_fraction: Number
+    decay_rate: Number
 
 
 class EnergyTankState(NamedTuple):
     """Memory: the energy [J], below zero if more was given than received; the fraction of the damping that is added."""
 
-    energy: Any
-    added: Any
+    energy: Number
+    added: Number
 
 
 @choice(absent=(0.0, "m"))
@@ -42,7 +64,18 @@ def passivity_damping(k: Any, m: Any, push: Any, velocity: Any, dissipated: Any,
 
 
 @passivity_damping.register(EnergyTank)
-def _tank(k: EnergyTank, m: EnergyTankState, push: Any, velocity: Any, dissipated: Any, dt: Any) -> Any:
+def _tank(
+    k: EnergyTank, m: EnergyTankState, push: Vec3, velocity: Vec3, dissipated: Number, dt: Number
+) -> tuple[Number, EnergyTankState]:
     energy = clip(m.energy + (dot(push, velocity) + dissipated * k.refill_fraction) * dt, -k.capacity, k.capacity)
     added = maximum(1.0 - clip(energy / k.low_energy, 0.0, 1.0), m.added * (1.0 - k.decay_rate * dt))
     return k.max_damping * added, EnergyTankState(energy, added)
+
+
+def start_tank(table: TankTable) -> tuple[EnergyTank, EnergyTankState] | tuple[Absent, Absent]:
+    """The tank, filled, or `Absent`."""
+    if table.model == "none":
+        return Absent(), Absent()
+    decay_rate = 1.0 / table.fade_time
+    tank = EnergyTank(table.capacity, table.low_energy, table.max_damping, table.refill_fraction, decay_rate)
+    return tank, EnergyTankState(table.capacity, 0.0)

@@ -7,12 +7,36 @@ last for a time; and all must be over for a longer time before pushes are follow
 changes to one of higher priority. A vehicle that has lost its heading turns faster and faster, so it lands in the end.
 """
 
-from typing import Any, NamedTuple
+from __future__ import annotations
+
+from typing import NamedTuple
 
 from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import absolute, maximum, minimum, where
+from tandemlift.core.algebra.ops import absolute, maximum, minimum, tan, where
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import Vec3, dot
+from tandemlift.core.keys import NonNegative, Positive, Table, key
 from tandemlift.core.phases import REASONS
+from tandemlift.parts.mechanics.vehicle import Vehicle
+
+
+class FollowingTable(Table):
+    """`[compliance.following]`: from when on the vehicle counts as unable to follow, phase "limited".
+
+    It then holds and ignores pushes, until it can follow again. docs/reference/faults.md lists all reasons.
+    """
+
+    max_error: Positive = key(
+        0.3, "m", "largest distance from the reference", source="chosen: ten times that in wind and with slow rotors"
+    )
+    time: NonNegative = key(0.5, "s", "time for which it must be unable to follow", source="chosen")
+    recovery_time: NonNegative = key(1.0, "s", "time after which it counts as able to follow again", source="chosen")
+    heading_timeout: NonNegative = key(
+        5.0,
+        "s",
+        "time after which a vehicle that has lost its heading lands, before it turns too fast for that",
+        source="chosen",
+    )
 
 
 class FollowingLimits(NamedTuple):
@@ -22,12 +46,12 @@ class FollowingLimits(NamedTuple):
     `heading_timeout` [s]: for which the heading may be lost before a landing.
     """
 
-    side_force: Any
-    heading_error: Any
-    position_error: Any
-    time: Any
-    recovery_time: Any
-    heading_timeout: Any
+    side_force: Number
+    heading_error: Number
+    position_error: Number
+    time: Number
+    recovery_time: Number
+    heading_timeout: Number
 
 
 class Following(NamedTuple):
@@ -38,10 +62,10 @@ class Following(NamedTuple):
     """
 
     needed: Vec3
-    max_thrust: Any
+    max_thrust: Number
     error: Vec3
-    heading_error: Any
-    active: Any
+    heading_error: Number
+    active: Number
 
 
 class FollowingState(NamedTuple):
@@ -51,29 +75,29 @@ class FollowingState(NamedTuple):
     one; and for how long the heading was lost at a stretch [s].
     """
 
-    thrust: Any
-    tilt: Any
-    heading: Any
-    position: Any
-    clear_time: Any
-    reason: Any
-    first: Any
-    lasted: Any
-    most_urgent: Any
-    longest_lost: Any
+    thrust: Number
+    tilt: Number
+    heading: Number
+    position: Number
+    clear_time: Number
+    reason: Number
+    first: Number
+    lasted: Number
+    most_urgent: Number
+    longest_lost: Number
 
 
 AT_REST = FollowingState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @law
-def exceeded_for(time: Any, value: Any, limit: Any, active: Any, dt: Any) -> Any:
+def exceeded_for(time: Number, value: Number, limit: Number, active: Number, dt: Number) -> Number:
     """For how long a value has been above its limit [s]."""
     return (time + dt) * where(value > limit, active, 0.0)
 
 
 @law
-def first_reason(k: FollowingLimits, m: FollowingState) -> Any:
+def first_reason(k: FollowingLimits, m: FollowingState) -> Number:
     """The number of the first limit that has been exceeded for its time, or 0."""
     number = 0.0
     for i, reason in reversed(list(enumerate(REASONS, start=1))):
@@ -82,13 +106,13 @@ def first_reason(k: FollowingLimits, m: FollowingState) -> Any:
 
 
 @law
-def more_urgent(reason: Any, other: Any) -> Any:
+def more_urgent(reason: Number, other: Number) -> Number:
     """The first of two reasons, of which any may be 0 for none."""
     return where(reason > 0.0, where(other > 0.0, minimum(reason, other), reason), other)
 
 
 @law
-def update_following(k: FollowingLimits, m: FollowingState, f: Following, t: Any, dt: Any) -> FollowingState:
+def update_following(k: FollowingLimits, m: FollowingState, f: Following, t: Number, dt: Number) -> FollowingState:
     """The memory after a sample at time t [s] that is held for dt [s]."""
     n = f.needed
     after = m._replace(
@@ -111,6 +135,23 @@ def update_following(k: FollowingLimits, m: FollowingState, f: Following, t: Any
 
 
 @law
-def must_land(k: FollowingLimits, m: FollowingState) -> Any:
+def must_land(k: FollowingLimits, m: FollowingState) -> Number:
     """1 once the heading has been lost for too long, else 0."""
     return where(m.heading > k.heading_timeout, 1.0, 0.0)
+
+
+HEADING_FRACTION = 0.9  # of the angle by which the reference heading may lead, at which the heading counts as lost
+
+
+def start_following(
+    table: FollowingTable, vehicle: Vehicle, max_tilt: Number, max_lead_angle: Number
+) -> FollowingLimits:
+    """The limits of a vehicle with a largest tilt [rad], and a largest lead of the reference heading [rad]."""
+    return FollowingLimits(
+        side_force=tan(max_tilt) * vehicle.weight,
+        heading_error=HEADING_FRACTION * max_lead_angle,
+        position_error=table.max_error,
+        time=table.time,
+        recovery_time=table.recovery_time,
+        heading_timeout=table.heading_timeout,
+    )

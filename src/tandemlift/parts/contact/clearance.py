@@ -4,12 +4,14 @@ It is exact in every state: the walls near each part are known, and the distance
 straight beam nearest to an upright wall is one of its ends, or lies at one of the wall's edges, or at its top.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import least, minimum, sqrt
 from tandemlift.core.algebra.types import Condition, Number, PerQuadrotor, PerRotor
-from tandemlift.core.algebra.vector import Nothing, Vec3, apply, dot
+from tandemlift.core.algebra.vector import Absent, Vec3, apply, dot
 from tandemlift.parts.contact.beam_axis import beam_axis, beam_point, point_by_edge, point_by_top
 from tandemlift.parts.contact.spheres import NearRotors, RotorSpheres
 from tandemlift.parts.contact.wall_geometry import offset, offset_from_top
@@ -25,12 +27,12 @@ STALE = 0.05  # m, by which the vehicle may move before the nearest walls are fo
 class Clearance(NamedTuple):
     """The smallest distance from walls [m], negative in contact: of every guard (a set), of rotors, of the beam.
 
-    `rotors`: a `RotorClearance`, or `Nothing` if all rotors are in their guard.
+    `rotors`: a `RotorClearance`, or `Absent` if all rotors are in their guard.
     """
 
     guards: PerQuadrotor
-    rotors: Any
-    beam: "BeamClearance | Nothing"
+    rotors: RotorClearance | Absent
+    beam: BeamClearance | Absent
 
 
 class RotorClearance(NamedTuple):
@@ -42,7 +44,7 @@ class RotorClearance(NamedTuple):
 class BeamClearance(NamedTuple):
     """The smallest distance of the beam [m]: of its ends (a set), and along its length."""
 
-    ends: Any
+    ends: PerQuadrotor
     length: Number
 
 
@@ -53,25 +55,28 @@ def surface_distance(square: Number, radius: Number) -> Number:
 
 
 @law
-def gap(o: Vec3, radius: Number) -> Number:
+def sphere_distance(o: Vec3, radius: Number) -> Number:
     """Distance of a surface [m] whose centre is at the offset o, which may be of sets."""
     return surface_distance(dot(o, o), radius)
 
 
 @choice(absent="rotors")
-def rotor_clearance(rotors: RotorSpheres | Nothing, near: NearRotors | Nothing, s: State) -> Any:
+def rotor_clearance(rotors: RotorSpheres | Absent, near: NearRotors | Absent, s: State) -> Any:
     """Clearance of the rotors from the walls near them."""
 
 
 @rotor_clearance.register(RotorSpheres)
 def _spheres(rotors: RotorSpheres, near: NearRotors, s: State) -> RotorClearance:
     p = translated(s.position, apply(rotation_from_quaternion(s.attitude), rotors.hub))
-    first, second = gap(offset(near.first, p), rotors.radius), gap(offset(near.second, p), rotors.radius)
+    first, second = (
+        sphere_distance(offset(near.first, p), rotors.radius),
+        sphere_distance(offset(near.second, p), rotors.radius),
+    )
     return RotorClearance(minimum(first, second))
 
 
 @choice(absent="beam")
-def beam_clearance(beam: Beam | Nothing, w: Walls, near: NearBeam | Nothing, frame: PartsLayout, s: State) -> Any:
+def beam_clearance(beam: Beam | Absent, w: Walls, near: NearBeam | Absent, frame: PartsLayout, s: State) -> Any:
     """Clearance of the beam from the walls near it."""
 
 
@@ -81,25 +86,30 @@ def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State)
     edge = offset(near.edge, beam_point(a, point_by_edge(a, half, near.edge)))
     other = offset(near.other_edge, beam_point(a, point_by_edge(a, half, near.other_edge)))
     top = offset_from_top(near.topped, beam_point(a, point_by_top(a, half, near.topped)))
-    length = minimum(minimum(gap(edge, beam.radius), gap(other, beam.radius)), gap(top, beam.radius))
-    return BeamClearance(gap(offset(near.ends, beam_point(a, beam.ends)), beam.radius), length)
+    length = minimum(
+        minimum(sphere_distance(edge, beam.radius), sphere_distance(other, beam.radius)),
+        sphere_distance(top, beam.radius),
+    )
+    return BeamClearance(sphere_distance(offset(near.ends, beam_point(a, beam.ends)), beam.radius), length)
 
 
 @choice(absent="w")
-def clearance(w: Walls | Nothing, near: NearWalls | Nothing, frame: PartsLayout, s: State) -> Any:
+def clearance(w: Walls | Absent, near: NearWalls | Absent, frame: PartsLayout, s: State) -> Any:
     """Clearance of the vehicle from the walls near it."""
 
 
 @clearance.register(Walls)
 def _walls(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> Clearance:
     p = translated(s.position, apply(rotation_from_quaternion(s.attitude), frame.quadrotors))
-    guards = minimum(gap(offset(near.first, p), w.guards), gap(offset(near.second, p), w.guards))
+    guards = minimum(
+        sphere_distance(offset(near.first, p), w.guards), sphere_distance(offset(near.second, p), w.guards)
+    )
     rotors = rotor_clearance(w.rotors, near.rotors, s)
     return Clearance(guards, rotors, beam_clearance(w.beam, w, near.beam, frame, s))
 
 
 @choice(absent=FAR)
-def least_clearance(c: Clearance | RotorClearance | BeamClearance | Nothing) -> Number:
+def least_clearance(c: Clearance | RotorClearance | BeamClearance | Absent) -> Number:
     """The smallest distance of a clearance [m]."""
 
 

@@ -25,8 +25,8 @@ from tandemlift.core.algebra.law import elementwise, law
 from tandemlift.core.algebra.ops import absolute, greatest, maximum, minimum, sqrt, where
 from tandemlift.core.algebra.types import Condition, Number, PerQuadrotor, number
 from tandemlift.core.algebra.vector import (
+    Absent,
     Mat3,
-    Nothing,
     Quarters,
     Vec3,
     apply,
@@ -42,11 +42,11 @@ from tandemlift.parts.mechanics.loads import PartLoad, PartsLayout, add_to_each
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion, world_z_in_body
 
-NO_HULL = Nothing()
+NO_HULL = Absent()
 
 
 class Floor(NamedTuple):
-    """A level floor, and what of the vehicle meets it: its feet, and its `hull`, a `pads.Hull` or `Nothing`.
+    """A level floor, and what of the vehicle meets it: its feet, and its `hull`, a `pads.Hull` or `Absent`.
 
     `height` z of the floor [m]; of one foot `stiffness` k [N/m] and `damping` c [N·s/m], `tangential_stiffness` k_t and
     `tangential_damping` c_t; `friction` μ; `radius` ρ [m]; `feet`: centre of foot j of every quadrotor from the
@@ -215,7 +215,7 @@ def floor(
         radius: ρ, of the ball joint above the sole [m].
         sinkage: of the vehicle at rest on all its feet [m]; `sinkage_of` gives the actual one after softening.
         damping_ratio: of the heave oscillation on all its feet.
-        hull: a `Hull` that meets the floor, too, or `Nothing`.
+        hull: a `Hull` that meets the floor, too, or `Absent`.
     """
     places = np.add(soles, [0.0, 0.0, radius])
     points = places.reshape(-1, 3)

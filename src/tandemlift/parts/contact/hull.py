@@ -13,6 +13,8 @@ That point is −∂h/∂n, so δ = z_floor − z + h changes at the rate at whi
 with v the sliding velocity. Thus k δ is a spring, the rest dissipates, and contact never adds energy.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,8 +26,8 @@ from tandemlift.core.algebra.ops import absolute, greatest, least, minimum, sqrt
 from tandemlift.core.algebra.types import Condition, Number, number
 from tandemlift.core.algebra.vector import (
     ZERO,
+    Absent,
     Mat3,
-    Nothing,
     Vec3,
     apply,
     apply_transposed,
@@ -57,7 +59,7 @@ class Hull(NamedTuple):
     """What of a vehicle meets the floor besides its feet; of one contact k [N/m], c and c_t [N·s/m].
 
     `rotors`: number j of quadrotor i, both from 0, is 4 i + j; `guards`: one for each quadrotor; `beam`: its two ends,
-    at −y and at +y, or `Nothing` if the payload has no shape. All are in a box about `middle` with sides of twice
+    at −y and at +y, or `Absent` if the payload has no shape. All are in a box about `middle` with sides of twice
     `half` [m, body axes], no further than `reach` [m] from the centre of mass.
     """
 
@@ -81,11 +83,11 @@ class FloorContact(NamedTuple):
 
 
 class HullContact(NamedTuple):
-    """Contact of all parts with the floor; `beam` is `Nothing` without a beam."""
+    """Contact of all parts with the floor; `beam` is `Absent` without a beam."""
 
     rotors: FloorContact
     guards: FloorContact
-    beam: Any
+    beam: FloorContact
 
 
 @elementwise
@@ -102,7 +104,7 @@ def sideways(radius: Number, half_thickness: Number, below: Number, along: Numbe
 
 @choice(absent="shapes")
 def floor_contact(shapes: Any, hull: Hull, friction: Number, height: Number, s: State, R: Mat3) -> Any:
-    """Contact of shapes, or of `Nothing`, with a floor at a height z [m]; R of the state's attitude."""
+    """Contact of shapes, or of `Absent`, with a floor at a height z [m]; R of the state's attitude."""
 
 
 @floor_contact.register(Ellipsoids)
@@ -142,7 +144,7 @@ def summed_load(contact: FloorContact, center: Vec3) -> PartLoad:
 
 
 @choice(absent=PartLoad(ZERO, ZERO))
-def beam_end_load(contact: FloorContact | Nothing, center: Vec3) -> Any:
+def beam_end_load(contact: FloorContact | Absent, center: Vec3) -> Any:
     """Load of the floor on the beam, world axes."""
 
 
@@ -241,7 +243,7 @@ def hull(
         tangential_damping=minimum(c, 1.0 / (body_mobility * step)),
         rotors=shapes[0],
         guards=shapes[1],
-        beam=shapes[2] if beam is not None else Nothing(),
+        beam=shapes[2] if beam is not None else Absent(),
         middle=box.middle,
         half=box.half,
         reach=_reach_of(shapes),

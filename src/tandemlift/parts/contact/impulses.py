@@ -13,6 +13,8 @@ Several contacts are solved one after another, the worst of each kind first (seq
 is that of speculative contacts. A touch that springs hold is not changed by a bit.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import choice, elementwise, law
@@ -20,7 +22,7 @@ from tandemlift.core.algebra.ops import greatest, least, maximum, minimum, sqrt,
 from tandemlift.core.algebra.selection import chosen
 from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import (
-    Nothing,
+    Absent,
     Vec3,
     apply,
     apply_transposed,
@@ -68,8 +70,8 @@ class WallImpulses(NamedTuple):
     """The state after impulses of walls, and these by their mean forces over the step [N]: contact, loads on parts."""
 
     state: State
-    contact: NearWallContact | Nothing
-    loads: PartLoads | Nothing
+    contact: NearWallContact | Absent
+    loads: PartLoads | Absent
 
 
 @elementwise
@@ -93,7 +95,7 @@ def rate_along(n: Vec3, lever: Vec3, velocity: Vec3, rates: Vec3) -> Any:
 
 @law
 def approach(
-    c: WallContact, radius: Any, body: RigidBody, s: State, free: State, sprung: State, dt: Number
+    c: WallContact, radius: Number, body: RigidBody, s: State, free: State, sprung: State, dt: Number
 ) -> Approach:
     """How shapes at the places of contacts approach walls in state `s`; its motion without and with their springs."""
     R, square = rotation_from_quaternion(s.attitude), dot(c.offset, c.offset)
@@ -128,20 +130,20 @@ def in_one_set(several: Any, *others: Any) -> Any:
 
 
 @law
-def struck(c: WallContact, force: Any, arm: Vec3) -> WallContact:
+def struck(c: WallContact, force: Number, arm: Vec3) -> WallContact:
     """A contact that presses by a force [N], at `arm` from its part's centre [m]. All may be of sets."""
     pressing = scaled(c.offset, inverse_root(dot(c.offset, c.offset)) * force)
     return WallContact(force, c.place, c.offset, PartLoad(pressing, cross(arm, pressing)))
 
 
 @law
-def struck_spheres(pair: ContactPair | Nothing, forces: list[Any]) -> Any:
-    """Spheres that press on two walls by forces [N]; `Nothing` of `Nothing`."""
+def struck_spheres(pair: ContactPair | Absent, forces: list[Any]) -> Any:
+    """Spheres that press on two walls by forces [N]; `Absent` of `Absent`."""
     return type(pair)(*[struck(c, force, -c.offset) for c, force in zip(pair, forces, strict=True)])
 
 
 @choice(absent="contact")
-def struck_beam(contact: BeamContact | Nothing, forces: Any, center: Vec3) -> Any:
+def struck_beam(contact: BeamContact | Absent, forces: Any, center: Vec3) -> Any:
     """A beam, by its centre [m, world axes], that presses on walls by forces [N]: of its ends, and of its length."""
 
 

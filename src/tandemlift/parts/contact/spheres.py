@@ -4,6 +4,8 @@ A rotor is in its guard where its rim is at most `SPARED` outside it. Against a 
 own, and the guard's sphere stands for it.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,8 +14,8 @@ from numpy.typing import ArrayLike
 from tandemlift.core.algebra.arrays import array
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import greatest, maximum, sqrt, where
-from tandemlift.core.algebra.types import Number, number
-from tandemlift.core.algebra.vector import Mat3, Nothing, Vec3, apply, cross, dot, each, spread
+from tandemlift.core.algebra.types import Number, PerRotor, number
+from tandemlift.core.algebra.vector import Absent, Mat3, Vec3, apply, cross, dot, each, spread
 from tandemlift.parts.contact.hull import rotor_sums
 from tandemlift.parts.contact.springs import friction_factor, spring_damper
 from tandemlift.parts.contact.wall_geometry import WALL, Wall, nearer, offset, second_nearest
@@ -43,7 +45,7 @@ class WallContact(NamedTuple):
     World axes; `offset` [m]: of the part's nearest point, before its radius, from that of the wall.
     """
 
-    normal: Any
+    normal: Number
     place: Vec3
     offset: Vec3
     load: PartLoad
@@ -80,7 +82,7 @@ class RotorSpheres(NamedTuple):
     """
 
     hub: Vec3
-    radius: Any
+    radius: PerRotor
 
 
 class NearRotors(NamedTuple):
@@ -92,7 +94,7 @@ class NearRotors(NamedTuple):
 
 @choice(absent="rotors")
 def rotor_wall_contact(rotors: Any, w: Any, near: Any, s: State, R: Mat3) -> Any:
-    """Contact of the rotors with the walls nearest to each, about their hubs; `Nothing` where all are in guards."""
+    """Contact of the rotors with the walls nearest to each, about their hubs; `Absent` where all are in guards."""
 
 
 @rotor_wall_contact.register(RotorSpheres)
@@ -128,9 +130,9 @@ def _near_rotors(rotors: RotorSpheres, wall: Wall, near: NearRotors, s: State) -
     return NearRotors(nearer(wall, near.first, p, p), second_nearest(wall, near.first, near.second, p, p, p))
 
 
-def no_walls_near_rotors(rotors: RotorSpheres | Nothing) -> NearRotors | Nothing:
+def no_walls_near_rotors(rotors: RotorSpheres | Absent) -> NearRotors | Absent:
     """No wall is near."""
-    if isinstance(rotors, Nothing):
+    if isinstance(rotors, Absent):
         return rotors
     count = len(rotors.radius)
     nowhere = Wall(*[each(count)(*[v] * count) for v in WALL])
@@ -139,8 +141,8 @@ def no_walls_near_rotors(rotors: RotorSpheres | Nothing) -> NearRotors | Nothing
 
 def rotor_spheres(
     quadrotors: ArrayLike, rotors: ArrayLike, radii: ArrayLike, guards: ArrayLike
-) -> RotorSpheres | Nothing:
-    """The spheres of rotors that stand out of their guard; `Nothing` if all are in it.
+) -> RotorSpheres | Absent:
+    """The spheres of rotors that stand out of their guard; `Absent` if all are in it.
 
     Args:
         quadrotors: N × 3, their centres of mass from the system's [m, body axes].
@@ -153,6 +155,6 @@ def rotor_spheres(
         rims = [sqrt(x * x + y * y) + radius for x, y, _ in places]
         sizes += [where(rim > guard + SPARED, radius, 0.0) for rim in rims]
     if not greatest(sizes) > 0.0:
-        return Nothing()
+        return Absent()
     hubs = (array(quadrotors)[:, None] + hubs).reshape(-1, 3)
     return RotorSpheres(spread(hubs), each(len(sizes))(*map(number, sizes)))

@@ -4,19 +4,20 @@ A rotor that touches anything stops for good. Feet on the floor are no touch. Fo
 walls (`impulses`), whose mean force depends on the step, are left out.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
+from tandemlift.core.algebra.constants import NEVER
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import absolute, greatest, least, maximum, where
 from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, each, set_of, total
-from tandemlift.parts.contact.hull import FloorContact, Hull, HullContact
-from tandemlift.parts.contact.spheres import ContactPair
-from tandemlift.parts.contact.walls import BeamContact, NearWallContact, Walls
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, each, set_of, total
+from tandemlift.parts.contact.hull import Ellipsoids, FloorContact, Hull, HullContact
+from tandemlift.parts.contact.spheres import ContactPair, RotorSpheres
+from tandemlift.parts.contact.walls import Beam, BeamContact, NearWallContact, Walls
 from tandemlift.parts.mechanics.loads import translated
 from tandemlift.parts.mechanics.rigid_body import State
-
-NEVER = 1e18  # s
 
 
 class TouchRecord(NamedTuple):
@@ -38,19 +39,19 @@ UNTOUCHED = TouchRecord(NEVER, ZERO, 0.0, 0.0, 0.0)
 
 
 class SurfaceTouches(NamedTuple):
-    """Records of rotors, guards and beam on floor or walls; `Nothing` where a part has no shape to that surface."""
+    """Records of rotors, guards and beam on floor or walls; `Absent` where a part has no shape to that surface."""
 
-    rotors: Any
-    guards: Any
+    rotors: TouchRecord | Absent
+    guards: TouchRecord
     beam: Any
 
 
 class Touches(NamedTuple):
-    """Which rotors still turn (1, or 0 from their first touch on), and the records on floor and walls, or `Nothing`."""
+    """Which rotors still turn (1, or 0 from their first touch on), and the records on floor and walls, or `Absent`."""
 
     turning: PerRotor
     floor: Any
-    walls: Any
+    walls: SurfaceTouches | Absent
 
 
 class PartContacts(NamedTuple):
@@ -61,11 +62,11 @@ class PartContacts(NamedTuple):
 
 
 class SurfaceContacts(NamedTuple):
-    """Contact of rotors, guards and beam with a surface: `PartContacts`, or `Nothing`."""
+    """Contact of rotors, guards and beam with a surface: `PartContacts`, or `Absent`."""
 
-    rotors: Any
-    guards: Any
-    beam: Any
+    rotors: PartContacts | Absent
+    guards: PartContacts
+    beam: PartContacts
 
 
 @elementwise
@@ -112,7 +113,7 @@ def record_after(r: TouchRecord, contacts: PartContacts, t: Number, dt: Number) 
 
 
 @choice(absent="record")
-def record_with(contacts: PartContacts | Nothing, record: Any, t: Number, dt: Number) -> Any:
+def record_with(contacts: PartContacts | Absent, record: Any, t: Number, dt: Number) -> Any:
     """The record after a step, unchanged without contacts."""
 
 
@@ -122,7 +123,7 @@ def _with_contacts(contacts: PartContacts, record: TouchRecord, t: Number, dt: N
 
 
 @choice(absent="records")
-def surface_records_with(contacts: SurfaceContacts | Nothing, records: Any, t: Number, dt: Number) -> Any:
+def surface_records_with(contacts: SurfaceContacts | Absent, records: Any, t: Number, dt: Number) -> Any:
     """The records of a surface after a step, unchanged while it is out of reach."""
 
 
@@ -137,7 +138,7 @@ def _with_surface(contacts: SurfaceContacts, records: SurfaceTouches, t: Number,
 
 @choice(absent="turning")
 def turning_after(contacts: Any, turning: PerRotor) -> PerRotor:
-    """Which rotors still turn after a step with contacts: of a surface, of the rotors, or `Nothing`."""
+    """Which rotors still turn after a step with contacts: of a surface, of the rotors, or `Absent`."""
 
 
 @turning_after.register(PartContacts)
@@ -151,8 +152,10 @@ def _after_surface(contacts: SurfaceContacts, turning: PerRotor) -> PerRotor:
 
 
 @law
-def touches_after(touches: Touches, floor: Any, walls: Any, t: Number, dt: Number) -> Touches:
-    """The touches after a step of dt [s] that began at time t [s]; `floor`, `walls`: `SurfaceContacts` or `Nothing`."""
+def touches_after(
+    touches: Touches, floor: SurfaceContacts | Absent, walls: SurfaceContacts | Absent, t: Number, dt: Number
+) -> Touches:
+    """The touches after a step of dt [s] that began at time t [s]; `floor`, `walls`: `SurfaceContacts` or `Absent`."""
     return Touches(
         turning_after(walls, turning_after(floor, touches.turning)),
         surface_records_with(floor, touches.floor, t, dt),
@@ -167,7 +170,7 @@ def thrust_if_turning(thrust: Number, turning: Number) -> Number:
 
 
 @choice(absent="thrusts")
-def of_turning_rotors(touches: Touches | Nothing, thrusts: PerRotor) -> Any:
+def of_turning_rotors(touches: Touches | Absent, thrusts: PerRotor) -> Any:
     """The thrust of each rotor [N], 0 of one that has touched anything."""
 
 
@@ -177,7 +180,7 @@ def _turning(touches: Touches, thrusts: PerRotor) -> PerRotor:
 
 
 @choice(absent="contact")
-def floor_parts(contact: FloorContact | Nothing, s: State) -> Any:
+def floor_parts(contact: FloorContact | Absent, s: State) -> Any:
     """Contacts of one kind of part with the floor."""
 
 
@@ -193,7 +196,7 @@ def floor_contacts(contact: HullContact, s: State) -> SurfaceContacts:
 
 
 @choice(absent="pair")
-def harder_of(pair: ContactPair | Nothing) -> Any:
+def harder_of(pair: ContactPair | Absent) -> Any:
     """Contacts with two walls as one: both normal forces, at the place of the greater."""
 
 
@@ -205,7 +208,7 @@ def _harder(pair: ContactPair) -> PartContacts:
 
 
 @choice(absent="contact")
-def beam_parts(contact: BeamContact | Nothing) -> Any:
+def beam_parts(contact: BeamContact | Absent) -> Any:
     """Contacts of the beam with walls, wherever along its length."""
 
 
@@ -213,7 +216,7 @@ def beam_parts(contact: BeamContact | Nothing) -> Any:
 def _of_beam(c: BeamContact) -> PartContacts:
     ends, single = c.ends, (c.edge, c.other, c.top)
     places = zip(ends.place, *[touch.place for touch in single], strict=True)
-    normals = set_of([*ends.normal, *[touch.normal for touch in single]])
+    normals = set_of([*ends.normal, *[touch.normal for touch in single]])  # type: ignore[misc]  # of a set
     return PartContacts(normals, Vec3(*[set_of([*both, *rest]) for both, *rest in places]))
 
 
@@ -223,17 +226,17 @@ def wall_contacts(contact: NearWallContact) -> SurfaceContacts:
     return SurfaceContacts(harder_of(contact.rotors), harder_of(contact.guards), beam_parts(contact.beam))
 
 
-def start_touches(floor: Any, walls: Any, rotors: int) -> Any:
-    """No touch yet, of `rotors` in all; `Nothing` without a hull that meets the floor and without walls."""
-    hull = getattr(floor, "hull", Nothing())
-    on_floor = SurfaceTouches(UNTOUCHED, UNTOUCHED, _unless_absent(hull.beam)) if isinstance(hull, Hull) else Nothing()
-    on_walls: Any = Nothing()
+def start_touches(floor: Any, walls: Any, rotors: int) -> Touches | Absent:
+    """No touch yet, of `rotors` in all; `Absent` without a hull that meets the floor and without walls."""
+    hull = getattr(floor, "hull", Absent())
+    on_floor = SurfaceTouches(UNTOUCHED, UNTOUCHED, _unless_absent(hull.beam)) if isinstance(hull, Hull) else Absent()
+    on_walls: Any = Absent()
     if isinstance(walls, Walls):
         on_walls = SurfaceTouches(_unless_absent(walls.rotors), UNTOUCHED, _unless_absent(walls.beam))
-    if isinstance(on_floor, Nothing) and isinstance(on_walls, Nothing):
-        return Nothing()
+    if isinstance(on_floor, Absent) and isinstance(on_walls, Absent):
+        return Absent()
     return Touches(each(rotors)(*[1.0] * rotors), on_floor, on_walls)
 
 
-def _unless_absent(part: Any) -> Any:
-    return part if isinstance(part, Nothing) else UNTOUCHED
+def _unless_absent(part: Ellipsoids | RotorSpheres | Beam | Absent) -> TouchRecord | Absent:
+    return part if isinstance(part, Absent) else UNTOUCHED

@@ -119,6 +119,6 @@ def second_nearest(wall: Wall, first: Wall, second: Wall, p: Vec3, p1: Vec3, p2:
     """
     d, d1, d2 = offset(wall, p), offset(first, p1), offset(second, p2)
     square, square1 = dot(d, d), dot(d1, d1)
-    gap, gap1 = offset(first, p - d), offset(wall, p1 - d1)
-    behind = selected_wall(selected(SEAM, dot(gap, gap), square, HIDDEN), dot(d2, d2), wall, second)
-    return selected_wall(square, square1, selected_wall(SEAM, dot(gap1, gap1), first, second), behind)
+    separation, separation1 = offset(first, p - d), offset(wall, p1 - d1)
+    behind = selected_wall(selected(SEAM, dot(separation, separation), square, HIDDEN), dot(d2, d2), wall, second)
+    return selected_wall(square, square1, selected_wall(SEAM, dot(separation1, separation1), first, second), behind)

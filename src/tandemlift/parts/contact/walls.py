@@ -14,6 +14,8 @@ every step of a vehicle that is fast (`clearance.is_fast`). `near_wall_loads` me
 every state, so it stays exact in between. A blow that springs would not stop is stopped by `impulses`.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,7 +25,7 @@ from tandemlift.core.algebra.arrays import array, lengths
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import greatest, minimum, sqrt
 from tandemlift.core.algebra.types import Number, PerQuadrotor, number
-from tandemlift.core.algebra.vector import ZERO, Mat3, Nothing, Vec3, apply, apply_transposed, cross, dot, each
+from tandemlift.core.algebra.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, dot, each
 from tandemlift.parts.contact.beam_axis import (
     BeamAxis,
     beam_axis,
@@ -63,20 +65,20 @@ from tandemlift.parts.mechanics.loads import (
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
-IN_GUARDS = Nothing()
+IN_GUARDS = Absent()
 
 
 class Beam(NamedTuple):
     """The payload as a capsule along body y: its radius [m], and its two ends, −½ and +½ of its axis [m], as a set."""
 
     radius: Number
-    ends: Any
+    ends: PerQuadrotor
 
 
 class Walls(NamedTuple):
     """Contact with walls: k [N/m], c [N·s/m], μ and c_t [N·s/m]; `guards`: radius of every quadrotor's sphere [m].
 
-    `rotors`: a `RotorSpheres`, or `Nothing` if all rotors are in their guard; `beam`: a `Beam`, or `Nothing` if the
+    `rotors`: a `RotorSpheres`, or `Absent` if all rotors are in their guard; `beam`: a `Beam`, or `Absent` if the
     payload has no shape; `reach` [m]: of all these from the centre of mass.
     """
 
@@ -100,12 +102,12 @@ class NearBeam(NamedTuple):
 
 
 class NearWalls(NamedTuple):
-    """The two walls nearest to every quadrotor (of sets); a `NearRotors` and a `NearBeam`, each or `Nothing`."""
+    """The two walls nearest to every quadrotor (of sets); a `NearRotors` and a `NearBeam`, each or `Absent`."""
 
     first: Wall
     second: Wall
     rotors: Any
-    beam: NearBeam | Nothing
+    beam: NearBeam | Absent
 
 
 class BeamContact(NamedTuple):
@@ -118,7 +120,7 @@ class BeamContact(NamedTuple):
 
 
 class NearWallContact(NamedTuple):
-    """Contact of all parts with the walls near them: of guards (sets), rotors and beam, each or `Nothing`."""
+    """Contact of all parts with the walls near them: of guards (sets), rotors and beam, each or `Absent`."""
 
     guards: ContactPair
     rotors: Any
@@ -135,7 +137,7 @@ def contact_at_beam_point(w: Walls, a: BeamAxis, along: Number, o: Vec3) -> Wall
 
 
 @choice(absent="beam")
-def beam_contact(beam: Beam | Nothing, w: Walls, near: NearBeam | Nothing, frame: PartsLayout, s: State) -> Any:
+def beam_contact(beam: Beam | Absent, w: Walls, near: NearBeam | Absent, frame: PartsLayout, s: State) -> Any:
     """Contact of the beam with the near walls."""
 
 
@@ -153,7 +155,7 @@ def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State)
 
 
 @choice(absent=PartLoad(ZERO, ZERO))
-def beam_load(contact: BeamContact | Nothing, R: Mat3) -> Any:
+def beam_load(contact: BeamContact | Absent, R: Mat3) -> Any:
     """Load of the near walls on the payload."""
 
 
@@ -194,9 +196,7 @@ def near_wall_loads(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> 
 
 
 @choice(absent="near")
-def nearest_to_beam_with(
-    beam: Beam | Nothing, wall: Wall, near: NearBeam | Nothing, frame: PartsLayout, s: State
-) -> Any:
+def nearest_to_beam_with(beam: Beam | Absent, wall: Wall, near: NearBeam | Absent, frame: PartsLayout, s: State) -> Any:
     """The walls nearest to the beam, with `wall` taken into account."""
 
 
@@ -237,7 +237,7 @@ def no_walls_near(w: Walls) -> NearWalls:
     """No wall is near."""
     walls, ends = [Wall(*[each(n)(*[v] * n) for v in WALL]) for n in (len(w.guards), 2)]
     rotors = no_walls_near_rotors(w.rotors)
-    return NearWalls(walls, walls, rotors, NearBeam(ends, WALL, WALL, WALL) if isinstance(w.beam, Beam) else Nothing())
+    return NearWalls(walls, walls, rotors, NearBeam(ends, WALL, WALL, WALL) if isinstance(w.beam, Beam) else Absent())
 
 
 def walls(
@@ -248,7 +248,7 @@ def walls(
     step: float,
     *,
     friction: float,
-    rotors: Any = IN_GUARDS,
+    rotors: RotorSpheres | Absent = IN_GUARDS,
     beam: tuple[float, float] | None = None,
     payload: ArrayLike = (0.0, 0.0, 0.0),
     stiffness: float = 5000.0,
@@ -263,7 +263,7 @@ def walls(
         inertia: 3 × 3 about its centre of mass [kg·m²].
         step: [s].
         friction: μ of guards, rotors and beam on walls.
-        rotors: a `RotorSpheres`, or `Nothing` if all rotors are in their guard.
+        rotors: a `RotorSpheres`, or `Absent` if all rotors are in their guard.
         beam: length [m] of the axis and radius [m] of a capsule along body y, if the payload is one.
         payload: its centre of mass from the system's [m, body axes].
         stiffness: of a contact [N/m].
@@ -280,7 +280,7 @@ def walls(
     centers = array([tuple(center) for center, _ in spheres])  # where N acts, were all in contact at once
     k, c = softened_for_step(stiffness, 2.0 * damping_ratio * sqrt(stiffness * mass), mobility(centers, mass, J), step)
     tangential_mobility = sum(surface_mobility(center, radius, mass, J) for center, radius in spheres)
-    shape = Beam(number(beam[1]), each(2)(-half, half)) if beam else Nothing()
+    shape = Beam(number(beam[1]), each(2)(-half, half)) if beam else Absent()
     reach = greatest([number(far + radius) for far, (_, radius) in zip(lengths(centers), spheres, strict=True)])
     return Walls(
         k,

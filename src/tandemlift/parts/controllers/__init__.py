@@ -9,7 +9,7 @@ for its own type of gains. Written as a law it compiles into the loop; registere
 function will do, at a few microseconds a step.
 
 A controller of one's own imports what it needs from here, from `tandemlift.core.algebra` and from
-`tandemlift.core.settings`.
+`tandemlift.core.keys`.
 """
 
 from tandemlift.parts.controllers.attitude_reference import AttitudeReference, CommandFilterState
@@ -22,7 +22,15 @@ from tandemlift.parts.controllers.cascade import (
     tracked_attitude,
     wanted_force,
 )
-from tandemlift.parts.controllers.interface import NO_DISTURBANCE, Command, Disturbance, Measured, NoMemory, control
+from tandemlift.parts.controllers.interface import (
+    NO_DISTURBANCE,
+    Command,
+    ControllerTable,
+    Disturbance,
+    Measured,
+    NoMemory,
+    control,
+)
 from tandemlift.parts.controllers.registry import CONTROLLERS, Controller, controller, file_of, register
 from tandemlift.parts.controllers.trial_run import error_text
 from tandemlift.parts.controllers.user_controller import load_controller
@@ -38,7 +46,7 @@ from tandemlift.parts.mechanics.rotation import (
     wrap_angle,
 )
 from tandemlift.parts.mechanics.tilt import TiltLimit, TiltZXY, desired_orientation, limit_tilt, total_thrust
-from tandemlift.parts.signals.trajectories import Reference, Trajectory
+from tandemlift.parts.trajectories import Reference, Trajectory
 
 # isort: split
 from tandemlift.parts.controllers import geometric, lqr, nftsmc, pid, smc, super_twisting  # register themselves
@@ -54,6 +62,7 @@ __all__ = [
     "CommandFilterState",
     "Controller",
     "ControllerModel",
+    "ControllerTable",
     "Disturbance",
     "Euler",
     "Measured",

@@ -13,7 +13,8 @@ from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import exp
 from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import ZERO, Vec3
-from tandemlift.parts.signals.trajectories import Reference
+from tandemlift.parts.controllers.interface import NoMemory
+from tandemlift.parts.trajectories import Reference
 
 
 class Unfiltered(NamedTuple):
@@ -54,7 +55,7 @@ def shape_reference(kind: Unfiltered | CommandFilter, memory: Any, desired: Vec3
 
 
 @shape_reference.register(Unfiltered)
-def _unfiltered(kind: Unfiltered, memory: Any, desired: Vec3) -> tuple[AttitudeReference, Any]:
+def _unfiltered(kind: Unfiltered, memory: NoMemory, desired: Vec3) -> tuple[AttitudeReference, NoMemory]:
     return AttitudeReference(desired, ZERO, ZERO), memory
 
 

@@ -14,8 +14,8 @@ from pydantic import Field
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, vec3
-from tandemlift.core.settings import ControllerTable, Tilt, key
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, vec3
+from tandemlift.core.keys import Tilt, key
 from tandemlift.parts.controllers.attitude_reference import (
     AttitudeReference,
     CommandFilter,
@@ -24,13 +24,13 @@ from tandemlift.parts.controllers.attitude_reference import (
     shape_reference,
     with_heading,
 )
-from tandemlift.parts.controllers.interface import Command, Measured
+from tandemlift.parts.controllers.interface import Command, ControllerTable, Measured
 from tandemlift.parts.mechanics.inertia import Inertia, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rigid_body import UP, Wrench
 from tandemlift.parts.mechanics.rotation import Euler
 from tandemlift.parts.mechanics.tilt import TiltLimit, TiltZXY, desired_orientation, tilt_limit, total_thrust
-from tandemlift.parts.signals.trajectories import Reference
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.trajectories import Reference
 
 Bandwidth = Annotated[float, Field(gt=0.0, le=1e4)]  # rad/s
 TUNED = "found by benchmarks/tune.py"
@@ -57,7 +57,7 @@ class ControllerModel(NamedTuple):
     inertia: Inertia
     drag_force: Vec3
     drag_moment: Vec3
-    tilt: TiltLimit | Nothing
+    tilt: TiltLimit | Absent
     shaping: CommandFilter
     feedforward: Number
 

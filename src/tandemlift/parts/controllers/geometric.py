@@ -25,7 +25,7 @@ from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import atan2, atan_ratio, cos, maximum, sin, sqrt
 from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import ZERO, Mat3, Vec3, apply_transposed, cross, dot, vec3
-from tandemlift.core.settings import Positive3, key
+from tandemlift.core.keys import Positive3, key
 from tandemlift.parts.controllers.cascade import (
     TUNED,
     Bandwidth,
@@ -37,12 +37,12 @@ from tandemlift.parts.controllers.cascade import (
 )
 from tandemlift.parts.controllers.interface import Command, Measured, control
 from tandemlift.parts.controllers.registry import register
+from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.tilt import limit_tilt
-from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass, low_pass_step
-from tandemlift.parts.signals.trajectories import Reference
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.trajectories import Reference
 
 MIN_UPWARD = 0.1  # of the weight: smallest upward component of the force that R_d points along
 

@@ -6,8 +6,15 @@ from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import choice
 from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.core.keys import Table, key
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
-from tandemlift.parts.signals.trajectories import Reference
+from tandemlift.parts.trajectories import Reference
+
+
+class ControllerTable(Table):
+    """`[controller]`: the controller and its settings; each controller adds its own keys."""
+
+    name: str = key(..., None, "name of the controller, one of `tandemlift controllers`", example="nftsmc")
 
 
 class Disturbance(NamedTuple):

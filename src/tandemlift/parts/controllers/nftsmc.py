@@ -4,6 +4,8 @@ Guarantee, per axis under virtual actuation, with switching by `sign` and λ₂ 
 S = 0 is reached within `sliding_surface.reaching_time`; with a boundary layer, |S| ≤ Φ is. It does not cover the
 attitude cascade. The switching must be sampled fast enough: (λ₁ + λ₂/Φ) · step < 2.
 
+The laws of surface and reaching are in `sliding_surface`.
+
 Tune first: the boundary layer Φ against the step, then ξ (the bandwidth on the surface), then λ₁ and λ₂.
 """
 
@@ -18,9 +20,9 @@ from pydantic import Field
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.types import Number, is_symbol
-from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, vec3
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.core.errors import FlightWarning
-from tandemlift.core.settings import AtLeastOne6, ControllerTable, NonNegative6, Positive6, Table, Tilt, key
+from tandemlift.core.keys import AtLeastOne6, NonNegative6, Positive6, Table, Tilt, key
 from tandemlift.parts.controllers.attitude_reference import (
     AttitudeReference,
     CommandFilter,
@@ -30,7 +32,7 @@ from tandemlift.parts.controllers.attitude_reference import (
     shape_reference,
     with_heading,
 )
-from tandemlift.parts.controllers.interface import Command, Measured, NoMemory, control
+from tandemlift.parts.controllers.interface import Command, ControllerTable, Measured, NoMemory, control
 from tandemlift.parts.controllers.registry import register
 from tandemlift.parts.controllers.sliding_surface import (
     Cubic,
@@ -53,8 +55,8 @@ from tandemlift.parts.mechanics.tilt import (
     tilt_limit,
     total_thrust,
 )
-from tandemlift.parts.signals.trajectories import Reference, Trajectory
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.trajectories import Reference, Trajectory
 
 
 class Gains(Table):
@@ -139,7 +141,7 @@ class NFTSMC(NamedTuple):
     derivatives: Unfiltered | CommandFilter
     rates: ExactRates | BodyRates
     inverse: TiltZXY | TiltPrinted
-    tilt: TiltLimit | Nothing
+    tilt: TiltLimit | Absent
     feedforward: Number
 
 
@@ -183,7 +185,9 @@ def attitude_law(k: NFTSMC, e: Euler, rates: Vec3, desired: AttitudeReference) -
 
 
 @control.register(NFTSMC)
-def nftsmc(k: NFTSMC, memory: Any, measured: Measured, reference: Reference) -> tuple[Command, Any]:
+def nftsmc(
+    k: NFTSMC, memory: CommandFilterState | NoMemory, measured: Measured, reference: Reference
+) -> tuple[Command, CommandFilterState | NoMemory]:
     """The whole controller at one sample."""
     e = euler_from_quaternion(measured.state.attitude)
     force = position_law(k, measured.state, reference.trajectory, measured.push)

@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.core.errors import InputError, unknown
-from tandemlift.core.settings import ControllerTable
+from tandemlift.parts.controllers.interface import ControllerTable
 from tandemlift.parts.controllers.trial_run import check_started, error_text, form
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 Start = Callable[[Any, Vehicle, float], tuple[Any, Any]]
 

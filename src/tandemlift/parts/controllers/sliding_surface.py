@@ -9,6 +9,7 @@ from typing import NamedTuple
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import absolute, clip, log, power, tanh, where
 from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import Vec3
 
 
 class Sign(NamedTuple):
@@ -18,13 +19,13 @@ class Sign(NamedTuple):
 class Saturation(NamedTuple):
     """Switching by sat(S; Φ); `per_width` is 1/Φ per axis, in the unit of 1/S."""
 
-    per_width: Number
+    per_width: Vec3
 
 
 class Tanh(NamedTuple):
     """Switching by tanh(S/Φ); `per_width` is 1/Φ per axis, in the unit of 1/S."""
 
-    per_width: Number
+    per_width: Vec3
 
 
 class Cubic(NamedTuple):
@@ -34,17 +35,17 @@ class Cubic(NamedTuple):
 class Power(NamedTuple):
     """Any exponent a ≥ 1, per axis."""
 
-    a: Number
+    a: Vec3
 
 
 class Surface(NamedTuple):
     """Gains of one set of axes: ξ [1/s], η, the exponent, λ₁ [1/s], λ₂ and the switching function."""
 
-    xi: Number
-    eta: Number
+    xi: Vec3
+    eta: Vec3
     exponent: Cubic | Power
-    lambda_1: Number
-    lambda_2: Number
+    lambda_1: Vec3
+    lambda_2: Vec3
     switching: Sign | Saturation | Tanh
 
 
@@ -63,22 +64,22 @@ def saturate(x: Number) -> Number:
 
 
 @choice
-def switching(kind: Sign | Saturation | Tanh, S: Number) -> Number:
+def switching(kind: Sign | Saturation | Tanh, S: Vec3) -> Vec3:
     """sgn(S), or what stands for it in the boundary layer."""
 
 
 @switching.register(Sign)
-def _sign(kind: Sign, S: Number) -> Number:
+def _sign(kind: Sign, S: Vec3) -> Vec3:
     return sign(S)
 
 
 @switching.register(Saturation)
-def _saturation(kind: Saturation, S: Number) -> Number:
+def _saturation(kind: Saturation, S: Vec3) -> Vec3:
     return saturate(S * kind.per_width)
 
 
 @switching.register(Tanh)
-def _tanh(kind: Tanh, S: Number) -> Number:
+def _tanh(kind: Tanh, S: Vec3) -> Vec3:
     return tanh(S * kind.per_width)
 
 
@@ -95,85 +96,85 @@ def power_slope(e: Number, a: Number) -> Number:
 
 
 @choice
-def terminal(exponent: Cubic | Power, e: Number) -> Number:
+def terminal(exponent: Cubic | Power, e: Vec3) -> Vec3:
     """|e|ᵃ sgn e."""
 
 
 @choice
-def terminal_slope(exponent: Cubic | Power, e: Number) -> Number:
+def terminal_slope(exponent: Cubic | Power, e: Vec3) -> Vec3:
     """a |e|ᵃ⁻¹."""
 
 
 @terminal.register(Cubic)
-def _cube(exponent: Cubic, e: Number) -> Number:
+def _cube(exponent: Cubic, e: Vec3) -> Vec3:
     return e * e * e
 
 
 @terminal_slope.register(Cubic)
-def _cube_slope(exponent: Cubic, e: Number) -> Number:
+def _cube_slope(exponent: Cubic, e: Vec3) -> Vec3:
     return e * e * 3.0
 
 
 @terminal.register(Power)
-def _power(exponent: Power, e: Number) -> Number:
+def _power(exponent: Power, e: Vec3) -> Vec3:
     return signed_power(e, exponent.a)
 
 
 @terminal_slope.register(Power)
-def _power_slope(exponent: Power, e: Number) -> Number:
+def _power_slope(exponent: Power, e: Vec3) -> Vec3:
     return power_slope(e, exponent.a)
 
 
 @law
-def sliding_surface(k: Surface, e: Number, de: Number) -> Number:
+def sliding_surface(k: Surface, e: Vec3, de: Vec3) -> Vec3:
     """S = ė + ξe + η|e|ᵃ sgn e."""
     # paper: sliding_surface_equ
     return de + k.xi * e + k.eta * terminal(k.exponent, e)
 
 
 @law
-def surface_slope(k: Surface, e: Number) -> Number:
+def surface_slope(k: Surface, e: Vec3) -> Vec3:
     """ξ + ηa|e|ᵃ⁻¹: the factor of ė in Ṡ − ë."""
     return k.xi + k.eta * terminal_slope(k.exponent, e)
 
 
 @law
-def surface_rate(k: Surface, e: Number, de: Number, dde: Number) -> Number:
+def surface_rate(k: Surface, e: Vec3, de: Vec3, dde: Vec3) -> Vec3:
     """Ṡ = ë + (ξ + ηa|e|ᵃ⁻¹) ė."""
     # paper: sliding_surface_dot_equ, and sdot_equ with ë = χ̈_d − Ϝ − δ − b u
     return dde + surface_slope(k, e) * de
 
 
 @law
-def equivalent_control(k: Surface, e: Number, de: Number) -> Number:
+def equivalent_control(k: Surface, e: Vec3, de: Vec3) -> Vec3:
     """The acceleration beyond the reference's and the model's that holds Ṡ = 0 with δ̂ = 0: (ξ + ηa|e|ᵃ⁻¹) ė."""
     # paper: u_hat_equ
     return surface_slope(k, e) * de
 
 
 @law
-def reaching_control(k: Surface, S: Number) -> Number:
+def reaching_control(k: Surface, S: Vec3) -> Vec3:
     """The acceleration that drives S to zero: λ₁S + λ₂ sw(S/Φ)."""
     # paper: control_final1_equ
     return k.lambda_1 * S + k.lambda_2 * switching(k.switching, S)
 
 
 @law
-def wanted_acceleration(k: Surface, e: Number, de: Number) -> Number:
+def wanted_acceleration(k: Surface, e: Vec3, de: Vec3) -> Vec3:
     """(ξ + ηa|e|ᵃ⁻¹)ė + λ₁S + λ₂ sw(S/Φ), to be added to the reference acceleration."""
     # paper: control_final1_equ
     return equivalent_control(k, e, de) + reaching_control(k, sliding_surface(k, e, de))
 
 
 @law
-def lyapunov(S: Number) -> Number:
+def lyapunov(S: Vec3) -> Vec3:
     """V = S²/2 per axis. Erratum: for six axes the paper's V is this of each axis, or SᵀS/2."""
     # paper: lyap_fun_equ
     return S * S * 0.5
 
 
 @law
-def lyapunov_rate(S: Number, dS: Number) -> Number:
+def lyapunov_rate(S: Vec3, dS: Vec3) -> Vec3:
     """V̇ = S Ṡ per axis."""
     # paper: vdot_equ, and vsdot_equ with the Ṡ of sdot_equ
     return S * dS

@@ -16,7 +16,7 @@ from tandemlift.core.algebra.law import elementwise, law
 from tandemlift.core.algebra.ops import absolute, maximum
 from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import Vec3, vec3
-from tandemlift.core.settings import Positive6, key
+from tandemlift.core.keys import Positive6, key
 from tandemlift.parts.controllers.attitude_reference import CommandFilterState
 from tandemlift.parts.controllers.cascade import (
     ATTITUDE_FILTER,
@@ -36,8 +36,8 @@ from tandemlift.parts.controllers.registry import register
 from tandemlift.parts.controllers.sliding_surface import saturate
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, wrap_angle
 from tandemlift.parts.mechanics.tilt import limit_tilt
-from tandemlift.parts.signals.trajectories import Reference
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.trajectories import Reference
 
 
 class SMCSettings(CascadeTable):

@@ -20,11 +20,14 @@ Limits: wind that acts on the payload alone counts as a push. A gust on the quad
 is larger than 0.4 of the push and lasts; in gusts, joints may be wrong by as much.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import elementwise, law
 from tandemlift.core.algebra.ops import absolute, clip, maximum, minimum, sqrt, where
-from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
+from tandemlift.core.algebra.types import Number
+from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass_step
 
 REFUTED, CONFIRMED = 0.4, 0.6  # unexplained share of a push up to which none is confirmed, and from which on all is
 RELEARN_TIME = 2.0  # s, in which what is not confirmed becomes the new zero
@@ -61,13 +64,13 @@ class Confirmed(NamedTuple):
 
 
 @elementwise
-def confirmed_fraction(share: Any) -> Any:
+def confirmed_fraction(share: Number) -> Number:
     """How much of a push is confirmed, 0 to 1, of which this share is not explained otherwise."""
     return clip((share - REFUTED) * (1.0 / (CONFIRMED - REFUTED)), 0.0, 1.0)
 
 
 @elementwise
-def confirmed(push: Any, rest: Any, square: Any, tolerance: Any, ratio: Any) -> Any:
+def confirmed(push: Number, rest: Number, square: Number, tolerance: Number, ratio: Number) -> Number:
     """The confirmed part of a push beside which `rest` acts on the quadrotors; `square`: see `Zero`."""
     size = absolute(push)
     along = where(push < 0.0, -rest, rest)
@@ -80,14 +83,14 @@ def confirmed(push: Any, rest: Any, square: Any, tolerance: Any, ratio: Any) -> 
 
 
 @elementwise
-def is_refuted(push: Any, left: Any, off: Any, tolerance: Any) -> Any:
+def is_refuted(push: Number, left: Number, off: Number, tolerance: Number) -> Number:
     """1 for a push of which next to nothing is left because the vehicle does not move along with it, else 0."""
     refuted = where(push * off < 0.0, where(absolute(left) < LITTLE * tolerance, 1.0, 0.0), 0.0)
     return where(absolute(push) > LARGE * tolerance, refuted, 0.0)
 
 
 @elementwise
-def mean_change(push: Any, left: Any, off: Any, tolerance: Any, dt: Any) -> Any:
+def mean_change(push: Number, left: Number, off: Number, tolerance: Number, dt: Number) -> Number:
     """The change of r's mean in a step in which the offset follows what is not left of a push; `off`: r less its mean.
 
     With that part of the push goes what explains it, the error of the joints or the wind. Where all of the push is
@@ -101,14 +104,14 @@ def mean_change(push: Any, left: Any, off: Any, tolerance: Any, dt: Any) -> Any:
 
 
 @elementwise
-def square_change(push: Any, load: Any, square: Any, tolerance: Any, dt: Any) -> Any:
+def square_change(push: Number, load: Number, square: Number, tolerance: Number, dt: Number) -> Number:
     """The change of the mean square of a load F̂ + r in a step; none under a push, and slow for what is unusual."""
     usual = minimum(load * load, 9.0 * square + tolerance * tolerance)
     return where(absolute(push) < tolerance, usual - square, 0.0) * (dt / GUST_TIME)
 
 
 @elementwise
-def joint_drift(push: Any, off: Any, tolerance: Any, dt: Any) -> Any:
+def joint_drift(push: Number, off: Number, tolerance: Number, dt: Number) -> Number:
     """The change of the offset in a step by joints that drift, as r less its mean shows; that changes the other way."""
     least = minimum(absolute(push), absolute(off))
     common = least * least / (least + NEGLIGIBLE * tolerance)  # its slope at rest is 0, whichever sign noise has there
@@ -117,7 +120,7 @@ def joint_drift(push: Any, off: Any, tolerance: Any, dt: Any) -> Any:
 
 
 @elementwise
-def given_up_slowly(push: Any, left: Any, lately: Any) -> Any:
+def given_up_slowly(push: Number, left: Number, lately: Number) -> Number:
     """What is left of a push: at least what was confirmed of late."""
     kept = where(push * lately > 0.0, minimum(absolute(push), absolute(lately)), 0.0)
     more = maximum(absolute(left), kept)
@@ -125,7 +128,7 @@ def given_up_slowly(push: Any, left: Any, lately: Any) -> Any:
 
 
 @elementwise
-def lately_change(left: Any, lately: Any, dt: Any) -> Any:
+def lately_change(left: Number, lately: Number, dt: Number) -> Number:
     """The change in a step of the push that was confirmed of late."""
     grown = where(absolute(left) > absolute(lately), 1.0 / RISE_TIME, 1.0 / FALL_TIME)
     return (left - lately) * dt * where(left * lately < 0.0, 1.0 / FALL_TIME, grown)
@@ -133,7 +136,7 @@ def lately_change(left: Any, lately: Any, dt: Any) -> Any:
 
 @law
 def compared(
-    low_pass: LowPass, zero: Zero, push: Any, rest: Any, tolerance: Any, ratio: Any, tare: Any, dt: Any
+    low_pass: LowPass, zero: Zero, push: Any, rest: Any, tolerance: Any, ratio: Any, tare: Number, dt: Number
 ) -> Confirmed:
     """What a push and `rest`, that is r, tell of each other.
 

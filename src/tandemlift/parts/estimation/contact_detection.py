@@ -5,12 +5,16 @@ blow has told the part. While a part touches, the slow means are held, so the fo
 over once there is no force for a time, or once the part has moved away from where it touched: walls do not follow.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import maximum, sqrt, where
 from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.vector import ZERO, Vec3, apply, dot
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, apply, dot
+from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.estimation.contact_evidence import (
     ContactDetector,
     Deviations,
@@ -24,9 +28,9 @@ from tandemlift.parts.estimation.contact_evidence import (
 from tandemlift.parts.estimation.contact_map import BeamMatch, GuardMatch, beam_of, guards_matched, picked
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator
 from tandemlift.parts.estimation.tare import SideForces
+from tandemlift.parts.low_pass import LowPassState
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.signals.low_pass import LowPassState
 
 DECISION_TIME = 0.015  # s of evidence, after which the part is told
 RELEASE = 0.5  # of the threshold: below, there is no contact
@@ -46,13 +50,13 @@ class ContactEstimate(NamedTuple):
     has risen; `on_map`: 1 if the pilot knows a wall there, else 0.
     """
 
-    part: Any
+    part: Number
     force: Vec3
     point: Vec3
-    along: Any
+    along: Number
     normal: Vec3
-    rise: Any
-    on_map: Any
+    rise: Number
+    on_map: Number
 
 
 NO_CONTACT = ContactEstimate(0.0, ZERO, ZERO, 0.0, ZERO, 0.0, 0.0)
@@ -67,22 +71,22 @@ class ContactState(NamedTuple):
 
     evidence: EvidenceState
     contact: ContactEstimate
-    seen_time: Any
-    quiet_time: Any
-    over_time: Any
+    seen_time: Number
+    quiet_time: Number
+    over_time: Number
 
 
-class Around(NamedTuple):
+class KnownSurroundings(NamedTuple):
     """What the pilot knows of its surroundings.
 
-    `walls`: the known ones near it, or `Nothing`; 1 in flight, except in lift and landing; 1 in a landing; the height
+    `walls`: the known ones near it, or `Absent`; 1 in flight, except in lift and landing; 1 in a landing; the height
     of the `ground` [m].
     """
 
-    walls: Any
-    aloft: Any
-    landing: Any
-    ground: Any
+    walls: NearWalls | Absent
+    aloft: Number
+    landing: Number
+    ground: Number
 
 
 @law
@@ -92,13 +96,13 @@ def world_forces(s: State, f: SideForces) -> Vec3:
 
 
 @law
-def in_world(s: State, x: Any, y: Any) -> Vec3:
+def in_world(s: State, x: Number, y: Number) -> Vec3:
     """A horizontal force [N] in world axes, from its parts along body x and y."""
     return apply(rotation_from_quaternion(s.attitude), Vec3(x, y, 0.0))
 
 
 @law
-def rise_time(x: LowPassState, y: LowPassState, f: SideForces) -> Any:
+def rise_time(x: LowPassState, y: LowPassState, f: SideForces) -> Number:
     """A force over its slope [s]."""
     return sqrt((f.x * f.x + f.y * f.y) / maximum(x.rate * x.rate + y.rate * y.rate, TINY))
 
@@ -111,7 +115,7 @@ def horizontal(f: Vec3) -> Vec3:
 
 
 @law
-def force_on(k: ContactDetector, d: Deviations, part: Any, s: State) -> Vec3:
+def force_on(k: ContactDetector, d: Deviations, part: Number, s: State) -> Vec3:
     """The force on a part [N, world axes]."""
     x = where(part < 0.0, d.push.x, picked(k.numbers, part, d.lasting.x))
     y = where(part < 0.0, d.push.y, picked(k.numbers, part, d.lasting.y))
@@ -119,7 +123,7 @@ def force_on(k: ContactDetector, d: Deviations, part: Any, s: State) -> Vec3:
 
 
 @law
-def axis_of(k: ContactDetector, part: Any, along: Any, s: State) -> Vec3:
+def axis_of(k: ContactDetector, part: Number, along: Number, s: State) -> Vec3:
     """The centre of a guard, or the point `along` the beam's axis [m], in world axes [m]."""
     g = k.geometry
     guard = Vec3(
@@ -133,7 +137,7 @@ def axis_of(k: ContactDetector, part: Any, along: Any, s: State) -> Vec3:
 
 
 @law
-def radius_of(k: ContactDetector, part: Any) -> Any:
+def radius_of(k: ContactDetector, part: Number) -> Number:
     """The radius of a part [m]."""
     return where(part < 0.0, k.geometry.radius, picked(k.numbers, part, k.geometry.guards))
 
@@ -143,11 +147,11 @@ def begun(
     k: ContactDetector,
     m: EvidenceState,
     d: Deviations,
-    part: Any,
+    part: Number,
     guards: GuardMatch,
     beam: BeamMatch,
     s: State,
-    y: Any,
+    y: Number,
 ) -> ContactEstimate:
     """The contact of a part that begins now; `y`: where on the beam the push seems to act [m]."""
     g, number = k.geometry, k.numbers
@@ -170,42 +174,50 @@ def begun(
 
 
 @law
-def is_over(k: ContactDetector, c: ContactEstimate, quiet_time: Any, s: State) -> Any:
+def is_over(k: ContactDetector, c: ContactEstimate, quiet_time: Number, s: State) -> Number:
     """1 once a contact has been without force for long enough [s], or its part has moved away from the wall; else 0."""
     moved = dot(c.normal, axis_of(k, c.part, c.along, s) - c.point) - radius_of(k, c.part)
     return maximum(where(quiet_time > QUIET_TIME, 1.0, 0.0), where(moved > AWAY, 1.0, 0.0))
 
 
 @law
-def is_explained(m: ContactState) -> Any:
+def is_explained(m: ContactState) -> Number:
     """1 while a contact, or evidence of one, explains that joints disagree, else 0."""
     return where(m.over_time < EXPLAINED_TIME, 1.0, where(m.seen_time > 0.0, 1.0, 0.0))
 
 
 @choice(absent=("k", "m"))
-def contact_step(k: Any, m: Any, e: PushEstimator, x: PushReading, s: State, around: Around, dt: Any) -> Any:
+def contact_step(
+    k: Any, m: Any, e: PushEstimator, x: PushReading, s: State, surroundings: KnownSurroundings, dt: Any
+) -> Any:
     """(`ContactEstimate`, the new memory) at a sample.
 
     Args:
-        k: a `ContactDetector`, or `Nothing`.
+        k: a `ContactDetector`, or `Absent`.
         m: its memory.
         e: the estimator of the push.
         x: its reading.
         s: the state as estimated.
-        around: what the pilot knows of its surroundings.
+        surroundings: what the pilot knows of its surroundings.
         dt: since the last sample [s].
     """
 
 
 @contact_step.register(ContactDetector)
 def _detected(
-    k: ContactDetector, m: ContactState, e: PushEstimator, x: PushReading, s: State, around: Around, dt: Any
-) -> Any:
+    k: ContactDetector,
+    m: ContactState,
+    e: PushEstimator,
+    x: PushReading,
+    s: State,
+    surroundings: KnownSurroundings,
+    dt: Number,
+) -> tuple[ContactEstimate, ContactState]:
     before = m.contact
     evidence, d = heard(k, m.evidence, e, x, where(before.part == 0.0, 0.0, 1.0), dt)
-    guards = guards_matched(around.walls, k.geometry, s, world_forces(s, d.lasting))
-    beam = beam_of(around.walls, k.geometry, s, in_world(s, d.push.x, d.push.y))
-    aloft = maximum(around.aloft, where(s.position.z > around.ground + HIGH, around.landing, 0.0))
+    guards = guards_matched(surroundings.walls, k.geometry, s, world_forces(s, d.lasting))
+    beam = beam_of(surroundings.walls, k.geometry, s, in_world(s, d.push.x, d.push.y))
+    aloft = maximum(surroundings.aloft, where(s.position.z > surroundings.ground + HIGH, surroundings.landing, 0.0))
     free = where(before.part == 0.0, aloft * x.push.armed, 0.0)
     part = touching_part(k, evidence, d, guards, beam, maximum(x.push.trusted, is_explained(m))) * free
     seen_time = (m.seen_time + dt) * where(part == 0.0, 0.0, 1.0)
@@ -231,7 +243,7 @@ def shaken(m: Any) -> Any:
 
 
 @shaken.register(ContactState)
-def _shaken(m: ContactState) -> Any:
+def _shaken(m: ContactState) -> Number:
     return is_explained(m)
 
 

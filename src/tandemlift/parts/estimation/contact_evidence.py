@@ -21,17 +21,19 @@ A beam that touches differs from a hand by its rise: a hand gives some 100 N/s a
 away from which the force points, less is enough.
 """
 
-from typing import Any, NamedTuple
+from __future__ import annotations
+
+from typing import NamedTuple
 
 from tandemlift.core.algebra.law import elementwise, law
 from tandemlift.core.algebra.ops import greatest, maximum, minimum, where
-from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.types import Number, PerQuadrotor
 from tandemlift.core.algebra.vector import Vec3, total
 from tandemlift.parts.estimation.contact_map import BeamMatch, GuardMatch, TouchGeometry
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, external_forces
 from tandemlift.parts.estimation.tare import SideForces
+from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.sensors.readings import ImuReading
-from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 CONFIRMED = 0.7  # least share of a force that the momentum residual shows
 SEEN = 0.005  # least share of its square that the joints carry: 0.02 where all guards touch alike
@@ -48,11 +50,11 @@ class ContactDetector(NamedTuple):
     """
 
     fast: LowPass
-    slow_rate: Any
-    threshold: Any
-    mass: Any
+    slow_rate: Number
+    threshold: Number
+    mass: Number
     geometry: TouchGeometry
-    numbers: Any
+    numbers: PerQuadrotor
 
 
 class ForceBand(NamedTuple):
@@ -60,8 +62,8 @@ class ForceBand(NamedTuple):
 
     x: LowPassState
     y: LowPassState
-    mean_x: Any
-    mean_y: Any
+    mean_x: Number
+    mean_y: Number
 
 
 class EvidenceState(NamedTuple):
@@ -76,8 +78,8 @@ class EvidenceState(NamedTuple):
     momentum: ForceBand
     push: ForceBand
     steady: SideForces
-    steepest: Any
-    doubt: Any
+    steepest: Number
+    doubt: Number
 
 
 class Deviations(NamedTuple):
@@ -99,7 +101,7 @@ class PushReading(NamedTuple):
 
 
 @law
-def banded(k: ContactDetector, m: ForceBand, x: Any, y: Any, hold: Any, dt: Any) -> ForceBand:
+def force_band_step(k: ContactDetector, m: ForceBand, x: Number, y: Number, hold: Number, dt: Number) -> ForceBand:
     """The memory of a force after a step; while `hold` is 1, its slow means stay."""
     after_x, after_y = low_pass_step(k.fast, m.x, x), low_pass_step(k.fast, m.y, y)
     rate = k.slow_rate * dt * (1.0 - hold)
@@ -125,7 +127,7 @@ def deviations(m: EvidenceState) -> Deviations:
 
 
 @law
-def restarted(m: ForceBand, restart: Any) -> ForceBand:
+def restarted(m: ForceBand, restart: Number) -> ForceBand:
     """A memory whose slow means are the present force if it is to `restart` (1)."""
     return m._replace(
         mean_x=m.mean_x + (m.x.value - m.mean_x) * restart, mean_y=m.mean_y + (m.y.value - m.mean_y) * restart
@@ -133,7 +135,7 @@ def restarted(m: ForceBand, restart: Any) -> ForceBand:
 
 
 @law
-def with_means_of_now(m: EvidenceState, restart: Any) -> EvidenceState:
+def with_means_of_now(m: EvidenceState, restart: Number) -> EvidenceState:
     """The memory whose slow means are the present forces if it is to `restart` (1), except for the steady one."""
     return m._replace(
         outside=restarted(m.outside, restart),
@@ -163,7 +165,7 @@ def on_map(square: Number, matched: Number, least: Number) -> Number:
 
 
 @law
-def square_of(f: SideForces) -> Any:
+def square_of(f: SideForces) -> Number:
     """The square of a horizontal force [N²]."""
     return f.x * f.x + f.y * f.y
 
@@ -181,7 +183,7 @@ def confirms(square: Number, strongest: Number, shown: Number) -> Number:
 
 
 @law
-def doubt_after(k: ContactDetector, doubt: Any, d: Deviations, dt: Any) -> Any:
+def doubt_after(k: ContactDetector, doubt: Number, d: Deviations, dt: Number) -> Number:
     """For how long the strongest force has lately not been confirmed by the motion [s], at most `DOUBT_TIME`."""
     c, p, T = d.outside, d.push, d.momentum
     on_guards, on_payload = square_of(c), square_of(p)
@@ -193,7 +195,7 @@ def doubt_after(k: ContactDetector, doubt: Any, d: Deviations, dt: Any) -> Any:
 
 
 @law
-def touched_guard(k: ContactDetector, d: Deviations, map_match: GuardMatch, sure: Any) -> Any:
+def touched_guard(k: ContactDetector, d: Deviations, map_match: GuardMatch, sure: Number) -> Number:
     """The number of the quadrotor whose guard touches now, or 0; `sure` is 1 if the motion confirms forces, else 0."""
     outside, joints, T, p = d.outside, d.joints, d.momentum, d.push
     square = outside.x * outside.x + outside.y * outside.y
@@ -206,14 +208,14 @@ def touched_guard(k: ContactDetector, d: Deviations, map_match: GuardMatch, sure
 
 
 @law
-def steepest_push(k: ContactDetector, m: EvidenceState, p: SideForces) -> Any:
+def steepest_push(k: ContactDetector, m: EvidenceState, p: SideForces) -> Number:
     """Square of the greatest slope of a push [N²/s²] since it exceeds the threshold, or 0 below."""
     slope = m.push.x.rate * m.push.x.rate + m.push.y.rate * m.push.y.rate
     return where(p.x * p.x + p.y * p.y > k.threshold * k.threshold, maximum(m.steepest, slope), 0.0)
 
 
 @law
-def beam_touched(k: ContactDetector, steepest: Any, d: Deviations, matched: Any) -> Any:
+def beam_touched(k: ContactDetector, steepest: Number, d: Deviations, matched: Number) -> Number:
     """1 if the beam touches now, else 0; with the square of the `steepest` slope of the push [N²/s²]."""
     p, T, outside = d.push, d.momentum, d.outside
     square, on_guards = p.x * p.x + p.y * p.y, greatest(outside.x * outside.x + outside.y * outside.y)
@@ -224,8 +226,8 @@ def beam_touched(k: ContactDetector, steepest: Any, d: Deviations, matched: Any)
 
 @law
 def touching_part(
-    k: ContactDetector, m: EvidenceState, d: Deviations, guards: GuardMatch, beam: BeamMatch, trusted: Any
-) -> Any:
+    k: ContactDetector, m: EvidenceState, d: Deviations, guards: GuardMatch, beam: BeamMatch, trusted: Number
+) -> Number:
     """The part that touches now: the number of the quadrotor of a guard, `BEAM`, or 0.
 
     `trusted` is 1 while joints agree or a contact explains that they do not; else 0, and only a known wall counts.
@@ -237,20 +239,20 @@ def touching_part(
 
 @law
 def heard(
-    k: ContactDetector, m: EvidenceState, e: PushEstimator, x: PushReading, hold: Any, dt: Any
+    k: ContactDetector, m: EvidenceState, e: PushEstimator, x: PushReading, hold: Number, dt: Number
 ) -> tuple[EvidenceState, Deviations]:
     """(the memory after a reading, the deviations); while `hold` is 1, the slow means stay."""
     a, f, c = x.imu.specific_force, x.imu.joint_force, external_forces(e, x.imu, x.angular)
-    outside = banded(k, m.outside, c.x, c.y, hold, dt)
+    outside = force_band_step(k, m.outside, c.x, c.y, hold, dt)
     rate = where(x.push.armed > 0.0, STEADY_RATE, k.slow_rate) * dt * (1.0 - hold)
     after = m._replace(
         outside=outside,
         steady=SideForces(
             m.steady.x + (outside.x.value - m.steady.x) * rate, m.steady.y + (outside.y.value - m.steady.y) * rate
         ),
-        joints=banded(k, m.joints, f.x, f.y, hold, dt),
-        momentum=banded(k, m.momentum, a.x * k.mass, a.y * k.mass, hold, dt),
-        push=banded(k, m.push, a.x * e.mass - total(f.x), a.y * e.mass - total(f.y), hold, dt),
+        joints=force_band_step(k, m.joints, f.x, f.y, hold, dt),
+        momentum=force_band_step(k, m.momentum, a.x * k.mass, a.y * k.mass, hold, dt),
+        push=force_band_step(k, m.push, a.x * e.mass - total(f.x), a.y * e.mass - total(f.y), hold, dt),
     )
     d = deviations(after)
     return after._replace(steepest=steepest_push(k, after, d.push), doubt=doubt_after(k, m.doubt, d, dt)), d

@@ -4,13 +4,15 @@ A force is that of a wall if the part is near one, and if the force points away 
 Upright sides and edges count; the tops of walls do not, because their forces are vertical.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import maximum, where
 from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, apply, dot, total
+from tandemlift.core.algebra.types import Number, PerQuadrotor
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, apply, dot, total
 from tandemlift.parts.contact.wall_geometry import Wall, offset
 from tandemlift.parts.contact.walls import BeamAxis, NearBeam, NearWalls, beam_axis, beam_point, point_by_edge
 from tandemlift.parts.mechanics.loads import translated
@@ -29,25 +31,25 @@ class TouchGeometry(NamedTuple):
     """
 
     quadrotors: Vec3
-    guards: Any
+    guards: PerQuadrotor
     payload: Vec3
-    half: Any
-    radius: Any
-    margin: Any
+    half: Number
+    radius: Number
+    margin: Number
 
 
 class BeamMatch(NamedTuple):
     """1 if a known wall explains a force on the beam, else 0; where on it [m, body y]; the offset from the wall [m]."""
 
-    matched: Any
-    along: Any
+    matched: Number
+    along: Number
     offset: Vec3
 
 
 class GuardMatch(NamedTuple):
     """Likewise for every guard, as sets; the offset is zero where no wall matches."""
 
-    matched: Any
+    matched: PerQuadrotor
     offset: Vec3
 
 
@@ -95,8 +97,8 @@ def guards_matched(near: Any, g: TouchGeometry, s: State, force: Vec3) -> Any:
     """`GuardMatch` of forces on the guards [N, world axes], with the walls that the pilot knows near them."""
 
 
-@guards_matched.register(Nothing)
-def _no_map(near: Nothing, g: TouchGeometry, s: State, force: Vec3) -> GuardMatch:
+@guards_matched.register(Absent)
+def _no_map(near: Absent, g: TouchGeometry, s: State, force: Vec3) -> GuardMatch:
     none = force.x * 0.0
     return GuardMatch(none, Vec3(none, none, none))
 
@@ -113,7 +115,7 @@ def _on_map(near: NearWalls, g: TouchGeometry, s: State, force: Vec3) -> GuardMa
 
 
 @law
-def beam_match(g: TouchGeometry, a: BeamAxis, along: Any, wall: Wall, force: Vec3) -> BeamMatch:
+def beam_match(g: TouchGeometry, a: BeamAxis, along: Number, wall: Wall, force: Vec3) -> BeamMatch:
     """Whether a wall explains a force [N, world axes] at a point `along` the beam [m]."""
     o = level(offset(wall, beam_point(a, along)))
     square = dot(o, o)
@@ -129,7 +131,7 @@ def first_match(a: BeamMatch, b: BeamMatch) -> BeamMatch:
 
 
 @choice(absent=UNMATCHED)
-def beam_matched(near: NearBeam | Nothing, g: TouchGeometry, s: State, force: Vec3) -> Any:
+def beam_matched(near: NearBeam | Absent, g: TouchGeometry, s: State, force: Vec3) -> Any:
     """`BeamMatch` of a force on the beam [N, world axes]."""
 
 
@@ -146,11 +148,11 @@ def _beam_on_map(near: NearBeam, g: TouchGeometry, s: State, force: Vec3) -> Bea
 @law
 def wall_of(walls: Wall, i: int) -> Wall:
     """One of a set of walls."""
-    return Wall(*[value[i] for value in walls])
+    return Wall(*[value[i] for value in walls])  # type: ignore[index]  # of a set of walls
 
 
 @choice(absent=UNMATCHED)
-def beam_of(near: NearWalls | Nothing, g: TouchGeometry, s: State, force: Vec3) -> Any:
+def beam_of(near: NearWalls | Absent, g: TouchGeometry, s: State, force: Vec3) -> Any:
     """`beam_matched` by the walls that the pilot knows near the beam."""
 
 
@@ -160,7 +162,7 @@ def _beam_of(near: NearWalls, g: TouchGeometry, s: State, force: Vec3) -> BeamMa
 
 
 @law
-def picked(numbers: Any, number: Any, values: Any) -> Any:
+def picked(numbers: PerQuadrotor, number: Number, values: PerQuadrotor) -> Number:
     """The value of a set at the place where `numbers` is `number`, 0 where it is nowhere."""
     return total(at_number(numbers, number, values))
 

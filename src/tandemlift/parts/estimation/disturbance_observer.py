@@ -15,17 +15,60 @@ does not upset it. The two meet continuously; an infinite L gives the linear one
 The model includes the measured push of the person, so that is no disturbance.
 """
 
-from typing import Any, NamedTuple
+from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from tandemlift.core.algebra.arrays import array, inverse
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import absolute, clip, sqrt
-from tandemlift.core.algebra.vector import ZERO, Vec3
-from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic
-from tandemlift.parts.mechanics.rigid_body import UP, Wrench
+from tandemlift.core.algebra.ops import absolute, clip, minimum, sqrt
+from tandemlift.core.algebra.types import Number, PerRotor
+from tandemlift.core.algebra.vector import ZERO, Absent, Mat3, Vec3, vec3
+from tandemlift.core.checks import CheckResult, refused
+from tandemlift.core.keys import BELIEVED, TRIAL, NonNegative, Positive, Positive3, Table, key
+from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
+from tandemlift.parts.mechanics.rigid_body import UP, InitialTable, Wrench
 from tandemlift.parts.mechanics.rotation import body_z_axis
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import Mixer, wrench
-from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
+
+
+class ObserverTable(Table):
+    """`[observer]`: a disturbance observer, which separates wind and model error from the person's push.
+
+    The controller counters what it finds. It is driven by the thrusts that the allocation could give, so it needs
+    `allocation.method = "constrained"`. Axes are x, y, z for forces and roll, pitch, yaw for moments.
+    """
+
+    model: Literal["none", "extended-state", "super-twisting"] = key(
+        "none",
+        None,
+        "model of the observer",
+        choices={
+            "none": "no observer",
+            "extended-state": "linear",
+            "super-twisting": "linear near zero, and limited to a slope beyond",
+        },
+    )
+    force_bandwidth: Positive3 = key((6.0, 6.0, 6.0), "rad/s", "bandwidth of the estimated force", source=TRIAL)
+    force_slope: Positive3 = key(
+        (10.0, 10.0, 10.0), "N/s", "steepest change of the force that 'super-twisting' follows", source=TRIAL
+    )
+    moment_bandwidth: Positive3 = key((10.0, 10.0, 10.0), "rad/s", "bandwidth of the estimated moment", source=TRIAL)
+    moment_slope: Positive3 = key(
+        (5.0, 5.0, 5.0), "N m/s", "steepest change of the moment that 'super-twisting' follows", source=TRIAL
+    )
+    rotor_lag: Positive = key(
+        0.018, "s", "time constant of the rotors in the observer's model, up and down", source=BELIEVED
+    )
+    rotor_delay: NonNegative = key(
+        0.01, "s", "delay of the rotors in the observer's model", source="actuators.delay of mission iris"
+    )
 
 
 class DisturbanceFilter(NamedTuple):
@@ -38,9 +81,9 @@ class DisturbanceFilter(NamedTuple):
 class DisturbanceObserver(NamedTuple):
     """The nominal vehicle, low-passes that model its rotors, and the filters of force and moment."""
 
-    mass: Any
-    inertia: Any
-    inverse_inertia: Any
+    mass: Number
+    inertia: Mat3 | Vec3
+    inverse_inertia: Mat3 | Vec3
     drag_force: Vec3
     drag_moment: Vec3
     effect: Mixer
@@ -84,7 +127,7 @@ NONE = DisturbanceEstimate(ZERO, ZERO, ZERO, ZERO)
 
 
 @elementwise
-def correction(e: Any, bandwidth: Any, slope: Any) -> Any:
+def correction(e: Number, bandwidth: Number, slope: Number) -> Number:
     """The rate of the model's correction towards the measurement: 2 λ e, or 2 √(L |e|) sgn e where that is less."""
     near = 2.0 * bandwidth * e
     far = 2.0 * sqrt(slope * absolute(e))
@@ -92,7 +135,7 @@ def correction(e: Any, bandwidth: Any, slope: Any) -> Any:
 
 
 @elementwise
-def growth(e: Any, bandwidth: Any, slope: Any) -> Any:
+def growth(e: Number, bandwidth: Number, slope: Number) -> Number:
     """The rate of the disturbance's estimate: λ² e, or L sgn e where that is less."""
     return clip(bandwidth * bandwidth * e, -slope, slope)
 
@@ -102,7 +145,7 @@ def observer_step(k: Any, memory: Any, pilot_input: Any, thrusts: Any, active: A
     """(`DisturbanceEstimate`, the new memory) at a sample.
 
     Args:
-        k: the observer, or `Nothing`.
+        k: the observer, or `Absent`.
         memory: its memory.
         pilot_input: the pilot's input, a `PilotInput`.
         thrusts: of all rotors [N], as allocated at the last sample.
@@ -113,14 +156,14 @@ def observer_step(k: Any, memory: Any, pilot_input: Any, thrusts: Any, active: A
 
 
 @law
-def expected(k: DisturbanceObserver, memory: ObserverState, thrusts: Any) -> Any:
+def expected(k: DisturbanceObserver, memory: ObserverState, thrusts: PerRotor) -> tuple[LowPassState, LowPassState]:
     """(the modelled rotors' thrust, moment) after a step under these commands, each with its rate."""
     u = wrench(k.effect, thrusts)
     return low_pass_step(k.thrust, memory.thrust, u.thrust), low_pass_step(k.moment, memory.moment, u.moment)
 
 
 @law
-def rates_of_change(k: DisturbanceObserver, pilot_input: Any, u: Wrench) -> Any:
+def rates_of_change(k: DisturbanceObserver, pilot_input: Any, u: Wrench) -> tuple[Vec3, Vec3]:
     """(acceleration [m/s², world axes], angular acceleration [rad/s², body axes]) without any disturbance."""
     s = pilot_input.state
     force = body_z_axis(s.attitude) * u.thrust + pilot_input.push - k.drag_force * s.velocity
@@ -130,8 +173,14 @@ def rates_of_change(k: DisturbanceObserver, pilot_input: Any, u: Wrench) -> Any:
 
 @observer_step.register(DisturbanceObserver)
 def _observed(
-    k: DisturbanceObserver, memory: Any, pilot_input: Any, thrusts: Any, active: Any, learning: Any, dt: Any
-) -> Any:
+    k: DisturbanceObserver,
+    memory: ObserverState,
+    pilot_input: Any,
+    thrusts: PerRotor,
+    active: Number,
+    learning: Number,
+    dt: Number,
+) -> tuple[DisturbanceEstimate, ObserverState]:
     thrust, moment = expected(k, memory, thrusts)
     linear, angular = rates_of_change(k, pilot_input, Wrench(thrust.value, moment.value))
     f, m = k.force_follower, k.moment_follower
@@ -159,5 +208,58 @@ def last_known(k: Any, memory: Any) -> Any:
 
 
 @last_known.register(DisturbanceObserver)
-def _known(k: DisturbanceObserver, memory: Any) -> Any:
+def _known(k: DisturbanceObserver, memory: ObserverState) -> DisturbanceEstimate:
     return unmodelled(k, memory)
+
+
+UNBOUNDED = 1e18  # a slope that nothing reaches
+
+
+def _follower(bandwidth: Any, slope: Any, linear: bool, size: np.ndarray) -> DisturbanceFilter:
+    """A filter with a slope in N/s or N·m/s, for axes of a mass [kg] or inertia [kg·m²]."""
+    most = [UNBOUNDED] * 3 if linear else [minimum(s / m, UNBOUNDED) for s, m in zip(slope, size.tolist(), strict=True)]
+    return DisturbanceFilter(vec3(bandwidth), vec3(most))
+
+
+def start_observer(
+    o: ObserverTable, vehicle: Vehicle, effect: Mixer, step: float, initial: InitialTable, *, hovers: bool
+) -> tuple[DisturbanceObserver, ObserverState] | tuple[Absent, Absent]:
+    """The observer before its first sample, and its memory; or `Absent`.
+
+    Args:
+        o: `[observer]`.
+        vehicle: the nominal one.
+        effect: of its rotors.
+        step: sampling time [s].
+        initial: the state at the start.
+        hovers: whether the rotors turn as in hover at the start.
+    """
+    if o.model == "none":
+        return Absent(), Absent()
+    linear, inertia = o.model == "extended-state", vehicle.inertia
+    rotors = low_pass(2.0 / (o.rotor_lag + o.rotor_delay + step), step)
+    observer = DisturbanceObserver(
+        mass=vehicle.mass,
+        inertia=inertia_value(inertia),
+        inverse_inertia=inertia_value(inverse(inertia)),
+        drag_force=vec3(vehicle.drag.force),
+        drag_moment=vec3(vehicle.drag.moment),
+        effect=effect,
+        thrust=rotors,
+        moment=rotors,
+        force_follower=_follower(o.force_bandwidth, o.force_slope, linear, array([vehicle.mass] * 3)),
+        moment_follower=_follower(o.moment_bandwidth, o.moment_slope, linear, np.diag(inertia)),
+    )
+    thrust = LowPassState(vehicle.weight if hovers else 0.0, 0.0)
+    velocity, rates = vec3(initial.velocity), vec3(initial.rates)
+    at_start = ObserverState(thrust, LowPassState(ZERO, ZERO), velocity, rates, ZERO, ZERO, ZERO, ZERO)
+    return observer, at_start
+
+
+def observer_checks(table: ObserverTable, method: str) -> Iterator[CheckResult]:
+    """An observer that does not know what the rotors could give; `method`: `allocation.method`."""
+    if table.model != "none" and method != "constrained":
+        yield refused(
+            f'observer.model = "{table.model}": must be "none" unless allocation.method is "constrained", '
+            "which tells it what the rotors could give"
+        )

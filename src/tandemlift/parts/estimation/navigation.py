@@ -15,17 +15,22 @@ Method: P. D. Groves, Principles of GNSS, inertial, and multisensor integrated n
 bias by integral action on the attitude: R. Mahony, T. Hamel and J.-M. Pflimlin, IEEE Trans. Automatic Control 53, 2008.
 """
 
+from __future__ import annotations
+
 import math
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import exp, maximum, where
-from tandemlift.core.algebra.types import number
+from tandemlift.core.algebra.types import Number, number
 from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, apply, apply_transposed, cross, vec3
+from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.mechanics.rigid_body import UP, State
 from tandemlift.parts.mechanics.rotation import normalised, rotated_by, rotation_between, rotation_from_quaternion
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.sensors.readings import ImuReading, MotionReading, Readings
+from tandemlift.parts.sensors.sensors_table import SensorsTable, steps_of
 
 
 class Navigator(NamedTuple):
@@ -37,15 +42,15 @@ class Navigator(NamedTuple):
     the smoothed rates.
     """
 
-    interval: Any
+    interval: Number
     centre: Vec3
-    age: Any
-    attitude: Any
-    velocity: Any
-    position: Any
-    gyroscope: Any
-    accelerometer: Any
-    rates: Any
+    age: Number
+    attitude: Number
+    velocity: Number
+    position: Number
+    gyroscope: Number
+    accelerometer: Number
+    rates: Number
 
 
 class NavigationState(NamedTuple):
@@ -63,7 +68,7 @@ class NavigationState(NamedTuple):
     rates: Vec3
     gyroscope_bias: Vec3
     accelerometer_bias: Vec3
-    started: Any
+    started: Number
 
 
 class Innovation(NamedTuple):
@@ -127,7 +132,7 @@ def corrected(k: Navigator, m: NavigationState, motion: MotionReading) -> Naviga
 
 
 @law
-def navigate(k: Navigator, memory: NavigationState, readings: Readings) -> Any:
+def navigate(k: Navigator, memory: NavigationState, readings: Readings) -> tuple[State, NavigationState]:
     """(State of the system's centre of mass at the IMU's last sample, the new memory)."""
     after = corrected(k, propagated(k, memory, readings.imu), readings.motion)
     return centre_of_mass(k, after), after
@@ -170,6 +175,19 @@ def navigator(
         gyroscope=(1.0 - pole_of_attitude) ** 2 / T,
         accelerometer=(1.0 - pole_of_velocity) ** 2 / T,
         rates=1.0 - exp(-rates_bandwidth * interval),
+    )
+
+
+def navigator_from(e: EstimatorTable, s: SensorsTable, vehicle: Vehicle, step: float) -> Navigator:
+    """The observer of a vehicle with these sensors, run every `step` [s]."""
+    return navigator(
+        vehicle.center_of_mass,
+        step,
+        steps_of(s.interval, step),
+        steps_of(s.motion.interval, step),
+        position_bandwidth=e.position_bandwidth,
+        attitude_bandwidth=e.attitude_bandwidth,
+        age=s.motion.delay - s.delay,
     )
 
 

@@ -7,22 +7,30 @@ the vertical the same holds for the moments, without wind. Without rotors that h
 is told.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
+import numpy as np
+
+from tandemlift.core.algebra.arrays import array
 from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import maximum, sqrt
-from tandemlift.core.algebra.vector import ZERO, Vec3, apply, apply_transposed, cross
+from tandemlift.core.algebra.ops import maximum, minimum, sqrt, where
+from tandemlift.core.algebra.types import Number, PerRotor
+from tandemlift.core.algebra.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, each, vec3
 from tandemlift.parts.estimation.confirmed_part import Zero, compared
+from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState
 from tandemlift.parts.estimation.wind_compensation import subtracted_wind
-from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic
+from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.loads import scaled, sum_over_set, translated
 from tandemlift.parts.mechanics.rigid_body import UP
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.rotors.allocation import Mixer, wrench
-from tandemlift.parts.rotors.rotor_lag import Lag, lag_step
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.rotors.allocation import Mixer, mixer_from, wrench
+from tandemlift.parts.rotors.rotor_lag import Lag, lag, lag_step
 from tandemlift.parts.sensors.readings import ImuReading
-from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 BANDWIDTH = 10.0  # rad/s, of the low-pass on r: a push does not show in r, so it need not be fast
 REST_THRUST = 1e-3  # N
@@ -33,30 +41,30 @@ class RotorModel(NamedTuple):
     """Rotors as the pilot knows them: their wrench, k [N/(rad/s)²] and 1/k, and lags, each a set."""
 
     effect: Mixer
-    constant: Any
-    per_constant: Any
+    constant: PerRotor
+    per_constant: PerRotor
     up: Lag
     down: Lag
 
 
 class PushConfirmation(NamedTuple):
-    """A `RotorModel`, or `Nothing`; tolerances and ratio ρ per body axis; the vehicle's inertia; the low-pass on r.
+    """A `RotorModel`, or `Absent`; tolerances and ratio ρ per body axis; the vehicle's inertia; the low-pass on r.
 
     `tolerance` [N], `moment_tolerance` about z [N·m], `inertia` [kg·m²].
     """
 
-    rotors: Any
+    rotors: RotorModel | Absent
     tolerance: Vec3
-    moment_tolerance: Any
+    moment_tolerance: Number
     ratio: Vec3
-    inertia: Any
+    inertia: Mat3 | Vec3
     low_pass: LowPass
 
 
 class ConfirmationState(NamedTuple):
     """Memory: speeds of the rotors as modelled [rad/s]; r [N] and its moment about z [N·m], low-passed; their zeros."""
 
-    speeds: Any
+    speeds: PerRotor | Absent
     rest: LowPassState
     turning: LowPassState
     force_zero: Zero
@@ -75,7 +83,7 @@ class OutsideLoad(NamedTuple):
     """What acts from outside besides the push: force [N, body axes] and moment about z [N·m]; a sample."""
 
     force: Vec3
-    turning: Any
+    turning: Number
 
 
 @law
@@ -87,13 +95,13 @@ def on_quadrotors(k: PushEstimator, imu: ImuReading, angular: Vec3) -> Vec3:
 
 
 @law
-def about_vertical(e: PushEstimator, moment: Vec3, force: Vec3) -> Any:
+def about_vertical(e: PushEstimator, moment: Vec3, force: Vec3) -> Number:
     """The moment of a push about the system's centre of mass, along body z [N·m], from that about the payload's."""
     return moment.z - cross(e.system, force).z
 
 
 @elementwise
-def speed_at(thrust: Any, per_constant: Any) -> Any:
+def speed_at(thrust: Number, per_constant: Number) -> Number:
     """The speed of a rotor [rad/s] with a thrust [N] in the steady state; its slope at rest is 0, not infinite."""
     return sqrt(maximum(thrust, REST_THRUST) * per_constant)
 
@@ -103,7 +111,7 @@ def outside_load(rotors: Any, memory: Any, commands: Any, quadrotors: Vec3, turn
     """(`OutsideLoad` of a sample, the new memory).
 
     Args:
-        rotors: a `RotorModel`, or `Nothing`.
+        rotors: a `RotorModel`, or `Absent`.
         memory: speed of every rotor as modelled [rad/s].
         commands: the last thrust of every rotor [N].
         quadrotors: Σ (f_i + m_i s_i) [N, body axes].
@@ -112,7 +120,9 @@ def outside_load(rotors: Any, memory: Any, commands: Any, quadrotors: Vec3, turn
 
 
 @outside_load.register(RotorModel)
-def _beside_thrust(rotors: RotorModel, memory: Any, commands: Any, quadrotors: Vec3, turning: Any) -> Any:
+def _beside_thrust(
+    rotors: RotorModel, memory: PerRotor, commands: PerRotor, quadrotors: Vec3, turning: Number
+) -> tuple[OutsideLoad, PerRotor]:
     squares, speeds = lag_step(rotors.up, rotors.down, memory, speed_at(commands, rotors.per_constant))
     made = wrench(rotors.effect, squares * rotors.constant)
     return OutsideLoad(quadrotors - UP * made.thrust, turning - made.moment.z), speeds
@@ -125,7 +135,7 @@ def confirm(
     """(the confirmed push, a `PushEstimate`, the new memory).
 
     Args:
-        k: a `PushConfirmation`, or `Nothing`.
+        k: a `PushConfirmation`, or `Absent`.
         memory: its memory.
         push: as estimated.
         reading: what it was estimated from.
@@ -137,8 +147,14 @@ def confirm(
 
 @confirm.register(PushConfirmation)
 def _confirmed(
-    k: PushConfirmation, m: ConfirmationState, p: PushEstimate, x: SampledPush, commands: Any, explained: Any, dt: Any
-) -> Any:
+    k: PushConfirmation,
+    m: ConfirmationState,
+    p: PushEstimate,
+    x: SampledPush,
+    commands: PerRotor | Absent,
+    explained: Number,
+    dt: Number,
+) -> tuple[PushEstimate, ConfirmationState]:
     imu, e, after = x.imu, x.estimator, x.memory
     sampled = apply_transposed(rotation_from_quaternion(imu.frame), p.measured)
     momentum = apply_inertia(k.inertia, after.angular) - gyroscopic(k.inertia, imu.rates)
@@ -161,7 +177,9 @@ def refuted_push(estimates: Any) -> Any:
 
 
 @law
-def withheld(p: PushEstimate, imu: ImuReading, force: Vec3, turning: Any, applies: Any, refuted: Any) -> PushEstimate:
+def withheld(
+    p: PushEstimate, imu: ImuReading, force: Vec3, turning: Number, applies: Number, refuted: Number
+) -> PushEstimate:
     """The push less what is not confirmed: `force` [N] and the moment `turning` about z [N·m], body axes."""
     less, about_z = apply(rotation_from_quaternion(imu.frame), force * applies), Vec3(0.0, 0.0, turning * applies)
     smoothed = p.force - less
@@ -173,4 +191,65 @@ def withheld(p: PushEstimate, imu: ImuReading, force: Vec3, turning: Any, applie
         usable=smoothed * (p.trusted * p.armed),
         withheld=less,
         refuted=refuted * applies,
+    )
+
+
+TOLERANCE = 0.5  # of the threshold of a push: also after a bias of the other sign, what is left stays below it
+MARGIN = 1.2  # on ratios of drag areas, which are not known better
+TINY_AREA = 1e-6  # m²: quadrotors with less tell nothing of the wind
+
+
+def rotor_model(vehicle: Vehicle, step: float) -> tuple[RotorModel, PerRotor]:
+    """The rotors as the pilot knows them, and their speeds at rest."""
+    rotors, fleet = each(vehicle.rotor_count), [q for q in vehicle.quadrotors for _ in range(4)]
+    up, down = (lag([getattr(q, name) for q in fleet], step) for name in ("lag_up", "lag_down"))
+    constants = [q.thrust_constant for q in fleet]
+    model = RotorModel(mixer_from(vehicle.effect), rotors(*constants), rotors(*[1.0 / k for k in constants]), up, down)
+    return model, rotors(*[0.0] * vehicle.rotor_count)
+
+
+def _wind_ratios(vehicle: Vehicle) -> list[Any]:
+    """Drag of the payload over that of the quadrotors along each body axis; 0 where the quadrotors have none."""
+    beam = array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
+    fleet = np.sum([array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
+    return [where(b < TINY_AREA, 0.0, a / maximum(b, TINY_AREA)) for a, b in zip(beam, fleet, strict=True)]
+
+
+def start_confirmation(
+    e: EstimatorTable,
+    vehicle: Vehicle,
+    step: float,
+    *,
+    threshold: tuple[float, float, float],
+    moment_threshold: float,
+    limited: bool,
+) -> tuple[PushConfirmation, ConfirmationState] | tuple[Absent, Absent]:
+    """The confirmation of pushes by the nominal vehicle, and its memory; or `Absent`.
+
+    Args:
+        e: `[estimator]`.
+        vehicle: the nominal one.
+        step: sampling time [s].
+        threshold: force [N] along each axis from which on a push is followed.
+        moment_threshold: moment [N·m] from which on a push turns the vehicle.
+        limited: whether the allocation knows the limits of the rotors, and so their thrusts.
+    """
+    x, y, z = threshold
+    if e.confirmation == "none":
+        return Absent(), Absent()
+    side = minimum(x, y) * TOLERANCE  # body axes turn with the heading
+    heavier = vehicle.payload.mass / (vehicle.mass - vehicle.payload.mass)
+    margin = MARGIN if e.wind_compensation == "none" else 0.0
+    rotors, speeds = rotor_model(vehicle, step) if limited else (Absent(), Absent())
+    confirmation = PushConfirmation(
+        rotors=rotors,
+        tolerance=Vec3(side, side, z * TOLERANCE),
+        moment_tolerance=moment_threshold * TOLERANCE,
+        ratio=vec3([maximum(ratio * margin, heavier) for ratio in _wind_ratios(vehicle)]),
+        inertia=inertia_value(vehicle.inertia),
+        low_pass=low_pass(BANDWIDTH, step),
+    )
+    force, turning = LowPassState(ZERO, ZERO), LowPassState(0.0, 0.0)
+    return confirmation, ConfirmationState(
+        speeds, force, turning, Zero(ZERO, ZERO, force, ZERO, ZERO), Zero(0.0, 0.0, turning, 0.0, 0.0)
     )

@@ -17,6 +17,8 @@ One low-pass in body axes serves F and M, so that the point of application, x ×
 however the force changes and the vehicle turns.
 """
 
+from __future__ import annotations
+
 import math
 from typing import Any, NamedTuple
 
@@ -25,17 +27,17 @@ import numpy as np
 from tandemlift.core.algebra.arrays import array
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import clip, maximum, sqrt, where
-from tandemlift.core.algebra.types import number
-from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, apply, cross, each, spread, total, vec3
+from tandemlift.core.algebra.types import Number, number
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, apply, cross, each, spread, total, vec3
 from tandemlift.parts.estimation.tare import TINY, SideForces, TareSums, summed, tare_of
 from tandemlift.parts.estimation.wind_compensation import start_payload_drag, wind_on_payload
+from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.loads import add_to_each, sum_over_set
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.sensors.readings import ImuReading
-from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 
-NOTHING = Nothing()
+NOTHING = Absent()
 
 
 class PushEstimator(NamedTuple):
@@ -46,25 +48,25 @@ class PushEstimator(NamedTuple):
     `per_interval`: samples of the IMU per second. `least`: square of the least force [N²] that has a point of
     application. Tare from `tare_start` [s] until before `tare_end`; `identify` is 1 to identify the payload's mass,
     else 0. `limit`: disagreement [N] from which on nothing is trusted; `share` is 1/N, `alone` N/(N − 1) or 0 for N =
-    1. `windage`: how wind is taken off, or `Nothing`.
+    1. `windage`: how wind is taken off, or `Absent`.
     """
 
-    mass: Any
+    mass: Number
     inertia: Any
     system: Vec3
     joints: Vec3
     quadrotors: Vec3
     quadrotor_mass: Any
-    reach: Any
-    per_interval: Any
+    reach: Number
+    per_interval: Number
     low_pass: LowPass
-    least: Any
-    tare_start: Any
-    tare_end: Any
-    identify: Any
-    limit: Any
-    share: Any
-    alone: Any
+    least: Number
+    tare_start: Number
+    tare_end: Number
+    identify: Number
+    limit: Number
+    share: Number
+    alone: Number
     windage: Any
 
 
@@ -96,14 +98,14 @@ class PushEstimate(NamedTuple):
     measured_moment: Vec3
     force: Vec3
     moment: Vec3
-    point: Any
-    payload_mass: Any
-    disagreement: Any
-    trusted: Any
-    armed: Any
+    point: Number
+    payload_mass: Number
+    disagreement: Number
+    trusted: Number
+    armed: Number
     usable: Vec3
     withheld: Vec3 = ZERO
-    refuted: Any = 0.0
+    refuted: Number = 0.0
 
 
 @law
@@ -114,7 +116,7 @@ def moment_on_payload(k: PushEstimator, imu: ImuReading, angular: Vec3) -> Vec3:
 
 
 @law
-def inertial_force(k: PushEstimator, specific_force: Vec3, rates: Vec3, angular: Vec3, mass: Any) -> Vec3:
+def inertial_force(k: PushEstimator, specific_force: Vec3, rates: Vec3, angular: Vec3, mass: Number) -> Vec3:
     """m_L a [N, body axes]; `mass` [kg] beyond the nominal is taken to be at the system's centre of mass.
 
     `specific_force` [m/s²] is at the payload's centre of mass. Taken to be there too, a large excess would make every
@@ -148,7 +150,7 @@ def sides(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces:
 
 
 @law
-def point_of_application(k: PushEstimator, force: Vec3, moment: Vec3) -> Any:
+def point_of_application(k: PushEstimator, force: Vec3, moment: Vec3) -> Number:
     """Where on the beam's axis, body y [m], a force acts that has this moment about its centre (body axes)."""
     square = force.x * force.x + force.z * force.z
     y = (moment.x * force.z - moment.z * force.x) / maximum(square, k.least)
@@ -156,13 +158,15 @@ def point_of_application(k: PushEstimator, force: Vec3, moment: Vec3) -> Any:
 
 
 @law
-def disagreement(k: PushEstimator, x: Any, y: Any) -> Any:
+def disagreement(k: PushEstimator, x: Any, y: Any) -> Number:
     """The horizontal force [N] by which one joint sensor alone would have to be wrong to explain these `SideForces`."""
     return sqrt(maximum((total(x * x) + total(y * y)) * k.alone, TINY))
 
 
 @law
-def estimate(k: PushEstimator, memory: PushEstimatorState, imu: ImuReading, t: Any) -> Any:
+def estimate(
+    k: PushEstimator, memory: PushEstimatorState, imu: ImuReading, t: Number
+) -> tuple[PushEstimate, PushEstimatorState]:
     """(Push, the new memory) from a reading of the IMU at time t [s]."""
     a, f = imu.specific_force, sum_over_set(imu.joint_force)
     angular = where(imu.fresh > 0.0, (imu.rates - memory.rates) * k.per_interval, memory.angular)
@@ -257,7 +261,7 @@ def push_estimator(
         tare_duration: [s].
         identify_mass: whether to identify the payload's mass during the tare.
         disagreement_limit: [N], from which on the push is not trusted.
-        windage: how the wind on the payload is taken off, or `Nothing`.
+        windage: how the wind on the payload is taken off, or `Absent`.
         system: the whole vehicle's centre of mass from the payload's [m], body axes (3).
 
     Raises:

@@ -4,10 +4,13 @@ The means of the force F and the moment M on the payload are the bias, with the 
 of the joints' force along gravity cannot be distinguished from an error of the mass.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import maximum, where
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import Vec3, dot
 
 TINY = 1e-24
@@ -17,8 +20,8 @@ TINY = 1e-24
 class SideForces(NamedTuple):
     """Force along body x and y on every quadrotor [N], less its mean over them (sets)."""
 
-    x: Any
-    y: Any
+    x: Number
+    y: Number
 
 
 class TareSums(NamedTuple):
@@ -36,14 +39,16 @@ class TareSums(NamedTuple):
 class Tare(NamedTuple):
     """What the tare found: mass of the payload [kg], bias of force [N] and moment [N·m] (body axes) and sides."""
 
-    mass: Any
+    mass: Number
     force: Vec3
     moment: Vec3
     sides: SideForces
 
 
 @law
-def summed(sums: TareSums, begun: Any, taken: Any, f: Vec3, a: Vec3, moment: Vec3, unequal: SideForces) -> TareSums:
+def summed(
+    sums: TareSums, begun: Number, taken: Number, f: Vec3, a: Vec3, moment: Vec3, unequal: SideForces
+) -> TareSums:
     """The sums with this sample if it is `taken` (1), or as they were (0); none before the tare has `begun` (0)."""
     return TareSums(
         sums.count * begun + taken,
@@ -57,7 +62,7 @@ def summed(sums: TareSums, begun: Any, taken: Any, f: Vec3, a: Vec3, moment: Vec
 
 
 @law
-def tare_of(mass: Any, identify: Any, sums: TareSums, armed: Any) -> Tare:
+def tare_of(mass: Number, identify: Number, sums: TareSums, armed: Number) -> Tare:
     """The tare from its sums once it is over (`armed` 1); before, the nominal mass [kg] and no bias.
 
     `identify` is 1 to identify the payload's mass, else 0.

@@ -9,13 +9,20 @@ The ratio also multiplies what the sensors err by. A low-pass of bandwidth ω ke
 of N joints, ratio σ √(ω T/4N); it is as much too late for gusts, 2/ω.
 """
 
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
+import numpy as np
+
+from tandemlift.core.algebra.arrays import array
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import maximum
-from tandemlift.core.algebra.types import Number, PerQuadrotor
-from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, total
-from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
+from tandemlift.core.algebra.types import Number, PerQuadrotor, number
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, total
+from tandemlift.core.checks import CheckResult, refused
+from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 
 
 class PayloadDrag(NamedTuple):
@@ -30,14 +37,14 @@ class PayloadDragState(NamedTuple):
     """Memory: sum over the tare's samples of what is to be taken off, their count, and the low-pass [N, body axes]."""
 
     sum: Vec3
-    count: Number
+    count: Number  # type: ignore[assignment]  # hides a method of tuples
     force: LowPassState
 
 
 @choice(absent=(ZERO, "memory"))
 def wind_on_payload(
-    k: PayloadDrag | Nothing,
-    memory: PayloadDragState | Nothing,
+    k: PayloadDrag | Absent,
+    memory: PayloadDragState | Absent,
     x: PerQuadrotor,
     y: PerQuadrotor,
     begun: Number,
@@ -47,7 +54,7 @@ def wind_on_payload(
     """(force of the wind on the payload beyond the tare's [N, body axes], the new memory).
 
     Args:
-        k: `PayloadDrag`, or `Nothing`.
+        k: `PayloadDrag`, or `Absent`.
         memory: its memory.
         x: force from outside along body x on every quadrotor [N], a set.
         y: likewise along y.
@@ -80,7 +87,7 @@ def _scaled(
 
 
 @choice(absent=ZERO)
-def subtracted_wind(memory: PayloadDragState | Nothing) -> Any:
+def subtracted_wind(memory: PayloadDragState | Absent) -> Any:
     """What was subtracted from the push at the last sample [N, body axes], from this memory."""
 
 
@@ -89,6 +96,23 @@ def _subtracted(memory: PayloadDragState) -> Vec3:
     return memory.force.value
 
 
-def start_payload_drag(windage: PayloadDrag | Nothing) -> PayloadDragState | Nothing:
+def start_payload_drag(windage: PayloadDrag | Absent) -> PayloadDragState | Absent:
     """The memory before the first step."""
-    return windage if isinstance(windage, Nothing) else PayloadDragState(ZERO, 0.0, LowPassState(ZERO, ZERO))
+    return windage if isinstance(windage, Absent) else PayloadDragState(ZERO, 0.0, LowPassState(ZERO, ZERO))
+
+
+def payload_drag_from(vehicle: Vehicle, bandwidth: float, step: float) -> PayloadDrag:
+    """The windage of the nominal vehicle, with a low-pass of a bandwidth [rad/s]."""
+    beam = array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
+    quadrotors = np.sum([array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
+    return PayloadDrag(number(beam[0] / quadrotors[0]), number(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
+
+
+def compensation_checks(model: str, quadrotors: Sequence[Quadrotor]) -> Iterator[CheckResult]:
+    """Quadrotors without drag along an axis, which tell nothing of its wind; `model`: `wind_compensation`."""
+    for axis, name in enumerate("xy"):
+        if model != "none" and not any(q.drag_area[axis] * q.drag_coefficient > 0.0 for q in quadrotors):
+            yield refused(
+                'estimator.wind_compensation = "quadrotors": must be "none" where no quadrotor has drag along body '
+                f"{name}: there its wind tells nothing"
+            )

@@ -8,14 +8,18 @@ The observer of disturbances learns nothing from a wall, and the force of a wall
 The time in contact, which time without one takes back, leads to a landing.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import Nothing, choice, law
+from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import maximum, minimum, sqrt, where
 from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.vector import ZERO, Vec3, apply_transposed, cross, dot
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, apply_transposed, cross, dot
 from tandemlift.parts.compliance.compliance import ComplianceState, moved_towards, within
 from tandemlift.parts.estimation.contact_detection import NO_CONTACT, ContactEstimate
+from tandemlift.parts.estimation.contact_table import ContactTable
 from tandemlift.parts.guidance.guidance import LoadOfWall, PilotInput
 from tandemlift.parts.guidance.phases import PhaseBounds
 from tandemlift.parts.mechanics.rigid_body import State
@@ -35,9 +39,9 @@ ROUND = 6755399441055744.0  # 1.5 · 2^52: added and taken off, it leaves a whol
 class ContactReaction(NamedTuple):
     """The parameters: `gap` [m] to leave; times [s] after which a contact is over, and leads to a landing."""
 
-    gap: Any
-    recovery_time: Any
-    hold_timeout: Any
+    gap: Number
+    recovery_time: Number
+    hold_timeout: Number
 
 
 class HandWrench(NamedTuple):
@@ -55,14 +59,14 @@ class ContactReactionState(NamedTuple):
     without.
     """
 
-    holding: Any
+    holding: Number
     normal: Vec3
-    level: Any
-    lever: Any
-    part: Any
-    free_time: Any
-    held_time: Any
-    code: Any
+    level: Number
+    lever: Number
+    part: Number
+    free_time: Number
+    held_time: Number
+    code: Number
     push: HandWrench
 
 
@@ -75,16 +79,16 @@ class Boundary(NamedTuple):
     """
 
     push: HandWrench
-    on: Any
+    on: Number
     normal: Vec3
-    level: Any
-    least: Any
-    lever: Any
+    level: Number
+    least: Number
+    lever: Number
     position: Vec3
     wall: LoadOfWall
-    land: Any
-    code: Any
-    on_beam: Any
+    land: Number
+    code: Number
+    on_beam: Number
 
 
 @choice
@@ -92,19 +96,19 @@ def contact_of(sensed: Any) -> Any:
     """`ContactEstimate` from readings and estimates."""
 
 
-@contact_of.register(Nothing)
-def _without_sensors(sensed: Nothing) -> ContactEstimate:
+@contact_of.register(Absent)
+def _without_sensors(sensed: Absent) -> ContactEstimate:
     return NO_CONTACT
 
 
 @law
-def side_of(x: Any) -> Any:
+def side_of(x: Number) -> Number:
     """0, 1 or 2 for a component of a direction along −, neither, or +."""
     return where(x > DIAGONAL, 2.0, where(x < -DIAGONAL, 0.0, 1.0))
 
 
 @law
-def code_of(c: ContactEstimate) -> Any:
+def code_of(c: ContactEstimate) -> Number:
     """Part, direction of the wall and place on the beam [cm] in a whole number; `simulation.contact_texts` reads it."""
     part = where(c.part < 0.0, BEAM, c.part)
     direction = side_of(-c.normal.x) * 3.0 + side_of(-c.normal.y)
@@ -118,7 +122,9 @@ def react_to_contact(k: Any, m: Any, pilot_input: PilotInput, aloft: Any, dt: An
 
 
 @react_to_contact.register(ContactReaction)
-def _held(k: ContactReaction, m: ContactReactionState, pilot_input: PilotInput, aloft: Any, dt: Any) -> Any:
+def _held(
+    k: ContactReaction, m: ContactReactionState, pilot_input: PilotInput, aloft: Number, dt: Number
+) -> tuple[Boundary, ContactReactionState]:
     c, state = contact_of(pilot_input.sensed), pilot_input.state
     touching = where(c.part == 0.0, 0.0, aloft)
     begins = touching * where(dot(c.normal, m.normal) * m.holding > SAME_WALL, 0.0, 1.0)
@@ -159,7 +165,7 @@ def kept_out(b: Any, m: ComplianceState, dt: Any) -> Any:
 
 
 @kept_out.register(Boundary)
-def _kept_out(b: Boundary, m: ComplianceState, dt: Any) -> ComplianceState:
+def _kept_out(b: Boundary, m: ComplianceState, dt: Number) -> ComplianceState:
     place = dot(b.normal, m.position)
     least = minimum(b.least, maximum(place, b.level) + LEAVING_SPEED * dt)
     inside = maximum(least - place, 0.0) * b.on
@@ -180,12 +186,12 @@ def turning_out(b: Any, moment: Any) -> Any:
 
 
 @turning_out.register(Boundary)
-def _turning_out(b: Boundary, moment: Any) -> Any:
+def _turning_out(b: Boundary, moment: Number) -> Number:
     return where(b.on * b.lever * moment < 0.0, 0.0, moment)
 
 
 @law
-def slower(m: HandWrench, force: Vec3, moment: Vec3, dt: Any) -> HandWrench:
+def slower(m: HandWrench, force: Vec3, moment: Vec3, dt: Number) -> HandWrench:
     """A push that follows the measured one no faster than a hand changes it: a wall's blows are no push."""
     step = HAND_RATE * dt
     return HandWrench(moved_towards(m.force, force, step), moved_towards(m.moment, moment, step))
@@ -214,7 +220,7 @@ def _bounded(b: Boundary, bounds: PhaseBounds) -> PhaseBounds:
     return bounds._replace(land=maximum(bounds.land, b.land), contact=b.on)
 
 
-@choice(absent=Nothing())
+@choice(absent=Absent())
 def load_of_wall(b: Any) -> Any:
     """The load of the wall on a guard that touches; that on the beam is a part of the measured push already."""
 
@@ -238,10 +244,19 @@ def contact_code(b: Any) -> Any:
 
 
 @contact_code.register(Boundary)
-def _code(b: Boundary) -> Any:
+def _code(b: Boundary) -> Number:
     return b.code
 
 
 def start_reaction() -> ContactReactionState:
     """The memory before the first step."""
     return ContactReactionState(0.0, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, HandWrench(ZERO, ZERO))
+
+
+def start_contact_hold(
+    table: ContactTable,
+) -> tuple[ContactReaction, ContactReactionState] | tuple[Absent, Absent]:
+    """The reaction to contacts and its memory before the first sample, or `Absent`."""
+    if table.model == "none":
+        return Absent(), Absent()
+    return ContactReaction(table.gap, table.recovery_time, table.hold_timeout), start_reaction()

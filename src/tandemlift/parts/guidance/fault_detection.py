@@ -4,18 +4,52 @@ The reaction is the strongest that is configured for any of them. `core.faults` 
 their order.
 """
 
+from __future__ import annotations
+
 from collections import namedtuple
-from typing import Any, NamedTuple, cast
+from typing import Annotated, Any, NamedTuple, cast
+
+from pydantic import Field
 
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import maximum, where
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import Vec3, dot
 from tandemlift.core.faults import FAULTS, REACTIONS
+from tandemlift.core.keys import Fraction, NonNegative, PerAxis, Positive, Table, Tilt, key
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIMITED, STOPPED
 from tandemlift.parts.guidance.preflight_checks import SensorStatus
-from tandemlift.parts.guidance.requests import VehicleStatus
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import body_z_axis
+from tandemlift.parts.requests import VehicleStatus
+
+Corner = Annotated[float, Field(ge=-1e3, le=1e3)]  # m
+Corners = Annotated[tuple[Corner, Corner, Corner], PerAxis(3)]
+
+
+class FenceTable(Table):
+    """`[supervision.fence]`: the box that the reference stays in."""
+
+    low: Corners = key((-1000.0, -1000.0, -1000.0), "m", "lower corner, world axes", source="no fence")
+    high: Corners = key((1000.0, 1000.0, 1000.0), "m", "upper corner, world axes", rule="above low", source="no fence")
+    margin: NonNegative = key(0.3, "m", "distance by which the vehicle may be outside", source="chosen")
+    braking_gain: Positive = key(
+        1.0, "1/s", "largest speed towards a side, over the distance that is left to it", source="chosen"
+    )
+
+
+class LimitsTable(Table):
+    """`[supervision.limits]`: limits of a flight, each with the time for which it may be exceeded."""
+
+    thrust_fraction: Fraction = key(0.95, "1", "largest fraction of the largest thrust", source="chosen")
+    thrust_time: NonNegative = key(1.0, "s", "time for which the thrust may exceed its limit", source="chosen")
+    tilt: Tilt = key(1.0, "rad", "largest angle of body z from upright", source="chosen")
+    tilt_time: NonNegative = key(0.2, "s", "time for which the tilt may exceed its limit", source="chosen")
+    rates: Positive = key(8.0, "rad/s", "largest angular speed", source="chosen")
+    rates_time: NonNegative = key(0.2, "s", "time for which the angular speed may exceed its limit", source="chosen")
+    tracking_error: Positive = key(0.5, "m", "largest distance from the reference", source="chosen")
+    tracking_error_time: NonNegative = key(1.0, "s", "time for which it may exceed its limit", source="chosen")
+
 
 _, HOLDS, LANDS, STOPS = map(float, range(len(REACTIONS)))
 _FaultTuple: Any = cast(Any, namedtuple("_FaultTuple", [fault.key for fault in sorted(FAULTS)]))
@@ -30,15 +64,15 @@ class ActiveFaults(_FaultTuple):
 class FaultReaction(NamedTuple):
     """The strongest reaction to the faults that are present, and the alarm of the first that calls for it; or zeros."""
 
-    reaction: Any
-    alarm: Any
+    reaction: Number
+    alarm: Number
 
 
 NO_ALARM = FaultReaction(0.0, 0.0)
 
 
 @law
-def stronger(w: FaultReaction, fault: Any, reaction: Any, alarm: Any) -> FaultReaction:
+def stronger(w: FaultReaction, fault: Number, reaction: Number, alarm: Number) -> FaultReaction:
     """The reaction with one more fault: to that fault if it is present (above 0) and its reaction is stronger."""
     more = where(fault > 0.0, where(reaction > w.reaction, 1.0, 0.0), 0.0)
     return FaultReaction(where(more > 0.0, reaction, w.reaction), where(more > 0.0, alarm, w.alarm))
@@ -62,8 +96,8 @@ class Fence(NamedTuple):
 
     low: Vec3
     high: Vec3
-    margin: Any
-    braking_gain: Any
+    margin: Number
+    braking_gain: Number
 
 
 class SupervisionLimits(NamedTuple):
@@ -74,48 +108,48 @@ class SupervisionLimits(NamedTuple):
     `touchdown_gap` [m]: height above a landing's reference at which the vehicle must be standing on something.
     """
 
-    thrust: Any
-    min_upright: Any
-    rates: Any
-    tracking_error: Any
-    thrust_time: Any
-    tilt_time: Any
-    rates_time: Any
-    tracking_error_time: Any
-    joints_time: Any
-    invalid_state_time: Any
-    touchdown_gap: Any
+    thrust: Number
+    min_upright: Number
+    rates: Number
+    tracking_error: Number
+    thrust_time: Number
+    tilt_time: Number
+    rates_time: Number
+    tracking_error_time: Number
+    joints_time: Number
+    invalid_state_time: Number
+    touchdown_gap: Number
 
 
 class LimitTimers(NamedTuple):
     """For how long each limit has been exceeded, and for how long a landing has been standing on something [s]."""
 
-    joints: Any
-    thrust: Any
-    tilt: Any
-    rates: Any
-    tracking_error: Any
-    state: Any
-    touchdown: Any
+    joints: Number
+    thrust: Number
+    tilt: Number
+    rates: Number
+    tracking_error: Number
+    state: Number
+    touchdown: Number
 
 
 NO_TIME = LimitTimers(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @law
-def time_exceeded(timer: Any, exceeded: Any, dt: Any) -> Any:
+def time_exceeded(timer: Number, exceeded: Number, dt: Number) -> Number:
     """For how long a limit has been exceeded [s]; `exceeded` is 1 or 0 now."""
     return (timer + dt) * exceeded
 
 
 @law
-def expired(timer: Any, limit: Any) -> Any:
+def expired(timer: Number, limit: Number) -> Number:
     """1 once a timer is above a limit, else 0."""
     return where(timer > limit, 1.0, 0.0)
 
 
 @law
-def distance_outside(low: Vec3, high: Vec3, p: Vec3) -> Any:
+def distance_outside(low: Vec3, high: Vec3, p: Vec3) -> Number:
     """How far a position is outside a box [m], along the axis where it is farthest; negative inside."""
     x = maximum(low.x - p.x, p.x - high.x)
     y = maximum(low.y - p.y, p.y - high.y)
@@ -137,9 +171,9 @@ def update_timers(
     state: State,
     status: VehicleStatus,
     error: Vec3,
-    thrust: Any,
-    phase: Any,
-    dt: Any,
+    thrust: Number,
+    phase: Number,
+    dt: Number,
 ) -> LimitTimers:
     """The timers after a sample; limits apply only in flight, those of thrust and distance not in a landing.
 
@@ -177,7 +211,7 @@ def active_faults(
     timers: LimitTimers,
     state: State,
     status: VehicleStatus,
-    phase: Any,
+    phase: Number,
 ) -> ActiveFaults:
     """Every fault that is present: 1, or the number of its symptom; else 0."""
     r = s.report

@@ -3,33 +3,87 @@
 By a schedule as in the paper: `scheduled_guidance`. By hand, in phases: `hand_guidance`.
 """
 
-from typing import Any, NamedTuple
+from __future__ import annotations
 
-from tandemlift.core.algebra.law import Nothing, choice
+from collections.abc import Iterator
+from typing import Any, Literal, NamedTuple
+
+from tandemlift.core.algebra.constants import NEVER
+from tandemlift.core.algebra.law import Absent, choice
 from tandemlift.core.algebra.ops import where
+from tandemlift.core.algebra.types import Number, PerRotor
 from tandemlift.core.algebra.vector import Vec3
-from tandemlift.parts.guidance.requests import (
+from tandemlift.core.checks import CheckResult, refused
+from tandemlift.core.keys import Table, key
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.requests import (
     NO_REQUEST,
     UNKNOWN_STATUS,
     OperatorRequest,
     VehicleStatus,
 )
-from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.signals.trajectories import Reference, Trajectory
+from tandemlift.parts.trajectories import PhasesTable, Reference, Trajectory
+
+Reading = Literal["truth", "measurement", "estimate"]
+
+
+class PilotTable(Table):
+    """`[pilot]`: what guides the vehicle, and what the pilot reads."""
+
+    guidance: Literal["scheduled", "interactive"] = key(
+        "scheduled",
+        None,
+        "what guides the vehicle",
+        choices={
+            "scheduled": "lift and landing at set times, and the admittance between them",
+            "interactive": "phases and requests, and `[compliance]` around the admittance",
+        },
+    )
+    state: Reading = key(
+        "truth",
+        None,
+        "where position, velocity, attitude and rates come from",
+        rule='"truth" without sensors',
+        choices={
+            "truth": "the simulation",
+            "measurement": "the last samples of motion measurement and gyroscope",
+            "estimate": "an estimator that also uses the accelerometer",
+        },
+    )
+    push: Reading = key(
+        "truth",
+        None,
+        "where the person's force comes from",
+        rule='"truth" without sensors',
+        choices={
+            "truth": "the simulation",
+            "measurement": "the last sample of the joints' force sensors",
+            "estimate": "that sample after a low-pass filter, zero before the tare ends and while the joints disagree",
+        },
+    )
+    map: Literal["none", "walls"] = key(
+        "none",
+        None,
+        "what the pilot knows of its surroundings",
+        choices={
+            "none": "nothing",
+            "walls": 'the walls, so that a contact is told from a hand more surely (with `contact.model = "on"`)',
+        },
+    )
 
 
 class PilotInput(NamedTuple):
     """The pilot's input at a sample.
 
     The state; the person's push: force [N, world axes] and moment about the centre of mass [N·m, body axes]; 1 if the
-    person requests a landing, else 0; readings and estimates, or `Nothing`; the operator's requests; the status of the
+    person requests a landing, else 0; readings and estimates, or `Absent`; the operator's requests; the status of the
     vehicle.
     """
 
     state: State
     push: Vec3
     moment: Vec3
-    land: Any
+    land: Number
     sensed: Any
     operator: OperatorRequest = NO_REQUEST
     status: VehicleStatus = UNKNOWN_STATUS
@@ -43,7 +97,7 @@ class LoadOfWall(NamedTuple):
 
     force: Vec3
     moment: Vec3
-    touching: Any
+    touching: Number
 
 
 class AlwaysRunning(NamedTuple):
@@ -60,7 +114,7 @@ class RunningInFlight(NamedTuple):
 class ThrustFraction(NamedTuple):
     """The fraction of every thrust that is commanded: 1 while the rotors run, else 0."""
 
-    value: Any
+    value: Number
 
 
 class Guidance(NamedTuple):
@@ -69,7 +123,7 @@ class Guidance(NamedTuple):
     The gated force [N, world axes]; T_r with its derivatives; the reference; the push that the controller compensates:
     force [N, world axes] and moment [N·m, body axes]; the fraction of the thrusts that is commanded; 1 in flight, else
     0; 1 while observers may learn, else 0, as where the feet may press on the ground; the channels. `wall`: what a wall
-    gives besides, a `LoadOfWall`, or `Nothing`.
+    gives besides, a `LoadOfWall`, or `Absent`.
     """
 
     force: Vec3
@@ -77,11 +131,11 @@ class Guidance(NamedTuple):
     reference: Reference
     push: Vec3
     moment: Vec3
-    running: Any
-    flying: Any
-    learning: Any
+    running: AlwaysRunning | ThrustFraction
+    flying: Number
+    learning: Number
     channels: Any
-    wall: Any = Nothing()
+    wall: LoadOfWall | Absent = Absent()
 
 
 @choice
@@ -120,7 +174,7 @@ def untouched(wall: Any) -> Any:
 
 
 @untouched.register(LoadOfWall)
-def _untouched(wall: LoadOfWall) -> Any:
+def _untouched(wall: LoadOfWall) -> Number:
     return 1.0 - wall.touching
 
 
@@ -130,12 +184,12 @@ def running(rotors: Any, thrusts: Any) -> Any:
 
 
 @running.register(AlwaysRunning)
-def _always(rotors: AlwaysRunning, thrusts: Any) -> Any:
+def _always(rotors: AlwaysRunning, thrusts: PerRotor) -> PerRotor:
     return thrusts
 
 
 @running.register(ThrustFraction)
-def _fraction(rotors: ThrustFraction, thrusts: Any) -> Any:
+def _fraction(rotors: ThrustFraction, thrusts: PerRotor) -> PerRotor:
     return thrusts * rotors.value
 
 
@@ -145,12 +199,12 @@ def thrust_fraction(rotors: Any) -> Any:
 
 
 @thrust_fraction.register(AlwaysRunning)
-def _whole(rotors: AlwaysRunning) -> Any:
+def _whole(rotors: AlwaysRunning) -> Number:
     return 1.0
 
 
 @thrust_fraction.register(ThrustFraction)
-def _value(rotors: ThrustFraction) -> Any:
+def _value(rotors: ThrustFraction) -> Number:
     return rotors.value
 
 
@@ -160,10 +214,26 @@ def run(rotors: Any, t: Any) -> Any:
 
 
 @run.register(AlwaysRunning)
-def _run_always(rotors: AlwaysRunning, t: Any) -> AlwaysRunning:
+def _run_always(rotors: AlwaysRunning, t: Number) -> AlwaysRunning:
     return rotors
 
 
 @run.register(RunningInFlight)
 def _run_in_flight(rotors: RunningInFlight, t: Any) -> ThrustFraction:
     return ThrustFraction(where(t < rotors.start, 0.0, where(t < rotors.stop, 1.0, 0.0)))
+
+
+def running_from(p: PhasesTable) -> AlwaysRunning | RunningInFlight:
+    """When the rotors turn."""
+    if p.rotors == "always":
+        return AlwaysRunning()
+    return RunningInFlight(p.lift_start, NEVER if p.land_start is None else p.land_start + p.land_duration)
+
+
+def reading_checks(pilot: PilotTable, sensors: str) -> Iterator[CheckResult]:
+    """A pilot that reads sensors where there are none; `sensors`: `sensors.model`."""
+    for name, reading in (("state", pilot.state), ("push", pilot.push)):
+        if sensors != "simulated" and reading != "truth":
+            yield refused(
+                f'pilot.{name} = "{reading}": must be "truth" without sensors, or sensors.model must be "simulated"'
+            )

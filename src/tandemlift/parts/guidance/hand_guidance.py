@@ -1,12 +1,15 @@
 """Guidance by hand: phases with entry conditions, a compliance, and a heading that a person can turn."""
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import maximum, where
-from tandemlift.core.algebra.vector import Vec3, apply, dot
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import Absent, Vec3, apply, dot
 from tandemlift.core.phases import CONTACT, IDLE, LAND, LIFT
-from tandemlift.parts.compliance.above_ground import above_ground, has_floor
+from tandemlift.parts.compliance.above_ground import GroundClearance, above_ground, has_floor
 from tandemlift.parts.compliance.available import (
     AvailableForce,
     available_acceleration,
@@ -14,7 +17,7 @@ from tandemlift.parts.compliance.available import (
     usable_thrust,
 )
 from tandemlift.parts.compliance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
-from tandemlift.parts.compliance.energy_tank import passivity_damping
+from tandemlift.parts.compliance.energy_tank import EnergyTank, EnergyTankState, passivity_damping
 from tandemlift.parts.compliance.following import (
     Following,
     FollowingLimits,
@@ -24,6 +27,9 @@ from tandemlift.parts.compliance.following import (
 )
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.contact_hold import (
+    Boundary,
+    ContactReaction,
+    ContactReactionState,
     bounded_by,
     contact_code,
     kept_out,
@@ -51,37 +57,43 @@ from tandemlift.parts.guidance.phases import (
     reached,
     update_phase,
 )
-from tandemlift.parts.guidance.requests import (
+from tandemlift.parts.guidance.supervised_reference import fenced, usable_input, with_blind_descent
+from tandemlift.parts.guidance.supervision import (
+    Supervision,
+    SupervisionChannels,
+    SupervisionState,
+    finish_supervision,
+    supervise,
+)
+from tandemlift.parts.guidance.yaw_compliance import FixedHeading, HeadingReference, YawCompliance, YawState, yaw_step
+from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass_step
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, wrap_angle
+from tandemlift.parts.requests import (
     requests_until,
     with_operator,
 )
-from tandemlift.parts.guidance.supervised_reference import fenced, usable_input, with_blind_descent
-from tandemlift.parts.guidance.supervision import finish_supervision, supervise
-from tandemlift.parts.guidance.yaw_compliance import HeadingReference, yaw_step
-from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, wrap_angle
-from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
-from tandemlift.parts.signals.trajectories import Reference, Trajectory
+from tandemlift.parts.trajectories import Reference, Trajectory
 
 
 class HandGuidance(NamedTuple):
     """Guidance by hand.
 
     `moment`: low-pass of the push's moment, which the controller compensates with a lead time of `moment_lead` [s].
-    `available`: what rotors and tilt can give; `clearance` of the reference above the ground, or `Nothing`.
+    `available`: what rotors and tilt can give; `clearance` of the reference above the ground, or `Absent`.
     """
 
     phasing: PhaseSettings
     compliance: Compliance
-    tank: Any
-    heading: Any
+    tank: EnergyTank | Absent
+    heading: FixedHeading | YawCompliance
     moment: LowPass
-    moment_lead: Any
+    moment_lead: Number
     available: AvailableForce
-    clearance: Any
+    clearance: GroundClearance | Absent
     following: FollowingLimits
-    supervision: Any
-    contact: Any
+    supervision: Supervision | Absent
+    contact: ContactReaction | Absent
 
 
 class HandGuidanceState(NamedTuple):
@@ -89,29 +101,29 @@ class HandGuidanceState(NamedTuple):
 
     phase: PhaseState
     compliance: ComplianceState
-    tank: Any
-    heading: Any
+    tank: EnergyTankState | Absent
+    heading: YawState | Absent
     moment: LowPassState
     following: FollowingState
-    supervision: Any
-    contact: Any
+    supervision: SupervisionState | Absent
+    contact: ContactReactionState | Absent
 
 
 class HandGuidanceChannels(NamedTuple):
     """The channels of a guidance by hand."""
 
-    phase: Any
+    phase: Number
     push_filtered: Vec3
     push_active: Vec3
-    added_damping: Any
-    reference_yaw_rate: Any
-    limited_reason: Any
-    supervised: Any
+    added_damping: Number
+    reference_yaw_rate: Number
+    limited_reason: Number
+    supervised: SupervisionChannels | Absent
 
 
 @checked_input.register(HandGuidance)
 def _checked(
-    g: HandGuidance, m: HandGuidanceState, pilot_input: PilotInput, thrust: Any, rotor_failed: Any
+    g: HandGuidance, m: HandGuidanceState, pilot_input: PilotInput, thrust: Number, rotor_failed: Number
 ) -> PilotInput:
     usable = usable_input(g.supervision, m.supervision, pilot_input, thrust, rotor_failed)
     status = usable.status._replace(limited=m.following.reason)
@@ -149,7 +161,7 @@ def with_lift_and_landing(g: HandGuidance, T: Trajectory, phase: PhaseOutput) ->
 
 
 @law
-def presses_on_ground(m: PhaseState, height: Any, floor: Any) -> Any:
+def presses_on_ground(m: PhaseState, height: Number, floor: Number) -> Number:
     """1 once the reference of a landing, at a height [m], is below the ground, so that the feet press; else 0.
 
     On a `floor` (1) also after the landing, with rotors that keep running: what the floor gives is no disturbance.
@@ -159,7 +171,12 @@ def presses_on_ground(m: PhaseState, height: Any, floor: Any) -> Any:
 
 @law
 def channels_from(
-    phase: PhaseOutput, m: ComplianceState, damping: Any, heading: HeadingReference, limited: Any, supervision: Any
+    phase: PhaseOutput,
+    m: ComplianceState,
+    damping: Number,
+    heading: HeadingReference,
+    limited: Number,
+    supervision: SupervisionChannels | Absent,
 ) -> HandGuidanceChannels:
     """The channels of a step; `limited`: why it cannot follow, or 0; `supervision`: its channels."""
     push = m.filtered.value - m.band.bias
@@ -195,7 +212,13 @@ def following_step(
 
 @law
 def supervised_phase(
-    g: HandGuidance, m: HandGuidanceState, pilot_input: PilotInput, boundary: Any, rotor_failed: Any, t: Any, dt: Any
+    g: HandGuidance,
+    m: HandGuidanceState,
+    pilot_input: PilotInput,
+    boundary: Boundary | Absent,
+    rotor_failed: Number,
+    t: Number,
+    dt: Number,
 ) -> Any:
     """(the phase, `SupervisionOutput`, the memory of supervision) at time t [s]."""
     k, operator = g.phasing, pilot_input.operator
@@ -217,10 +240,10 @@ def _by_hand(
     m: HandGuidanceState,
     pilot_input: PilotInput,
     disturbance: DisturbanceEstimate,
-    rotor_failed: Any,
-    t: Any,
-    dt: Any,
-) -> Any:
+    rotor_failed: Number,
+    t: Number,
+    dt: Number,
+) -> tuple[Guidance, HandGuidanceState]:
     state = pilot_input.state
     boundary, contact = react_to_contact(g.contact, m.contact, pilot_input, in_the_air(m.phase), dt)
     pilot_input = without_wall(boundary, pilot_input)

@@ -5,15 +5,18 @@ idle on the ground → lift → hold ⇄ guided ⇄ contact, limited → land �
 number, 1 or 0. The diagram is in docs/explanation/safety.md; `core.phases` has names and numbers.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import absolute, maximum, minimum, where
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import dot
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, STOPPED
-from tandemlift.parts.guidance.requests import RequestCounts
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.signals.trajectories import SmoothStep, smoothstep
+from tandemlift.parts.requests import RequestCounts
+from tandemlift.parts.trajectories import SmoothStep, smoothstep
 
 SETTLING_TIME = 1.0  # s, of steady hover before a tare
 STEADY_SPEED = 0.1  # m/s and rad/s
@@ -26,18 +29,18 @@ class PhaseSettings(NamedTuple):
     `height` [m] of the lift; the times of the requests to lift and to land [s]; rates are 1/duration [1/s].
     `touchdown_depth` [m]: how far below the ground a landing's reference ends, so that the feet press. `spin_up_time`
     [s]: from the start of the rotors to the lift. `always_running` is 1 if the rotors run on the ground too, else 0.
-    `max_descent_speed` [m/s]: of a landing. `requests`: a `RequestSchedule`, or `Nothing`.
+    `max_descent_speed` [m/s]: of a landing. `requests`: a `RequestSchedule`, or `Absent`.
     """
 
-    height: Any
-    lift_start: Any
-    lift_rate: Any
-    land_start: Any
-    land_rate: Any
-    touchdown_depth: Any
-    spin_up_time: Any
-    always_running: Any
-    max_descent_speed: Any
+    height: Number
+    lift_start: Number
+    lift_rate: Number
+    land_start: Number
+    land_rate: Number
+    touchdown_depth: Number
+    spin_up_time: Number
+    always_running: Number
+    max_descent_speed: Number
     requests: Any
 
 
@@ -48,15 +51,15 @@ class PhaseState(NamedTuple):
     requests to lift and to land that are handled; for how long the vehicle has hovered steadily, less `SETTLING_TIME`.
     """
 
-    phase: Any
-    since: Any
-    ground: Any
-    land_rate: Any
-    lift_fraction: Any
-    extra_depth: Any
-    handled_lifts: Any
-    handled_lands: Any
-    hover_time: Any
+    phase: Number
+    since: Number
+    ground: Number
+    land_rate: Number
+    lift_fraction: Number
+    extra_depth: Number
+    handled_lifts: Number
+    handled_lands: Number
+    hover_time: Number
 
 
 class PhaseBounds(NamedTuple):
@@ -67,15 +70,15 @@ class PhaseBounds(NamedTuple):
     cannot follow its reference.
     """
 
-    lift_allowed: Any
-    guidance_allowed: Any
-    hold: Any
-    land: Any
-    stop: Any
-    touched_down: Any
-    extra_depth: Any
-    contact: Any = 0.0
-    limited: Any = 0.0
+    lift_allowed: Number
+    guidance_allowed: Number
+    hold: Number
+    land: Number
+    stop: Number
+    touched_down: Number
+    extra_depth: Number
+    contact: Number = 0.0
+    limited: Number = 0.0
 
 
 class PhaseOutput(NamedTuple):
@@ -85,43 +88,43 @@ class PhaseOutput(NamedTuple):
     at height `end` [m]. `compensating`: 1 while the controller compensates pushes.
     """
 
-    phase: Any
-    grounded: Any
-    responding: Any
-    running: Any
-    flying: Any
+    phase: Number
+    grounded: Number
+    responding: Number
+    running: Number
+    flying: Number
     lift: SmoothStep
     land: SmoothStep
-    end: Any
-    compensating: Any
+    end: Number
+    compensating: Number
 
 
 @law
-def is_in(m: PhaseState, phase: Any) -> Any:
+def is_in(m: PhaseState, phase: Number) -> Number:
     """1 in a phase, else 0."""
     return where(m.phase == phase, 1.0, 0.0)
 
 
 @law
-def in_the_air(m: PhaseState) -> Any:
+def in_the_air(m: PhaseState) -> Number:
     """1 in flight, except in lift and landing, where feet may touch the ground; else 0."""
     return is_in(m, GUIDED) + is_in(m, HOLD) + is_in(m, CONTACT) + is_in(m, LIMITED)
 
 
 @law
-def reached(t: Any, start: Any) -> Any:
+def reached(t: Number, start: Number) -> Number:
     """1 from a time on, before 0."""
     return where(t >= start, 1.0, 0.0)
 
 
 @law
-def exceeds(count: Any, other: Any) -> Any:
+def exceeds(count: Number, other: Number) -> Number:
     """1 if a count is above another, else 0."""
     return where(count > other, 1.0, 0.0)
 
 
 @law
-def lift_request(k: PhaseSettings, m: PhaseState, requests: RequestCounts, operator: Any, land: Any) -> Any:
+def lift_request(k: PhaseSettings, m: PhaseState, requests: RequestCounts, operator: Number, land: Number) -> Number:
     """1 on the ground while a lift is requested, by requests or the `operator` (1), and no landing (`land`); else 0."""
     again = where(m.land_rate > 0.0, 1.0 - k.always_running, 1.0)
     return is_in(m, IDLE) * maximum(exceeds(requests.lifts, m.handled_lifts), operator) * (1.0 - land) * again
@@ -129,8 +132,14 @@ def lift_request(k: PhaseSettings, m: PhaseState, requests: RequestCounts, opera
 
 @law
 def next_phase(
-    k: PhaseSettings, m: PhaseState, requests: RequestCounts, bounds: PhaseBounds, lifts: Any, land: Any, t: Any
-) -> Any:
+    k: PhaseSettings,
+    m: PhaseState,
+    requests: RequestCounts,
+    bounds: PhaseBounds,
+    lifts: Number,
+    land: Number,
+    t: Number,
+) -> Number:
     """The phase after this sample; `lifts` is 1 if a lift begins, `land` 1 if a landing is requested."""
     lift, aloft = is_in(m, LIFT), in_the_air(m)
     up = lift * where((t - m.since - k.spin_up_time) * k.lift_rate >= 1.0, 1.0, 0.0) + aloft
@@ -147,7 +156,7 @@ def next_phase(
 
 
 @law
-def turning_at_ground(m: PhaseState, state: State) -> Any:
+def turning_at_ground(m: PhaseState, state: State) -> Number:
     """1 where a vehicle that turns about the vertical is about to touch the ground, else 0.
 
     Feet that are dragged over the ground while the rotors run would turn it over.
@@ -156,14 +165,14 @@ def turning_at_ground(m: PhaseState, state: State) -> Any:
 
 
 @law
-def landing_rate(k: PhaseSettings, height: Any) -> Any:
+def landing_rate(k: PhaseSettings, height: Number) -> Number:
     """1/duration [1/s] of a landing over a height [m], no faster than allowed."""
     steepest = 1.875  # slope of the smooth step
     return minimum(k.land_rate, k.max_descent_speed / (steepest * maximum(height, 1e-3)))
 
 
 @law
-def hover_time(m: PhaseState, phase: Any, state: State, dt: Any) -> Any:
+def hover_time(m: PhaseState, phase: Number, state: State, dt: Number) -> Number:
     """For how long it has hovered steadily, less `SETTLING_TIME` [s]; above zero it only needs to be in the air."""
     flies = where(phase == GUIDED, 1.0, where(phase == HOLD, 1.0, where(phase == CONTACT, 1.0, 0.0)))
     up = where(phase == LIMITED, 1.0, flies)
@@ -180,8 +189,8 @@ def update_phase(
     requests: RequestCounts,
     wanted: tuple[Any, Any],
     bounds: PhaseBounds,
-    t: Any,
-    dt: Any,
+    t: Number,
+    dt: Number,
 ) -> PhaseState:
     """The phase at time t [s].
 
@@ -219,7 +228,7 @@ def update_phase(
 
 
 @law
-def phase_output(k: PhaseSettings, m: PhaseState, t: Any) -> PhaseOutput:
+def phase_output(k: PhaseSettings, m: PhaseState, t: Number) -> PhaseOutput:
     """What a phase allows at time t [s]."""
     idle, lift, land, stopped = is_in(m, IDLE), is_in(m, LIFT), is_in(m, LAND), is_in(m, STOPPED)
     up = smoothstep(t, m.since + k.spin_up_time, k.lift_rate)
@@ -238,4 +247,19 @@ def phase_output(k: PhaseSettings, m: PhaseState, t: Any) -> PhaseOutput:
         land=SmoothStep(land * down.value + landed, land * down.rate, land * down.curvature),
         end=m.ground - k.touchdown_depth - m.extra_depth,
         compensating=(1.0 - idle) * (1.0 - stopped),
+    )
+
+
+def start_phases(ground: Number) -> PhaseState:
+    """The memory before the first sample, on the ground at a height [m]."""
+    return PhaseState(
+        phase=IDLE,
+        since=0.0,
+        ground=ground,
+        land_rate=0.0,
+        lift_fraction=0.0,
+        extra_depth=0.0,
+        handled_lifts=0.0,
+        handled_lands=0.0,
+        hover_time=-SETTLING_TIME,
     )

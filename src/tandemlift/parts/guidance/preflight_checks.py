@@ -1,17 +1,45 @@
 """Checks before a lift, and before the vehicle follows a person's pushes; `core.faults.CHECKS` names them."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import Nothing, choice, law
+from tandemlift.core.algebra.law import Absent, choice, law
 from tandemlift.core.algebra.ops import maximum, where
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import dot
 from tandemlift.core.faults import CHECKS
-from tandemlift.parts.guidance.requests import VehicleStatus
+from tandemlift.core.keys import Fraction, Positive, Scale, Table, Tilt, key
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import body_z_axis
+from tandemlift.parts.requests import VehicleStatus
 from tandemlift.parts.sensors.health import WELL, WatchdogReport
+
+
+class ChecksTable(Table):
+    """`[supervision.checks]`: checks before a lift, and before the vehicle responds to a person."""
+
+    thrust_fraction: Fraction = key(
+        0.85,
+        "1",
+        "largest fraction of the largest thrust that hover may need",
+        source="chosen: leaves 15 % for control",
+    )
+    tilt: Tilt = key(0.15, "rad", "largest tilt", source="chosen")
+    speed: Positive = key(0.1, "m/s", "largest speed", source="chosen")
+    rates: Positive = key(0.2, "rad/s", "largest angular speed", source="chosen")
+    min_payload_ratio: Scale = key(
+        0.5, "1", "minimum accepted mass estimate, as a fraction of the nominal payload mass", source="chosen"
+    )
+    max_payload_ratio: Scale = key(
+        2.0,
+        "1",
+        "maximum accepted mass estimate, as a multiple of the nominal payload mass",
+        rule="above min_payload_ratio",
+        source="chosen",
+    )
 
 
 class PreflightChecks(NamedTuple):
@@ -21,21 +49,21 @@ class PreflightChecks(NamedTuple):
     Before pushes are followed: smallest and largest plausible estimate of the payload's mass [kg].
     """
 
-    thrust_fraction: Any
-    min_upright: Any
-    speed: Any
-    rates: Any
-    min_payload: Any
-    max_payload: Any
+    thrust_fraction: Number
+    min_upright: Number
+    speed: Number
+    rates: Number
+    min_payload: Number
+    max_payload: Number
 
 
 class SensorStatus(NamedTuple):
     """The watchdogs' report; 1 if joints disagree, else 0; 1 once tared, else 0; the estimated payload mass [kg]."""
 
     report: WatchdogReport
-    joints_inconsistent: Any
-    tared: Any
-    payload: Any
+    joints_inconsistent: Number
+    tared: Number
+    payload: Number
 
 
 @choice
@@ -43,18 +71,18 @@ def sensor_status(sensed: Any, payload: Any) -> Any:
     """`SensorStatus` from readings and estimates; `payload` is the nominal mass [kg], used where none is estimated."""
 
 
-@sensor_status.register(Nothing)
-def _without_sensors(sensed: Nothing, payload: Any) -> SensorStatus:
+@sensor_status.register(Absent)
+def _without_sensors(sensed: Absent, payload: Any) -> SensorStatus:
     return SensorStatus(WELL, 0.0, 1.0, payload)
 
 
 @law
-def first_check(number: Any, fails: Any, others: Any) -> Any:
+def first_check(number: Number, fails: Number, others: Number) -> Number:
     """The number of a check if it fails (above 0), else that of the first of the others."""
     return where(fails > 0.0, number, others)
 
 
-def first_failed(before: str, fails: Mapping[str, Any]) -> Any:
+def first_failed(before: str, fails: Mapping[str, Any]) -> Number:
     """The number of the first check before a phase that fails (above 0, by the check's key), or 0."""
     number = 0.0
     for check in reversed([c for c in CHECKS if c.before == before]):
@@ -64,8 +92,14 @@ def first_failed(before: str, fails: Mapping[str, Any]) -> Any:
 
 @law
 def failed_lift_check(
-    c: PreflightChecks, s: SensorStatus, state: State, status: VehicleStatus, mass: Any, reaction: Any, available: Any
-) -> Any:
+    c: PreflightChecks,
+    s: SensorStatus,
+    state: State,
+    status: VehicleStatus,
+    mass: Number,
+    reaction: Number,
+    available: Number,
+) -> Number:
     """The number of the first check that fails before a lift, or 0.
 
     Args:
@@ -94,7 +128,7 @@ def failed_lift_check(
 
 
 @law
-def failed_guidance_check(c: PreflightChecks, s: SensorStatus) -> Any:
+def failed_guidance_check(c: PreflightChecks, s: SensorStatus) -> Number:
     """The number of the first check that fails before pushes are followed, or 0."""
     plausible = where(s.payload < c.min_payload, 0.0, where(s.payload > c.max_payload, 0.0, 1.0))
     fails = {"tare": 1.0 - s.tared, "payload": 1.0 - plausible, "joints": s.joints_inconsistent}

@@ -1,8 +1,11 @@
 """The paper's guidance, by a schedule: gate → admittance → lift and landing at set times."""
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import Nothing
+from tandemlift.core.algebra.law import Absent
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import ZERO
 from tandemlift.parts.compliance.admittance import (
     Admittance,
@@ -19,7 +22,7 @@ from tandemlift.parts.guidance.guidance import (
     guide,
     run,
 )
-from tandemlift.parts.signals.trajectories import Reference, ScheduledPhases, reference
+from tandemlift.parts.trajectories import Reference, ScheduledPhases, reference
 
 
 class ScheduledGuidance(NamedTuple):
@@ -27,12 +30,14 @@ class ScheduledGuidance(NamedTuple):
 
     admittance: Admittance
     phases: ScheduledPhases
-    yaw: Any
+    yaw: Number
     rotors: Any
 
 
 @checked_input.register(ScheduledGuidance)
-def _unchecked(g: ScheduledGuidance, m: Any, pilot_input: PilotInput, thrust: Any, rotor_failed: Any) -> PilotInput:
+def _unchecked(
+    g: ScheduledGuidance, m: AdmittanceState, pilot_input: PilotInput, thrust: Number, rotor_failed: Number
+) -> PilotInput:
     return pilot_input
 
 
@@ -42,10 +47,10 @@ def _by_schedule(
     m: AdmittanceState,
     pilot_input: PilotInput,
     disturbance: DisturbanceEstimate,
-    rotor_failed: Any,
-    t: Any,
-    dt: Any,
-) -> Any:
+    rotor_failed: Number,
+    t: Number,
+    dt: Number,
+) -> tuple[Guidance, AdmittanceState]:
     force = gate(g.admittance.gate, pilot_input.push)
     motion = admittance_response(g.admittance, m, force)
     guidance = Guidance(
@@ -57,6 +62,6 @@ def _by_schedule(
         running=run(g.rotors, t),
         flying=1.0,
         learning=1.0,
-        channels=Nothing(),
+        channels=Absent(),
     )
     return guidance, admittance_step(g.admittance, m, force, motion, dt)

@@ -1,18 +1,22 @@
 """Supervision of the pilot's input and of the reference: valid numbers, the fence, and a blind descent."""
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import Nothing, choice, elementwise
+from tandemlift.core.algebra.law import Absent, choice, elementwise
 from tandemlift.core.algebra.ops import clip, maximum, where
 from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import ZERO, Vec3
 from tandemlift.parts.compliance.compliance import Compliance, ComplianceState, with_speed
-from tandemlift.parts.guidance.requests import VehicleStatus
+from tandemlift.parts.guidance.guidance import PilotInput
 from tandemlift.parts.guidance.supervision import Supervision, SupervisionState
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.requests import VehicleStatus
 from tandemlift.parts.sensors.health import any_component, not_finite
 from tandemlift.parts.sensors.watchdog import state_not_finite
-from tandemlift.parts.signals.trajectories import Trajectory
+from tandemlift.parts.trajectories import Trajectory
 
 TOUCHDOWN_FACTOR = 8.0  # by which a blind descent accelerates at its end, so that the feet press on the ground
 
@@ -31,14 +35,16 @@ def usable_input(k: Any, m: Any, pilot_input: Any, thrust: Any, rotor_failed: An
     """`UsableInput` from the pilot's input, the thrust of all rotors [N], and 1 once a rotor has failed, else 0."""
 
 
-@usable_input.register(Nothing)
-def _unchecked(k: Nothing, m: Any, pilot_input: Any, thrust: Any, rotor_failed: Any) -> UsableInput:
+@usable_input.register(Absent)
+def _unchecked(k: Absent, m: Any, pilot_input: PilotInput, thrust: Number, rotor_failed: Number) -> UsableInput:
     status = VehicleStatus(rotor_failed, thrust, state_invalid=0.0)
     return UsableInput(pilot_input.state, pilot_input.push, pilot_input.moment, status)
 
 
 @usable_input.register(Supervision)
-def _with_numbers(k: Supervision, m: SupervisionState, pilot_input: Any, thrust: Any, rotor_failed: Any) -> UsableInput:
+def _with_numbers(
+    k: Supervision, m: SupervisionState, pilot_input: PilotInput, thrust: Number, rotor_failed: Number
+) -> UsableInput:
     s, invalid = pilot_input.state, state_not_finite(pilot_input.state)
     state = State(
         chosen(invalid, m.state.position, s.position),
@@ -52,7 +58,9 @@ def _with_numbers(k: Supervision, m: SupervisionState, pilot_input: Any, thrust:
 
 
 @elementwise
-def speed_limit(position: Any, velocity: Any, pull: Any, low: Any, high: Any, gain: Any, max_speed: Any) -> Any:
+def speed_limit(
+    position: Number, velocity: Number, pull: Number, low: Number, high: Number, gain: Number, max_speed: Number
+) -> Number:
     """The largest speed [m/s] of a reference towards the side of the fence that it moves or is pulled to."""
     toward = where(pull == 0.0, velocity, pull)
     return clip(gain * where(toward > 0.0, high - position, position - low), 0.0, max_speed)
@@ -64,7 +72,7 @@ def fenced(k: Any, compliance: Compliance, m: ComplianceState, lift: Any) -> Any
 
 
 @fenced.register(Supervision)
-def _fenced(k: Supervision, compliance: Compliance, m: ComplianceState, lift: Any) -> Compliance:
+def _fenced(k: Supervision, compliance: Compliance, m: ComplianceState, lift: Number) -> Compliance:
     f, at, max_speed = k.fence, m.position + Vec3(0.0, 0.0, lift), compliance.limits.speed
     limit = speed_limit(at, m.velocity, m.output.value, f.low, f.high, f.braking_gain, max_speed)
     return with_speed(compliance, limit)
@@ -79,7 +87,9 @@ def with_blind_descent(k: Any, target: Trajectory, state: State, blind: Any, lan
 
 
 @with_blind_descent.register(Supervision)
-def _descent(k: Supervision, target: Trajectory, state: State, blind: Any, landing: Any, fraction: Any) -> Trajectory:
+def _descent(
+    k: Supervision, target: Trajectory, state: State, blind: Number, landing: Number, fraction: Number
+) -> Trajectory:
     late = maximum(fraction - 0.5, 0.0)
     descent = k.blind_descent_acceleration
     return Trajectory(

@@ -5,10 +5,13 @@ and ignore pushes, to land, or to stop the rotors. A hold ends after a time with
 lasts too long; a landing and a stop are final.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import maximum, where
+from tandemlift.core.algebra.types import Number, PerRotor
 from tandemlift.core.algebra.vector import Vec3, total
 from tandemlift.core.phases import HOLD, IDLE, STOPPED
 from tandemlift.parts.guidance.fault_detection import (
@@ -25,6 +28,7 @@ from tandemlift.parts.guidance.fault_detection import (
     strongest_reaction,
     update_timers,
 )
+from tandemlift.parts.guidance.guidance import PilotInput
 from tandemlift.parts.guidance.phases import PhaseBounds, PhaseState
 from tandemlift.parts.guidance.preflight_checks import (
     PreflightChecks,
@@ -49,19 +53,19 @@ class Supervision(NamedTuple):
     [m/s²]: of a landing without any known motion. `slots`: numbers of the events, from 0, a set.
     """
 
-    mass: Any
-    payload: Any
-    limits: Any
+    mass: Number
+    payload: Number
+    limits: PerRotor
     known: Any
     checks: PreflightChecks
     fence: Fence
     bounds: SupervisionLimits
     reactions: ActiveFaults
-    hold_timeout: Any
-    recovery_time: Any
-    blind_descent_depth: Any
-    blind_descent_acceleration: Any
-    slots: Any
+    hold_timeout: Number
+    recovery_time: Number
+    blind_descent_depth: Number
+    blind_descent_acceleration: Number
+    slots: PerRotor
 
 
 class EventLog(NamedTuple):
@@ -84,33 +88,33 @@ class SupervisionState(NamedTuple):
     fails before a lift, requested or not; the estimated payload mass [kg].
     """
 
-    reaction: Any
-    alarm: Any
-    hold_time: Any
-    fault_free_time: Any
+    reaction: Number
+    alarm: Number
+    hold_time: Number
+    fault_free_time: Number
     timers: LimitTimers
     state: State
     reference: Vec3
-    failed_lift_check: Any
-    failed_guidance_check: Any
+    failed_lift_check: Number
+    failed_guidance_check: Number
     events: EventLog
-    fault: Any
-    lift_check: Any
-    payload: Any
+    fault: Number
+    lift_check: Number
+    payload: Number
 
 
 class SupervisionOutput(NamedTuple):
     """The bounds of the phases, and 1 if nothing of the vehicle's motion is known, else 0."""
 
     bounds: PhaseBounds
-    motion_unknown: Any
+    motion_unknown: Number
 
 
 class SupervisionChannels(NamedTuple):
     """The channels of supervision."""
 
-    alarm: Any
-    failed_check: Any
+    alarm: Number
+    failed_check: Number
 
 
 UNSUPERVISED = SupervisionOutput(
@@ -128,8 +132,14 @@ def supervise(k: Any, m: Any, pilot_input: Any, phase: PhaseState, lift_requeste
 
 @supervise.register(Supervision)
 def _supervised(
-    k: Supervision, m: SupervisionState, pilot_input: Any, phase: PhaseState, lift_requested: Any, t: Any, dt: Any
-) -> Any:
+    k: Supervision,
+    m: SupervisionState,
+    pilot_input: PilotInput,
+    phase: PhaseState,
+    lift_requested: Number,
+    t: Number,
+    dt: Number,
+) -> tuple[SupervisionOutput, SupervisionState]:
     state, status = pilot_input.state, pilot_input.status
     sensors = sensor_status(pilot_input.sensed, k.payload)
     available = total(k.limits * efficiency_at(k.known, t))
@@ -150,7 +160,9 @@ def _supervised(
 
 
 @law
-def update_reaction(k: Supervision, m: SupervisionState, w: FaultReaction, idle: Any, dt: Any) -> SupervisionState:
+def update_reaction(
+    k: Supervision, m: SupervisionState, w: FaultReaction, idle: Number, dt: Number
+) -> SupervisionState:
     """The memory with the strongest reaction to the faults that are present; `idle` is 1 on the ground, else 0."""
     raised = where(w.reaction > m.reaction, 1.0, 0.0)
     fault_free_time = where(w.reaction > 0.0, 0.0, m.fault_free_time + dt)
@@ -164,7 +176,7 @@ def update_reaction(k: Supervision, m: SupervisionState, w: FaultReaction, idle:
 
 @law
 def supervision_output(
-    k: Supervision, s: SensorStatus, m: SupervisionState, lift_check: Any, grounded: Any
+    k: Supervision, s: SensorStatus, m: SupervisionState, lift_check: Number, grounded: Number
 ) -> SupervisionOutput:
     """The output for a memory; `lift_check` is the number of the check that fails before a lift, or 0."""
     r, flying = s.report, 1.0 - grounded
@@ -185,13 +197,13 @@ def supervision_output(
 
 
 @elementwise
-def filled_slot(old: Any, slot: Any, count: Any, new: Any, value: Any) -> Any:
+def filled_slot(old: Number, slot: Number, count: Number, new: Number, value: Number) -> Number:
     """A slot of the log, with a value if it is the next one and there is a new event (1)."""
     return where(new > 0.0, where(slot == count, value, old), old)
 
 
 @law
-def with_event(k: Supervision, m: EventLog, now: Any, failed_check: Any, t: Any) -> EventLog:
+def with_event(k: Supervision, m: EventLog, now: Number, failed_check: Number, t: Number) -> EventLog:
     """The log, with one more event if phase, alarm or contact (the code `now`) have changed, or another check fails."""
     changed = where(now == m.last - m.failed_check, 0.0, 1.0)
     other = where(failed_check > 0.0, where(failed_check == m.failed_check, 0.0, 1.0), 0.0)
@@ -213,7 +225,9 @@ def finish_supervision(k: Any, m: Any, phase: PhaseState, reference: Vec3, conta
 
 
 @finish_supervision.register(Supervision)
-def _finished(k: Supervision, m: SupervisionState, phase: PhaseState, reference: Vec3, contact: Any, t: Any) -> Any:
+def _finished(
+    k: Supervision, m: SupervisionState, phase: PhaseState, reference: Vec3, contact: Number, t: Number
+) -> tuple[SupervisionChannels, SupervisionState]:
     waiting = where(phase.phase == HOLD, where(m.reaction > 0.0, 0.0, m.failed_guidance_check), 0.0)
     failed_check = where(phase.phase == IDLE, m.failed_lift_check, waiting)
     now = contact * CONTACT + phase.phase * PHASE + m.alarm * ALARM

@@ -4,14 +4,52 @@ J ψ̈ + min(C |ψ̇|, U) sgn ψ̇ = M with M the moment beyond the threshold. W
 only need to give the damping, at most U: a larger moment of the person turns the vehicle faster and needs no more.
 """
 
-from typing import Any, NamedTuple
+from __future__ import annotations
+
+from typing import Any, Literal, NamedTuple
 
 from tandemlift.core.algebra.law import choice
 from tandemlift.core.algebra.ops import clip, where
-from tandemlift.parts.compliance.compliance import DeadBand, DeadBandState, dead_band
+from tandemlift.core.algebra.types import Number, number
+from tandemlift.core.algebra.vector import Absent
+from tandemlift.core.keys import NonNegative, Positive, Table, Tilt, key
+from tandemlift.parts.compliance.compliance import DeadBand, DeadBandState, PushFilters, dead_band
 from tandemlift.parts.guidance.phases import PhaseOutput
+from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.rotation import wrap_angle
-from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
+from tandemlift.parts.mechanics.vehicle import Vehicle
+
+
+class YawTable(Table):
+    """`[compliance.yaw]`: how a push beside the centre of mass turns the vehicle."""
+
+    model: Literal["held", "compliant"] = key(
+        "held",
+        None,
+        "whether a push beside the centre turns the vehicle",
+        choices={
+            "held": "the heading is held",
+            "compliant": "an admittance about the vertical answers the push's moment",
+        },
+    )
+    inertia: Positive | None = key(
+        None,
+        "kg m²",
+        "virtual moment of inertia",
+        unset="the vehicle's own, which asks the least of the rotors",
+        example=3.3,
+    )
+    damping: Positive = key(1.6, "N m s", "virtual damping", source="chosen")
+    threshold: NonNegative = key(0.15, "N m", "moments up to this are ignored", source="chosen")
+    max_moment: Positive = key(
+        0.9, "N m", "largest moment of the virtual damping", source="chosen: within what the rotors give"
+    )
+    max_lead_angle: Tilt = key(
+        0.35,
+        "rad",
+        "largest angle by which the reference heading may be ahead of the vehicle's",
+        source="chosen",
+    )
 
 
 class YawCompliance(NamedTuple):
@@ -23,10 +61,10 @@ class YawCompliance(NamedTuple):
     input_filter: LowPass
     band: DeadBand
     output_filter: LowPass
-    inverse_inertia: Any
-    damping: Any
-    max_moment: Any
-    max_lead_angle: Any
+    inverse_inertia: Number
+    damping: Number
+    max_moment: Number
+    max_lead_angle: Number
 
 
 class YawState(NamedTuple):
@@ -35,9 +73,9 @@ class YawState(NamedTuple):
     filtered: LowPassState
     band: DeadBandState
     output: LowPassState
-    angle: Any
-    rate: Any
-    acceleration: Any
+    angle: Number
+    rate: Number
+    acceleration: Number
 
 
 class FixedHeading(NamedTuple):
@@ -46,16 +84,16 @@ class FixedHeading(NamedTuple):
     Once a rotor has failed, the reference is at most `max_lead_angle` [rad] from the vehicle, which may have to turn.
     """
 
-    angle: Any
-    max_lead_angle: Any
+    angle: Number
+    max_lead_angle: Number
 
 
 class HeadingReference(NamedTuple):
     """The heading's reference: ψ_d [rad], its rate [rad/s] and acceleration [rad/s²]."""
 
-    angle: Any
-    rate: Any
-    acceleration: Any
+    angle: Number
+    rate: Number
+    acceleration: Number
 
 
 @choice
@@ -67,15 +105,17 @@ def yaw_step(k: Any, m: Any, moment: Any, yaw: Any, phase: PhaseOutput, rotor_fa
 
 
 @yaw_step.register(FixedHeading)
-def _fixed(k: FixedHeading, m: Any, moment: Any, yaw: Any, phase: PhaseOutput, rotor_failed: Any, dt: Any) -> Any:
+def _fixed(
+    k: FixedHeading, m: Any, moment: Number, yaw: Number, phase: PhaseOutput, rotor_failed: Number, dt: Number
+) -> Any:
     near = wrap_angle(yaw + clip(wrap_angle(k.angle - yaw), -k.max_lead_angle, k.max_lead_angle))
     return HeadingReference(where(rotor_failed > 0.0, near, k.angle), 0.0, 0.0), m
 
 
 @yaw_step.register(YawCompliance)
 def _turning(
-    k: YawCompliance, m: YawState, moment: Any, yaw: Any, phase: PhaseOutput, rotor_failed: Any, dt: Any
-) -> Any:
+    k: YawCompliance, m: YawState, moment: Number, yaw: Number, phase: PhaseOutput, rotor_failed: Number, dt: Number
+) -> tuple[HeadingReference, YawState]:
     filtered = low_pass_step(k.input_filter, m.filtered, moment)
     beyond, band = dead_band(k.band, m.band, filtered.value, phase.responding, dt)
     output = low_pass_step(k.output_filter, m.output, beyond)
@@ -92,3 +132,25 @@ def _turning(
         acceleration=acceleration,
     )
     return HeadingReference(m.angle, m.rate, acceleration), after
+
+
+NO_MOMENT = LowPassState(0.0, 0.0)
+
+
+def start_heading(
+    table: YawTable, push: PushFilters, vehicle: Vehicle, heading: Number
+) -> tuple[YawCompliance, YawState] | tuple[FixedHeading, Absent]:
+    """The compliance about the yaw axis from a heading [rad], and its memory; `push`: the filters of a push."""
+    if table.model == "held":
+        return FixedHeading(heading, table.max_lead_angle), Absent()
+    turning = YawCompliance(
+        input_filter=push.input,
+        band=push.dead_band(table.threshold),
+        output_filter=push.output,
+        inverse_inertia=1.0 / (number(vehicle.inertia[2, 2]) if table.inertia is None else table.inertia),
+        damping=table.damping,
+        max_moment=table.max_moment,
+        max_lead_angle=table.max_lead_angle,
+    )
+    quiet = DeadBandState(active=0.0, above_time=0.0, inactive_time=0.0, mean=0.0, bias=0.0)
+    return turning, YawState(NO_MOMENT, quiet, NO_MOMENT, heading, 0.0, 0.0)

@@ -1,14 +1,18 @@
-"""The drag of the air on the payload and on every quadrotor, quadratic in their velocity through it."""
+"""The drag of the air on the payload and on every quadrotor, quadratic in their velocity through it.
+
+It acts with `wind.model = "air"`. The linear drag of the whole vehicle, `vehicle.drag`, is in `rigid_body`.
+"""
 
 from typing import NamedTuple
 
 from tandemlift.core.algebra.law import elementwise, law
 from tandemlift.core.algebra.ops import maximum, sqrt
 from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Vec3, apply, apply_transposed, cross, dot
+from tandemlift.core.algebra.vector import ZERO, Vec3, apply, apply_transposed, cross, dot, spread, vec3
 from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 TINY = 1e-200  # m²/s², lost in the square of any speed; keeps the derivative of its root finite
 
@@ -44,3 +48,12 @@ def air_loads(drag: AirDrag, frame: PartsLayout, s: State, air: Vec3) -> PartLoa
     each = quadratic_drag(drag.quadrotors, around)
     moments = Vec3(zero_like(each.x), zero_like(each.y), zero_like(each.z))
     return PartLoads(PartLoad(payload, ZERO), PartLoad(Vec3(dot(each, R.x), dot(each, R.y), dot(each, R.z)), moments))
+
+
+def air_drag_from(vehicle: Vehicle, density: float) -> AirDrag:
+    """The drag of a vehicle's parts in air of a density [kg/m³]."""
+    payload, quadrotors = vehicle.payload, vehicle.quadrotors
+    return AirDrag(
+        vec3(payload.areas) * (0.5 * density * payload.drag_coefficient),
+        spread([[a * (0.5 * density * q.drag_coefficient) for a in q.drag_area] for q in quadrotors]),
+    )

@@ -10,7 +10,7 @@ from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.types import Number, PerQuadrotor, PerRotor
 from tandemlift.core.algebra.vector import (
     ZERO,
-    Nothing,
+    Absent,
     Quarters,
     Quat,
     Vec3,
@@ -37,7 +37,7 @@ class PartLoad(NamedTuple):
     def __add__(self, other: "PartLoad") -> "PartLoad":  # type: ignore[override]
         return plus(self, other)
 
-    def __mul__(self, k: Number) -> "PartLoad":
+    def __mul__(self, k: Number) -> "PartLoad":  # type: ignore[override]
         return times(self, k)
 
 
@@ -51,7 +51,7 @@ class PartLoads(NamedTuple):
     def __add__(self, other: "PartLoads") -> "PartLoads":  # type: ignore[override]
         return plus(self, other)
 
-    def __mul__(self, k: Number) -> "PartLoads":
+    def __mul__(self, k: Number) -> "PartLoads":  # type: ignore[override]
         return times(self, k)
 
 
@@ -169,7 +169,7 @@ def without_negative_zero(v: Vec3) -> Vec3:
 
 
 @choice(absent="readings")
-def readings_with_load(load: PartLoad | Nothing, frame: PartsLayout, attitude: Quat, readings: PerfectReadings) -> Any:
+def readings_with_load(load: PartLoad | Absent, frame: PartsLayout, attitude: Quat, readings: PerfectReadings) -> Any:
     """The readings with a load on the quadrotors, which their joints transmit to the payload."""
 
 

@@ -5,13 +5,35 @@ Several pushes at several points act as one force F = Σ F_i in world axes and o
 number of pushes does not enter the equations of motion.
 """
 
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
 
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import exp, where
 from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import ZERO, Mat3, Quat, Vec3, linear, outer, plus
+from tandemlift.core.checks import CheckResult, refused
+from tandemlift.core.keys import Exactly3, Positive, Table, key
+from tandemlift.core.toml import shown
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.vehicle import Vehicle
+
+
+class PushTable(Table):
+    """`[[pushes]]`: pushes of a person, one table each: force · exp(−(t − time)²/(2 sigma²))."""
+
+    force: Exactly3 = key(..., "N", "peak force, world axes", example=[3.0, 0.0, 0.0])
+    time: float = key(..., "s", "time of the peak", example=14.0)
+    sigma: Positive = key(..., "s", "standard deviation σ of the push over time", example=0.6)
+    point: Exactly3 = key(
+        (0.0, 0.0, 0.0),
+        "m",
+        "point of application, body axes, from the system's centre of mass",
+        rule="no farther away than the vehicle's farthest part",
+    )
+
 
 SUPPORT = 9.0  # a push is exactly zero beyond 9 σ, where the Gaussian is 3e-18 of its peak
 
@@ -101,3 +123,14 @@ def _moment(push: PointPush, attitude: Quat) -> Vec3:
         P.x * R.x.z + P.y * R.y.z + P.z * R.z.z,
     )
     return Vec3(G.z.y - G.y.z, G.x.z - G.z.x, G.y.x - G.x.y)
+
+
+FARTHEST = 0.5  # m, of a push from the box of all parts
+
+
+def point_checks(key: str, point: Sequence[float], vehicle: Vehicle) -> Iterator[CheckResult]:
+    """A push at a point [m, body axes] that is not on the vehicle; `key` gave the point."""
+    if vehicle.beside(point) > FARTHEST:
+        low, high = (shown(np.round(corner, 3).tolist()) for corner in vehicle.box)
+        given = f"{key} = {shown([float(x) for x in point])}"
+        yield refused(f"{given}: must be on the vehicle, whose parts reach from {low} to {high} m")

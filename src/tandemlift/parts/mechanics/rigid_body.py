@@ -4,16 +4,46 @@ Position p and velocity v are the system centre of mass's, in world axes; rates 
 axes, moments about the centre of mass.
 """
 
-from typing import Any, NamedTuple
+import math
+from typing import Annotated, Any, NamedTuple
+
+from pydantic import AfterValidator
 
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import sqrt
 from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import Quat, Vec3, dot, linear, plus, times
+from tandemlift.core.keys import Axes3, Table, Triple, key, must
 from tandemlift.parts.mechanics.inertia import Inertia, apply_inertia, gyroscopic
 from tandemlift.parts.mechanics.push import Push, PushSamples, push_moment
 from tandemlift.parts.mechanics.rotation import body_z_axis, quaternion_rate
+
+
+def _upright(euler: Triple) -> Triple:
+    if abs(euler[0]) >= math.radians(85.0):
+        raise must("roll", "have a roll (the first angle) within ±85° (±1.4835 rad), where the angles are regular")
+    if abs(euler[1]) >= math.radians(85.0):
+        raise must("pitch", "have a pitch (the second angle) within ±85° (±1.4835 rad), or the rotors push downwards")
+    return euler
+
+
+class InitialTable(Table):
+    """`[initial]`: the state at the start, t = 0."""
+
+    position: Axes3 = key(
+        (0.0, 0.0, 0.0), "m", "position of the system's centre of mass, world axes", example=[0.3, -0.3, 0.0]
+    )
+    velocity: Axes3 = key((0.0, 0.0, 0.0), "m/s", "velocity of the system's centre of mass, world axes")
+    euler: Annotated[Axes3, AfterValidator(_upright)] = key(
+        (0.0, 0.0, 0.0),
+        "rad",
+        "roll, pitch and yaw; R = Rz(yaw) Rx(roll) Ry(pitch)",
+        rule="roll and pitch within ±85°",
+        example=[0.15, -0.15, 0.2],
+    )
+    rates: Axes3 = key((0.0, 0.0, 0.0), "rad/s", "angular velocity, body axes")
+
 
 UP = Vec3(0.0, 0.0, 1.0)
 
@@ -30,7 +60,7 @@ class State(NamedTuple):
     def __add__(self, other: "State") -> "State":  # type: ignore[override]
         return plus(self, other)
 
-    def __mul__(self, k: Number) -> "State":
+    def __mul__(self, k: Number) -> "State":  # type: ignore[override]
         return times(self, k)
 
 

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import atan_ratio, cos, maximum, minimum, sin, sqrt, tan, where
 from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Nothing, Vec3
+from tandemlift.core.algebra.vector import Absent, Vec3
 from tandemlift.parts.mechanics.rotation import Euler
 
 
@@ -24,7 +24,7 @@ class TiltLimit(NamedTuple):
 
 
 @choice(absent="u")
-def limit_tilt(limit: TiltLimit | Nothing, u: Vec3) -> Any:
+def limit_tilt(limit: TiltLimit | Absent, u: Vec3) -> Any:
     """The force (u_x, u_y, u_z) [N, world axes], its horizontal part shortened to stay within a tilt limit."""
 
 
@@ -35,9 +35,9 @@ def _tilted(limit: TiltLimit, u: Vec3) -> Vec3:
     return Vec3(u.x * fraction, u.y * fraction, u.z)
 
 
-def tilt_limit(angle: float | None) -> TiltLimit | Nothing:
-    """The limit of a tilt [rad]; `Nothing` for no limit."""
-    return Nothing() if angle is None else TiltLimit(tan(angle))
+def tilt_limit(angle: float | None) -> TiltLimit | Absent:
+    """The limit of a tilt [rad]; `Absent` for no limit."""
+    return Absent() if angle is None else TiltLimit(tan(angle))
 
 
 @law

@@ -17,7 +17,7 @@ from tandemlift.core.algebra.arrays import mapped
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import atan2, cos, exp, expm1, maximum, minimum, sin, sqrt
 from tandemlift.core.algebra.types import Number, number
-from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, vec3
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, vec3
 
 FOOT = 0.3048  # m
 LOWEST, HIGHEST = 10.0, 1000.0  # ft, between which the standard's low-altitude model holds
@@ -140,9 +140,9 @@ def dryden(wind_20ft: float, height: float, airspeed: float, direction: Sequence
     )
 
 
-def start_turbulence(turbulence: Dryden | Nothing, normals: Sequence[float]) -> TurbulenceState | Nothing:
+def start_turbulence(turbulence: Dryden | Absent, normals: Sequence[float]) -> TurbulenceState | Absent:
     """The memory at the start of a flight, drawn from the stationary process by five standard normal numbers."""
-    return TurbulenceState(*map(float, normals)) if isinstance(turbulence, Dryden) else Nothing()
+    return TurbulenceState(*map(float, normals)) if isinstance(turbulence, Dryden) else Absent()
 
 
 @law
@@ -158,7 +158,7 @@ def hidden_component(step: Transverse, v: Number, h: Number, n: Number, m: Numbe
 
 
 @choice(absent=ZERO)
-def turbulence_velocity(turbulence: Dryden | Nothing, memory: TurbulenceState | Nothing) -> Any:
+def turbulence_velocity(turbulence: Dryden | Absent, memory: TurbulenceState | Absent) -> Any:
     """Velocity of the turbulence [m/s, world axes]."""
 
 
@@ -168,7 +168,7 @@ def _dryden_velocity(d: Dryden, m: TurbulenceState) -> Vec3:
 
 
 @choice(absent="memory")
-def turbulence_step(turbulence: Dryden | Nothing, memory: TurbulenceState | Nothing, noise: WindNoise | Nothing) -> Any:
+def turbulence_step(turbulence: Dryden | Absent, memory: TurbulenceState | Absent, noise: WindNoise | Absent) -> Any:
     """The memory of the turbulence one step later."""
 
 

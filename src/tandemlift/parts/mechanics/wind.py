@@ -4,19 +4,89 @@ Gusts have the 1 − cosine shape of MIL-F-8785C, section 3.7. Velocities are in
 them.
 """
 
-from typing import NamedTuple
+from __future__ import annotations
 
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import clip, cos
+import math
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal, NamedTuple
+
+import numpy as np
+from pydantic import Field
+
+from tandemlift.core.algebra.arrays import distance
+from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.ops import clip, cos, maximum
 from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Nothing, Vec3
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, vec3
+from tandemlift.core.checks import CheckResult, warned
+from tandemlift.core.keys import NonNegative, PerAxis, Positive, Table, key
+from tandemlift.parts.mechanics.air_drag import AirDrag, air_drag_from, air_loads
+from tandemlift.parts.mechanics.loads import PartLoads, PartsLayout
+from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.turbulence import (
+    FOOT,
+    HIGHEST,
+    LOWEST,
     Dryden,
     TurbulenceState,
     WindNoise,
+    dryden,
+    start_turbulence,
     turbulence_step,
     turbulence_velocity,
 )
+from tandemlift.parts.mechanics.vehicle import Vehicle
+
+Speed = Annotated[float, Field(ge=-1e3, le=1e3)]  # m/s, along an axis
+Speeds = tuple[Speed, Speed, Speed]
+Turbulence = Annotated[float, Field(ge=0.0, le=1e3)]  # m/s
+Airspeed = Annotated[float, Field(ge=0.01, le=1e3)]  # m/s
+
+
+class GustTable(Table):
+    """`[[wind.gusts]]`: gusts on top of the mean wind, one table each, as in MIL-F-8785C, 3.7.3."""
+
+    velocity: Annotated[Speeds, PerAxis(3, single=False)] = key(
+        ..., "m/s", "peak velocity of the gust, world axes", example=[2.0, 0.0, 0.0]
+    )
+    start: float = key(..., "s", "time at which the gust begins to rise", example=12.0)
+    rise: Positive = key(..., "s", "time in which the gust rises as 1 − cos, and in which it falls again", example=1.0)
+    hold: NonNegative | None = key(None, "s", "time for which the gust holds its peak", unset="it stays", example=2.0)
+
+
+class WindTable(Table):
+    """`[wind]`: moving air, which drags payload and quadrotors quadratically; the pilot does not know of it.
+
+    Gusts and Dryden turbulence are those of MIL-F-8785C.
+    """
+
+    model: Literal["none", "air"] = key(
+        "none", None, "model of the wind", choices={"none": "no moving air", "air": "moving air with drag"}
+    )
+    velocity: Annotated[Speeds, PerAxis(3)] = key((0.0, 0.0, 0.0), "m/s", "mean velocity, world axes")
+    turbulence: Turbulence = key(
+        0.0,
+        "m/s",
+        "wind at 20 ft whose turbulence it is: 7.7 is light, 15.4 moderate, 0 none",
+    )
+    height: Positive = key(
+        3.048,
+        "m",
+        "height above ground for the turbulence's scales; outside the standard's 3.048 to 304.8 its nearer end counts",
+        source="10 ft, where the standard begins",
+    )
+    airspeed: Airspeed | None = key(
+        None,
+        "m/s",
+        "speed at which the turbulence passes the vehicle",
+        unset="that of the mean wind, at least 0.5",
+        example=3.0,
+    )
+    density: Annotated[Positive, Field(le=1e4)] = key(
+        1.225, "kg/m³", "density of the air", source="standard atmosphere at sea level"
+    )
+    gusts: tuple[GustTable, ...] = ()
+
 
 PI = 3.141592653589793
 
@@ -25,7 +95,7 @@ class Wind(NamedTuple):
     """Steady velocity [m/s, world axes], and turbulence."""
 
     velocity: Vec3
-    turbulence: Dryden | Nothing
+    turbulence: Dryden | Absent
 
 
 class Gust(NamedTuple):
@@ -47,8 +117,93 @@ def gust_velocity(g: Gust, t: Number) -> Vec3:
 
 @law
 def wind_step(
-    wind: Wind, memory: TurbulenceState | Nothing, gust: Vec3, noise: WindNoise | Nothing
-) -> tuple[Vec3, TurbulenceState | Nothing]:
+    wind: Wind, memory: TurbulenceState | Absent, gust: Vec3, noise: WindNoise | Absent
+) -> tuple[Vec3, TurbulenceState | Absent]:
     """(Velocity of the air now [m/s, world axes], the turbulence one step later); `gust`: the gusts' velocity now."""
     air = wind.velocity + gust + turbulence_velocity(wind.turbulence, memory)
     return air, turbulence_step(wind.turbulence, memory, noise)
+
+
+class WindModel(NamedTuple):
+    """The wind, and the drag of the parts."""
+
+    wind: Wind
+    drag: AirDrag
+
+
+class WindOutput(NamedTuple):
+    """The wind over a step: its velocity [m/s, world axes], its loads on the parts, and its memory after the step."""
+
+    velocity: Vec3 | Absent
+    loads: PartLoads | Absent
+    memory: TurbulenceState | Absent
+
+
+@choice
+def wind_loads(kind: Any, memory: Any, frame: PartsLayout, state: Any, gust: Any, noise: Any) -> Any:
+    """`WindOutput` over a step that starts in `state`; `gust`: velocity of all gusts together [m/s, world axes]."""
+
+
+@wind_loads.register(Absent)
+def _no_wind(kind: Absent, memory: Any, frame: PartsLayout, state: State, gust: Vec3, noise: Any) -> WindOutput:
+    return WindOutput(kind, kind, memory)
+
+
+@wind_loads.register(WindModel)
+def _wind(
+    kind: WindModel,
+    memory: TurbulenceState | Absent,
+    frame: PartsLayout,
+    state: State,
+    gust: Vec3,
+    noise: WindNoise | Absent,
+) -> WindOutput:
+    velocity, after = wind_step(kind.wind, memory, gust, noise)
+    return WindOutput(velocity, air_loads(kind.drag, frame, state, velocity), after)
+
+
+LEAST_AIRSPEED = 0.5  # m/s, at which turbulence passes in still air
+NO_NOISE = WindNoise(0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+def start_wind(
+    w: WindTable, vehicle: Vehicle, step: float, chance: np.random.Generator
+) -> tuple[WindModel, TurbulenceState | Absent] | tuple[Absent, Absent]:
+    """The wind and its turbulence at t = 0, or `Absent`; `chance` draws the turbulence."""
+    if w.model == "none":
+        return Absent(), Absent()
+    turbulence: Dryden | Absent = Absent()
+    if w.turbulence > 0.0:
+        airspeed = w.airspeed
+        if airspeed is None:
+            airspeed = maximum(distance(w.velocity, ZERO), LEAST_AIRSPEED)
+        turbulence = dryden(w.turbulence, w.height, airspeed, w.velocity, step)
+    wind = Wind(vec3(w.velocity), turbulence)
+    return WindModel(wind, air_drag_from(vehicle, w.density)), start_turbulence(
+        turbulence, chance.standard_normal(5).tolist()
+    )
+
+
+def wind_noise_of(model: WindModel | Absent) -> WindNoise | Absent:
+    """The layout of the wind's standard normals."""
+    still = isinstance(model, Absent) or isinstance(model.wind.turbulence, Absent)
+    return Absent() if still else NO_NOISE
+
+
+def gusts_from(w: WindTable) -> list[Gust]:
+    """The gusts on top of the mean wind."""
+    gusts = w.gusts if w.model == "air" else ()
+    return [Gust(vec3(g.velocity), g.start, 1.0 / g.rise, math.inf if g.hold is None else g.hold) for g in gusts]
+
+
+def wind_warnings(w: WindTable) -> Iterator[CheckResult]:
+    """Gusts without a wind, and turbulence at a height for which the standard has none."""
+    if w.gusts and w.model == "none":
+        yield warned('wind.gusts do not blow while wind.model is "none"')
+    lowest, highest = LOWEST * FOOT, HIGHEST * FOOT
+    held = min(max(w.height, lowest), highest)
+    if w.model == "air" and w.turbulence and abs(held - w.height) > 1e-6 * held:
+        yield warned(
+            f"wind.height = {w.height}: MIL-F-8785C gives the turbulence from {lowest:g} m to {highest:g} m; "
+            f"that of {held:g} m blows"
+        )

@@ -1,6 +1,6 @@
 """Inputs of a caller who steps a flight: a push beside the mission's, and thrusts in place of the pilot's.
 
-Both are held over the step. A flight without a caller has `Nothing`.
+Both are held over the step. A flight without a caller has `Absent`.
 """
 
 from typing import Any, NamedTuple

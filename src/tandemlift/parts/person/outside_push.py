@@ -1,7 +1,7 @@
 """A push that reaches the body outside of the flight's loop, such as one on a topic of Gazebo.
 
 The simulator of the body applies it by itself, and reports it after the step. So it is no input of the pilot in that
-step; it is part of the flight's record and of what the person has done. A body that cannot be pushed so has `Nothing`.
+step; it is part of the flight's record and of what the person has done. A body that cannot be pushed so has `Absent`.
 """
 
 from typing import Any, NamedTuple

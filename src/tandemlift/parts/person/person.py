@@ -13,17 +13,20 @@ quasi-linear pilot models, 1967; pure pursuit, Coulter, Implementation of the pu
 1992.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import Nothing, choice, law
+from tandemlift.core.algebra.law import Absent, choice, law
 from tandemlift.core.algebra.ops import clip, maximum, minimum, sqrt, where
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import ZERO, Vec3, apply, cross, dot, outer
-from tandemlift.parts.guidance.requests import NO_REQUEST, OperatorRequest, operator_request
+from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.push import PointPush, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, wrap_angle
 from tandemlift.parts.person.tremor import Tremor, TremorNoise, TremorState, tremor_step
-from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
+from tandemlift.parts.requests import NO_REQUEST, OperatorRequest, operator_request
 
 TINY = 1e-12  # m², N²: guards roots and divisions
 NEAR = 1.0  # m
@@ -38,11 +41,11 @@ class PathLeg(NamedTuple):
 
     start: Vec3
     end: Vec3
-    heading: Any
-    dwell: Any
-    stops: Any
-    within: Any
-    number: Any
+    heading: Number
+    dwell: Number
+    stops: Number
+    within: Number
+    number: Number
 
 
 PATH_LEG = PathLeg(ZERO, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -55,8 +58,8 @@ class PersonView(NamedTuple):
     velocity: Vec3
     grip: Vec3
     grip_velocity: Vec3
-    yaw: Any
-    yaw_rate: Any
+    yaw: Number
+    yaw_rate: Number
 
 
 class PersonState(NamedTuple):
@@ -86,13 +89,13 @@ class Arm(NamedTuple):
     `horizon` [s] of the prediction: visual delay and muscles together.
     """
 
-    stiffness: Any
-    damping: Any
+    stiffness: Number
+    damping: Number
     lag: LowPass
     tremor: Tremor
-    max_force: Any
-    max_couple: Any
-    horizon: Any
+    max_force: Number
+    max_couple: Number
+    horizon: Number
 
 
 class PathFollowing(NamedTuple):
@@ -103,16 +106,16 @@ class PathFollowing(NamedTuple):
     which they request the landing; time [s] and height [m] at which they begin; the number of the last leg.
     """
 
-    speed: Any
-    gain: Any
-    look_ahead: Any
-    approach_gain: Any
-    breakaway_force: Any
-    trim_rate: Any
-    landing_speed: Any
-    start_time: Any
-    height: Any
-    last: Any
+    speed: Number
+    gain: Number
+    look_ahead: Number
+    approach_gain: Number
+    breakaway_force: Number
+    trim_rate: Number
+    landing_speed: Number
+    start_time: Number
+    height: Number
+    last: Number
 
 
 class PersonSettings(NamedTuple):
@@ -123,10 +126,10 @@ class PersonSettings(NamedTuple):
     there, whatever the vehicle does.
     """
 
-    at_grip: Any
-    yaw_gain: Any
-    yaw_damping: Any
-    stays: Any
+    at_grip: Number
+    yaw_gain: Number
+    yaw_damping: Number
+    stays: Number
 
 
 class Person(NamedTuple):
@@ -142,15 +145,15 @@ class HandTarget(NamedTuple):
     """Target of the hand [m], target couple [N·m], and the wanted force across the path [N]."""
 
     place: Vec3
-    couple: Any
+    couple: Number
     across: Vec3
 
 
 class PersonOutput(NamedTuple):
     """A person's part of a step: the push with theirs, and their new memory."""
 
-    push: Any
-    memory: Any
+    push: PushSamples
+    memory: PersonState | Absent
 
 
 @law
@@ -163,7 +166,7 @@ def person_view(grip: Vec3, s: State) -> PersonView:
 
 
 @law
-def bounded(v: Vec3, limit: Any) -> Vec3:
+def bounded(v: Vec3, limit: Number) -> Vec3:
     """A vector, shortened to a length if it is longer."""
     return v * minimum(limit / sqrt(maximum(dot(v, v), TINY)), 1.0)
 
@@ -191,14 +194,14 @@ def across(leg: PathLeg, left: Vec3, force: Vec3) -> Vec3:
 
 
 @law
-def guided_point(settings: PersonSettings, view: PersonView) -> Any:
+def guided_point(settings: PersonSettings, view: PersonView) -> tuple[Vec3, Vec3]:
     """(place [m], velocity [m/s]) of the point that is guided along the path."""
     grip, centre = settings.at_grip, 1.0 - settings.at_grip
     return view.grip * grip + view.position * centre, view.grip_velocity * grip + view.velocity * centre
 
 
 @law
-def aim(k: Person, m: PersonState) -> HandTarget:
+def hand_target(k: Person, m: PersonState) -> HandTarget:
     """The person's target, from their view."""
     view, ahead, settings = m.view, k.arm.horizon, k.settings
     p, v = guided_point(settings, view)
@@ -224,7 +227,7 @@ def push_by(k: Person, m: PersonState, now: PersonView, state: State) -> PointPu
 
 
 @law
-def advance_on_path(k: Person, m: PersonState, t: Any, dt: Any) -> PersonState:
+def advance_on_path(k: Person, m: PersonState, t: Number, dt: Number) -> PersonState:
     """The memory with the progress along the path, from the person's view."""
     w, view = k.following, m.view
     begun = maximum(m.begun, where(view.position.z < w.height, 0.0, where(t < w.start_time, 0.0, 1.0)))
@@ -245,8 +248,10 @@ def person_step(person: Any, memory: Any, push: Any, state: Any, noise: Any, t: 
     """A person's part of a step: `PersonOutput`. `state` is the true one; `noise`: standard normals."""
 
 
-@person_step.register(Nothing)
-def _nobody(person: Nothing, memory: Any, push: Any, state: State, noise: Any, t: Any, dt: Any) -> PersonOutput:
+@person_step.register(Absent)
+def _nobody(
+    person: Absent, memory: Any, push: PushSamples, state: State, noise: Any, t: Number, dt: Number
+) -> PersonOutput:
     return PersonOutput(push, memory)
 
 
@@ -255,7 +260,7 @@ def _guiding(
     person: Person, memory: PersonState, push: Any, state: State, noise: TremorNoise, t: Any, dt: Any
 ) -> PersonOutput:
     m, now, arm = advance_on_path(person, memory, t, dt), person_view(person.grip, state), person.arm
-    target, holding = aim(person, m), m.begun * (1.0 - m.landing)
+    target, holding = hand_target(person, m), m.begun * (1.0 - m.landing)
     idle = m.view.grip + m.view.grip_velocity * arm.horizon
     trim = m.trim + target.across * (person.following.trim_rate * dt)
     after = m._replace(
@@ -276,7 +281,7 @@ def landing_request(memory: Any) -> Any:
 
 
 @landing_request.register(PersonState)
-def _at_the_end(memory: PersonState) -> Any:
+def _at_the_end(memory: PersonState) -> Number:
     return memory.landing
 
 

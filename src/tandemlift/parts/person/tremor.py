@@ -5,11 +5,13 @@ of 1/(1 + (f − f₀)²/b²)², 90 % of it between f₀ − 4b/3 and f₀ + 4b/
 b = 1.5 Hz. Source of the band: Elble and Randall, Mechanistic components of normal hand tremor, 1978.
 """
 
+from __future__ import annotations
+
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.types import number
+from tandemlift.core.algebra.types import Number, number
 from tandemlift.core.algebra.vector import ZERO, Vec3
 
 MIDDLE, HALF = 10.0, 1.5  # Hz
@@ -18,11 +20,11 @@ MIDDLE, HALF = 10.0, 1.5  # Hz
 class Tremor(NamedTuple):
     """Decay and rotation over a step (cosine, sine), input gains of the two filters, and the standard deviation [N]."""
 
-    cosine: Any
-    sine: Any
-    first: Any
-    second: Any
-    size: Any
+    cosine: Number
+    sine: Number
+    first: Number
+    second: Number
+    size: Number
 
 
 class TremorState(NamedTuple):

@@ -21,11 +21,11 @@ from typing import Any, NamedTuple
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import where
 from tandemlift.core.algebra.vector import ZERO, Vec3, outer
-from tandemlift.parts.guidance.requests import OperatorRequest, operator_request
+from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.push import PointPush, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.person.person import PersonOutput, bounded, landing_request, person_step, person_view
-from tandemlift.parts.signals.low_pass import LowPass, LowPassState, low_pass_step
+from tandemlift.parts.requests import OperatorRequest, operator_request
 
 
 class VirtualHandInput(NamedTuple):

@@ -2,7 +2,7 @@
 
 measured push → guidance (gate, admittance, phases) → reference → controller → wrench → allocation → thrusts, and beside
 it the disturbance observer and the detection of rotor failures. The pilot is sampled every `mission.step`; its outputs
-are held until the next sample. `parts.pilot.assemble` makes one from a mission.
+are held until the next sample. `simulation.assembly.pilot` makes one from a mission.
 """
 
 from __future__ import annotations
@@ -10,10 +10,16 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.vector import total
+from tandemlift.core.algebra.types import Number, PerRotor
+from tandemlift.core.algebra.vector import Absent, total
+from tandemlift.parts.compliance.admittance import AdmittanceState
 from tandemlift.parts.controllers import Command, Disturbance, Measured, control
-from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate, last_known, observer_step
-from tandemlift.parts.estimation.rotor_loss_detection import detection_step, failed_rotors
+from tandemlift.parts.estimation.disturbance_observer import (
+    DisturbanceEstimate,
+    ObserverState,
+    last_known,
+    observer_step,
+)
 from tandemlift.parts.guidance.guidance import (
     Guidance,
     PilotInput,
@@ -23,6 +29,8 @@ from tandemlift.parts.guidance.guidance import (
     untouched,
     with_wall,
 )
+from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
+from tandemlift.parts.rotor_loss.detection import DetectionState, detection_step, failed_rotors
 from tandemlift.parts.rotors.allocation import AllocationState, allocate
 
 __all__ = [
@@ -63,9 +71,9 @@ class ControlInput(NamedTuple):
     measured: Measured
     guidance: Guidance
     disturbance: DisturbanceEstimate
-    guidance_memory: Any
-    observer_memory: Any
-    detection_memory: Any
+    guidance_memory: AdmittanceState | HandGuidanceState
+    observer_memory: ObserverState | Absent
+    detection_memory: DetectionState | Absent
 
 
 class Decision(NamedTuple):
@@ -74,7 +82,7 @@ class Decision(NamedTuple):
     guidance: Guidance
     disturbance: DisturbanceEstimate
     command: Command
-    thrusts: Any
+    thrusts: PerRotor
 
 
 @choice(absent="allocation")
@@ -83,7 +91,7 @@ def last_thrusts(allocation: Any) -> Any:
 
 
 @last_thrusts.register(AllocationState)
-def _thrusts(allocation: AllocationState) -> Any:
+def _thrusts(allocation: AllocationState) -> PerRotor:
     return allocation.thrusts
 
 
@@ -93,12 +101,12 @@ def last_total_thrust(allocation: Any) -> Any:
 
 
 @last_total_thrust.register(AllocationState)
-def _total(allocation: AllocationState) -> Any:
+def _total(allocation: AllocationState) -> Number:
     return total(allocation.thrusts)
 
 
 @law
-def control_input(p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t: Any, dt: Any) -> ControlInput:
+def control_input(p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t: Number, dt: Number) -> ControlInput:
     """The input of the controller at time t [s]."""
     before, failed = last_known(p.observer, m.observer), failed_rotors(p.detection, m.detection, t)
     pilot_input = checked_input(p.guidance, m.guidance, pilot_input, last_total_thrust(m.allocation), failed)
@@ -121,7 +129,9 @@ def control_input(p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t
 
 
 @law
-def with_command(p: PilotParameters, m: PilotMemory, given: ControlInput, command: Command, memory: Any) -> Any:
+def with_command(
+    p: PilotParameters, m: PilotMemory, given: ControlInput, command: Command, memory: Any
+) -> tuple[Decision, PilotMemory]:
     """(`Decision`, the new memory) once the controller has commanded; `memory` is the controller's."""
     thrusts = running(given.guidance.running, allocate(p.allocation, command.wrench))
     decision = Decision(given.guidance, given.disturbance, command, thrusts)
@@ -134,7 +144,9 @@ def with_command(p: PilotParameters, m: PilotMemory, given: ControlInput, comman
 
 
 @law
-def decide(p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t: Any, dt: Any) -> Any:
+def decide(
+    p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t: Number, dt: Number
+) -> tuple[Decision, PilotMemory]:
     """One sample of the pilot at time t [s], held for dt [s]: (`Decision`, the new memory).
 
     The thrusts are not limited yet if the allocation is a `ConstrainedAllocation`.
@@ -145,12 +157,12 @@ def decide(p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t: Any, 
 
 
 @law
-def with_allocation(m: PilotMemory, allocation: Any) -> PilotMemory:
+def with_allocation(m: PilotMemory, allocation: AllocationState) -> PilotMemory:
     """A pilot's memory with that of an allocation within limits."""
     return m._replace(allocation=allocation)
 
 
 @law
-def with_thrusts(d: Decision, thrusts: Any) -> Decision:
+def with_thrusts(d: Decision, thrusts: PerRotor) -> Decision:
     """A decision with other thrusts [N]."""
     return d._replace(thrusts=thrusts)

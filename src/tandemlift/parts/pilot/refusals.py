@@ -12,6 +12,7 @@ from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import absolute, atan2, maximum, minimum, sqrt, where
 from tandemlift.core.algebra.selection import selected
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import dot, total
 from tandemlift.core.faults import FAULTS
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, STOPPED
@@ -34,9 +35,9 @@ DEGREE, PERCENT = 180.0 / math.pi, 100.0
 class ReasonNumbers(NamedTuple):
     """The number of a reason, or 0; the value and the limit in its text, rounded as they are shown."""
 
-    number: Any
-    value: Any
-    limit: Any
+    number: Number
+    value: Number
+    limit: Number
 
 
 class RefusalNumbers(NamedTuple):
@@ -51,12 +52,12 @@ NONE = ReasonNumbers(0.0, 0.0, 0.0)
 
 
 @law
-def rounded(x: Any, parts: Any) -> Any:
+def rounded(x: Number, parts: Number) -> Number:
     """A number of moderate size, rounded to so many parts of 1."""
     return ((x * parts + WHOLE) - WHOLE) / parts
 
 
-def reason(key: str, value: Any = 0.0, limit: Any = 0.0, parts: float = HUNDREDTHS) -> ReasonNumbers:
+def reason(key: str, value: Number = 0.0, limit: Number = 0.0, parts: float = HUNDREDTHS) -> ReasonNumbers:
     """A reason with its value and its limit."""
     return ReasonNumbers(NUMBER_OF[key], rounded(value, parts), rounded(limit, parts))
 

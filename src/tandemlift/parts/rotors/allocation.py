@@ -1,17 +1,70 @@
 """Control allocation: rotor thrusts from a wrench and back, by constant matrices, row by row, as sets of rotors."""
 
-from typing import Any, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from pydantic_core import core_schema
 
 from tandemlift.core.algebra.arrays import array, square_roots
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.core.algebra.types import Number, PerRotor, number
-from tandemlift.core.algebra.vector import Vec3, dot, each
+from tandemlift.core.algebra.vector import Absent, Vec3, dot, each
+from tandemlift.core.caching import cached
+from tandemlift.core.keys import PerAxis, Positive, Scale, Table, is_number, key, must
 from tandemlift.parts.mechanics.rigid_body import Wrench
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at
+
+Priorities = Annotated[tuple[Scale, Scale, Scale, Scale], PerAxis(4)]
+
+
+class Weights:
+    """Mark of the allocation weights: one number, four, or four for each quadrotor."""
+
+    def describe(self, limits: str) -> str:
+        """What is allowed, in words; `limits` is what each number must keep to."""
+        return f"one number {limits}, four numbers {limits}, or a list of four for each quadrotor"
+
+    def rows(self, value: Any) -> Any:
+        """Rows of four: one for all quadrotors, or one each."""
+        if is_number(value):
+            value = [value] * 4
+        if isinstance(value, (list, tuple)) and value:
+            rows = value if all(isinstance(row, (list, tuple)) for row in value) else [value]
+            if all(len(row) == 4 and all(map(is_number, row)) for row in rows):
+                return tuple(map(tuple, rows))
+        raise must("axes", f"be {self.describe('> 0')}")
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        return core_schema.no_info_before_validator_function(self.rows, handler(source))
+
+
+class AllocationTable(Table):
+    """`[allocation]`: how the wrench is distributed over the quadrotors."""
+
+    method: Literal["pseudo-inverse", "constrained"] = key(
+        "pseudo-inverse",
+        None,
+        "how the wrench is distributed over the rotors",
+        choices={
+            "pseudo-inverse": "the paper's weighted pseudo-inverse",
+            "constrained": "beyond a rotor's limits, the thrusts within them that come closest to the wrench",
+        },
+    )
+    weights: Annotated[tuple[tuple[Positive, Positive, Positive, Positive], ...], Weights()] = key(
+        ((1.0, 1.0, 1.0, 1.0),),
+        "1",
+        "cost c of a quadrotor's thrust, roll, pitch and yaw moment",
+        source="all alike; open in the paper",
+    )
+    priorities: Priorities = key(
+        (30.0, 900.0, 900.0, 1.0),
+        "1",
+        "for 'constrained': weights of the errors in thrust, roll, pitch and yaw when the rotors cannot give all four",
+        source="chosen: roll and pitch first, then thrust, then yaw",
+    )
 
 
 class Mixer(NamedTuple):
@@ -138,3 +191,39 @@ def wrench_scale(effect: NDArray[np.float64]) -> Wrench:
     """1 / row rms of the effect B (4 × n): makes the four components of a wrench comparable (`achieved_fraction`)."""
     thrust, roll, pitch, yaw = (number(w) for w in weights_of(effect, np.ones(4)))
     return Wrench(thrust, Vec3(roll, pitch, yaw))
+
+
+@cached
+def mixer_of(vehicle: Vehicle) -> Mixer:
+    """The effect B of a vehicle's rotors."""
+    return mixer_from(vehicle.effect)
+
+
+@cached
+def _inverse(vehicle: Vehicle, weights: tuple[tuple[float, ...], ...]) -> Mixer:
+    return mixer_from(vehicle.allocation(weights).T)
+
+
+@cached
+def _weighted(vehicle: Vehicle, priorities: tuple[float, ...]) -> tuple[Mixer, Wrench]:
+    weights = weights_of(vehicle.effect, priorities)
+    thrust, roll, pitch, yaw = map(number, weights)
+    return mixer_from(weighted_rows(vehicle.effect, weights)), Wrench(thrust, Vec3(roll, pitch, yaw))
+
+
+def start_allocation(
+    table: AllocationTable, vehicle: Vehicle, known: NoFaults | RotorFaults
+) -> tuple[Mixer, Absent] | tuple[ConstrainedAllocation, AllocationState]:
+    """The allocation and its memory before the first sample; `known`: the known rotor faults.
+
+    Raises:
+        InputError: the weights do not fit the vehicle.
+    """
+    inverse = _inverse(vehicle, table.weights)
+    if table.method == "pseudo-inverse":
+        return inverse, Absent()
+    rows, weights = _weighted(vehicle, table.priorities)
+    rotors = each(vehicle.rotor_count)
+    limits = rotors(*[q.max_thrust for q in vehicle.quadrotors for _ in range(4)])
+    none = rotors(*(0.0,) * vehicle.rotor_count)
+    return ConstrainedAllocation(inverse, rows, weights, limits, known), AllocationState(none, none)

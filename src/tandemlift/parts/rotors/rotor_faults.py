@@ -2,15 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import NamedTuple
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Annotated, NamedTuple
 
+from pydantic import Field
+
+from tandemlift.core.algebra.constants import NEVER
 from tandemlift.core.algebra.law import choice, elementwise
-from tandemlift.core.algebra.ops import where
+from tandemlift.core.algebra.ops import minimum, where
 from tandemlift.core.algebra.types import Number, PerRotor
 from tandemlift.core.algebra.vector import each
+from tandemlift.core.checks import CheckResult, refused, warned
+from tandemlift.core.keys import NonNegative, Share, Table, key
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
-NEVER = 1e18  # s
+
+class FaultTable(Table):
+    """`[[faults]]`: rotors that lose thrust, one table each, a rotor once; they need `actuators.model = "rotors"`."""
+
+    quadrotor: Annotated[int, Field(ge=1, le=64)] = key(
+        ..., "1", "number of the quadrotor, from 1", rule="at most the number of quadrotors", example=1
+    )
+    rotor: Annotated[int, Field(ge=1, le=4)] = key(
+        ..., "1", "number of the rotor, in the order of layout or rotor_positions", example=1
+    )
+    time: NonNegative = key(..., "s", "start of the fault", example=15.0)
+    efficiency: Share = key(0.0, "1", "fraction of the rotor's thrust that is left")
+    known_after: NonNegative | None = key(
+        None, "s", "delay until the 'constrained' allocation knows of it", unset="it never knows", example=0.05
+    )
 
 
 class NoFaults(NamedTuple):
@@ -56,3 +77,39 @@ def rotor_faults(count: int, failures: Iterable[tuple[int, int, float, float]]) 
         times[i], efficiency[i] = time, fraction
     cls = each(count)
     return RotorFaults(cls(*times), cls(*efficiency))
+
+
+def real_faults(tables: Sequence[FaultTable], vehicle: Vehicle) -> NoFaults | RotorFaults:
+    """The rotor faults as they happen."""
+    return rotor_faults(vehicle.rotor_count, [(f.quadrotor, f.rotor, f.time, f.efficiency) for f in tables])
+
+
+def known_faults(tables: Sequence[FaultTable], vehicle: Vehicle) -> NoFaults | RotorFaults:
+    """The rotor faults that the pilot knows of, each from the time when it does."""
+    known = [math.inf if f.known_after is None else f.time + f.known_after for f in tables]
+    failures = [(f.quadrotor, f.rotor, minimum(t, NEVER), f.efficiency) for f, t in zip(tables, known, strict=True)]
+    return rotor_faults(vehicle.rotor_count, failures)
+
+
+def fault_checks(tables: Sequence[FaultTable], quadrotors: int, rotors: str) -> Iterator[CheckResult]:
+    """Faults of rotors that the vehicle does not have, or that fail twice; `rotors`: `actuators.model`."""
+    seen = dict[tuple[int, int], int]()
+    for i, f in enumerate(tables):
+        if f.quadrotor > quadrotors:
+            limit = f"must be from 1 to {quadrotors}, as many as there are"
+            yield refused(f"faults.{i}.quadrotor = {f.quadrotor}: {limit}")
+        first = seen.setdefault((f.quadrotor, f.rotor), i)
+        if first != i:
+            where = f"rotor {f.rotor} of quadrotor {f.quadrotor}"
+            yield refused(f"faults.{i}.rotor = {f.rotor}: {where} must fail once, and does so in faults.{first}")
+    if tables and rotors != "rotors":
+        yield refused('actuators.model = "ideal": must be "rotors" where there are faults, or nothing can fail')
+
+
+def fault_warnings(tables: Sequence[FaultTable], weight: float, lift: float, method: str) -> Iterator[CheckResult]:
+    """Faults that leave too little `lift` [N] for the weight [N]; `method`: `allocation.method`."""
+    if weight > lift:
+        yield warned(f"once all faults are there, the vehicle weighs {weight:.4g} N and its rotors lift {lift:.4g} N")
+    known = [i for i, f in enumerate(tables) if f.known_after is not None]
+    if known and method != "constrained":
+        yield warned(f'faults.{known[0]}.known_after is of use only where allocation.method is "constrained"')

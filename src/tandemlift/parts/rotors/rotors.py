@@ -5,16 +5,46 @@ A set holds a number for each rotor.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from tandemlift.core.algebra.law import choice
-from tandemlift.core.algebra.ops import clip, sqrt
+from tandemlift.core.algebra.ops import clip, maximum, minimum, sqrt
 from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import Nothing
+from tandemlift.core.algebra.vector import Absent, each, spread
+from tandemlift.core.caching import cached
+from tandemlift.core.keys import Delay, Table, key
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.rotors.allocation import wrench_scale
 from tandemlift.parts.rotors.ground_effect import FreeAir, GroundEffect, ground_effect_ratio
-from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at
-from tandemlift.parts.rotors.rotor_lag import Lag, lag_step
+from tandemlift.parts.rotors.rotor_faults import FaultTable, NoFaults, RotorFaults, efficiency_at, real_faults
+from tandemlift.parts.rotors.rotor_lag import Lag, lag, lag_step
+
+
+class ActuatorsTable(Table):
+    """`[actuators]`: what the rotors do with a command."""
+
+    model: Literal["ideal", "rotors"] = key(
+        "ideal",
+        None,
+        "model of the rotors",
+        choices={
+            "ideal": "the commanded wrench acts exactly, and nothing is clamped",
+            "rotors": "rotors with limits, lag and faults, which must be able to lift the vehicle's real weight",
+        },
+    )
+    delay: Delay = key(
+        0.0,
+        "s",
+        "delay from the command to the rotors, rounded to whole steps; for real rotors",
+        rule="at most 10,000 steps",
+    )
+    start: Literal["hover", "stopped"] = key(
+        "hover",
+        None,
+        "speed of the rotors at t = 0; for real rotors",
+        choices={"hover": "that of hover", "stopped": "zero"},
+    )
 
 
 class IdealRotors(NamedTuple):
@@ -47,15 +77,13 @@ class RotorState(NamedTuple):
 
 @choice
 def rotors_step(
-    rotors: IdealRotors | Rotors, memory: RotorState | Nothing, command: PerRotor, state: State, t: Number
+    rotors: IdealRotors | Rotors, memory: RotorState | Absent, command: PerRotor, state: State, t: Number
 ) -> Any:
     """(thrust of each rotor [N] over the step from time t [s], the new memory) under a command [N]."""
 
 
 @rotors_step.register(IdealRotors)
-def _ideal(
-    rotors: IdealRotors, memory: Nothing, command: PerRotor, state: State, t: Number
-) -> tuple[PerRotor, Nothing]:
+def _ideal(rotors: IdealRotors, memory: Absent, command: PerRotor, state: State, t: Number) -> tuple[PerRotor, Absent]:
     return command, memory
 
 
@@ -66,3 +94,98 @@ def _real(r: Rotors, memory: RotorState, command: PerRotor, state: State, t: Num
     mean_of_square, speed = lag_step(r.up, r.down, memory.speed, commanded_speed)
     thrust = mean_of_square * r.constant * efficiency_at(r.faults, t)
     return thrust * ground_effect_ratio(r.surface, state), RotorState(speed, command)
+
+
+@cached
+def hover_thrusts(vehicle: Vehicle, weights: tuple[tuple[float, ...], ...]) -> PerRotor:
+    """Rotor thrusts [N] that carry the weight, as a set."""
+    thrusts = vehicle.allocation(weights) @ [vehicle.weight, 0.0, 0.0, 0.0]
+    return each(vehicle.rotor_count)(*thrusts.tolist())
+
+
+def ground_effect_from(vehicle: Vehicle, floor: Number) -> GroundEffect:
+    """Ground effect over a floor at z = `floor` [m]."""
+    places = [
+        (d[0] + x, d[1] + y, d[2])
+        for d, q in zip(vehicle.lever_arms, vehicle.quadrotors, strict=True)
+        for x, y in q.rotors
+    ]
+    quarter = [q.rotor_radius / 4.0 for q in vehicle.quadrotors for _ in range(4)]
+    return GroundEffect(spread(places), each(len(quarter))(*quarter), floor)
+
+
+def rotors_from(
+    vehicle: Vehicle,
+    step: float,
+    *,
+    delayed: bool,
+    faults: NoFaults | RotorFaults,
+    surface: FreeAir | GroundEffect,
+    wrench_scale: Wrench,
+) -> Rotors:
+    """The real rotors of a vehicle, for steps of `step` [s]."""
+    each_rotor = [q for q in vehicle.quadrotors for _ in range(4)]
+    cls = each(len(each_rotor))
+    return Rotors(
+        max_thrust=cls(*[q.max_thrust for q in each_rotor]),
+        constant=cls(*[q.thrust_constant for q in each_rotor]),
+        per_constant=cls(*[1.0 / q.thrust_constant for q in each_rotor]),
+        up=lag([q.lag_up for q in each_rotor], step),
+        down=lag([q.lag_down for q in each_rotor], step),
+        faults=faults,
+        surface=surface,
+        delayed=float(delayed),
+        wrench_scale=wrench_scale,
+    )
+
+
+def start_rotors(
+    table: ActuatorsTable,
+    faults: tuple[FaultTable, ...],
+    vehicle: Vehicle,
+    step: float,
+    *,
+    weights: tuple[tuple[float, ...], ...],
+    floor: Number | None,
+    delayed: bool,
+) -> tuple[Rotors, RotorState, PerRotor] | tuple[IdealRotors, Absent, PerRotor]:
+    """The rotors, their state and thrusts [N] at t = 0.
+
+    Args:
+        table: `[actuators]`.
+        faults: the real ones.
+        vehicle: the nominal one.
+        step: time step [s].
+        weights: of the allocation, by which hover is shared out.
+        floor: height z [m] of a floor with ground effect, or None.
+        delayed: whether commands arrive late.
+    """
+    hover = hover_thrusts(vehicle, weights)
+    if table.model == "ideal":
+        return IdealRotors(), Absent(), hover
+    rotors = _real_rotors(vehicle, step, delayed, faults, floor)
+    return rotors, *_start(hover, rotors, table.start == "hover")
+
+
+@cached
+def _real_rotors(
+    vehicle: Vehicle, step: float, delayed: bool, faults: tuple[FaultTable, ...], floor: Number | None
+) -> Rotors:
+    """The rotors of a vehicle with faults and, over a floor at z = `floor` [m], with ground effect."""
+    return rotors_from(
+        vehicle,
+        step,
+        delayed=delayed,
+        faults=real_faults(faults, vehicle),
+        surface=FreeAir() if floor is None else ground_effect_from(vehicle, floor),
+        wrench_scale=wrench_scale(vehicle.effect),
+    )
+
+
+@cached
+def _start(hover: PerRotor, rotors: Rotors, hovers: bool) -> tuple[RotorState, PerRotor]:
+    """The state of rotors and their thrusts at t = 0: those of hover, or none."""
+    cls, share = type(hover), 1.0 if hovers else 0.0
+    start = cls(*[share * minimum(maximum(f, 0.0), most) for f, most in zip(hover, rotors.max_thrust, strict=True)])
+    speed = cls(*[(f * c) ** 0.5 for f, c in zip(start, rotors.per_constant, strict=True)])
+    return RotorState(speed, start), start

@@ -1,26 +1,31 @@
-"""Additional sensors: the law of what each measures. Their rows are in `core.sensors`; the pilot reads none."""
+"""Additional sensors: what each is, and the law of what it measures. An estimator may read them by name."""
+
+from __future__ import annotations
 
 from typing import Any
 
 from tandemlift.core.algebra.law import law
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import Vec3, apply_transposed
-from tandemlift.core.sensors import ADDITIONAL
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.sensors.sensor_list import additional
 from tandemlift.parts.sensors.sensor_registry import register_sensor
 
 NORTH = Vec3(1.0, 0.0, 0.0)  # world axes; the inclination of the field is left out
 
 
-@register_sensor(ADDITIONAL["altimeter"])
+@register_sensor(additional("altimeter", "m", "height of the centre of mass above the world's origin"))
 @law
-def height(sensor: Any, state: State, perfect: PerfectReadings) -> Any:
+def height(sensor: Any, state: State, perfect: PerfectReadings) -> Number:
     """The height of the centre of mass [m]."""
     return state.position.z
 
 
-@register_sensor(ADDITIONAL["magnetometer"])
+@register_sensor(
+    additional("magnetometer", "1", "direction of magnetic north, which is world x", frame="body", width=3)
+)
 @law
 def magnetic_north(sensor: Any, state: State, perfect: PerfectReadings) -> Vec3:
     """The direction of magnetic north, body axes."""

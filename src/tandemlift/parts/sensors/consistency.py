@@ -5,12 +5,15 @@ accelerometer and by velocity must agree. With ε the difference between two of 
 d ← λ d + ε forgets over the window τ = T / (1 − λ): a jump shows in full, a constant error b as b τ.
 """
 
-from typing import Any, NamedTuple
+from __future__ import annotations
+
+from typing import NamedTuple
 
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import maximum, where
 from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import Quat, Vec3, apply, dot
 from tandemlift.parts.mechanics.rigid_body import UP
 from tandemlift.parts.mechanics.rotation import rotated_by, rotation_between, rotation_from_quaternion
@@ -34,7 +37,7 @@ class Inconsistency(NamedTuple):
 
 @law
 def inconsistency_after(
-    forgetting: Any, m: Inconsistency, imu: ImuReading, v: MotionReading, invalid: Any, dt: Any
+    forgetting: Number, m: Inconsistency, imu: ImuReading, v: MotionReading, invalid: Number, dt: Number
 ) -> Inconsistency:
     """The differences after a step of dt [s]; `forgetting` is 1 − λ.
 
@@ -57,6 +60,6 @@ def inconsistency_after(
 
 
 @law
-def exceeds(difference: Vec3, gap: Any) -> Any:
-    """1 if a difference is larger than the gap that is allowed, else 0."""
-    return where(dot(difference, difference) > gap * gap, 1.0, 0.0)
+def exceeds(difference: Vec3, tolerance: Number) -> Number:
+    """1 if a difference is larger than the tolerance, else 0."""
+    return where(dot(difference, difference) > tolerance * tolerance, 1.0, 0.0)

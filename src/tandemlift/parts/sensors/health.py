@@ -3,14 +3,17 @@
 The checks are mapped over the sensor table; the type of a sensor's limits picks its checks.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import absolute, maximum, minimum, sqrt, where
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import Quat, Vec3, dot, total
 from tandemlift.core.faults import SYMPTOMS
-from tandemlift.core.sensors import SENSORS, Sensor
 from tandemlift.parts.sensors.readings import Readings
+from tandemlift.parts.sensors.sensor_list import SENSORS, Sensor
 
 FROZEN, NO_NUMBER, OUT_OF_RANGE = (1.0 + i for i in range(len(SYMPTOMS)))
 UNIT_NORM = 0.05  # by which an attitude's norm may differ from 1
@@ -37,9 +40,9 @@ class VectorLimits(NamedTuple):
 class JointLimits(NamedTuple):
     """As `VectorLimits`, of the force [N] and the torque [N·m] at every joint."""
 
-    force: Any
-    torque: Any
-    frozen_samples: Any
+    force: Number
+    torque: Number
+    frozen_samples: Number
 
 
 class AttitudeLimits(NamedTuple):
@@ -63,9 +66,9 @@ class SensorHealth(NamedTuple):
 class SampleChecks(NamedTuple):
     """Checks of a sample: 1 if a number is not finite, if one is out of range, if the sample repeats the last one."""
 
-    not_finite: Any
-    out_of_range: Any
-    identical: Any
+    not_finite: Number
+    out_of_range: Number
+    identical: Number
 
 
 class WatchdogReport(NamedTuple):
@@ -74,67 +77,67 @@ class WatchdogReport(NamedTuple):
     `imu` and `motion`: stale. `seen`: 1 once both devices have sent a sample.
     """
 
-    imu: Any
-    motion: Any
-    joints: Any
-    accelerometer: Any
-    gyroscope: Any
-    position: Any
-    velocity: Any
-    attitude: Any
-    attitude_inconsistent: Any
-    velocity_inconsistent: Any
-    speed_inconsistent: Any
-    seen: Any
+    imu: Number
+    motion: Number
+    joints: Number
+    accelerometer: Number
+    gyroscope: Number
+    position: Number
+    velocity: Number
+    attitude: Number
+    attitude_inconsistent: Number
+    velocity_inconsistent: Number
+    speed_inconsistent: Number
+    seen: Number
 
 
 WELL = WatchdogReport._make([*[0.0] * 11, 1.0])
 
 
 @elementwise
-def not_finite(x: Any) -> Any:
+def not_finite(x: Number) -> Number:
     """1 where a value is not finite, else 0."""
     return where(x - x == 0.0, 0.0, 1.0)
 
 
 @elementwise
-def out_of_range(x: Any, largest: Any) -> Any:
+def out_of_range(x: Number, largest: Number) -> Number:
     """1 where the magnitude of a value is above the largest, or it is no number, else 0."""
     return where(absolute(x) <= largest, 0.0, 1.0)
 
 
 @elementwise
-def differs(x: Any, last: Any) -> Any:
+def differs(x: Number, last: Number) -> Number:
     """1 where two values differ, else 0."""
     return where(x == last, 0.0, 1.0)
 
 
 @elementwise
-def is_zero(x: Any) -> Any:
+def is_zero(x: Number) -> Number:
     """1 where a count is 0, else 0."""
     return where(x == 0.0, 1.0, 0.0)
 
 
 @law
-def any_component(v: Vec3) -> Any:
+def any_component(v: Vec3) -> Number:
     """1 if any component of a vector of flags is 1, else 0."""
     return minimum(v.x + v.y + v.z, 1.0)
 
 
 @law
-def any_of_sets(v: Vec3) -> Any:
+def any_of_sets(v: Vec3) -> Number:
     """1 if any flag in a vector of sets is 1, else 0."""
     return minimum(total(v.x) + total(v.y) + total(v.z), 1.0)
 
 
 @law
-def not_finite_of_sets(v: Vec3) -> Any:
+def not_finite_of_sets(v: Vec3) -> Number:
     """1 if any number in a vector of sets is not finite, else 0."""
     return any_of_sets(Vec3(not_finite(v.x), not_finite(v.y), not_finite(v.z)))
 
 
 @law
-def out_of_range_of_sets(v: Vec3, largest: Any) -> Any:
+def out_of_range_of_sets(v: Vec3, largest: Number) -> Number:
     """1 if any number in a vector of sets is out of range, else 0."""
     return any_of_sets(Vec3(out_of_range(v.x, largest), out_of_range(v.y, largest), out_of_range(v.z, largest)))
 
@@ -176,7 +179,7 @@ def _check_attitude(k: AttitudeLimits, sample: tuple[Quat], last: tuple[Quat]) -
 
 
 @law
-def health_after(m: SensorHealth, checks: SampleChecks, fresh: Any, dt: Any) -> SensorHealth:
+def health_after(m: SensorHealth, checks: SampleChecks, fresh: Number, dt: Number) -> SensorHealth:
     """The health of a sensor after a step of dt [s] with these checks of its sample; `fresh`: of its device."""
     new = fresh > 0.0
     failure = where(checks.not_finite > 0.0, NO_NUMBER, where(checks.out_of_range > 0.0, OUT_OF_RANGE, 0.0))

@@ -11,6 +11,8 @@ The type of a model picks its law: `SensorModel` for a vector or one on every qu
 number, `WhiteNoise` and `AttitudeNoise` for what has no other error, `NoError` for what is copied.
 """
 
+from __future__ import annotations
+
 import math
 from typing import Any, NamedTuple
 
@@ -19,8 +21,8 @@ import numpy as np
 from tandemlift.core.algebra.arrays import array
 from tandemlift.core.algebra.law import choice, elementwise
 from tandemlift.core.algebra.ops import clip, maximum, sqrt, where
-from tandemlift.core.algebra.types import number
-from tandemlift.core.algebra.vector import ZERO, Mat3, Nothing, Quat, Vec3, apply, each, is_set, spread, vec3
+from tandemlift.core.algebra.types import Number, number
+from tandemlift.core.algebra.vector import ZERO, Absent, Mat3, Quat, Vec3, apply, each, is_set, spread, vec3
 from tandemlift.core.types import Array
 from tandemlift.parts.mechanics.rotation import quaternion_from_rotation_vector, rotated_by, rotation_from_quaternion
 
@@ -55,34 +57,34 @@ class SensorModel(NamedTuple):
 
     axes: Mat3
     bias: Vec3
-    noise: Any
-    walk: Any
-    limit: Any
-    step: Any
-    per_step: Any
+    noise: Number
+    walk: Number
+    limit: Number
+    step: Number
+    per_step: Number
 
 
 class ScalarSensorModel(NamedTuple):
     """A sensor of a number; as `SensorModel`, without axes."""
 
-    bias: Any
-    noise: Any
-    walk: Any
-    limit: Any
-    step: Any
-    per_step: Any
+    bias: Number
+    noise: Number
+    walk: Number
+    limit: Number
+    step: Number
+    per_step: Number
 
 
 class WhiteNoise(NamedTuple):
     """A sensor of a vector whose only error is noise, of standard deviation `sigma`."""
 
-    sigma: Any
+    sigma: Number
 
 
 class AttitudeNoise(NamedTuple):
     """A sensor of the attitude whose only error is noise, of standard deviation `sigma` about each body axis [rad]."""
 
-    sigma: Any
+    sigma: Number
 
 
 class NoError(NamedTuple):
@@ -90,7 +92,7 @@ class NoError(NamedTuple):
 
 
 @elementwise
-def displayed(x: Any, limit: Any, step: Any, per_step: Any) -> Any:
+def displayed(x: Number, limit: Number, step: Number, per_step: Number) -> Number:
     """x held within ±limit, then rounded to whole steps, half to even; not rounded if step is 0."""
     held = clip(x, -limit, limit)
     steps = held * per_step
@@ -114,22 +116,22 @@ def _read_vector(k: SensorModel, drift: Vec3, truth: Vec3, normals: Vec3) -> Vec
 
 
 @read.register(ScalarSensorModel)
-def _read_scalar(k: ScalarSensorModel, drift: Any, truth: Any, normals: Any) -> Any:
+def _read_scalar(k: ScalarSensorModel, drift: Number, truth: Number, normals: Number) -> Number:
     return displayed(truth + k.bias + drift + normals * k.noise, k.limit, k.step, k.per_step)
 
 
 @read.register(WhiteNoise)
-def _read_with_noise(k: WhiteNoise, drift: Nothing, truth: Vec3, normals: Vec3) -> Vec3:
+def _read_with_noise(k: WhiteNoise, drift: Absent, truth: Vec3, normals: Vec3) -> Vec3:
     return truth + normals * k.sigma
 
 
 @read.register(AttitudeNoise)
-def _read_attitude(k: AttitudeNoise, drift: Nothing, truth: Quat, normals: Vec3) -> Quat:
+def _read_attitude(k: AttitudeNoise, drift: Absent, truth: Quat, normals: Vec3) -> Quat:
     return rotated_by(truth, normals * k.sigma)
 
 
 @read.register(NoError)
-def _copy(k: NoError, drift: Nothing, truth: Any, normals: Nothing) -> Any:
+def _copy(k: NoError, drift: Absent, truth: Quat, normals: Absent) -> Quat:
     return truth
 
 
@@ -140,14 +142,14 @@ def next_drift(model: Any, drift: Any, normals: Any, fresh: Any) -> Any:
 
 @next_drift.register(SensorModel)
 @next_drift.register(ScalarSensorModel)
-def _random_walk(k: Any, drift: Any, normals: Any, fresh: Any) -> Any:
+def _random_walk(k: ScalarSensorModel | SensorModel, drift: Any, normals: Any, fresh: Number) -> Any:
     return drift + normals * (k.walk * fresh)
 
 
 @next_drift.register(WhiteNoise)
 @next_drift.register(AttitudeNoise)
 @next_drift.register(NoError)
-def _no_walk(k: Any, drift: Nothing, normals: Any, fresh: Any) -> Nothing:
+def _no_walk(k: AttitudeNoise | NoError | WhiteNoise, drift: Absent, normals: Vec3 | Absent, fresh: Number) -> Absent:
     return drift
 
 
@@ -157,10 +159,10 @@ def no_drift(count: int | None = None) -> Vec3:
 
 
 def start_drift(model: Any) -> Any:
-    """The drift before the first sample of a sensor with this model; `Nothing` if it does not drift."""
+    """The drift before the first sample of a sensor with this model; `Absent` if it does not drift."""
     if isinstance(model, SensorModel):
         return no_drift(len(model.bias.x) if is_set(model.bias.x) else None)
-    return 0.0 if isinstance(model, ScalarSensorModel) else Nothing()
+    return 0.0 if isinstance(model, ScalarSensorModel) else Absent()
 
 
 def no_noise(model: Any) -> Any:

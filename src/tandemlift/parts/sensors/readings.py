@@ -7,13 +7,16 @@ velocity of the system's centre of mass in world axes, and the attitude. An addi
 in the loop (`simulation.loop.delays`).
 """
 
+from __future__ import annotations
+
 from functools import cache
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import where
 from tandemlift.core.algebra.selection import selected
-from tandemlift.core.algebra.vector import Nothing, Quat, Vec3
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import Absent, Quat, Vec3
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.noise_bias_drift import (
@@ -30,7 +33,7 @@ from tandemlift.parts.sensors.noise_bias_drift import (
 )
 from tandemlift.parts.sensors.sensor_registry import true_value
 
-NONE = Nothing()
+NONE = Absent()
 
 
 class ImuChannels(NamedTuple):
@@ -93,14 +96,14 @@ class Readings(NamedTuple):
 
     imu: ImuReading
     motion: MotionReading
-    additional: Any = Nothing()
+    additional: Any = Absent()
 
 
 class DeviceModel(NamedTuple):
     """A device: the models of its channels, and the steps from one sample to the next."""
 
-    channels: Any
-    period: Any
+    channels: ImuChannels | MotionChannels
+    period: Number
 
 
 class DeviceState(NamedTuple):
@@ -108,7 +111,7 @@ class DeviceState(NamedTuple):
 
     reading: Any
     drift: Any
-    wait: Any
+    wait: Number
 
 
 class Sensors(NamedTuple):
@@ -116,7 +119,7 @@ class Sensors(NamedTuple):
 
     imu: DeviceModel
     motion: DeviceModel
-    additional: Any = Nothing()
+    additional: Any = Absent()
 
 
 class SensorState(NamedTuple):
@@ -124,7 +127,7 @@ class SensorState(NamedTuple):
 
     imu: DeviceState
     motion: DeviceState
-    additional: Any = Nothing()
+    additional: Any = Absent()
 
 
 class SensorNoise(NamedTuple):
@@ -132,7 +135,7 @@ class SensorNoise(NamedTuple):
 
     imu: ImuChannels
     motion: MotionChannels
-    additional: Any = Nothing()
+    additional: Any = Absent()
 
 
 @law
@@ -172,7 +175,7 @@ def true_additional(sensor: Any, state: State, perfect: PerfectReadings) -> Addi
 @law
 def sense(
     k: Sensors, m: SensorState, state: State, perfect: PerfectReadings, believed: Quat, noise: SensorNoise
-) -> Any:
+) -> tuple[Readings, SensorState]:
     """(Readings, the new memory) of a step in which the pilot's attitude estimate was `believed`."""
     more = [
         sample_device(sensor, memory, true_additional(sensor, state, perfect), normals)
@@ -194,8 +197,8 @@ def readings_of(m: SensorState) -> Readings:
 
 @cache
 def by_name(names: tuple[str, ...]) -> Any:
-    """The type of values by name, one for each additional sensor; `Nothing` for none."""
-    return NamedTuple("_".join(("ByName", *names)), [(name, Any) for name in names]) if names else Nothing
+    """The type of values by name, one for each additional sensor; `Absent` for none."""
+    return NamedTuple("_".join(("ByName", *names)), [(name, Any) for name in names]) if names else Absent
 
 
 def sensors(

@@ -5,20 +5,24 @@ gives one value whatever happens (range); a device sends no new sample (stale). 
 every device. The type of a fault picks its law; a channel without a fault of its own has `NoFault`.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
+from tandemlift.core.algebra.constants import NEVER
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import where
 from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.vector import ZERO, Nothing, Quat, Vec3, each
-from tandemlift.core.sensors import SENSORS, additional_sensor, sensors_on
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, each, vec3
 from tandemlift.parts.mechanics.rotation import rotated_by
 from tandemlift.parts.sensors.readings import AdditionalChannels, ImuChannels, MotionChannels, Readings, by_name
+from tandemlift.parts.sensors.sensor_list import SENSORS, additional_sensor, sensors_named, sensors_on
+from tandemlift.parts.sensors.sensors_table import SensorFaultTable
 
-NEVER = 1e18  # steps
 EMPTY: Mapping[str, Any] = MappingProxyType({})
 
 
@@ -29,12 +33,12 @@ class SensorFault(NamedTuple):
     `poison` 0 or NaN.
     """
 
-    start: Any
-    end: Any
-    frozen: Any
-    keep: Any
+    start: Number
+    end: Number
+    frozen: Number
+    keep: Number
     size: Vec3
-    poison: Any
+    poison: Number
 
 
 class AttitudeFault(NamedTuple):
@@ -56,9 +60,9 @@ class NoFault(NamedTuple):
 class DeviceFaults(NamedTuple):
     """Faults of a device: no new sample from step `start` until before step `end`; and the faults of its channels."""
 
-    start: Any
-    end: Any
-    channels: Any
+    start: Number
+    end: Number
+    channels: ImuChannels | MotionChannels
 
 
 class SensorFaults(NamedTuple):
@@ -66,26 +70,34 @@ class SensorFaults(NamedTuple):
 
     imu: DeviceFaults
     motion: DeviceFaults
-    additional: Any = Nothing()
+    additional: Any = Absent()
 
 
 class SensorFaultState(NamedTuple):
     """Memory: the last readings that were passed on, and the number of the step."""
 
     given: Readings
-    step: Any
+    step: Number
 
 
 @law
-def during(start: Any, end: Any, step: Any) -> Any:
+def during(start: Number, end: Number, step: Number) -> Number:
     """1 from a step on until before another, else 0."""
     return where(step < start, 0.0, where(step < end, 1.0, 0.0))
 
 
 @elementwise
 def faulty_number(
-    x: Any, given: Any, size: Any, start: Any, end: Any, frozen: Any, keep: Any, poison: Any, step: Any
-) -> Any:
+    x: Number,
+    given: Number,
+    size: Number,
+    start: Number,
+    end: Number,
+    frozen: Number,
+    keep: Number,
+    poison: Number,
+    step: Number,
+) -> Number:
     """A number under a fault; `given`: the last one that was passed on."""
     wrong = where(frozen > 0.0, given, x * keep + size + poison)
     return where(step < start, x, where(step < end, wrong, x))
@@ -97,7 +109,7 @@ def faulty(fault: Any, x: Any, given: Any, step: Any) -> Any:
 
 
 @faulty.register(SensorFault)
-def _faulty_vector(f: SensorFault, x: Vec3, given: Vec3, step: Any) -> Vec3:
+def _faulty_vector(f: SensorFault, x: Vec3, given: Vec3, step: Number) -> Vec3:
     return Vec3(
         faulty_number(x.x, given.x, f.size.x, f.start, f.end, f.frozen, f.keep, f.poison, step),
         faulty_number(x.y, given.y, f.size.y, f.start, f.end, f.frozen, f.keep, f.poison, step),
@@ -112,7 +124,7 @@ def _faulty_scalar(k: ScalarFault, x: Any, given: Any, step: Any) -> Any:
 
 
 @faulty.register(AttitudeFault)
-def _faulty_attitude(k: AttitudeFault, x: Quat, given: Quat, step: Any) -> Quat:
+def _faulty_attitude(k: AttitudeFault, x: Quat, given: Quat, step: Number) -> Quat:
     f = k.fault
     off = f.size.x * (1.0 - f.keep)
     q = rotated_by(x, f.size * (f.keep * during(f.start, f.end, step)))
@@ -125,7 +137,7 @@ def _faulty_attitude(k: AttitudeFault, x: Quat, given: Quat, step: Any) -> Quat:
 
 
 @faulty.register(NoFault)
-def _no_fault(f: NoFault, x: Any, given: Any, step: Any) -> Any:
+def _no_fault(f: NoFault, x: Quat, given: Quat, step: Number) -> Quat:
     return x
 
 
@@ -216,3 +228,29 @@ def all_faults(
 def _torque_fault(force: SensorFault) -> SensorFault:
     """The fault of the joints' torque that goes with that of their force: an offset is of the force alone."""
     return force._replace(size=Vec3(*[size - size * force.keep for size in force.size]))
+
+
+def _steps(f: SensorFaultTable, step: float) -> tuple[float, float]:
+    """The first step with a fault, and the first one without it again."""
+
+    def steps(time: float) -> float:
+        return float(round(min(time / step, NEVER)))
+
+    return steps(f.time), NEVER if f.until is None else steps(f.until)
+
+
+def sensor_faults_from(
+    tables: Sequence[SensorFaultTable], count: int, additional: Sequence[str], step: float
+) -> SensorFaults:
+    """The faults of every sensor, of `count` joints and of the additional sensors by name, for steps of `step` [s]."""
+    stale, faults, joints = dict[str, tuple[float, float]](), dict[str, SensorFault](), [SOUND] * count
+    for f in tables:
+        if f.kind == "stale":
+            stale[f.sensor] = _steps(f, step)
+            continue
+        fault = sensor_fault(f.kind, *_steps(f, step), vec3(f.size))
+        names = sensors_named(f.sensor)
+        faults |= dict.fromkeys(names, fault)
+        if "joints" in names:
+            joints = [fault if f.quadrotor in (None, i) else old for i, old in enumerate(joints, 1)]
+    return all_faults(joints, faults, stale, additional)

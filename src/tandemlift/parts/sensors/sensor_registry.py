@@ -1,4 +1,4 @@
-"""Registration of additional sensors: the law of what each measures (`core.sensors` says what they are)."""
+"""Registration of additional sensors: the law of what each measures (`sensor_list` says what they are)."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from typing import Any, NamedTuple, TypeVar
 from tandemlift.core.algebra.law import choice
 from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, spread
 from tandemlift.core.errors import InputError
-from tandemlift.core.sensors import ADDITIONAL, DEVICES, SENSORS, Sensor
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.sensors.sensor_list import ADDITIONAL, DEVICES, SENSORS, Sensor
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -37,7 +37,7 @@ def register_sensor(sensor: Sensor) -> Callable[[F], F]:
     (`core.algebra.law`). Registering a name again replaces the sensor if it comes from the same file.
 
     Args:
-        sensor: its row, from `core.sensors.additional`.
+        sensor: its row, from `parts.sensors.sensor_list.additional`.
 
     Raises:
         InputError: the name is not fit for one or taken, the law is in no file, or gives something else.

@@ -1,11 +1,14 @@
 """What takes the place of invalid samples and lost sensors: last valid values, and predictions of the navigator."""
 
-from typing import Any, NamedTuple
+from __future__ import annotations
+
+from typing import NamedTuple
 
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import clip, maximum, where
 from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import ZERO, Vec3, apply_transposed
 from tandemlift.parts.mechanics.rigid_body import UP, State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
@@ -29,11 +32,11 @@ class MeanBiases(NamedTuple):
 
     gyroscope: Vec3
     accelerometer: Vec3
-    time: Any
+    time: Number
 
 
 @law
-def mean_after(m: MeanBiases, p: PredictedReadings, wrong: Any, dt: Any) -> MeanBiases:
+def mean_after(m: MeanBiases, p: PredictedReadings, wrong: Number, dt: Number) -> MeanBiases:
     """The means with the present bias estimates, unless something is `wrong` (1)."""
     time = m.time + dt * (1.0 - wrong)
     gain = dt / clip(time, dt, AVERAGING_TIME) * (1.0 - wrong)

@@ -9,19 +9,29 @@ navigator runs without the motion measurement, it uses the mean of its bias esti
 one (`substitutes`). Redundant measurements are compared with each other (`consistency`).
 """
 
-from typing import Any, NamedTuple
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, NamedTuple
+
+from pydantic import Field
 
 from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import maximum, where
+from tandemlift.core.algebra.ops import exp, maximum, minimum, where
 from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, dot
+from tandemlift.core.keys import NonNegative, Positive, Table, key
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_between
 from tandemlift.parts.sensors.consistency import Inconsistency, exceeds, inconsistency_after
 from tandemlift.parts.sensors.health import (
     FROZEN,
+    AttitudeLimits,
+    JointLimits,
     PerSensor,
     SensorHealth,
+    VectorLimits,
     WatchdogReport,
     any_component,
     is_valid,
@@ -29,6 +39,7 @@ from tandemlift.parts.sensors.health import (
     not_finite,
 )
 from tandemlift.parts.sensors.readings import ImuReading, MotionReading, Readings
+from tandemlift.parts.sensors.sensors_table import SensorsTable, steps_of
 from tandemlift.parts.sensors.substitutes import (
     SETTLING_TIME,
     MeanBiases,
@@ -38,6 +49,48 @@ from tandemlift.parts.sensors.substitutes import (
     substituted_motion,
     valid_imu,
 )
+
+Samples = Annotated[int, Field(ge=2, le=1_000_000)]
+FAR = "chosen: beyond what the vehicle should meet"
+
+
+class WatchTable(Table):
+    """`[supervision.watchdog]`: watchdogs on every sensor."""
+
+    stale_time: Positive = key(
+        0.1,
+        "s",
+        "time without a fresh sample after which a device counts as stale",
+        rule="above the sampling intervals",
+        source="chosen",
+    )
+    invalid_time: Positive = key(
+        0.05,
+        "s",
+        "time without a valid sample after which a sensor counts as lost",
+        rule="above the sampling intervals",
+        source="chosen",
+    )
+    frozen_samples: Samples = key(
+        25, "1", "number of identical samples after which a sensor that has noise counts as frozen", source="chosen"
+    )
+    max_force: Positive = key(100.0, "N", "largest plausible force at a joint", source=FAR)
+    max_torque: Positive = key(20.0, "N m", "largest plausible torque at a joint", source=FAR)
+    max_specific_force: Positive = key(80.0, "m/s²", "largest plausible reading of the accelerometer", source=FAR)
+    max_rates: Positive = key(15.0, "rad/s", "largest plausible reading of the gyroscope", source=FAR)
+    max_position: Positive = key(100.0, "m", "largest plausible coordinate of the position", source=FAR)
+    max_velocity: Positive = key(20.0, "m/s", "largest plausible component of the velocity", source=FAR)
+    window: Positive = key(0.5, "s", "time over which measurements are compared with each other", source="chosen")
+    attitude_gap: Positive = key(0.1, "rad", "largest difference between attitude and gyroscope", source="chosen")
+    position_gap: Positive = key(0.1, "m", "largest difference between position and velocity", source="chosen")
+    speed_gap: Positive = key(0.3, "m/s", "largest difference between velocity and accelerometer", source="chosen")
+    joints_time: NonNegative = key(0.1, "s", "time for which the joints may disagree", source="chosen")
+    rates_bandwidth: Positive = key(
+        60.0, "rad/s", "bandwidth of the rates from the attitude, which replace a lost gyroscope", source="chosen"
+    )
+    velocity_bandwidth: Positive = key(
+        10.0, "rad/s", "bandwidth of the velocity from the position, which replaces a lost velocity", source="chosen"
+    )
 
 
 class Watchdog(NamedTuple):
@@ -49,16 +102,16 @@ class Watchdog(NamedTuple):
     substituted rates and velocity, and the rate of motion samples [1/s].
     """
 
-    stale_time: Any
-    invalid_time: Any
+    stale_time: Number
+    invalid_time: Number
     sensors: PerSensor
-    forgetting: Any
-    attitude_gap: Any
-    position_gap: Any
-    velocity_gap: Any
-    rates_gain: Any
-    velocity_gain: Any
-    motion_rate: Any
+    forgetting: Number
+    attitude_gap: Number
+    position_gap: Number
+    velocity_gap: Number
+    rates_gain: Number
+    velocity_gain: Number
+    motion_rate: Number
 
 
 class WatchdogState(NamedTuple):
@@ -71,10 +124,10 @@ class WatchdogState(NamedTuple):
     last: Readings
     valid: Readings
     health: PerSensor
-    imu_age: Any
-    motion_age: Any
-    imu_seen: Any
-    motion_seen: Any
+    imu_age: Number
+    motion_age: Number
+    imu_seen: Number
+    motion_seen: Number
     rates: Vec3
     velocity: Vec3
     mean: MeanBiases
@@ -82,7 +135,7 @@ class WatchdogState(NamedTuple):
 
 
 @law
-def lost(k: Watchdog, h: SensorHealth, limits: Any) -> Any:
+def lost(k: Watchdog, h: SensorHealth, limits: AttitudeLimits | JointLimits | VectorLimits) -> Number:
     """What is wrong with a sensor that is lost (`SYMPTOMS`, from 1), or 0."""
     invalid = where(h.invalid_time >= k.invalid_time, h.failure, 0.0)
     return where(h.failure > 0.0, invalid, where(h.identical >= limits.frozen_samples, FROZEN, 0.0))
@@ -105,7 +158,13 @@ def report_of(k: Watchdog, h: PerSensor, imu_age: Any, motion_age: Any, seen: An
 
 @law
 def substitute_rates(
-    k: Watchdog, m: WatchdogState, imu: ImuReading, attitude: Quat, fresh: Any, measured: Any, p: PredictedReadings
+    k: Watchdog,
+    m: WatchdogState,
+    imu: ImuReading,
+    attitude: Quat,
+    fresh: Number,
+    measured: Number,
+    p: PredictedReadings,
 ) -> Vec3:
     """The rates [rad/s]: of the gyroscope while they are `measured` (1), else the derivative of the attitude."""
     derivative = rotation_between(m.valid.motion.attitude, attitude) * k.motion_rate
@@ -130,7 +189,7 @@ def any_invalid(h: PerSensor) -> Any:
 
 
 @law
-def any_lost(r: WatchdogReport) -> Any:
+def any_lost(r: WatchdogReport) -> Number:
     """1 if any sensor that is compared is lost, else 0."""
     imu = r.imu + r.gyroscope + r.accelerometer
     return where(imu + r.motion + r.attitude + r.position + r.velocity > 0.0, 1.0, 0.0)
@@ -196,7 +255,35 @@ def start_watchdog(readings: Readings) -> WatchdogState:
 
 
 @law
-def state_not_finite(s: State) -> Any:
+def state_not_finite(s: State) -> Number:
     """1 if any number of a state is not finite, else 0."""
     motion = maximum(any_component(not_finite(s.position)), any_component(not_finite(s.velocity)))
     return maximum(motion, maximum(any_component(not_finite(s.rates)), not_finite(dot(s.attitude, s.attitude))))
+
+
+def watchdog_from(w: WatchTable, s: SensorsTable, step: float) -> Watchdog:
+    """The watchdogs on every sensor, for steps of `step` [s]; a sensor without noise is never frozen."""
+
+    def frozen(noise: Number) -> Number:
+        return where(noise > 0.0, float(w.frozen_samples), math.inf)
+
+    interval = step * steps_of(s.motion.interval, step)
+    return Watchdog(
+        stale_time=w.stale_time,
+        invalid_time=w.invalid_time,
+        sensors=PerSensor(
+            joints=JointLimits(w.max_force, w.max_torque, frozen(s.joints.force_noise)),
+            accelerometer=VectorLimits(w.max_specific_force, frozen(s.accelerometer.noise)),
+            gyroscope=VectorLimits(w.max_rates, frozen(s.gyroscope.noise)),
+            position=VectorLimits(w.max_position, frozen(s.motion.position_noise)),
+            velocity=VectorLimits(w.max_velocity, frozen(s.motion.velocity_noise)),
+            attitude=AttitudeLimits(frozen(s.motion.attitude_noise)),
+        ),
+        forgetting=minimum(interval / w.window, 1.0),
+        attitude_gap=w.attitude_gap,
+        position_gap=w.position_gap,
+        velocity_gap=w.speed_gap,
+        rates_gain=1.0 - exp(-w.rates_bandwidth * interval),
+        velocity_gain=1.0 - exp(-w.velocity_bandwidth * interval),
+        motion_rate=1.0 / interval,
+    )

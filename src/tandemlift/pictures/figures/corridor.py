@@ -15,10 +15,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch
 
-from tandemlift.core.settings import wall_tables
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.clearances import clearances, grips
 from tandemlift.pictures.figures.drawing.figure import Caption, with_walls
 from tandemlift.pictures.figures.drawing.figure_style import current_style
@@ -129,7 +128,7 @@ def _bounds(flight: Flight, shown: list[int]) -> Array:
 
 
 def _from_above(ax: Any, flight: Flight, shown: list[int], found: list[tuple[Array, Array]]) -> None:
-    for w in wall_tables(flight.mission):
+    for w in flight.walls:
         ax.plot(*np.array([w["start"], w["end"]]).T, color=INK, lw=1.6, solid_capstyle="round", zorder=3, gid="wall")
     ax.plot(*_desired(flight).T, color=GREY, lw=0.7, ls=(0, (4, 3)), zorder=1, gid="desired")
     for k in shown:

@@ -16,10 +16,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch, Patch
 
-from tandemlift.core.settings import wall_tables
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.attitude import body_to_world
 from tandemlift.pictures.figures.drawing.figure import Caption, all_flights
 from tandemlift.pictures.figures.drawing.ground import floor_height
@@ -180,7 +179,7 @@ def draw(flight: Flight) -> Figure:
     tips = np.array([p.point + per_newton * p.force for p in found]).reshape(-1, 3)
     around = np.concatenate([around, tips])
 
-    tables = wall_tables(flight.mission)
+    tables = flight.walls
     reach = np.concatenate([around, *(wall.rim for wall in walls_near(tables, around))])
     scene = Scene3D(reach, _floor(flight, around))
     handles = _draw_path(scene, path)

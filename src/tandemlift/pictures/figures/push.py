@@ -12,10 +12,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from tandemlift.core.settings.pilot import EstimatorTable
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.estimation.estimator_table import EstimatorTable
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.attitude import body_to_world
 from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.figures.drawing.panels import fit, legend_above, line, shade, time_axis

@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from tandemlift.flight.record import Flight
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.figures.drawing.fleet import fleet_figure
 from tandemlift.pictures.figures.drawing.panels import extent, line, time_axis, value_ticks

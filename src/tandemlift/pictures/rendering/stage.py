@@ -8,12 +8,11 @@ import numpy as np
 
 from tandemlift.core.algebra.vector import Quat
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import wall_tables
 from tandemlift.core.types import Array
 from tandemlift.engines.models.visuals import vehicle_shapes
 from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 ARROW, SHORTEST = 0.9, 0.18  # m, length of the arrow for the strongest push of the flight, and for the faintest
 FAINTEST = 0.03  # fraction of the strongest push below which a push is not drawn
@@ -48,7 +47,7 @@ class FlightStage:
         self.vehicle = Vehicle.from_mission(flight.mission)
         self.reach = max(float(np.linalg.norm(s.position)) + max(s.size) / 2.0 for s in vehicle_shapes(self.vehicle))
         self.floor = self._floor_of(flight.mission, self.vehicle)
-        self.walls = wall_tables(flight.mission)
+        self.walls = flight.walls
 
     def _floor_of(self, mission: dict[str, Any], vehicle: Vehicle) -> float:
         """Height of the floor [m]; where the mission gives none, that of the lowest foot."""

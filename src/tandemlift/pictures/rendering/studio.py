@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.core.errors import InputError
-from tandemlift.core.extras import extra
+from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
 from tandemlift.engines.models.camera import NEAR
 from tandemlift.engines.models.visuals import GLASS, PUSH_COLOR, SUN, WALL, VisualShape, vehicle_shapes

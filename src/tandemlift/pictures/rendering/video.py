@@ -16,8 +16,7 @@ from typing import IO
 
 from PIL import Image
 
-from tandemlift.core.errors import InputError
-from tandemlift.core.extras import extra
+from tandemlift.core.errors import InputError, extra
 
 ENCODER = "libx264"
 QUALITY = 20  # of x264: a constant rate factor, lower is better

@@ -14,7 +14,6 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
 
 from tandemlift.analysis.studies.engine_comparison import QUANTITIES, differences
-from tandemlift.core.settings import wall_tables
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure import Caption, with_walls
 from tandemlift.pictures.figures.drawing.figure_style import current_style
@@ -67,7 +66,7 @@ def _legend(figure: Figure, names: list[str], first: int = 0) -> None:
 
 def _from_above(ax: Any, flights: Mapping[str, Flight]) -> None:
     first = next(iter(flights.values()))
-    for wall in wall_tables(first.mission):
+    for wall in first.walls:
         ax.plot(*np.array([wall["start"], wall["end"]]).T, color=INK, lw=1.4, solid_capstyle="round", gid="wall")
     for place, flight in enumerate(flights.values()):
         path = flight["position"][:, :2]

@@ -1,4 +1,7 @@
-"""The report of a flight: one HTML file that needs nothing else: verdict, set-up, figures, metrics and mission."""
+"""The report of a flight: one HTML file that needs nothing else: verdict, set-up, figures, metrics and mission.
+
+Captions stand with their figures in `pictures.figures`.
+"""
 
 from __future__ import annotations
 

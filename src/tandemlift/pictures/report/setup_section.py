@@ -3,30 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TypeVar
+from typing import Any
 
-from tandemlift.core.settings import (
-    ChangeTable,
-    ComplianceTable,
-    DetectionTable,
-    PersonTable,
-    Quadrotor,
-    Table,
-    VehicleTable,
-    wall_tables,
-)
-from tandemlift.core.settings.guided import ObserverTable
-from tandemlift.core.settings.pilot import AllocationTable, EstimatorTable, PilotTable
-from tandemlift.core.settings.sensors import SensorsTable
-from tandemlift.core.settings.supervision import SupervisionTable
-from tandemlift.core.settings.surroundings import GroundTable, WindTable
-from tandemlift.core.settings.world import ActuatorsTable, DisturbanceTable, FaultTable, PlantTable
+from pydantic import TypeAdapter, ValidationError
+
+from tandemlift.core.errors import InputError
+from tandemlift.core.toml import shown
 from tandemlift.flight import Flight
-from tandemlift.missions.values import shown
+from tandemlift.missions import Mission
 from tandemlift.pictures.figures.drawing.ground import floor_height
 
 Row = tuple[str, str]
-Settings = TypeVar("Settings", bound=Table)
 
 MOST_CHANGES = 12  # that are listed
 OBSERVERS = {"extended-state": "a linear extended-state observer", "super-twisting": "a super-twisting observer"}
@@ -34,9 +21,16 @@ READ = {"truth": "true", "measurement": "measured", "estimate": "estimated"}
 JOINTS = {"force": ("N", "Joint forces"), "torque": ("N m", "Joint torques")}
 
 
-def _table(flight: Flight, name: str, model: type[Settings]) -> Settings:
-    """A table of the flight's mission, with what an older mission does not have."""
-    return model.model_validate(flight.mission.get(name, {}))
+def _table(flight: Flight, name: str) -> Any:
+    """A table of the flight's mission, or the tuple of an array of tables."""
+    field = Mission.model_fields[name]
+    if name not in flight.mission:  # of a flight that was read from a bag, or made by hand
+        return field.default
+    kind: Any = field.annotation
+    try:
+        return TypeAdapter(kind).validate_python(flight.mission[name])
+    except ValidationError as error:
+        raise InputError(f"the flight's mission has no {name} that this version reads: {error}") from error
 
 
 def describe(value: float, unit: str = "", scale: float = 1.0) -> str:
@@ -55,12 +49,12 @@ def _spread(values: Iterable[float], unit: str, scale: float = 1.0) -> str:
 
 
 def _vehicle(flight: Flight) -> Iterator[Row]:
-    table = _table(flight, "vehicle", VehicleTable)
+    table = _table(flight, "vehicle")
     count, payload = len(table.quadrotors), table.payload.mass
     mass = payload + sum(q.mass for q in table.quadrotors)
     fleet = f"{count} quadrotor{'s' if count > 1 else ''}"
     yield "Vehicle", f"{fleet} and a payload of {describe(payload, 'kg')}, {describe(mass, 'kg')} in all"
-    plant, push = _table(flight, "plant", PlantTable), _table(flight, "disturbance", DisturbanceTable)
+    plant, push = _table(flight, "plant"), _table(flight, "disturbance")
     unknown = []
     if plant.mass_scale != 1.0:
         unknown.append(f"its mass is {describe(plant.mass_scale * mass, 'kg')}")
@@ -75,15 +69,15 @@ def _vehicle(flight: Flight) -> Iterator[Row]:
 
 
 def _pilot(flight: Flight) -> Iterator[Row]:
-    pilot, name = _table(flight, "pilot", PilotTable), flight.mission["controller"]["name"]
+    pilot, name = _table(flight, "pilot"), flight.mission["controller"]["name"]
     yield "Pilot", f"controller {name}; reads the {READ[pilot.state]} state and the {READ[pilot.push]} push"
 
 
 def _guidance(flight: Flight) -> Iterator[Row]:
-    if _table(flight, "pilot", PilotTable).guidance == "scheduled":
+    if _table(flight, "pilot").guidance == "scheduled":
         yield "Guidance", "scheduled: lift and landing at set times, the paper’s admittance in between"
         return
-    c, estimator = _table(flight, "compliance", ComplianceTable), _table(flight, "estimator", EstimatorTable)
+    c, estimator = _table(flight, "compliance"), _table(flight, "estimator")
     caps = f"up to {_spread(c.max_speed, 'm/s')}, {_spread(c.max_acceleration, 'm/s²')}, {_spread(c.max_jerk, 'm/s³')}"
     yaw = "turns with a push at an end" if c.yaw.model == "compliant" else "heading held"
     tank = "; an energy tank adds damping" if c.tank.model != "none" else ""
@@ -92,13 +86,13 @@ def _guidance(flight: Flight) -> Iterator[Row]:
 
 
 def _watch(flight: Flight) -> Iterator[Row]:
-    observer, detection = _table(flight, "observer", ObserverTable), _table(flight, "detection", DetectionTable)
+    observer, detection = _table(flight, "observer"), _table(flight, "detection")
     yield "Disturbance", "not estimated" if observer.model == "none" else f"estimated by {OBSERVERS[observer.model]}"
     if detection.model != "none":
         yield "Rotor failure", "detected from motion that the modelled rotors do not explain; then an emergency landing"
-    if _table(flight, "supervision", SupervisionTable).model != "none":
+    if _table(flight, "supervision").model != "none":
         yield "Supervision", "checks before a lift, watchdogs on every sensor, limits and a fence, each with a reaction"
-    for change in (ChangeTable.model_validate(c) for c in flight.mission.get("changes", [])[:MOST_CHANGES]):
+    for change in _table(flight, "changes")[:MOST_CHANGES]:
         over = f" within {describe(change.duration, 's')}" if change.duration else ""
         yield "Change", f"{change.key} = {shown(change.value)} from {describe(change.time, 's')} on{over}"
     more = len(flight.mission.get("changes", [])) - MOST_CHANGES
@@ -106,17 +100,17 @@ def _watch(flight: Flight) -> Iterator[Row]:
         yield "Change", f"and {more} more"
 
 
-def _lag(quadrotors: tuple[Quadrotor, ...]) -> str:
+def _lag(quadrotors: Any) -> str:
     up, down = ([getattr(q, name) for q in quadrotors] for name in ("lag_up", "lag_down"))
     return f"lag of {_spread(up, 'ms', 1e3)} up and {_spread(down, 'ms', 1e3)} down" if any(up + down) else "no lag"
 
 
 def _rotors(flight: Flight) -> Iterator[Row]:
     actuators, quadrotors = (
-        _table(flight, "actuators", ActuatorsTable),
-        _table(flight, "vehicle", VehicleTable).quadrotors,
+        _table(flight, "actuators"),
+        _table(flight, "vehicle").quadrotors,
     )
-    method = _table(flight, "allocation", AllocationTable).method
+    method = _table(flight, "allocation").method
     if actuators.model == "ideal":
         yield "Rotors", f"ideal: every command takes effect at once and exactly; {method} allocation"
         return
@@ -124,8 +118,7 @@ def _rotors(flight: Flight) -> Iterator[Row]:
     late = f"commands {describe(actuators.delay, 'ms', 1e3)} late" if actuators.delay else "commands without delay"
     start = {"hover": "turning as in hover at the start", "stopped": "stopped at the start"}[actuators.start]
     yield "Rotors", f"0 to {most} each; {_lag(quadrotors)}; {late}; {start}; {method} allocation"
-    faults = [FaultTable.model_validate(f) for f in flight.mission.get("faults", [])]
-    for fault in (f for f in faults if f.time <= flight.mission["mission"]["duration"]):
+    for fault in (f for f in _table(flight, "faults") if f.time <= flight.mission["mission"]["duration"]):
         known = "never known" if fault.known_after is None else f"known {describe(fault.known_after, 's')} later"
         left = f"{describe(fault.efficiency, '%', 100.0)} of the thrust left"
         place = f"rotor {fault.rotor} of quadrotor {fault.quadrotor}"
@@ -145,7 +138,7 @@ def _every(interval: float, delay: float) -> str:
 
 
 def _sensors(flight: Flight) -> Iterator[Row]:
-    s = _table(flight, "sensors", SensorsTable)
+    s = _table(flight, "sensors")
     if s.model == "none":
         yield "Sensors", "none: the pilot reads true values"
         return
@@ -163,10 +156,10 @@ def _sensors(flight: Flight) -> Iterator[Row]:
     noises = ((m.position_noise, "m"), (m.velocity_noise, "m/s"), (m.attitude_noise, "rad"))
     noise = ", ".join(describe(size, unit) for size, unit in noises if size)
     yield "Motion", f"{_every(m.interval, m.delay)}; " + (f"noise {noise}" if noise else "exact")
-    yield "Estimate of the push", _estimate(_table(flight, "estimator", EstimatorTable))
+    yield "Estimate of the push", _estimate(_table(flight, "estimator"))
 
 
-def _estimate(e: EstimatorTable) -> str:
+def _estimate(e: Any) -> str:
     tare = "no tare"
     if e.tare_start is not None:
         tare = f"tare from {describe(e.tare_start)} to {describe(e.tare_start + e.tare_duration, 's')}"
@@ -176,7 +169,7 @@ def _estimate(e: EstimatorTable) -> str:
 
 
 def _surroundings(flight: Flight) -> Iterator[Row]:
-    wind = _table(flight, "wind", WindTable)
+    wind = _table(flight, "wind")
     said = "none"
     if wind.model == "air":
         parts = [f"mean {_vector(wind.velocity, 'm/s')}"]
@@ -185,13 +178,13 @@ def _surroundings(flight: Flight) -> Iterator[Row]:
         parts += [f"gust of {_vector(g.velocity, 'm/s')} from {describe(g.start, 's')} on" for g in wind.gusts]
         said = "; ".join(parts)
     yield "Wind", said
-    ground, height = _table(flight, "ground", GroundTable), floor_height(flight)
+    ground, height = _table(flight, "ground"), floor_height(flight)
     if height is not None:
         effect = "; ground effect on the rotors" if ground.effect else ""
         yield "Floor", f"at z = {describe(height, 'm')}; friction {describe(ground.friction)}{effect}"
     else:
         yield "Floor", "none"
-    if walls := wall_tables(flight.mission):
+    if walls := flight.walls:
         yield "Walls", str(len(walls))
 
 
@@ -204,7 +197,7 @@ LEADS = {
 
 
 def _person(flight: Flight) -> Iterator[Row]:
-    p = _table(flight, "person", PersonTable)
+    p = _table(flight, "person")
     if p.model == "none":
         return
     if p.model == "virtual-hand":

@@ -12,39 +12,51 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.core.algebra.vector import ZERO, Nothing
-from tandemlift.core.caching import kept
+from tandemlift.core.algebra.vector import ZERO, Absent
+from tandemlift.core.caching import cached
 from tandemlift.core.outcomes import FLIES
-from tandemlift.core.settings import Mission
 from tandemlift.engines.compiled import plant_from, readings_at_rest, start_state
-from tandemlift.parts.contact.clearance import clearance
+from tandemlift.missions import Mission
+from tandemlift.parts.contact.clearance import Clearance, clearance
 from tandemlift.parts.contact.feet import start_foot_grip
 from tandemlift.parts.contact.touches import start_touches
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.pilot.assemble import start_pilot
-from tandemlift.parts.sensors.readings import by_name, readings_of, start_sensing
-from tandemlift.parts.signals.random_numbers import key_from_seed
-from tandemlift.parts.vehicle import Vehicle
-from tandemlift.simulation.assembly.actuators import start_rotors
-from tandemlift.simulation.assembly.crash_limits import crash_limits_from, start_crash
-from tandemlift.simulation.assembly.disturbances import (
-    input_tables_from,
-    near_walls_from,
-    push_kind,
-    start_weather,
-    wind_noise_from,
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.wind import start_wind, wind_noise_of
+from tandemlift.parts.person.person import PersonState
+from tandemlift.parts.person.person_table import Walk, path_legs_from, start_person, waypoints_from
+from tandemlift.parts.random_numbers import key_from_seed
+from tandemlift.parts.rotors.rotors import start_rotors
+from tandemlift.parts.sensors.readings import (
+    Readings,
+    SensorNoise,
+    Sensors,
+    SensorState,
+    by_name,
+    readings_of,
+    start_sensing,
 )
-from tandemlift.simulation.assembly.findings import finding_limits_from, start_detectors
-from tandemlift.simulation.assembly.persons import path_legs_from, start_person
-from tandemlift.simulation.assembly.sensors import sensors_from, start_estimators
+from tandemlift.parts.sensors.sensors_table import sensors_from
+from tandemlift.simulation.assembly.crash_limits import crash_limits_from, start_crash
+from tandemlift.simulation.assembly.detector_limits import finding_limits_from, start_detectors
+from tandemlift.simulation.assembly.estimators import start_estimators
+from tandemlift.simulation.assembly.inputs import input_tables_from, near_walls_from, push_kind
+from tandemlift.simulation.assembly.pilot import start_pilot
 from tandemlift.simulation.assembly.watchdogs import with_faults, with_watchdogs
-from tandemlift.simulation.kernels.external_inputs import InputTables
 from tandemlift.simulation.loop.delays import Delayed, DelayLines
-from tandemlift.simulation.loop.perception import MAPS, READS, PilotSources
+from tandemlift.simulation.loop.fault_tolerant_perception import (
+    FaultySensors,
+    FaultySensorsState,
+    WatchedEstimators,
+    WatchedEstimatorsState,
+)
+from tandemlift.simulation.loop.perception import Estimators, EstimatorState
 from tandemlift.simulation.loop.running_metrics import EMPTY, NO_EFFORT, RunningMetrics
+from tandemlift.simulation.loop.sources import MAPS, READS, PilotSources
 from tandemlift.simulation.loop.step import FlightModel, FlightState, StepInputs, StepNoise
+from tandemlift.simulation.loop_code.external_inputs import InputTables
 
-_grip, _clearance = kept(start_foot_grip), kept(clearance)
+_grip, _clearance = cached(start_foot_grip), cached(clearance)
 
 
 class AssembledFlight(NamedTuple):
@@ -80,45 +92,58 @@ def delays_from(mission: Mission) -> NDArray[np.int64]:
     return np.array([*steps, max(sight, 0) * accompanied, *more], dtype=np.int64)
 
 
-def delay_lines_from(mission: Mission, delays: NDArray[np.int64]) -> Any:
-    """Which delay lines a mission has; `Nothing` if it has none."""
+def delay_lines_from(mission: Mission, delays: NDArray[np.int64]) -> DelayLines | Absent:
+    """Which delay lines a mission has; `Absent` if it has none."""
     if not delays.any():
-        return Nothing()
-    imu, motion, command, view, *more = [Delayed() if d else Nothing() for d in delays]
+        return Absent()
+    imu, motion, command, view, *more = [Delayed() if d else Absent() for d in delays]
     names = tuple(s.name for s in mission.sensors.additional)
     return DelayLines(imu, motion, command, view, by_name(names)(*more))
 
 
-def start_metrics(far: Any, person: Any) -> RunningMetrics:
+def start_metrics(far: Clearance | Absent, person: PersonState | Absent) -> RunningMetrics:
     """The running metrics before the first step; `far`: the clearance before any wall was looked at."""
-    return EMPTY._replace(clearance=far, effort=person if isinstance(person, Nothing) else NO_EFFORT)
+    return EMPTY._replace(clearance=far, effort=person if isinstance(person, Absent) else NO_EFFORT)
 
 
 class StartedPerception(NamedTuple):
-    """Sensors with their memory, noise and first readings, and estimators with theirs; each may be `Nothing`."""
+    """Sensors with their memory, noise and first readings, and estimators with theirs; each may be `Absent`."""
 
-    devices: Any
-    sensing: Any
-    noise: Any
-    readings: Any
-    estimators: Any
-    known: Any
+    devices: Sensors | FaultySensors | Absent
+    sensing: SensorState | FaultySensorsState | Absent
+    noise: SensorNoise | Absent
+    readings: Readings | Absent
+    estimators: WatchedEstimators | Estimators | Absent
+    known: WatchedEstimatorsState | EstimatorState | Absent
 
 
 def start_perception(
     mission: Mission, vehicle: Vehicle, state: State, chance: np.random.Generator, at_rest: Callable[[], Any]
 ) -> StartedPerception:
     """Sensors and estimators before the first step; `at_rest` gives the perfect readings at the start."""
-    devices, noise = sensors_from(mission, vehicle, chance)
-    sensing: Any = Nothing()
-    readings: Any = Nothing()
-    if not isinstance(devices, Nothing):
+    devices, noise = sensors_from(mission.sensors, vehicle.count, mission.mission.step, chance)
+    sensing: Any = Absent()
+    readings: Any = Absent()
+    if not isinstance(devices, Absent):
         sensing = start_sensing(devices, state, at_rest(), state.attitude)
         readings = readings_of(sensing)
     estimators, known = with_watchdogs(mission, *start_estimators(mission, vehicle, state, readings), readings)
     devices, sensing = with_faults(mission, devices, sensing)
     return StartedPerception(
         devices=devices, sensing=sensing, noise=noise, readings=readings, estimators=estimators, known=known
+    )
+
+
+def _start_rotors(mission: Mission, vehicle: Vehicle, floor: Any, *, delayed: bool) -> tuple[Any, Any, Any]:
+    near_ground = mission.ground.effect and mission.actuators.model == "rotors"
+    return start_rotors(
+        mission.actuators,
+        mission.faults,
+        vehicle,
+        mission.mission.step,
+        weights=mission.allocation.weights,
+        floor=floor.height if near_ground else None,
+        delayed=delayed,
     )
 
 
@@ -132,14 +157,16 @@ def assemble(mission: Mission) -> AssembledFlight:
     chance = np.random.default_rng(mission.mission.seed)
     pilot, memory = start_pilot(mission, vehicle)
     state, plant = start_state(mission), plant_from(mission, vehicle)
-    grip = Nothing() if isinstance(plant.floor, Nothing) else _grip(plant.floor, state)
+    grip = Absent() if isinstance(plant.floor, Absent) else _grip(plant.floor, state)
     delays = delays_from(mission)
-    rotors, spinning, thrusts = start_rotors(mission, vehicle, plant.floor, delayed=bool(delays[2]))
-    wind, wind_state = start_weather(mission, vehicle, chance)
+    rotors, spinning, thrusts = _start_rotors(mission, vehicle, plant.floor, delayed=bool(delays[2]))
+    wind, wind_state = start_wind(mission.wind, vehicle, mission.mission.step, chance)
     near, hand = near_walls_from(plant.walls), push_kind(mission)
     at_rest = lambda: readings_at_rest(plant, state, grip, near, thrusts, hand)  # noqa: E731
     senses = start_perception(mission, vehicle, state, chance, at_rest)
-    person, memory_of_person, tremor_noise = start_person(mission, vehicle, state)
+    waypoints = waypoints_from(mission.person, mission.corridor)
+    walk = Walk(waypoints, state, mission.initial.euler[2], mission.phases.height)
+    person, memory_of_person, tremor_noise = start_person(mission.person, vehicle, mission.mission.step, walk)
     limits = crash_limits_from(mission, vehicle)
     flight_state = FlightState(
         state=state,
@@ -154,7 +181,7 @@ def assemble(mission: Mission) -> AssembledFlight:
         readings=senses.readings,
         person=memory_of_person,
         metrics=start_metrics(_clearance(plant.walls, near, plant.frame, state), memory_of_person),
-        impulse=Nothing() if isinstance(limits.strike, Nothing) else 0.0,
+        impulse=Absent() if isinstance(limits.strike, Absent) else 0.0,
         crash=start_crash(limits, state),
         ended=FLIES,
         detectors=start_detectors(mission),
@@ -173,11 +200,6 @@ def assemble(mission: Mission) -> AssembledFlight:
         limits=limits,
         finding_limits=finding_limits_from(mission, vehicle),
     )
-    given = StepInputs(hand, ZERO, StepNoise(wind_noise_from(wind), senses.noise, tremor_noise), memory_of_person)
-    return AssembledFlight(
-        model,
-        given,
-        input_tables_from(mission, path_legs_from(mission, person, state)),
-        delays,
-        np.array(key_from_seed(mission.mission.seed)),
-    )
+    given = StepInputs(hand, ZERO, StepNoise(wind_noise_of(wind), senses.noise, tremor_noise), memory_of_person)
+    tables = input_tables_from(mission, path_legs_from(mission.person, person, walk))
+    return AssembledFlight(model, given, tables, delays, np.array(key_from_seed(mission.mission.seed)))

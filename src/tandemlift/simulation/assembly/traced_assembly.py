@@ -12,12 +12,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.compiler.trace.fused import FUSES
-from tandemlift.compiler.trace.symbol import Symbol
-from tandemlift.compiler.trace.valued_graph import Guard, ValuedGraph
+from tandemlift.compiler.tracer.fused import FUSES
+from tandemlift.compiler.tracer.symbol import Symbol
+from tandemlift.compiler.tracer.valued_graph import Guard, ValuedGraph
 from tandemlift.core.algebra.layout import is_value
-from tandemlift.core.caching import kept_for_a_trace
-from tandemlift.core.settings import Mission
+from tandemlift.core.caching import cached_for_a_trace
+from tandemlift.missions import Mission
 from tandemlift.simulation.assembly.assemble import AssembledFlight, assemble
 from tandemlift.simulation.assembly.mission_numbers import counts_of_mission, numbers_of_mission, with_numbers
 
@@ -88,7 +88,7 @@ def _tried(
     symbols = {key: graph.input("number", i) for i, key in enumerate(keys)}
     before = FUSES.set(False)
     try:
-        with kept_for_a_trace():
+        with cached_for_a_trace():
             assembled = build(with_numbers(mission, symbols))
     except Exception as error:  # a controller's start may do anything with its settings and the vehicle
         return None, _left_plain(keys, error)

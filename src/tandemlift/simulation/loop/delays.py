@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.vector import Nothing
+from tandemlift.core.algebra.vector import Absent
 
 
 class Delayed(NamedTuple):
@@ -14,11 +14,11 @@ class Delayed(NamedTuple):
 class DelayLines(NamedTuple):
     """Delays of the IMU and motion readings, of the rotor commands and of the person's view.
 
-    Each is `Delayed` or `Nothing`; those of additional sensors' readings by name.
+    Each is `Delayed` or `Absent`; those of additional sensors' readings by name.
     """
 
-    imu: Any
+    imu: Delayed | Absent
     motion: Any
-    command: Any
-    view: Any
-    additional: Any = Nothing()
+    command: Delayed | Absent
+    view: Delayed | Absent
+    additional: Any = Absent()

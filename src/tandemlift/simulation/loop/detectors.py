@@ -13,16 +13,16 @@ from typing import Any, NamedTuple
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import absolute, maximum, where
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Vec3, dot, total
+from tandemlift.core.algebra.types import Number, PerRotor
+from tandemlift.core.algebra.vector import Absent, Vec3, dot, total
 from tandemlift.parts.estimation.push_confirmation import refuted_push
-from tandemlift.parts.estimation.rotor_loss_detection import left_of
 from tandemlift.parts.guidance.guidance import thrust_fraction
 from tandemlift.parts.mechanics.rotation import body_z_axis, wrap_angle
+from tandemlift.parts.rotor_loss.detection import left_of
 from tandemlift.parts.rotors.allocation import ConstrainedAllocation, Mixer, limits_at
 from tandemlift.parts.rotors.rotors import IdealRotors, Rotors
 from tandemlift.simulation.loop.excess import NO_EXCESS, Excess, exceed
-from tandemlift.simulation.loop.log_sample import Sample, at_limit
+from tandemlift.simulation.loop.log_sample import Sample
 from tandemlift.simulation.loop.oscillation import (
     NO_OSCILLATION,
     Oscillation,
@@ -40,6 +40,7 @@ from tandemlift.simulation.loop.push_detectors import (
     push_to_answer,
     unpushed_step,
 )
+from tandemlift.simulation.loop.running_metrics import at_limit
 
 
 class FindingLimits(NamedTuple):
@@ -50,15 +51,15 @@ class FindingLimits(NamedTuple):
     square no body rate oscillates. `unpushed` [m]: how far the reference may move while nobody pushes.
     """
 
-    settled: Any
-    distance: Any
-    heading: Any
-    upright: Any
-    mass: Any
-    thrust: Any
-    rate: Any
+    settled: Number
+    distance: Number
+    heading: Number
+    upright: Number
+    mass: Number
+    thrust: Number
+    rate: Number
     push: PushLimits
-    unpushed: Any
+    unpushed: Number
     oscillation: OscillationLimits
 
 
@@ -66,18 +67,18 @@ class Detectors(NamedTuple):
     """Memory of the detectors: `awake` is 1 while one of them may have something to remember, else 0.
 
     `steps` in flight once settled, and the sum of the squared distances from the reference in them [m²]. Ideal rotors
-    have no limits: `saturation` and `reach` are `Nothing` with them.
+    have no limits: `saturation` and `reach` are `Absent` with them.
     """
 
-    awake: Any
-    steps: Any
-    squares: Any
+    awake: Number
+    steps: Number
+    squares: Number
     oscillation: Oscillation
     distance: Excess
     heading: Excess
     tilt: Excess
-    saturation: Any
-    reach: Any
+    saturation: Excess | Absent
+    reach: Excess | Absent
     push: PushResponse
     unpushed: UnpushedMotion
     refuted: Excess
@@ -92,14 +93,14 @@ class Watched(NamedTuple):
     """
 
     swings: Swings
-    distance: Any
-    heading: Any
-    upright: Any
-    limited: Any
-    needed: Any
+    distance: Number
+    heading: Number
+    upright: Number
+    limited: Number
+    needed: Number
     push: Vec3
-    pushed: Any
-    followed: Any
+    pushed: Number
+    followed: Number
     refuted: Vec3
 
 
@@ -125,12 +126,12 @@ def usable_rotors(how: Any, left: Any, t: Number) -> Any:
 
 
 @usable_rotors.register(Mixer)
-def _all(how: Mixer, left: Any, t: Number) -> Any:
+def _all(how: Mixer, left: Number, t: Number) -> Number:
     return 1.0
 
 
 @usable_rotors.register(ConstrainedAllocation)
-def _not_failed(how: ConstrainedAllocation, left: Any, t: Number) -> Any:
+def _not_failed(how: ConstrainedAllocation, left: Number, t: Number) -> PerRotor:
     return limits_at(how, left, t)
 
 
@@ -140,7 +141,7 @@ def rotors_at_limit(rotors: Any, commands: Any, usable: Any) -> Any:
 
 
 @rotors_at_limit.register(IdealRotors)
-def _without_limits(rotors: IdealRotors, commands: Any, usable: Any) -> Number:
+def _without_limits(rotors: IdealRotors, commands: PerRotor, usable: Number) -> Number:
     return 0.0
 
 
@@ -151,7 +152,7 @@ def counted(at_its_limit: Number, usable: Number) -> Number:
 
 
 @rotors_at_limit.register(Rotors)
-def _with_limits(rotors: Rotors, commands: Any, usable: Any) -> Number:
+def _with_limits(rotors: Rotors, commands: PerRotor, usable: PerRotor) -> Number:
     return total(counted(at_limit(commands, rotors.max_thrust), usable))
 
 
@@ -161,13 +162,13 @@ def thrust_needed(reach: Any, mass: Any, a: Vec3) -> Any:
 
 
 @thrust_needed.register(Excess)
-def _needed(reach: Excess, mass: Any, a: Vec3) -> Number:
+def _needed(reach: Excess, mass: Number, a: Vec3) -> Number:
     up = a.z + GRAVITY
     return (a.x * a.x + a.y * a.y + up * up) * (mass * mass)
 
 
 @law
-def watched(model: Any, output: Any, x: Sample, flying: Any, t: Any) -> Watched:
+def watched(model: Any, output: Any, x: Sample, flying: Number, t: Number) -> Watched:
     """What the detectors look at in a step; `flying` is 1 in flight, else 0."""
     k, flight_state, decision = model.finding_limits, model.flight_state, output.decision
     left = left_of(model.pilot.detection, flight_state.memory.detection)
@@ -188,7 +189,7 @@ def watched(model: Any, output: Any, x: Sample, flying: Any, t: Any) -> Watched:
 
 
 @law
-def may_be_found(k: FindingLimits, w: Watched) -> Any:
+def may_be_found(k: FindingLimits, w: Watched) -> Number:
     """1 if any detector may have something to remember, else 0: quick to tell, and never 0 where one has."""
     s = w.swings
     found = where(dot(w.push, w.push) > k.push.least, 1.0, where(w.limited > 0.0, 1.0, 0.0))
@@ -200,7 +201,7 @@ def may_be_found(k: FindingLimits, w: Watched) -> Any:
 
 
 @law
-def detect(model: Any, output: Any, x: Sample, t: Any, dt: Any) -> Detectors:
+def detect(model: Any, output: Any, x: Sample, t: Number, dt: Number) -> Detectors:
     """The detectors' memory after the step from time t [s] by dt [s], whose sample is x."""
     k, m, guidance = model.finding_limits, model.flight_state.detectors, output.decision.guidance
     flying = guidance.flying * thrust_fraction(guidance.running)

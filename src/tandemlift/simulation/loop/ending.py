@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import maximum, sqrt, where
 from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.vector import Nothing, Vec3, dot
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import Absent, Vec3, dot
 from tandemlift.core.outcomes import DIVERGED, FAR, FLIES, LEFT_FENCE, STRUCK, TURNED_OVER
 from tandemlift.parts.guidance.fault_detection import distance_outside
 from tandemlift.parts.mechanics.rigid_body import State
@@ -24,8 +25,8 @@ STILL_SPEED, STILL_RATES, STILL_TIME = 0.02, 0.05, 0.5  # m/s, rad/s, s: of a ve
 class Strike(NamedTuple):
     """The vehicle's weight [N], and the largest impulse of a contact beyond it [N·s]."""
 
-    weight: Any
-    impulse: Any
+    weight: Number
+    impulse: Number
 
 
 class OuterFence(NamedTuple):
@@ -33,7 +34,7 @@ class OuterFence(NamedTuple):
 
     low: Vec3
     high: Vec3
-    margin: Any
+    margin: Number
 
 
 class Aftermath(NamedTuple):
@@ -43,11 +44,11 @@ class Aftermath(NamedTuple):
 
 
 class CrashLimits(NamedTuple):
-    """What ends a flight: smallest cosine of the tilt; `Strike`, `OuterFence`, `Aftermath`, each or `Nothing`."""
+    """What ends a flight: smallest cosine of the tilt; `Strike`, `OuterFence`, `Aftermath`, each or `Absent`."""
 
-    min_upright: Any
+    min_upright: Number
     strike: Any
-    fence: Any
+    fence: OuterFence | Absent
     aftermath: Any
 
 
@@ -61,13 +62,13 @@ class CrashMemory(NamedTuple):
     still_time: Any
 
 
-@choice(absent=Nothing())
+@choice(absent=Absent())
 def impulse_after(strike: Any, impulse: Any, force: Vec3, dt: Any) -> Any:
-    """The impulse of contact [N·s] after a step with a force of contact [N, world axes]; `Nothing` without ground."""
+    """The impulse of contact [N·s] after a step with a force of contact [N, world axes]; `Absent` without ground."""
 
 
 @impulse_after.register(Strike)
-def _impulse(strike: Strike, impulse: Any, force: Vec3, dt: Any) -> Any:
+def _impulse(strike: Strike, impulse: Number, force: Vec3, dt: Number) -> Number:
     beyond = Vec3(force.x, force.y, maximum(force.z - strike.weight, 0.0))
     return impulse + (sqrt(dot(beyond, beyond)) - impulse * (1.0 / FADING)) * dt
 
@@ -78,7 +79,7 @@ def unless_struck(strike: Any, impulse: Any, number: Any) -> Any:
 
 
 @unless_struck.register(Strike)
-def _struck(strike: Strike, impulse: Any, number: Any) -> Any:
+def _struck(strike: Strike, impulse: Number, number: Number) -> Number:
     return where(impulse > strike.impulse, STRUCK, number)
 
 
@@ -88,12 +89,12 @@ def outside_fence(fence: Any, position: Vec3) -> Any:
 
 
 @outside_fence.register(OuterFence)
-def _outside(fence: OuterFence, position: Vec3) -> Any:
+def _outside(fence: OuterFence, position: Vec3) -> Number:
     return where(distance_outside(fence.low, fence.high, position) > fence.margin, LEFT_FENCE, FLIES)
 
 
 @law
-def ending_number(c: CrashLimits, s: State, impulse: Any) -> Any:
+def ending_number(c: CrashLimits, s: State, impulse: Number | Absent) -> Number:
     """The number of the ending that a state and an impulse of contact call for; 0 while the flight goes on."""
     upright = body_z_axis(s.attitude).z
     number = unless_struck(c.strike, impulse, outside_fence(c.fence, s.position))

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import choice
 from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Quat, Vec3
+from tandemlift.core.algebra.vector import Absent, Quat, Vec3
 from tandemlift.parts.estimation.contact_detection import ContactEstimate
 from tandemlift.parts.sensors.readings import Readings, by_name
 from tandemlift.simulation.loop.perception import Estimates
@@ -40,7 +40,7 @@ class EstimatedChannels(NamedTuple):
     sensor_disagreement: Number
     push_usable: Number
     push_withheld: Vec3
-    contact_estimate: Any
+    contact_estimate: ContactEstimateChannels | Absent
 
 
 class ContactEstimateChannels(NamedTuple):
@@ -61,7 +61,7 @@ def contact_channels(contact: Any) -> Any:
 
 
 @contact_channels.register(ContactEstimate)
-def _contact(contact: ContactEstimate) -> Any:
+def _contact(contact: ContactEstimate) -> ContactEstimateChannels:
     return ContactEstimateChannels(
         contact_part=contact.part,
         contact_force_estimate=contact.force,
@@ -84,7 +84,7 @@ def measured_channels(readings: Any) -> Any:
 
 
 @measured_channels.register(Readings)
-def _readings(readings: Readings) -> Any:
+def _readings(readings: Readings) -> MeasuredChannels:
     m, u = readings.motion, readings.imu
     more = [reading.value for reading in readings.additional]
     return MeasuredChannels(
@@ -105,7 +105,7 @@ def estimated_channels(known: Any) -> Any:
 
 
 @estimated_channels.register(Estimates)
-def _estimates(known: Estimates) -> Any:
+def _estimates(known: Estimates) -> EstimatedChannels:
     s, p = known.state, known.push
     return EstimatedChannels(
         estimated_position=s.position,

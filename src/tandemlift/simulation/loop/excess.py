@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 from tandemlift.core.algebra.law import choice
 from tandemlift.core.algebra.ops import where
 from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import ZERO, Vec3
 
 
@@ -17,13 +18,13 @@ class Excess(NamedTuple):
     value, with its time `at` [s] and `place` [m].
     """
 
-    now: Any
-    since: Any
-    steps: Any
-    stretch: Any
-    start: Any
-    worst: Any
-    at: Any
+    now: Number
+    since: Number
+    steps: Number
+    stretch: Number
+    start: Number
+    worst: Number
+    at: Number
     place: Vec3
 
 
@@ -45,7 +46,7 @@ def exceed(m: Any, over: Any, value: Any, place: Vec3, t: Any, dt: Any) -> Any:
 
 
 @exceed.register(Excess)
-def _exceed(m: Excess, over: Any, value: Any, place: Vec3, t: Any, dt: Any) -> Excess:
+def _exceed(m: Excess, over: Number, value: Number, place: Vec3, t: Number, dt: Number) -> Excess:
     since = where(over > m.now, t, m.since)
     stretch = t - since + dt
     longer, worse = over * where(stretch > m.stretch, 1.0, 0.0), over * where(value > m.worst, 1.0, 0.0)

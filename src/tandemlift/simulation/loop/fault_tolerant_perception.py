@@ -7,24 +7,26 @@ from typing import Any, NamedTuple
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import maximum, where
 from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.types import Number, PerRotor
 from tandemlift.core.algebra.vector import Quat, Vec3
-from tandemlift.parts.estimation.contact_detection import shaken
+from tandemlift.parts.estimation.contact_detection import KnownSurroundings, shaken
 from tandemlift.parts.estimation.navigation import centre_of_mass
 from tandemlift.parts.estimation.push_confirmation import refuted_push
 from tandemlift.parts.estimation.push_estimate import PushEstimate
+from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
 from tandemlift.parts.guidance.preflight_checks import SensorStatus, sensor_status
+from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.health import WatchdogReport
-from tandemlift.parts.sensors.readings import Readings, Sensors, SensorState, sense
+from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState, sense
 from tandemlift.parts.sensors.sensor_faults import SensorFaults, SensorFaultState, apply_faults
 from tandemlift.parts.sensors.substitutes import PredictedReadings
 from tandemlift.parts.sensors.watchdog import Watchdog, WatchdogState, watchdog_step
-from tandemlift.simulation.loop.estimate_channels import estimated_channels
+from tandemlift.simulation.loop.estimate_channels import EstimatedChannels, estimated_channels
 from tandemlift.simulation.loop.perception import (
     Estimates,
     Estimators,
     EstimatorState,
-    NominalVehicle,
     PerceptionData,
     estimate_all,
     measure,
@@ -33,6 +35,7 @@ from tandemlift.simulation.loop.perception import (
     tare_time,
     usable,
 )
+from tandemlift.simulation.loop.sources import NominalVehicle, PilotSources
 
 
 class FaultySensors(NamedTuple):
@@ -75,7 +78,14 @@ class CheckedEstimates(NamedTuple):
 
 
 @measure.register(FaultySensors)
-def _with_faults(sensors: FaultySensors, memory: Any, state: State, perfect: Any, believed: Quat, noise: Any) -> Any:
+def _with_faults(
+    sensors: FaultySensors,
+    memory: FaultySensorsState,
+    state: State,
+    perfect: PerfectReadings,
+    believed: Quat,
+    noise: SensorNoise,
+) -> tuple[Readings, FaultySensorsState]:
     readings, sensing = sense(sensors.sensors, memory.sensing, state, perfect, believed, noise)
     given, faults = apply_faults(sensors.faults, memory.faults, readings)
     return given, FaultySensorsState(sensing, faults)
@@ -95,7 +105,7 @@ def trusted_push(p: PushEstimate, r: WatchdogReport) -> PushEstimate:
 
 
 @law
-def without_blow(r: WatchdogReport, blow: Any) -> WatchdogReport:
+def without_blow(r: WatchdogReport, blow: Number) -> WatchdogReport:
     """The report; in a blow (1) the accelerometer and the velocity of another moment differ without a fault."""
     return r._replace(speed_inconsistent=r.speed_inconsistent * (1.0 - blow))
 
@@ -114,16 +124,24 @@ def best_state(s: State, readings: Readings, r: WatchdogReport, rates: Vec3) -> 
 
 
 @tare_time.register(WatchedEstimators)
-def _tare_watched(estimators: WatchedEstimators, guidance: Any, t: Any) -> Any:
+def _tare_watched(estimators: WatchedEstimators, guidance: HandGuidanceState, t: Number) -> Number:
     return tare_begun(estimators.estimators.tare, guidance, t)
 
 
 @estimate_all.register(WatchedEstimators)
-def _watched(k: WatchedEstimators, m: Any, readings: Any, around: Any, commands: Any, t: Any, dt: Any) -> Any:
+def _watched(
+    k: WatchedEstimators,
+    m: WatchedEstimatorsState,
+    readings: Readings,
+    surroundings: KnownSurroundings,
+    commands: PerRotor,
+    t: Number,
+    dt: Number,
+) -> tuple[CheckedEstimates, WatchedEstimatorsState]:
     usable_readings, report, watchdog = watchdog_step(
         k.watchdog, m.watchdog, readings, predicted(k.estimators, m.estimators), dt
     )
-    known, estimators = estimate_all(k.estimators, m.estimators, usable_readings, around, commands, t, dt)
+    known, estimators = estimate_all(k.estimators, m.estimators, usable_readings, surroundings, commands, t, dt)
     report = without_blow(report, shaken(estimators.contact))
     push, state = trusted_push(known.push, report), best_state(known.state, usable_readings, report, watchdog.rates)
     checked = CheckedEstimates(push, state, known.vehicle, known.contact, usable_readings, report)
@@ -131,17 +149,19 @@ def _watched(k: WatchedEstimators, m: Any, readings: Any, around: Any, commands:
 
 
 @surroundings_of.register(WatchedEstimators)
-def _surroundings(k: WatchedEstimators, sources: Any, near: Any, guidance: Any) -> Any:
+def _surroundings(
+    k: WatchedEstimators, sources: PilotSources, near: Any, guidance: HandGuidanceState
+) -> KnownSurroundings:
     return surroundings_of(k.estimators, sources, near, guidance)
 
 
 @usable.register(CheckedEstimates)
-def _checked_readings(known: CheckedEstimates, readings: Any) -> Any:
+def _checked_readings(known: CheckedEstimates, readings: Readings) -> Readings:
     return known.readings
 
 
 @estimated_channels.register(CheckedEstimates)
-def _shown_checked(known: CheckedEstimates) -> Any:
+def _shown_checked(known: CheckedEstimates) -> EstimatedChannels:
     return estimated_channels(Estimates(known.push, known.state, known.vehicle, known.contact))
 
 
@@ -151,7 +171,7 @@ def reported_by(known: Any) -> Any:
 
 
 @reported_by.register(CheckedEstimates)
-def _reported(known: CheckedEstimates) -> Any:
+def _reported(known: CheckedEstimates) -> SensorStatus:
     p, r = known.push, known.report
     inconsistent = where(r.joints + r.accelerometer + r.imu > 0.0, 0.0, 1.0 - p.trusted)
     return SensorStatus(r, inconsistent, p.armed, p.payload_mass)
@@ -163,5 +183,5 @@ def _refuted(known: CheckedEstimates) -> Vec3:
 
 
 @sensor_status.register(PerceptionData)
-def _senses(what: PerceptionData, payload: Any) -> Any:
+def _senses(what: PerceptionData, payload: Number) -> SensorStatus:
     return reported_by(what.known)

@@ -1,39 +1,40 @@
 """The channels of one step of a flight, and what the step adds to the running metrics.
 
 `flight.channels` says what every channel is, in the same order. A part that a mission does not have has no channels:
-its group is `Nothing`.
+its group is `Absent`.
 """
 
 from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import clip, greatest, minimum, where
+from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.ops import clip
 from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import Nothing, Quat, Vec3, dot, total
+from tandemlift.core.algebra.vector import Absent, Quat, Vec3, dot
+from tandemlift.engines.compiled import BodyStep
 from tandemlift.engines.compiled_contact import DistantFloor
-from tandemlift.parts.contact.clearance import clearance
 from tandemlift.parts.contact.feet import Floor
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate, DisturbanceObserver
-from tandemlift.parts.estimation.rotor_loss_detection import RotorLossDetection
-from tandemlift.parts.guidance.guidance import thrust_fraction
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
 from tandemlift.parts.mechanics.loads import PartLoads, PerfectReadings, sum_over_set
 from tandemlift.parts.mechanics.push import push_moment
 from tandemlift.parts.mechanics.rigid_body import Wrench
-from tandemlift.parts.mechanics.rotation import euler_from_quaternion, wrap_angle
-from tandemlift.parts.person.outside_push import held_by_anyone, total_force, total_moment
-from tandemlift.parts.person.person import PersonState
-from tandemlift.parts.person.virtual_hand import VirtualHandState
-from tandemlift.parts.rotors.allocation import achieved_fraction, wrench
+from tandemlift.parts.mechanics.rotation import euler_from_quaternion
+from tandemlift.parts.person.outside_push import total_force, total_moment
+from tandemlift.parts.rotor_loss.detection import DetectionState, RotorLossDetection
+from tandemlift.parts.rotors.allocation import Mixer, achieved_fraction, wrench
 from tandemlift.parts.rotors.rotors import IdealRotors, Rotors
-from tandemlift.simulation.loop.estimate_channels import estimated_channels, measured_channels
-from tandemlift.simulation.loop.running_metrics import PersonEffort, StepErrors, effort_of
+from tandemlift.simulation.loop.estimate_channels import (
+    EstimatedChannels,
+    MeasuredChannels,
+    estimated_channels,
+    measured_channels,
+)
 
 
 class Sample(NamedTuple):
-    """The channels of one step; the last fields are groups of channels, or `Nothing` without that part."""
+    """The channels of one step; the last fields are groups of channels, or `Absent` without that part."""
 
     position: Vec3
     velocity: Vec3
@@ -55,14 +56,14 @@ class Sample(NamedTuple):
     rotor_thrusts: PerRotor
     joint_force: Vec3
     joint_torque: Vec3
-    actuators: Any
-    wind: Any
-    contact: Any
-    measured: Any
-    estimated: Any
-    disturbance: Any
-    guidance: Any
-    detection: Any
+    actuators: ActuatorChannels | Absent
+    wind: WindChannels | Absent
+    contact: ContactChannels | Absent
+    measured: MeasuredChannels | Absent
+    estimated: EstimatedChannels | Absent
+    disturbance: DisturbanceChannels | Absent
+    guidance: HandGuidanceChannels | Absent
+    detection: DetectionChannels | Absent
 
 
 class ActuatorChannels(NamedTuple):
@@ -123,7 +124,7 @@ def detection_channels(detection: Any, memory: Any) -> Any:
 
 
 @detection_channels.register(RotorLossDetection)
-def _detected(detection: RotorLossDetection, memory: Any) -> DetectionChannels:
+def _detected(detection: RotorLossDetection, memory: DetectionState) -> DetectionChannels:
     return DetectionChannels(failed_rotor=dot(memory.verdict.lost, detection.numbers))
 
 
@@ -133,12 +134,12 @@ def actuator_channels(rotors: Any, effect: Any, command: Wrench, commands: PerRo
 
 
 @actuator_channels.register(IdealRotors)
-def _ideal(rotors: IdealRotors, effect: Any, command: Wrench, commands: PerRotor) -> Nothing:
-    return Nothing()
+def _ideal(rotors: IdealRotors, effect: Mixer, command: Wrench, commands: PerRotor) -> Absent:
+    return Absent()
 
 
 @actuator_channels.register(Rotors)
-def _limited(rotors: Rotors, effect: Any, command: Wrench, commands: PerRotor) -> ActuatorChannels:
+def _limited(rotors: Rotors, effect: Mixer, command: Wrench, commands: PerRotor) -> ActuatorChannels:
     thrusts = clip(commands, 0.0, rotors.max_thrust)
     given = wrench(effect, thrusts)
     return ActuatorChannels(
@@ -147,27 +148,6 @@ def _limited(rotors: Rotors, effect: Any, command: Wrench, commands: PerRotor) -
         allocated_moment=given.moment,
         allocation_fraction=achieved_fraction(effect, rotors.wrench_scale, command, thrusts),
     )
-
-
-@choice
-def saturated(rotors: Any, commands: PerRotor) -> Number:
-    """1 if any rotor is commanded to a limit or beyond, else 0."""
-
-
-@saturated.register(IdealRotors)
-def _never(rotors: IdealRotors, commands: PerRotor) -> Number:
-    return 0.0
-
-
-@elementwise
-def at_limit(command: Number, most: Number) -> Number:
-    """1 where a thrust [N] is at 0 or at its maximum `most`, or beyond; else 0."""
-    return where(command > 0.0, where(command < most, 0.0, 1.0), 1.0)
-
-
-@saturated.register(Rotors)
-def _any_at_limit(rotors: Rotors, commands: PerRotor) -> Number:
-    return minimum(total(at_limit(commands, rotors.max_thrust)), 1.0)
 
 
 @choice(absent="loads")
@@ -190,12 +170,12 @@ def contact_channels(floor: Any, readings: PerfectReadings) -> Any:
 
 @contact_channels.register(DistantFloor)
 @contact_channels.register(Floor)
-def _contact(floor: Any, readings: PerfectReadings) -> ContactChannels:
+def _contact(floor: Floor, readings: PerfectReadings) -> ContactChannels:
     return ContactChannels(contact_force=readings.contact_force)
 
 
 @law
-def log_sample(model: Any, output: Any, acting: Any, moved: Any, inputs: Any) -> Sample:
+def log_sample(model: Any, output: Any, acting: Any, moved: BodyStep, inputs: Any) -> Sample:
     """The channels of a step, at its start."""
     state, readings, decision = model.flight_state.state, moved.readings, output.decision
     guidance, command = decision.guidance, decision.command
@@ -229,47 +209,4 @@ def log_sample(model: Any, output: Any, acting: Any, moved: Any, inputs: Any) ->
         disturbance=disturbance_channels(model.pilot.observer, decision.disturbance),
         guidance=guidance.channels,
         detection=detection_channels(model.pilot.detection, output.memory.detection),
-    )
-
-
-@choice(absent="person")
-def effort(person: Any, x: Sample, outside: Any) -> Any:
-    """The effort over a step of the person who guides the vehicle; `outside`: their push outside of the loop."""
-
-
-@effort.register(PersonState)
-@effort.register(VirtualHandState)
-def _effort(person: Any, x: Sample, outside: Any) -> PersonEffort:
-    held = held_by_anyone(outside, where(person.grasp.value > 0.5, 1.0, 0.0))
-    return effort_of(held, x.push_force, x.velocity)
-
-
-@choice(absent=0.0)
-def push_active(channels: Any) -> Number:
-    """1 while the pilot follows a push along any axis, else 0; from the channels of guidance."""
-
-
-@push_active.register(HandGuidanceChannels)
-def _push_active(channels: HandGuidanceChannels) -> Number:
-    return greatest(channels.push_active)
-
-
-@law
-def errors_of(model: Any, output: Any, x: Sample, outside: Any) -> StepErrors:
-    """The contribution of a step to the running metrics; `outside`: of its `StepInputs`."""
-    decision = output.decision
-    return StepErrors(
-        position=x.reference_position - x.position,
-        velocity=x.reference_velocity - x.velocity,
-        attitude=wrap_angle(x.reference_euler - x.euler),
-        tilt=x.euler,
-        thrust=x.thrust,
-        moment=x.moment,
-        push=x.push_force,
-        power=dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
-        saturated=saturated(model.rotors, decision.thrusts) * thrust_fraction(decision.guidance.running),
-        clearance=clearance(model.plant.walls, model.flight_state.near, model.plant.frame, model.flight_state.state),
-        effort=effort(model.flight_state.person, x, outside),
-        push_active=push_active(decision.guidance.channels),
-        height=x.position.z,
     )

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import elementwise, law
 from tandemlift.core.algebra.ops import absolute, greatest, maximum, where
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import componentwise
 
 SIMILAR_PEAK = 0.6  # of the mean peak, which a peak must reach
@@ -31,9 +32,9 @@ class OscillationLimits(NamedTuple):
     """Levels of the signals [rad/s, m/s]; shortest and longest half period [s]; half periods that are needed."""
 
     levels: Swings
-    shortest: Any
-    longest: Any
-    halves: Any
+    shortest: Number
+    longest: Number
+    halves: Number
 
 
 class HalfPeriods(NamedTuple):
@@ -60,7 +61,7 @@ class HalfPeriods(NamedTuple):
 class Oscillation(NamedTuple):
     """Memory: 1 while any signal is beyond its level, else 0; with it 0, nothing changes. And that of each signal."""
 
-    now: Any
+    now: Number
     swings: Swings
 
 
@@ -69,7 +70,7 @@ NO_OSCILLATION = Oscillation(0.0, Swings(STILL, STILL, STILL, STILL))
 
 
 @law
-def half_period(k: OscillationLimits, m: HalfPeriods, x: Any, level: Any, t: Any) -> HalfPeriods:
+def half_period(k: OscillationLimits, m: HalfPeriods, x: Number, level: Number, t: Number) -> HalfPeriods:
     """The memory of a signal after its value x at time t [s]."""
     side = where(x > 0.0, 1.0, -1.0)
     out = beyond(x, level)
@@ -98,7 +99,7 @@ def half_period(k: OscillationLimits, m: HalfPeriods, x: Any, level: Any, t: Any
 
 
 @elementwise
-def beyond(x: Any, level: Any) -> Any:
+def beyond(x: Number, level: Number) -> Number:
     """1 where a signal is beyond its level, else 0."""
     return where(absolute(x) < level, 0.0, 1.0)
 

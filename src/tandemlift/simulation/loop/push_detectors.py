@@ -11,8 +11,9 @@ from typing import Any, NamedTuple
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.vector import ZERO, Vec3, dot
-from tandemlift.parts.compliance.admittance import soft
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, dot
+from tandemlift.parts.compliance.admittance import soft_threshold
 from tandemlift.simulation.loop.excess import NO_EXCESS, Excess, exceed
 from tandemlift.simulation.loop.log_sample import Sample
 
@@ -22,18 +23,18 @@ ECHO_TIME = 0.5  # s after a true push, in which filters may still pass it on
 class PushLimits(NamedTuple):
     """What a push should do.
 
-    `threshold` [N] beyond which a true push should be heard, or `Nothing` where the pilot is given every push. The
+    `threshold` [N] beyond which a true push should be heard, or `Absent` where the pilot is given every push. The
     square of the `least` force that counts [N²]. 1/C of the axes that yield without a spring [m/(N s)], and the largest
     `speed` [m/s]. After a `time` [s], the work of a push must be a `response` of that at the speed that the admittance
     ends with.
     """
 
-    threshold: Any
-    least: Any
+    threshold: Vec3 | Absent
+    least: Number
     inverse_damping: Vec3
     speed: Vec3
-    time: Any
-    response: Any
+    time: Number
+    response: Number
 
 
 class PushResponse(NamedTuple):
@@ -43,10 +44,10 @@ class PushResponse(NamedTuple):
     nothing changes.
     """
 
-    now: Any
-    since: Any
-    expected: Any
-    done: Any
+    now: Number
+    since: Number
+    expected: Number
+    done: Number
     unanswered: Excess
 
 
@@ -57,9 +58,9 @@ class UnpushedMotion(NamedTuple):
     `begun` is 1 once a push was followed since then, else 0; `origin` [m]: where the reference was at that time.
     """
 
-    now: Any
-    last: Any
-    begun: Any
+    now: Number
+    last: Number
+    begun: Number
     origin: Vec3
     excess: Excess
 
@@ -74,12 +75,14 @@ def push_to_answer(threshold: Any, least: Any, gated: Vec3, true: Vec3) -> Any:
 
 
 @push_to_answer.register(Vec3)
-def _heard_or_true(threshold: Vec3, least: Any, gated: Vec3, true: Vec3) -> Vec3:
-    return chosen(where(dot(gated, gated) > least, 1.0, 0.0), gated, soft(true, threshold))
+def _heard_or_true(threshold: Vec3, least: Number, gated: Vec3, true: Vec3) -> Vec3:
+    return chosen(where(dot(gated, gated) > least, 1.0, 0.0), gated, soft_threshold(true, threshold))
 
 
 @law
-def push_step(k: PushLimits, m: PushResponse, push: Vec3, x: Sample, active: Any, t: Any, dt: Any) -> PushResponse:
+def push_step(
+    k: PushLimits, m: PushResponse, push: Vec3, x: Sample, active: Number, t: Number, dt: Number
+) -> PushResponse:
     """The memory of the response after a step under a push [N]; `active` is 1 while pushes should be answered."""
     now = where(dot(push, push) > k.least, active, 0.0)
     goes_on = where(now > m.now, 0.0, 1.0)
@@ -95,7 +98,7 @@ def push_step(k: PushLimits, m: PushResponse, push: Vec3, x: Sample, active: Any
 
 @law
 def unpushed_step(
-    limit: Any, m: UnpushedMotion, now: tuple[Any, Any], reference: Vec3, place: Vec3, t: Any, dt: Any
+    limit: Number, m: UnpushedMotion, now: tuple[Any, Any], reference: Vec3, place: Vec3, t: Number, dt: Number
 ) -> UnpushedMotion:
     """The memory after a step.
 

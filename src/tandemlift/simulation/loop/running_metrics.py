@@ -5,36 +5,45 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import absolute, maximum, minimum, sqrt
-from tandemlift.core.algebra.vector import ZERO, Nothing, Vec3, dot
-from tandemlift.parts.contact.clearance import smaller_clearance
+from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.ops import absolute, greatest, maximum, minimum, sqrt, where
+from tandemlift.core.algebra.types import Number, PerRotor
+from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, dot, total
+from tandemlift.parts.contact.clearance import Clearance, clearance, smaller_clearance
+from tandemlift.parts.guidance.guidance import thrust_fraction
+from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
+from tandemlift.parts.mechanics.rotation import wrap_angle
+from tandemlift.parts.person.outside_push import held_by_anyone
+from tandemlift.parts.person.person import PersonState
+from tandemlift.parts.person.virtual_hand import VirtualHandState
+from tandemlift.parts.rotors.rotors import IdealRotors, Rotors
+from tandemlift.simulation.loop.log_sample import Sample
 
 
-class StepErrors(NamedTuple):
+class StepContribution(NamedTuple):
     """Contributions of a step: errors are desired minus actual, world axes or Euler angles; SI units."""
 
     position: Vec3
     velocity: Vec3
     attitude: Vec3
     tilt: Vec3
-    thrust: Any
+    thrust: Number
     moment: Vec3
     push: Vec3
-    power: Any
-    saturated: Any
-    clearance: Any
-    effort: Any
-    push_active: Any
-    height: Any
+    power: Number
+    saturated: Number
+    clearance: Clearance | Absent
+    effort: PersonEffort | Absent
+    push_active: Number
+    height: Number
 
 
 class PersonEffort(NamedTuple):
     """Sums while a person holds the grip: steps, sums of |force| and of the speed."""
 
-    steps: Any
-    force_sum: Any
-    speed_sum: Any
+    steps: Number
+    force_sum: Number
+    speed_sum: Number
 
 
 class RunningMetrics(NamedTuple):
@@ -43,23 +52,23 @@ class RunningMetrics(NamedTuple):
     `highest`: the greatest z [m].
     """
 
-    steps: Any
+    steps: Number
     position_squares: Vec3
     position_max: Vec3
     velocity_max: Vec3
     attitude_squares: Vec3
     tilt_max: Vec3
-    thrust_min: Any
-    thrust_max: Any
+    thrust_min: Number
+    thrust_max: Number
     moment_max: Vec3
     push_sum: Vec3
-    power_sum: Any
-    saturated: Any
-    clearance: Any
-    effort: Any
-    triggers: Any
-    push_active: Any
-    highest: Any
+    power_sum: Number
+    saturated: Number
+    clearance: Clearance | Absent
+    effort: PersonEffort | Absent
+    triggers: Number
+    push_active: Number
+    highest: Number
 
 
 EMPTY = RunningMetrics(
@@ -75,8 +84,8 @@ EMPTY = RunningMetrics(
     push_sum=ZERO,
     power_sum=0.0,
     saturated=0.0,
-    clearance=Nothing(),
-    effort=Nothing(),
+    clearance=Absent(),
+    effort=Absent(),
     triggers=0.0,
     push_active=0.0,
     highest=-math.inf,
@@ -95,14 +104,14 @@ def _with_more(effort: PersonEffort, more: PersonEffort) -> PersonEffort:
 
 
 @law
-def effort_of(grasp: Any, force: Vec3, velocity: Vec3) -> PersonEffort:
+def effort_of(grasp: Number, force: Vec3, velocity: Vec3) -> PersonEffort:
     """The effort of a step under a force at a velocity, while the person holds the grip (`grasp` 1) or not (0)."""
     strong, fast = sqrt(maximum(dot(force, force), 1e-24)), sqrt(maximum(dot(velocity, velocity), 1e-24))
     return PersonEffort(grasp, strong * grasp, fast * grasp)
 
 
 @law
-def count(c: RunningMetrics, x: StepErrors) -> RunningMetrics:
+def count(c: RunningMetrics, x: StepContribution) -> RunningMetrics:
     """The metrics with one more step."""
     return RunningMetrics(
         steps=c.steps + 1.0,
@@ -125,7 +134,7 @@ def count(c: RunningMetrics, x: StepErrors) -> RunningMetrics:
     )
 
 
-def _root_mean(squares: Any, steps: float) -> list[float] | None:
+def _root_mean(squares: Vec3, steps: float) -> list[float] | None:
     return [math.sqrt(s / steps) for s in squares] if steps else None
 
 
@@ -157,7 +166,7 @@ def summary(early: RunningMetrics, late: RunningMetrics, step: float) -> dict[st
 
 def _of_walls(early: RunningMetrics, late: RunningMetrics) -> dict[str, Any]:
     """The metrics of a flight among walls."""
-    if isinstance(early.clearance, Nothing):
+    if isinstance(early.clearance, Absent):
         return {}
     least = min(_numbers(early.clearance) + _numbers(late.clearance))
     return {"clearance_min_m": least, "wall_contact": least < 0.0}
@@ -165,9 +174,9 @@ def _of_walls(early: RunningMetrics, late: RunningMetrics) -> dict[str, Any]:
 
 def _of_effort(early: RunningMetrics, late: RunningMetrics, step: float) -> dict[str, Any]:
     """The metrics of a person who guides the vehicle."""
-    if isinstance(early.effort, Nothing):
+    if isinstance(early.effort, Absent):
         return {}
-    both = early.effort if isinstance(late.effort, Nothing) else added(early.effort, late.effort)
+    both = early.effort if isinstance(late.effort, Absent) else added(early.effort, late.effort)
     way, work = both.speed_sum * step, (early.power_sum + late.power_sum) * step
     return {
         "human_force_mean_n": both.force_sum / both.steps if both.steps else None,
@@ -180,3 +189,67 @@ def _of_effort(early: RunningMetrics, late: RunningMetrics, step: float) -> dict
 def _numbers(value: Any) -> list[float]:
     """The numbers in a nested value."""
     return [n for part in value for n in _numbers(part)] if isinstance(value, tuple) else [float(value)]
+
+
+@choice
+def saturated(rotors: Any, commands: PerRotor) -> Number:
+    """1 if any rotor is commanded to a limit or beyond, else 0."""
+
+
+@saturated.register(IdealRotors)
+def _never(rotors: IdealRotors, commands: PerRotor) -> Number:
+    return 0.0
+
+
+@elementwise
+def at_limit(command: Number, most: Number) -> Number:
+    """1 where a thrust [N] is at 0 or at its maximum `most`, or beyond; else 0."""
+    return where(command > 0.0, where(command < most, 0.0, 1.0), 1.0)
+
+
+@saturated.register(Rotors)
+def _any_at_limit(rotors: Rotors, commands: PerRotor) -> Number:
+    return minimum(total(at_limit(commands, rotors.max_thrust)), 1.0)
+
+
+@choice(absent="person")
+def effort(person: Any, x: Sample, outside: Any) -> Any:
+    """The effort over a step of the person who guides the vehicle; `outside`: their push outside of the loop."""
+
+
+@effort.register(PersonState)
+@effort.register(VirtualHandState)
+def _effort(person: PersonState, x: Sample, outside: Any) -> PersonEffort:
+    held = held_by_anyone(outside, where(person.grasp.value > 0.5, 1.0, 0.0))
+    return effort_of(held, x.push_force, x.velocity)
+
+
+@choice(absent=0.0)
+def push_active(channels: Any) -> Number:
+    """1 while the pilot follows a push along any axis, else 0; from the channels of guidance."""
+
+
+@push_active.register(HandGuidanceChannels)
+def _push_active(channels: HandGuidanceChannels) -> Number:
+    return greatest(channels.push_active)
+
+
+@law
+def contribution_of(model: Any, output: Any, x: Sample, outside: Any) -> StepContribution:
+    """The contribution of a step to the running metrics; `outside`: of its `StepInputs`."""
+    decision = output.decision
+    return StepContribution(
+        position=x.reference_position - x.position,
+        velocity=x.reference_velocity - x.velocity,
+        attitude=wrap_angle(x.reference_euler - x.euler),
+        tilt=x.euler,
+        thrust=x.thrust,
+        moment=x.moment,
+        push=x.push_force,
+        power=dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
+        saturated=saturated(model.rotors, decision.thrusts) * thrust_fraction(decision.guidance.running),
+        clearance=clearance(model.plant.walls, model.flight_state.near, model.plant.frame, model.flight_state.state),
+        effort=effort(model.flight_state.person, x, outside),
+        push_active=push_active(decision.guidance.channels),
+        height=x.position.z,
+    )

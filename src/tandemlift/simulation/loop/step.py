@@ -2,7 +2,7 @@
 
 At time t_k the pilot reads the state and the person's push, or what sensors and estimators make of them, and decides;
 the rotors respond; the body then moves for one step with their thrusts held and the push continuous. The pilot gets
-the sensor readings of a step at the next one, or later. A part that a mission does not have is `Nothing`, and costs
+the sensor readings of a step at the next one, or later. A part that a mission does not have is `Absent`, and costs
 nothing.
 """
 
@@ -12,16 +12,19 @@ from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import where
-from tandemlift.core.algebra.vector import Nothing, Quat
+from tandemlift.core.algebra.types import Number, PerRotor
+from tandemlift.core.algebra.vector import Absent, Quarters, Quat
 from tandemlift.engines.compiled import BodyStep, advance
 from tandemlift.engines.compiled_contact import CompiledPlant
 from tandemlift.engines.compiled_touches import touches_in
-from tandemlift.parts.contact.touches import of_turning_rotors
-from tandemlift.parts.guidance.requests import UNKNOWN_STATUS, operator_request
+from tandemlift.parts.contact.touches import Touches, of_turning_rotors
 from tandemlift.parts.mechanics.push import Push, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.turbulence import TurbulenceState, WindNoise
+from tandemlift.parts.mechanics.wind import WindModel, WindOutput, wind_loads
 from tandemlift.parts.person.caller_inputs import commanded_thrusts, with_caller_push
-from tandemlift.parts.person.person import landing_request, person_step
+from tandemlift.parts.person.person import Person, PersonState, landing_request, person_step
+from tandemlift.parts.person.tremor import TremorNoise
 from tandemlift.parts.pilot.pilot import (
     Decision,
     PilotInput,
@@ -31,22 +34,40 @@ from tandemlift.parts.pilot.pilot import (
     last_thrusts,
     with_thrusts,
 )
-from tandemlift.parts.rotors.rotors import rotors_step
+from tandemlift.parts.requests import UNKNOWN_STATUS, operator_request
+from tandemlift.parts.rotors.rotors import IdealRotors, Rotors, RotorState, rotors_step
+from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState
+from tandemlift.simulation.loop.delays import DelayLines
 from tandemlift.simulation.loop.detectors import Detectors, FindingLimits, detect
-from tandemlift.simulation.loop.ending import ending_number, impulse_after, unless_crashed, until_crash, with_aftermath
-from tandemlift.simulation.loop.log_sample import errors_of, log_sample
+from tandemlift.simulation.loop.ending import (
+    CrashLimits,
+    ending_number,
+    impulse_after,
+    unless_crashed,
+    until_crash,
+    with_aftermath,
+)
+from tandemlift.simulation.loop.fault_tolerant_perception import (
+    CheckedEstimates,
+    FaultySensors,
+    FaultySensorsState,
+    WatchedEstimators,
+    WatchedEstimatorsState,
+)
+from tandemlift.simulation.loop.log_sample import Sample, log_sample
 from tandemlift.simulation.loop.perception import (
+    Estimates,
+    Estimators,
+    EstimatorState,
     all_sensed,
     estimate_all,
     measure,
-    read_push,
-    read_state,
     surroundings_of,
     tare_time,
     usable,
 )
-from tandemlift.simulation.loop.running_metrics import RunningMetrics, count
-from tandemlift.simulation.loop.wind_loads import WindOutput, wind_loads
+from tandemlift.simulation.loop.running_metrics import RunningMetrics, contribution_of, count
+from tandemlift.simulation.loop.sources import PilotSources, read_push, read_state
 
 
 class FlightState(NamedTuple):
@@ -54,19 +75,19 @@ class FlightState(NamedTuple):
 
     state: State
     memory: PilotMemory
-    wind: Any
-    grip: Any
+    wind: TurbulenceState | Absent
+    grip: Quarters | Absent
     near: Any
-    touches: Any
-    sensing: Any
-    estimator: Any
-    rotors: Any
-    readings: Any
-    person: Any
+    touches: Touches | Absent
+    sensing: SensorState | FaultySensorsState | Absent
+    estimator: WatchedEstimatorsState | EstimatorState | Absent
+    rotors: RotorState | Absent
+    readings: Readings | Absent
+    person: PersonState | Absent
     metrics: RunningMetrics
-    impulse: Any
+    impulse: Number | Absent
     crash: Any
-    ended: Any
+    ended: Number
     detectors: Detectors
 
 
@@ -79,60 +100,60 @@ class FlightModel(NamedTuple):
     flight_state: FlightState
     pilot: PilotParameters
     plant: CompiledPlant
-    rotors: Any
-    wind: Any
-    sensors: Any
-    estimator: Any
-    sources: Any
-    person: Any
-    delays: Any
-    limits: Any
+    rotors: IdealRotors | Rotors
+    wind: WindModel | Absent
+    sensors: Sensors | FaultySensors | Absent
+    estimator: WatchedEstimators | Estimators | Absent
+    sources: PilotSources
+    person: Person | Absent
+    delays: DelayLines | Absent
+    limits: CrashLimits
     finding_limits: FindingLimits
 
 
 class StepNoise(NamedTuple):
     """Standard normals of one step: of the wind, of the sensors, of the person."""
 
-    wind: Any
-    sensors: Any
-    person: Any
+    wind: WindNoise | Absent
+    sensors: SensorNoise | Absent
+    person: TremorNoise | Absent
 
 
 class StepInputs(NamedTuple):
     """The inputs of a step: the push, gusts [m/s], standard normals, and the person's memory once they have pushed.
 
-    `external` is what a caller adds who steps the flight, else `Nothing`. `outside` is the push that the body's own
-    simulator applied; it is known once the body has moved, and is `Nothing` where there is no such push.
+    `external` is what a caller adds who steps the flight, else `Absent`. `outside` is the push that the body's own
+    simulator applied; it is known once the body has moved, and is `Absent` where there is no such push.
     """
 
     hand: PushSamples
     gust: Any
     noise: Any
     person: Any
-    external: Any = Nothing()
-    outside: Any = Nothing()
+    external: Any = Absent()
+    outside: Any = Absent()
 
 
 class PilotOutput(NamedTuple):
     """The pilot's part of a step: estimates, the attitude that it uses, its decision, and the memories after it."""
 
-    estimates: Any
+    estimates: CheckedEstimates | Estimates | Absent
     attitude: Quat
     decision: Decision
     memory: PilotMemory
-    estimator: Any
+    estimator: WatchedEstimatorsState | EstimatorState | Absent
 
 
 class Actuation(NamedTuple):
     """Inputs of the body over a step: rotor thrusts [N] and wind loads; with the rotors' memory."""
 
-    thrusts: Any
-    rotors: Any
+    thrusts: PerRotor
+    rotors: RotorState | Absent
     wind: WindOutput
 
 
 @law
-def with_person(model: FlightModel, inputs: StepInputs, t: Any, dt: Any) -> StepInputs:
+def with_person(model: FlightModel, inputs: StepInputs, t: Number, dt: Number) -> StepInputs:
     """The inputs of a step, with the push of its caller and that of the person who guides the vehicle."""
     before, noise, push = model.flight_state, inputs.noise.person, with_caller_push(inputs.external, inputs.hand)
     output = person_step(model.person, before.person, push, before.state, noise, t, dt)
@@ -140,7 +161,7 @@ def with_person(model: FlightModel, inputs: StepInputs, t: Any, dt: Any) -> Step
 
 
 @law
-def perceive(model: FlightModel, push: Push, t: Any, dt: Any) -> Any:
+def perceive(model: FlightModel, push: Push, t: Number, dt: Number) -> Any:
     """(estimates, the pilot's input, the estimators' memory) at time t [s]; `push` is the true one."""
     before, sources = model.flight_state, model.sources
     since, commands = tare_time(model.estimator, before.memory.guidance, t), last_thrusts(before.memory.allocation)
@@ -162,7 +183,7 @@ def perceive(model: FlightModel, push: Push, t: Any, dt: Any) -> Any:
 
 
 @law
-def run_pilot(model: FlightModel, push: Push, t: Any, dt: Any) -> PilotOutput:
+def run_pilot(model: FlightModel, push: Push, t: Number, dt: Number) -> PilotOutput:
     """The pilot's part of a step."""
     estimates, pilot_input, estimator = perceive(model, push, t, dt)
     decision, memory = decide(model.pilot, model.flight_state.memory, pilot_input, t, dt)
@@ -177,7 +198,7 @@ def with_caller_thrusts(output: PilotOutput, external: Any) -> PilotOutput:
 
 
 @law
-def actuate(model: FlightModel, thrusts: Any, inputs: StepInputs, t: Any) -> Actuation:
+def actuate(model: FlightModel, thrusts: PerRotor, inputs: StepInputs, t: Number) -> Actuation:
     """The response of the rotors to commanded thrusts [N] over the step from time t [s], and the wind over it."""
     before = model.flight_state
     commanded = unless_crashed(before.crash, thrusts)
@@ -189,8 +210,14 @@ def actuate(model: FlightModel, thrusts: Any, inputs: StepInputs, t: Any) -> Act
 
 @law
 def finish_sample(
-    model: FlightModel, output: PilotOutput, acting: Actuation, moved: BodyStep, inputs: StepInputs, t: Any, dt: Any
-) -> Any:
+    model: FlightModel,
+    output: PilotOutput,
+    acting: Actuation,
+    moved: BodyStep,
+    inputs: StepInputs,
+    t: Number,
+    dt: Number,
+) -> tuple[FlightState, Sample]:
     """The end of a step from t [s] by dt [s], once the body has moved: (`FlightState` after it, `Sample` at its start).
 
     The detectors come last in the state: compiled loops write them only where they changed.
@@ -201,7 +228,7 @@ def finish_sample(
     impulse = impulse_after(model.limits.strike, before.impulse, moved.readings.contact_force, dt)
     number = ending_number(model.limits, moved.state, impulse)
     crash, ended = with_aftermath(model.limits.aftermath, before.crash, number, moved.state, impulse, t, dt)
-    metrics = count(before.metrics, errors_of(model, output, sample, inputs.outside))
+    metrics = count(before.metrics, contribution_of(model, output, sample, inputs.outside))
     after = FlightState(
         state=moved.state,
         memory=output.memory,
@@ -225,7 +252,7 @@ def finish_sample(
 
 @law
 def step_body(
-    plant: CompiledPlant, before: FlightState, acting: Actuation, hand: PushSamples, t: Any, dt: Any
+    plant: CompiledPlant, before: FlightState, acting: Actuation, hand: PushSamples, t: Number, dt: Number
 ) -> BodyStep:
     """The body's part of a step."""
     loads = acting.wind.loads

@@ -33,8 +33,8 @@ def check_against_scipy(k, hold=3.0):
 
 
 @given(SIZE, SIZE, SIZE, st.booleans())
-def test_without_a_spring_it_is_what_scipy_integrates(mass, damping, push, soft):
-    check_against_scipy(AxisFeel("x", mass, damping, 0.0, 0.05, soft, push))
+def test_without_a_spring_it_is_what_scipy_integrates(mass, damping, push, subtracts_threshold):
+    check_against_scipy(AxisFeel("x", mass, damping, 0.0, 0.05, subtracts_threshold, push))
 
 
 @pytest.mark.parametrize(
@@ -74,4 +74,4 @@ def test_the_standard_push_is_the_feel_s_force_or_one_newton_and_beyond_the_thre
     assert firm[3].final_speed == pytest.approx((0.5 - 0.15) / 1.6)
     strict = axes_of(tl.load_mission("one-push", {"admittance.threshold": [0.3, 0.8, 3.0]}))
     assert [k.push for k in strict] == [1.0, 1.6, 6.0]
-    assert not any(k.soft for k in strict)
+    assert not any(k.subtracts_threshold for k in strict)

@@ -80,7 +80,7 @@ def test_values_that_are_lists_are_counted_along_their_axis(tmp_path):
 
 
 def test_a_column_that_the_flights_of_one_file_do_not_have_is_null_there(tmp_path):
-    study = {"name": "two", "missions": ["one-push", "doorway"], "draws": 2, "rows_per_unit": 2}
+    study = {"name": "two", "missions": ["one-push", "doorway"], "draws": 2, "rows_per_chunk": 2}
     two = {"study": study, "set": {"mission.duration": 0.1}}
     found = flown(two, tmp_path / "two").read(["clearance_min_m", "row"])
     assert [value is None for value in found["clearance_min_m"].to_pylist()] == [True, True, False, False]
@@ -114,15 +114,15 @@ def test_a_study_that_is_not_finished_says_how_much_is_missing(gusts, tmp_path):
 
 
 def test_a_study_of_which_nothing_is_flown_is_an_empty_table(copy):
-    shutil.rmtree(copy / "units")
+    shutil.rmtree(copy / "chunks")
     empty = load_study(copy)
     assert (len(empty), empty.missing, empty.columns) == (0, 144, ())
     assert empty.table.num_rows == empty.read(["outcome"]).num_rows == 0
     assert "0 of 144 rows" in empty._repr_html_()
 
 
-def test_files_of_other_studies_beside_the_units_are_not_read(gusts, copy):
-    shutil.copy(gusts.files[0].path, copy / "units" / f"{'0' * 32}.parquet")
+def test_files_of_other_studies_beside_the_chunks_are_not_read(gusts, copy):
+    shutil.copy(gusts.files[0].path, copy / "chunks" / f"{'0' * 32}.parquet")
     assert load_study(copy).table.equals(gusts.table)
 
 

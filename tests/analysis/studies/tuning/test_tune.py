@@ -1,4 +1,4 @@
-"""Tuning as a whole: a mission whose best gain is known, evidence on fresh draws, files, and bad input."""
+"""Tuning as a whole: a mission whose best gain is known, evidence on holdout draws, files, and bad input."""
 
 import json
 import math
@@ -24,12 +24,12 @@ QUICK = {"mission.duration": 3.0, "mission.step": 0.005, "initial.position": [0.
 
 
 def drop(**how):
-    given = {"over": ["controller.position_damping.2"], "draws": TWICE, "fresh": 2, "budget": 120, **how}
+    given = {"parameters": ["controller.position_damping.2"], "draws": TWICE, "holdout": 2, "budget": 120, **how}
     return tl.tune("hover", "position_rmse_m.2", changes=DROP, controller="geometric", **given)
 
 
 def quick(**how):
-    given = {"over": ["controller.gains.xi.2"], "draws": 2, "fresh": 6, "budget": 16, "changes": QUICK, **how}
+    given = {"parameters": ["controller.gains.xi.2"], "draws": 2, "holdout": 6, "budget": 16, "changes": QUICK, **how}
     return tl.tune("hover", given.pop("goals", "position_rmse_m.2"), **given)
 
 
@@ -72,8 +72,10 @@ def test_the_written_mission_is_the_one_that_was_found(dropped, tmp_path):
 def test_a_mission_in_a_file_is_extended_by_its_path_and_lists_of_tables_are_written_whole(tmp_path):
     own = tmp_path / "own.toml"
     own.write_text("extends = 'hover'\n[actuators]\nmodel = 'rotors'\n", "utf-8")
-    over = {"vehicle.quadrotors.1.lag_up": [0.005, 0.05]}
-    found = tl.tune(own, "position_rmse_m.2", over=over, draws=twice_of(own), fresh=2, budget=8, changes=QUICK)
+    parameters = {"vehicle.quadrotors.1.lag_up": [0.005, 0.05]}
+    found = tl.tune(
+        own, "position_rmse_m.2", parameters=parameters, draws=twice_of(own), holdout=2, budget=8, changes=QUICK
+    )
     path = found.save(tmp_path / "out")
     assert 'extends = "../own.toml"' in path.read_text("utf-8")
     assert tl.load_mission(path) == found.mission
@@ -83,13 +85,13 @@ def twice_of(path):
     return {"study": {"name": "twice", "missions": [str(path)], "seeds": 2}}
 
 
-def test_fresh_draws_are_none_of_the_search_and_old_and_new_fly_the_same_ones():
+def test_holdout_draws_are_none_of_the_search_and_old_and_new_fly_the_same_ones():
     found = quick()
     searched = {draw.changes["mission.seed"] for draw in found.draws}
-    fresh = {draw.changes["mission.seed"] for draw in found.fresh}
-    assert len(found.fresh) == len(fresh) == 6
-    assert not searched & fresh
-    again = tl.fly(tl.load_mission("hover", {**QUICK, **found.fresh[3].changes, **found.changes}))
+    holdout = {draw.changes["mission.seed"] for draw in found.holdout}
+    assert len(found.holdout) == len(holdout) == 6
+    assert not searched & holdout
+    again = tl.fly(tl.load_mission("hover", {**QUICK, **found.holdout[3].changes, **found.changes}))
     assert found.evidence.new.values[0][3, 0] == again.metrics()["position_rmse_m"][2]
 
 
@@ -102,9 +104,16 @@ def test_without_candidates_the_present_values_stay_and_are_not_called_better():
 
 def test_at_the_minimum_nothing_is_gained():
     best = {**DROP, "controller.position_damping": math.sqrt(STIFFNESS)}
-    over = {"controller.position_damping.2": [0.5, 8.0]}
+    parameters = {"controller.position_damping.2": [0.5, 8.0]}
     found = tl.tune(
-        "hover", "position_rmse_m.2", changes=best, controller="geometric", over=over, draws=TWICE, fresh=2, budget=40
+        "hover",
+        "position_rmse_m.2",
+        changes=best,
+        controller="geometric",
+        parameters=parameters,
+        draws=TWICE,
+        holdout=2,
+        budget=40,
     )
     old, new = found.evidence.costs
     assert 0.9999 < new.ratio / old.ratio <= 1.0
@@ -121,7 +130,7 @@ def test_a_bad_start_is_left_because_bad_outcomes_count_first():
         "initial.position": [0.3, -0.3, 0.0],
     }
     found = tl.tune(
-        "hover", "position_rmse_m", changes={**changes, "mission.duration": 6.0}, draws=2, fresh=4, budget=160
+        "hover", "position_rmse_m", changes={**changes, "mission.duration": 6.0}, draws=2, holdout=4, budget=160
     )
     assert found.evidence.costs[0].bad == 4
     assert found.evidence.costs[1].bad == 0
@@ -157,7 +166,7 @@ def test_ctrl_c_keeps_the_best_so_far_and_writes_it_as_unfinished(tmp_path):
 def test_several_goals_give_a_front_that_no_candidate_beats():
     goals = ["position_rmse_m.2", "thrust_max_after_10s_n"]
     changes = {**DROP, "initial.position": [0.0, 0.0, 0.0], "phases.height": 1.0, "phases.lift_start": 8.0}
-    found = tl.tune("hover", goals, changes=changes, controller="geometric", draws=TWICE, fresh=2, budget=48)
+    found = tl.tune("hover", goals, changes=changes, controller="geometric", draws=TWICE, holdout=2, budget=48)
     assert found.optimiser == "optuna"
     ranks = np.array([[cost.rank for cost in point.costs] for point in found.front])
     assert len(ranks) >= 2
@@ -165,7 +174,7 @@ def test_several_goals_give_a_front_that_no_candidate_beats():
     tried = np.array([[cost.rank for cost in costs] for costs in found.apart[1:]])
     for point in ranks:
         assert not np.any(np.all(tried <= point, axis=1) & np.any(tried < point, axis=1))
-    assert all(len(point.fresh) == 2 for point in found.front)
+    assert all(len(point.holdout) == 2 for point in found.front)
 
 
 def test_cases_with_targets_are_measured_against_them(tmp_path):
@@ -176,10 +185,10 @@ def test_cases_with_targets_are_measured_against_them(tmp_path):
         "[[cases]]\nname = 'heavy'\nset.plant.mass_scale = 1.02\n",
         "utf-8",
     )
-    found = quick(draws=file, fresh=3, budget=0, goals={"position_rmse_m.2": 0.01}, aim="worst")
+    found = quick(draws=file, holdout=3, budget=0, goals={"position_rmse_m.2": 0.01}, aim="worst")
     assert [draw.case for draw in found.draws] == ["light", "heavy"]
     assert found.task.scales[0][:, 0].tolist() == [0.002, 0.01]
-    assert [draw.case for draw in found.fresh] == ["light", "light", "heavy", "heavy"]
+    assert [draw.case for draw in found.holdout] == ["light", "light", "heavy", "heavy"]
 
 
 @pytest.mark.parametrize(
@@ -195,11 +204,11 @@ def test_cases_with_targets_are_measured_against_them(tmp_path):
         ({"goals": ["position_rmse_m", "position_rmse_m"]}, "is given twice"),
         ({"budget": 3}, "must be at least 8, which are tried at a time, or 0"),
         ({"draws": 0}, "must be from 1"),
-        ({"fresh": 0}, "must be from 1"),
+        ({"holdout": 0}, "must be from 1"),
         ({"aim": "best"}, "unknown aim 'best'"),
         ({"optimiser": "cmaes"}, "unknown optimiser 'cmaes'.*Did you mean 'cma'"),
-        ({"over": ["plant.mass_scale"]}, "the draws change plant.mass_scale"),
-        ({"over": ["controller.switching"], "optimiser": "cma"}, "is a choice"),
+        ({"parameters": ["plant.mass_scale"]}, "the draws change plant.mass_scale"),
+        ({"parameters": ["controller.switching"], "optimiser": "cma"}, "is a choice"),
         ({"draws": "no-such.toml"}, "does not exist"),
         ({"drawz": 3}, "unknown argument of tune 'drawz'.*Did you mean 'draws'"),
     ],
@@ -217,7 +226,7 @@ def test_a_study_of_another_mission_is_refused(tmp_path):
         quick(draws=file)
 
 
-def test_a_study_that_sets_the_seed_has_no_fresh_draws(tmp_path):
+def test_a_study_that_sets_the_seed_has_no_holdout_draws(tmp_path):
     file = tmp_path / "fixed.toml"
     file.write_text(
         "study = {name = 'fixed', missions = ['hover'], draws = 4}\nset.mission.seed = 3\n"

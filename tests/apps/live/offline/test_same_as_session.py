@@ -1,6 +1,7 @@
 """A page's own flight does what a session of the server does: the same bits, the same answers, the same refusals."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -52,8 +53,13 @@ REFUSED = (
 )
 
 
-def out_of_bounds():
+def wrong_values(scene):
+    """Settings out of bounds, lists of other lengths, and a setting of each parameter that a mission does not have."""
+    present = {one["key"] for one in scene["parameters"]}
     for key, parameter in BY_KEY.items():
+        if key not in present:
+            yield {"type": "set", "key": key, "value": parameter.high}
+            continue
         for value in (parameter.low - 1.0, parameter.high * 1.5, [parameter.high] * 2, [parameter.high] * 7):
             yield {"type": "set", "key": key, "value": value}
 
@@ -72,8 +78,8 @@ def answers_of(session, message):
     try:
         answers = session.apply(read_message(json.dumps(as_a_browser_sends({**message, "seq": 1}))))
     except tl.InputError as error:
-        return str(error)
-    return worded([one for one in answers if one["type"] != "scene"], message)
+        return plain(str(error))
+    return plain(worded([one for one in answers if one["type"] != "scene"], message))
 
 
 def worded(answers, message):
@@ -82,10 +88,24 @@ def worded(answers, message):
     return answers[0]["reason"] if refused else answers
 
 
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+def plain(said):
+    """What was said, with numbers in its texts as Python and JavaScript write them alike."""
+    if isinstance(said, dict):
+        return {key: plain(one) for key, one in said.items()}
+    if isinstance(said, list):
+        return [plain(one) for one in said]
+    if not isinstance(said, str):
+        return said
+    return NUMBER.sub(lambda match: f"{float(match[0]):g}", said.replace(", ", ","))
+
+
 def said_by(flight, message):
     """The same of a page's own flight."""
     kind, rest = message["type"], {name: value for name, value in message.items() if name != "type"}
-    return worded([one for one in flight.say(kind, **rest) if one["type"] != "scene"], message)
+    return plain(worded([one for one in flight.say(kind, **rest) if one["type"] != "scene"], message))
 
 
 def frames_flown(session, seconds):
@@ -111,7 +131,7 @@ CLOCKED = {
 
 def untimed(status):
     """What a status says of the flight itself."""
-    return {name: value for name, value in status.items() if name not in CLOCKED}
+    return {name: plain(value) for name, value in status.items() if name not in CLOCKED}
 
 
 def check_same(session, flight, message, seconds):
@@ -143,7 +163,7 @@ def test_it_flies_and_answers_as_a_session_to_the_last_bit(session, flight, tmp_
 
 
 def test_every_refusal_is_that_of_a_session(session, flight):
-    for message in [*REFUSED, *out_of_bounds()]:
+    for message in [*REFUSED, *wrong_values(session.scene)]:
         refused = answers_of(session, message)
         assert isinstance(refused, str), message
         assert said_by(flight, message) == refused
@@ -184,8 +204,8 @@ def test_requests_are_refused_for_the_same_reasons_from_the_ground_to_the_air_an
 def test_a_crash_ends_both_with_the_same_words_at_the_same_place_until_both_begin_again(by_hand):
     session, flight = by_hand
     check_same(session, flight, {"type": "ask", "what": "lift"}, 5.5)
-    hard = {"type": "force", "force": [4.0, 0.0, 0.0], "point": [0.0, 0.0, 0.0]}
-    check_same(session, flight, hard, 1.5)
+    strong_push = {"type": "force", "force": [4.0, 0.0, 0.0], "point": [0.0, 0.0, 0.0]}
+    check_same(session, flight, strong_push, 1.5)
     status = flight.status()
     assert status["phase"] == "crashed"
     assert "tilt [deg] = 6.8" in status["ending"]["text"]
@@ -211,7 +231,7 @@ def test_other_missions_fly_and_refuse_as_a_session_too(name, tmp_path):
     session, flight = Session(page_mission(name), out=tmp_path), OwnFlight(packed_flight(name))
     session.prepare()
     lift = {"type": "ask", "what": "lift"}
-    for message in [GRAB, lift, *REFUSED, *out_of_bounds()]:
+    for message in [GRAB, lift, *REFUSED, *wrong_values(session.scene)]:
         assert said_by(flight, message) == answers_of(session, message)
     check_same(session, flight, lift, 14.0)
     for message, seconds in MOVES:

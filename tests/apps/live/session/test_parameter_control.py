@@ -13,14 +13,14 @@ def test_a_setting_changes_for_good_and_comes_back_to_what_the_mission_says(sess
     before = list(session._mission.admittance.mass)
     (answer,) = say(session, "set", key="admittance.mass", value=5.0)
     assert answer["value"] == [5.0, 5.0, 5.0]
-    assert session._flight.now.admittance.mass == (5.0, 5.0, 5.0)
+    assert session.flight.now.admittance.mass == (5.0, 5.0, 5.0)
     say(session, "set", key="wind.velocity", value=(1.0, 0.0, 0.0))
     fly(session, 1.0)
     assert seen(session)["wind"][0] == pytest.approx(1.0, abs=0.05)
     told = say(session, "restore")
     assert [t["type"] for t in told] == ["changed"] * 2
     assert {t["key"] for t in told} == {"admittance.mass", "wind.velocity"}
-    assert list(session._flight.now.admittance.mass) == before
+    assert list(session.flight.now.admittance.mass) == before
 
 
 @pytest.mark.parametrize(
@@ -35,11 +35,11 @@ def test_a_setting_changes_for_good_and_comes_back_to_what_the_mission_says(sess
     ],
 )
 def test_what_cannot_be_changed_is_refused_with_a_reason_and_the_flight_goes_on(session, key, value, words):
-    now = session._flight.now
+    now = session.flight.now
     with pytest.raises(tl.InputError) as refused:
         say(session, "set", key=key, value=value)
     assert words in str(refused.value)
-    assert session._flight.now is now
+    assert session.flight.now is now
     fly(session, 0.1)
 
 
@@ -60,12 +60,12 @@ def test_another_controller_takes_over_at_once(session):
     fly(session, 3.0)
     say(session, "set", key="controller.name", value="pid")
     fly(session, 1.0)
-    assert session._flight.now.controller.name == "pid"
+    assert session.flight.now.controller.name == "pid"
     told = say(session, "restore", key="controller.name")
     assert [t["type"] for t in told] == ["changed", "scene"]
-    assert session._flight.now.controller == session._mission.controller, "with the mission's own settings"
+    assert session.flight.now.controller == session._mission.controller, "with the mission's own settings"
     fly(session, 1.0)
-    assert not session._flight.lost
+    assert not session.flight.lost
 
 
 def test_a_reset_begins_again_with_the_settings_as_they_are(session):
@@ -75,7 +75,7 @@ def test_a_reset_begins_again_with_the_settings_as_they_are(session):
     say(session, "reset")
     assert session.generation == generation + 1
     assert session.status()["recorded_s"] < 0.01
-    assert session._flight.now.admittance.mass == (5.0, 5.0, 5.0)
+    assert session.flight.now.admittance.mass == (5.0, 5.0, 5.0)
     control = next(c for c in session.scene["parameters"] if c["key"] == "admittance.mass")
     assert list(control["value"]) == [5.0, 5.0, 5.0]
 
@@ -90,5 +90,5 @@ def test_after_a_reset_rotors_that_had_failed_are_whole():
 
 def test_the_status_tells_every_viewer_which_rotors_are_dead(session):
     assert session.status()["failed_rotors"] == []
-    session._flight.now = changed(interactive_mission(tl.load_mission("iris")), "faults.3.time", 0.0)
+    session.flight.now = changed(interactive_mission(tl.load_mission("iris")), "faults.3.time", 0.0)
     assert session.status()["failed_rotors"] == [3]

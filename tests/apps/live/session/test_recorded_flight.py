@@ -10,7 +10,7 @@ from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.apps.live.session.saving import save_in_process
 from tandemlift.core.algebra.vector import Vec3
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
-from tandemlift.simulation.interactive.recorded_flight import FLIGHT, HAND, MISSION, RecordedFlight
+from tandemlift.simulation.stepwise.recorded_flight import FLIGHT, HAND, MISSION, RecordedFlight
 
 GUIDED = {
     "pilot.guidance": "interactive",

@@ -14,7 +14,7 @@ from tandemlift.apps.live.wire.page_messages import PAGE_MESSAGES, PingMessage
 
 
 def test_a_flight_that_is_over_says_so_and_changes_no_more(session):
-    session._flight._p.steps = session._flight.step + 10
+    session.flight._p.steps = session.flight.step + 10
     fly(session, 0.01)
     session._fly(5)
     assert session.status()["phase"] == "over"
@@ -31,7 +31,7 @@ def test_an_error_in_flight_is_told(session, monkeypatch):
     def fail():
         raise RuntimeError("of a controller")
 
-    session._flight.advance = fail
+    session.flight.advance = fail
     session.start()
     until(lambda: session.status()["phase"] == "failed")
     say(session, "reset")
@@ -110,7 +110,7 @@ def test_a_session_that_still_compiles_is_stopped_at_once(tmp_path, monkeypatch)
 
 def test_optimised_code_takes_over_while_it_flies(tmp_path, monkeypatch):
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setattr("tandemlift.simulation.plan.KERNELS", {})
+    monkeypatch.setattr("tandemlift.simulation.plan.LOOP_CODE", {})
     one = unprepared(tmp_path)
     one.start()
     until(lambda: one.is_ready and one.flight._stepper.code.is_best, patience=4 * PATIENCE)
@@ -125,7 +125,7 @@ def test_the_thread_flies_until_it_is_stopped_and_pauses(session):
     until(lambda: session.status()["recorded_s"] > 0.2)
     say(session, "pause", on=True)
     then, rests = session.status()["recorded_s"], []
-    session._flight.rest = lambda: rests.append(None)
+    session.flight.rest = lambda: rests.append(None)
     until(lambda: len(rests) > 20)
     assert session.status()["recorded_s"] == then
     say(session, "pause", on=False)
@@ -141,5 +141,5 @@ def test_a_body_that_waits_is_told_of_a_pause(session):
 
     session.start()
     say(session, "pause", on=True)
-    session._flight._stepper.body = body = Waiting()
+    session.flight._stepper.body = body = Waiting()
     until(lambda: body.rests > 3)

@@ -13,10 +13,10 @@ from tandemlift.missions import changed
 
 
 def test_hands_are_refused_while_the_sensors_are_tared(session, monkeypatch):
-    mission = session._flight.now
+    mission = session.flight.now
     tared = mission.estimator.model_copy(update={"tare_start": 5.0, "tare_duration": 2.0})
     pilot = mission.pilot.model_copy(update={"push": "estimate"})
-    session._flight.now = mission.model_copy(update={"estimator": tared, "pilot": pilot})
+    session.flight.now = mission.model_copy(update={"estimator": tared, "pilot": pilot})
     with pytest.raises(tl.InputError, match="hands off until 7 s"):
         say(session, "grab", point=(0.0, 0.0, 0.0), target=(1.0, 0.0, 0.0), at="point")
     with pytest.raises(tl.InputError, match="hands off until 7 s"):
@@ -36,12 +36,12 @@ def test_hands_are_refused_while_the_sensors_are_tared(session, monkeypatch):
 )
 def test_a_mission_without_a_tare_that_can_be_begun_says_so(session, estimator, push, words):
     up(session)
-    now = session._flight.now
+    now = session.flight.now
     told = {
         "estimator": now.estimator.model_copy(update=estimator),
         "pilot": now.pilot.model_copy(update={"push": push}),
     }
-    session._flight.now = now.model_copy(update=told)
+    session.flight.now = now.model_copy(update=told)
     with pytest.raises(tl.InputError) as refused:
         say(session, "tare")
     assert words in str(refused.value)
@@ -87,11 +87,11 @@ def test_a_tare_begins_a_second_after_it_was_asked_for_or_is_asked_for_again():
 
 def test_hands_are_refused_until_it_has_tared_by_itself_in_steady_hover(session):
     up(session)
-    mission = session._flight.now
+    mission = session.flight.now
     estimator = mission.estimator.model_copy(update={"tare": "hover", "tare_duration": 2.0})
     pilot = mission.pilot.model_copy(update={"push": "estimate"})
-    session._flight.now = mission.model_copy(update={"estimator": estimator, "pilot": pilot})
-    until_tared = 2.0 - session._flight.number("memory", "guidance", "phase", "hover_time")
+    session.flight.now = mission.model_copy(update={"estimator": estimator, "pilot": pilot})
+    until_tared = 2.0 - session.flight.number("memory", "guidance", "phase", "hover_time")
     if until_tared > 0.0:
         with pytest.raises(tl.InputError, match="hands off until the force sensors are tared, in steady hover"):
             say(session, "force", force=(1.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))

@@ -12,9 +12,8 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from tandemlift.core.extras import extra
-from tandemlift.core.settings.key_description import key
-from tandemlift.core.settings.value_types import Positive, Table, must
+from tandemlift.core.errors import extra
+from tandemlift.core.keys import Positive, Table, key, must
 from tandemlift.core.types import Array
 
 

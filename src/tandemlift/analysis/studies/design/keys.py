@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 from tandemlift.core.errors import InputError
-from tandemlift.missions.values import Place, shown
+from tandemlift.core.toml import shown
+from tandemlift.missions.values import Place
 
 
 def leaves_of(

@@ -12,7 +12,7 @@ from typing import Any
 from tandemlift.analysis.studies.design.distributions import Horizontal, Uniform
 from tandemlift.analysis.studies.design.draws import Drawn
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission
+from tandemlift.missions import Mission
 
 SCALED = (
     *("stiffness", "damping", "lag", "gain", "speed"),

@@ -13,11 +13,10 @@ from tandemlift.analysis.studies.design.grids import grid_axes
 from tandemlift.analysis.studies.design.keys import changes_in, columns_of, with_keys
 from tandemlift.analysis.studies.design.persons import check_has_person, person_changes, random_person
 from tandemlift.analysis.studies.design.sampling import point_count, points
-from tandemlift.analysis.studies.design.settings import MAX_ROWS, CaseTable, StudySettings, default_rows_per_unit
+from tandemlift.analysis.studies.design.settings import MAX_ROWS, CaseTable, StudySettings, default_rows_per_chunk
 from tandemlift.analysis.studies.design.variants import Variant
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission
-from tandemlift.missions import tables_of
+from tandemlift.missions import Mission, tables_of
 from tandemlift.missions.loading import MissionTemplate
 from tandemlift.missions.values import MISSING, Tables, value_at
 
@@ -119,9 +118,9 @@ class StudyPlan:
         return self.settings.study.seeds
 
     @cached_property
-    def rows_per_unit(self) -> int:
+    def rows_per_chunk(self) -> int:
         """Rows in one file of results."""
-        return self.settings.study.rows_per_unit or default_rows_per_unit(self.count)
+        return self.settings.study.rows_per_chunk or default_rows_per_chunk(self.count)
 
     @cached_property
     def _axes(self) -> list[list[Any]]:

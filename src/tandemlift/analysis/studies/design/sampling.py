@@ -8,8 +8,7 @@ from functools import lru_cache
 import numpy as np
 
 from tandemlift.analysis.studies.design.settings import Sampling
-from tandemlift.core.errors import InputError
-from tandemlift.core.extras import extra
+from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
 
 MOST_NUMBERS = 200_000_000  # of points that must be formed all at once

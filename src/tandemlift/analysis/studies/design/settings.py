@@ -10,14 +10,13 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import AfterValidator, BeforeValidator, Field
 
+from tandemlift.core.keys import Table, key, must
 from tandemlift.core.outcomes import OUTCOMES
-from tandemlift.core.settings.key_description import key
-from tandemlift.core.settings.value_types import Table, must
 
 MAX_ROWS = 10**9
 OUTCOME_NAMES = tuple(kind.name for kind in OUTCOMES)
-BLOCK, ROWS_PER_UNIT, MOST_UNITS = 8, 256, 10_000
-UNITS = 32  # at least, of a study that has enough rows: so many workers have something to do
+BLOCK, ROWS_PER_CHUNK, MOST_CHUNKS = 8, 256, 10_000
+CHUNKS = 32  # at least, of a study that has enough rows: so many workers have something to do
 Sampling = Literal["random", "sobol", "latin-hypercube", "saltelli"]
 REFUSED = "refused"  # the outcome of a row that cannot be flown
 
@@ -113,7 +112,7 @@ class StudyTable(Table):
     )
     seeds: Count = key(1, "1", "flights of each point, with different mission.seed: noise, wind, tremor")
     seed: Annotated[int, Field(ge=0, le=10**18)] = key(0, "1", "seed of the points, and first mission.seed")
-    rows_per_unit: Annotated[int, Field(ge=1, le=1_000_000)] | None = key(
+    rows_per_chunk: Annotated[int, Field(ge=1, le=1_000_000)] | None = key(
         None,
         "1",
         "flights in one file of results",
@@ -121,10 +120,10 @@ class StudyTable(Table):
     )
 
 
-def default_rows_per_unit(count: int) -> int:
+def default_rows_per_chunk(count: int) -> int:
     """Rows in one file of results of a study of `count` rows: whole blocks, so that all workers have some."""
-    fewest, most = -(-count // MOST_UNITS), -(-count // UNITS)
-    return -(-max(fewest, min(most, ROWS_PER_UNIT)) // BLOCK) * BLOCK
+    fewest, most = -(-count // MOST_CHUNKS), -(-count // CHUNKS)
+    return -(-max(fewest, min(most, ROWS_PER_CHUNK)) // BLOCK) * BLOCK
 
 
 class CaseTable(Table):

@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.settings import Mission
-from tandemlift.core.settings.admittance import LN_20
 from tandemlift.core.types import Array
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.missions import Mission
+from tandemlift.parts.compliance.admittance import LN_20
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 AXES = ("x", "y", "z")
 YAW = "yaw"
@@ -32,7 +32,7 @@ class AxisFeel(NamedTuple):
         damping: C [N s/m].
         stiffness: K [N/m].
         threshold: up to which a push is ignored [N].
-        soft: whether only what exceeds the threshold acts.
+        subtracts_threshold: whether only what exceeds the threshold acts.
         push: the standard push [N].
     """
 
@@ -41,13 +41,13 @@ class AxisFeel(NamedTuple):
     damping: float
     stiffness: float
     threshold: float
-    soft: bool
+    subtracts_threshold: bool
     push: float
 
     @property
     def beyond(self) -> float:
         """The force that acts [N] under the standard push."""
-        return self.push - (self.threshold if self.soft else 0.0)
+        return self.push - (self.threshold if self.subtracts_threshold else 0.0)
 
     @property
     def acceleration(self) -> float:
@@ -90,12 +90,12 @@ def axes_of(m: Mission) -> tuple[AxisFeel, ...]:
     for i, axis in enumerate(AXES):
         push = max(FORCE, ABOVE * a.threshold[i]) if a.feel is None else a.feel.axes[i].force
         numbers = (a.mass[i], a.damping[i], a.stiffness[i], a.threshold[i])
-        found.append(AxisFeel(axis, *numbers, soft=by_hand or a.gate == "soft", push=push))
+        found.append(AxisFeel(axis, *numbers, subtracts_threshold=by_hand or a.gate == "soft", push=push))
     yaw = m.compliance.yaw
     if by_hand and yaw.model == "compliant":
         inertia = float(Vehicle.from_settings(m.vehicle).inertia[2, 2]) if yaw.inertia is None else yaw.inertia
         push = max(MOMENT, ABOVE * yaw.threshold)
-        found.append(AxisFeel(YAW, inertia, yaw.damping, 0.0, yaw.threshold, soft=True, push=push))
+        found.append(AxisFeel(YAW, inertia, yaw.damping, 0.0, yaw.threshold, subtracts_threshold=True, push=push))
     return tuple(found)
 
 

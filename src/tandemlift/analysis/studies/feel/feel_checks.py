@@ -12,14 +12,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from tandemlift.analysis.studies.feel.closed_form import AXES, YAW, AxisFeel
 from tandemlift.analysis.studies.feel.standard_push import PushedAxis
 from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.settings import Mission
-from tandemlift.core.settings.admittance import LN_20
+from tandemlift.core.checks import CheckResult, judged, noted
+from tandemlift.missions import Mission
 from tandemlift.missions.flight_checks.authority import CONTROL, authority_of, tilt_limit_of
 from tandemlift.missions.flight_checks.passage import least_room, passage_checks, places_of
-from tandemlift.missions.flight_checks.result import CheckResult, judged, noted
 from tandemlift.missions.flight_checks.sensing import NOISE_SIGMAS, noise_of, sensing_checks
-from tandemlift.missions.flight_checks.weight import lift_of, weight_of
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.missions.tables.weight import lift_of, weight_of
+from tandemlift.parts.compliance.admittance import LN_20
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 DRIFT_SIGMAS = 2.0  # standard deviations of the sensors' drift
 SATURATED = 0.01  # of the time, at most, with a rotor at its limit

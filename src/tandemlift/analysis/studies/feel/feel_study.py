@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 from tandemlift.analysis.studies.feel.closed_form import YAW
 from tandemlift.analysis.studies.feel.feel_checks import feel_checks, flown_checks
 from tandemlift.analysis.studies.feel.standard_push import Answer, PushedAxis, pushed_axes
+from tandemlift.core.checks import FAILS, CheckResult
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Progress
 from tandemlift.missions import Mission
-from tandemlift.missions.flight_checks.result import FAILS, CheckResult
 
 HEADS = ("push", "moves from", "final speed", "95 % after", "overshoot", "lag", "stops within", "apart")
 
@@ -99,7 +99,7 @@ def _both(ideal: float | None, real: float | None, unit: str) -> str:
 def gate_text(study: FeelStudy) -> str:
     """What the smallest force that moves the vehicle does, along x, in a sentence."""
     k, m = study.pushed[0].feel, study.mission
-    acts = "only what exceeds it acts" if k.soft else "beyond it the whole force acts"
+    acts = "only what exceeds it acts" if k.subtracts_threshold else "beyond it the whole force acts"
     if m.pilot.guidance != "interactive":
         return f"A push must exceed {k.threshold:g} N; {acts}."
     release, dwell = k.threshold * m.compliance.release_fraction, 1e3 * m.compliance.dwell

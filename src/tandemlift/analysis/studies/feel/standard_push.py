@@ -19,7 +19,7 @@ from tandemlift.core.types import Array, Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, merge, tables_of
 from tandemlift.missions.values import Tables
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.simulation.many import fly_each
 
 RISE = 0.02  # s: spacing and standard deviation of the Gaussians

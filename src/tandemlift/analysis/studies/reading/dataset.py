@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from tandemlift.analysis.studies.design.plan import SEED, StudyPlan
-from tandemlift.core.extras import extra
+from tandemlift.core.errors import extra
 
 if TYPE_CHECKING:
     import pyarrow

@@ -20,8 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.studies.reading.statistics import CONFIDENCE, IntervalEstimate
-from tandemlift.core.errors import InputError
-from tandemlift.core.extras import extra
+from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
 
 FEWEST = 100  # rows of a first-order estimate from rows as they are: ten for each of its ten harmonics

@@ -12,8 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.errors import InputError
-from tandemlift.core.extras import extra
+from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
 
 CONFIDENCE = 0.95

@@ -17,15 +17,14 @@ from tandemlift.analysis.studies.design.keys import columns_of
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.sampling import points
 from tandemlift.analysis.studies.design.settings import REFUSED, StudySettings
+from tandemlift.analysis.studies.execution.store import StudyFolder
+from tandemlift.analysis.studies.reading.chunk_files import CHANNEL, ChunkFile, about, check_whole, columns_in, read
 from tandemlift.analysis.studies.reading.dataset import to_xarray
 from tandemlift.analysis.studies.reading.html import study_html
-from tandemlift.analysis.studies.reading.unit_files import CHANNEL, UnitFile, about, check_whole, columns_in, read
-from tandemlift.analysis.studies.units.store import StudyFolder
-from tandemlift.core.errors import InputError
-from tandemlift.core.extras import extra
+from tandemlift.core.errors import InputError, extra
 from tandemlift.core.outcomes import FAILURES
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Array
+from tandemlift.missions import Mission
 
 if TYPE_CHECKING:
     import pandas
@@ -49,7 +48,7 @@ class Study:
 
     folder: Path
     plan: StudyPlan
-    files: tuple[UnitFile, ...]
+    files: tuple[ChunkFile, ...]
 
     def __len__(self) -> int:
         return sum(file.last - file.first for file in self.files)
@@ -248,8 +247,8 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
     store = StudyFolder(path)
     files = []
     for i, name in enumerate(store.names()):
-        first, file = i * store.rows_per_unit, store.files.file(name)
+        first, file = i * store.rows_per_chunk, store.files.file(name)
         if file.exists():
             check_whole(file)
-            files.append(UnitFile(file, first, min(store.count, first + store.rows_per_unit)))
+            files.append(ChunkFile(file, first, min(store.count, first + store.rows_per_chunk)))
     return Study(path, store.plan(), tuple(files))

@@ -13,8 +13,8 @@ from tandemlift.analysis.studies.tuning.goals import Goal
 from tandemlift.analysis.studies.tuning.source import MissionSource
 from tandemlift.core.errors import InputError
 from tandemlift.core.outcomes import FAILURES
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Array
+from tandemlift.missions import Mission
 from tandemlift.simulation.fly import fly_many
 
 NO_NUMBER, FOUND = "no number", "findings"

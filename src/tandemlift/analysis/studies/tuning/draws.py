@@ -16,10 +16,11 @@ from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.tuning.source import MissionSource
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission
+from tandemlift.missions import Mission
 
 Study = str | os.PathLike[str] | Mapping[str, Any]
-CHOICE_SEED, FRESH_SEED = 10**8, 10**9  # from which on seeds of draws for the choice, and of fresh draws, are counted
+# from which on seeds of draws for the choice, and of holdout draws, are counted
+CHOICE_SEED, HOLDOUT_SEED = 10**8, 10**9
 MASS, INERTIA, LOADS, LAGS, DELAYS = (0.97, 1.03), (0.9, 1.1), (0.5, 1.5), (0.8, 1.25), (0.8, 1.0, 1.2)
 
 
@@ -31,7 +32,7 @@ class Draw(NamedTuple):
 
 
 class DrawSource:
-    """Draws for a search, and fresh ones that it never sees: the rows of one study with two seeds.
+    """Draws for a search, and holdout draws that it never sees: the rows of one study with two seeds.
 
     Args:
         study: path of a study file, or its tables; its only mission is the one that is tuned.
@@ -64,10 +65,10 @@ class DrawSource:
 
         Args:
             least: number of rows.
-            seed: `CHOICE_SEED` or `FRESH_SEED`, which is added to that of the study.
+            seed: `CHOICE_SEED` or `HOLDOUT_SEED`, which is added to that of the study.
 
         Raises:
-            InputError: the study sets the seed itself, so no draw is fresh.
+            InputError: the study sets the seed itself, so there are no holdout draws.
         """
         study = self.plan.settings.study
         what = "draws" if self.plan.drawn else "seeds"
@@ -78,7 +79,7 @@ class DrawSource:
         found, seen = self._draws(plan), self.search_draws()
         if any(draw in seen for draw in found):
             raise InputError(
-                f"--draws {_named(self._study)}: sets mission.seed, so that no draw is fresh; leave it out"
+                f"--draws {_named(self._study)}: sets mission.seed, so that there are no holdout draws; leave it out"
             )
         return found
 

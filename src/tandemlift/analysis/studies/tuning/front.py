@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tandemlift.analysis.studies.tuning.hunt import Tried
 from tandemlift.analysis.studies.tuning.result import FrontPoint
+from tandemlift.analysis.studies.tuning.search import CandidateResult
 from tandemlift.analysis.studies.tuning.task import Values
 
-MOST = 12  # points that are shown, and flown on fresh draws
+MOST = 12  # points that are shown, and flown on holdout draws
 
 
-def front_of(tried: Sequence[Tried], chosen: Values) -> tuple[FrontPoint, ...]:
+def front_of(tried: Sequence[CandidateResult], chosen: Values) -> tuple[FrontPoint, ...]:
     """The candidates that no other one beats, in the order of their first goal; at most `MOST`, evenly spread.
 
     The chosen one is among them, unless another one beats it.

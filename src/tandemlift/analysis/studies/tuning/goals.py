@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.core.errors import InputError, unknown
-from tandemlift.core.settings.value_types import is_number
+from tandemlift.core.keys import is_number
 from tandemlift.core.types import Array
 
 LARGER = {"clearance_min_m"}  # metrics of which more is better: their inverse is made small

@@ -16,10 +16,10 @@ import numpy as np
 from pydantic import BaseModel
 
 from tandemlift.core.errors import InputError, suggestion
-from tandemlift.core.settings import Mission
-from tandemlift.core.settings.value_types import is_number
+from tandemlift.core.keys import is_number
+from tandemlift.core.toml import shown
+from tandemlift.missions import Mission
 from tandemlift.missions.bounds import bounds, innermost, plain
-from tandemlift.missions.values import shown
 
 DIGITS = 3  # of a number as it is flown
 LIMITS = {"a", "max_tilt", "velocity_i_limit", "rate_i_limit", "integral_limit", "tracking"}
@@ -93,12 +93,12 @@ def _leaves(model: BaseModel, above: str) -> Iterator[_Leaf]:
             yield _Leaf(key, field.annotation, tuple(field.metadata), value)
 
 
-def parameters_of(mission: Mission, over: Mapping[str, Range], factor: float) -> tuple[Tunable, ...]:
+def parameters_of(mission: Mission, ranges: Mapping[str, Range], factor: float) -> tuple[Tunable, ...]:
     """The parameters of a search.
 
     Args:
         mission: whose values are searched about.
-        over: dotted keys, tables, or patterns such as `controller.gains.lambda_*`, each with the range [low, high] of
+        ranges: dotted keys, tables, or patterns such as `controller.gains.lambda_*`, each with the range [low, high] of
             its numbers, a list of words, or None; empty for the gains of the controller.
         factor: by which a positive number without a range may differ from its present value.
 
@@ -107,7 +107,7 @@ def parameters_of(mission: Mission, over: Mapping[str, Range], factor: float) ->
     """
     leaves = {leaf.key: leaf for leaf in _leaves(mission, "")}
     found: dict[str, Tunable] = {}
-    for asked, limits in (over or {"controller": None}).items():
+    for asked, limits in (ranges or {"controller": None}).items():
         _check_range(asked, limits)
         for leaf, place in _matching(asked, leaves):
             found |= {p.name: p for p in _parameters(leaf, limits, factor) if place in (None, p.place)}

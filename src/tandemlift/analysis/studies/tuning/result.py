@@ -10,13 +10,12 @@ from typing import Any, NamedTuple
 
 from tandemlift.analysis.studies.tuning.candidates import Cost
 from tandemlift.analysis.studies.tuning.draws import Draw
-from tandemlift.analysis.studies.tuning.evidence import Evidence, as_table
+from tandemlift.analysis.studies.tuning.holdout import Evidence, as_table
 from tandemlift.analysis.studies.tuning.parameters import value_of
 from tandemlift.analysis.studies.tuning.task import Task, Values
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import atomic_write
-from tandemlift.core.settings import Mission
-from tandemlift.missions import built_in, format_toml, tables_of
+from tandemlift.missions import Mission, built_in, format_toml, tables_of
 from tandemlift.missions.values import MISSING, Place, Tables, value_at
 
 MISSION_FILE, EVIDENCE_FILE = "tuned.toml", "evidence.json"
@@ -25,12 +24,12 @@ MISSION_FILE, EVIDENCE_FILE = "tuned.toml", "evidence.json"
 class FrontPoint(NamedTuple):
     """A candidate that no other one beats in all goals: its values, and its costs for each goal alone.
 
-    `costs` are those on the draws of the search, `fresh` those on fresh draws, if it was flown there.
+    `costs` are those on the draws of the search, `holdout` those on holdout draws, if it was flown there.
     """
 
     values: Values
     costs: tuple[Cost, ...]
-    fresh: tuple[Cost, ...] = ()
+    holdout: tuple[Cost, ...] = ()
 
 
 class Tuning(NamedTuple):
@@ -42,7 +41,7 @@ class Tuning(NamedTuple):
         seed: of the search and of its draws.
         budget: candidates that were allowed.
         draws: on which candidates were compared.
-        fresh: draws that the search never saw.
+        holdout: draws that the search never saw.
         old: the present values.
         new: the best values found.
         costs: of old and new, on the draws for the choice among the best; of an interrupted search, on its own draws.
@@ -51,7 +50,7 @@ class Tuning(NamedTuple):
         records: the candidates that were better than all before them, with their numbers in the history.
         ended: why the search ended.
         is_finished: whether it was not interrupted.
-        evidence: what fresh draws say; None of a search that was interrupted.
+        evidence: what holdout draws say; None of a search that was interrupted.
         front: of several goals, what cannot be improved in one without loss in another; else empty.
     """
 
@@ -60,7 +59,7 @@ class Tuning(NamedTuple):
     seed: int
     budget: int
     draws: tuple[Draw, ...]
-    fresh: tuple[Draw, ...]
+    holdout: tuple[Draw, ...]
     old: Values
     new: Values
     costs: tuple[Cost, Cost]
@@ -89,7 +88,7 @@ class Tuning(NamedTuple):
 
     @property
     def is_better(self) -> bool:
-        """Whether fresh draws say that the new values are better."""
+        """Whether holdout draws say that the new values are better."""
         return self.evidence is not None and self.evidence.better
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
@@ -156,11 +155,11 @@ class Tuning(NamedTuple):
                 {
                     "values": dict(zip(names, point.values, strict=True)),
                     "search": [cost._asdict() for cost in point.costs],
-                    "fresh": [cost._asdict() for cost in point.fresh],
+                    "holdout": [cost._asdict() for cost in point.holdout],
                 }
                 for point in self.front
             ],
-            "evidence": None if self.evidence is None else as_table(self.evidence, self.fresh, task.goals),
+            "evidence": None if self.evidence is None else as_table(self.evidence, self.holdout, task.goals),
         }
 
 

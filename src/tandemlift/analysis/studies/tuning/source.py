@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.core.settings import Mission
+from tandemlift.missions import Mission
 from tandemlift.missions.loading import MissionTemplate
 
 

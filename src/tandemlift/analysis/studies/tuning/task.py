@@ -23,8 +23,8 @@ from tandemlift.analysis.studies.tuning.goals import Goal, check_goals, scales_o
 from tandemlift.analysis.studies.tuning.parameters import Tunable, Value, changes_at
 from tandemlift.analysis.studies.tuning.source import MissionSource
 from tandemlift.core.errors import InputError
-from tandemlift.core.settings import Mission
 from tandemlift.core.types import Array
+from tandemlift.missions import Mission
 from tandemlift.simulation.loop.running_metrics import EMPTY, summary
 
 Values = tuple[Value, ...]

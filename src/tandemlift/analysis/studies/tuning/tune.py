@@ -1,4 +1,4 @@
-"""Tuning of a mission: the search, and the evidence on fresh draws."""
+"""Tuning of a mission: the search, and the evidence on holdout draws."""
 
 from __future__ import annotations
 
@@ -7,20 +7,20 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from tandemlift.analysis.studies.tuning.candidates import Aim
-from tandemlift.analysis.studies.tuning.draws import CHOICE_SEED, FRESH_SEED, Draw, DrawSource, Study, default_study
-from tandemlift.analysis.studies.tuning.evidence import evidence_of
-from tandemlift.analysis.studies.tuning.finals import TIMES, choose
+from tandemlift.analysis.studies.tuning.draws import CHOICE_SEED, HOLDOUT_SEED, Draw, DrawSource, Study, default_study
 from tandemlift.analysis.studies.tuning.front import front_of
 from tandemlift.analysis.studies.tuning.goals import Goal, goals_from
-from tandemlift.analysis.studies.tuning.hunt import INTERRUPTED, Hunt, TuneProgress
+from tandemlift.analysis.studies.tuning.holdout import evidence_of
+from tandemlift.analysis.studies.tuning.optimisers import FAR_STEP, FIRST_STEP, EvolutionStrategy, Optimiser
 from tandemlift.analysis.studies.tuning.parameters import Range, Tunable, parameters_of
 from tandemlift.analysis.studies.tuning.result import Tuning, present_values
-from tandemlift.analysis.studies.tuning.searches import FAR_STEP, FIRST_STEP, EvolutionSearch, Optimiser
+from tandemlift.analysis.studies.tuning.search import INTERRUPTED, TuneProgress, TuningSearch
+from tandemlift.analysis.studies.tuning.selection import TIMES, choose
 from tandemlift.analysis.studies.tuning.source import MissionSource
 from tandemlift.analysis.studies.tuning.task import Task, started
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.progress import progress_or_own
-from tandemlift.core.settings import Mission
+from tandemlift.missions import Mission
 
 FACTORS = {"cma": 1000.0, "optuna": 10.0}  # by which a number may differ: a search that moves can go far
 POPULATIONS = 60  # of the default budget
@@ -30,9 +30,9 @@ MOST_DRAWS = 1_000_000
 class How(NamedTuple):
     """How to search and to compare; see `tune`."""
 
-    over: Iterable[str] | Mapping[str, Range] = ()
+    parameters: Iterable[str] | Mapping[str, Range] = ()
     draws: int | Study = 8
-    fresh: int = 200
+    holdout: int = 200
     budget: int | None = None
     optimiser: str | None = None
     aim: Aim = "mean"
@@ -50,7 +50,7 @@ def tune(
     progress: TuneProgress | None = None,
     **how: Any,
 ) -> Tuning:
-    """Search values of a mission that make metrics small, and fly them on fresh draws against the present ones.
+    """Search values of a mission that make metrics small, and fly them on holdout draws against the present ones.
 
     A bad outcome counts first: of two candidates, the one with fewer draws that fail, are refused or have no number for
     a goal is better, whatever the goals say. Then the goals count, each over its target or its present value. Ctrl-C
@@ -65,11 +65,11 @@ def tune(
         progress: called after each population; by default, a notebook shows a bar.
         how: any of
 
-            over: dotted keys, tables or patterns of what to search, with a range [low, high] or a list of words for
-            each if it is a table; by default the gains of the controller.
+            parameters: dotted keys, tables or patterns of what to search, with a range [low, high] or a list of words
+            for each if it is a table; by default the gains of the controller.
             draws: the study whose rows compare candidates, as file or tables, or the number of draws of
             `default_study`; 8.
-            fresh: number of draws on which old and new are compared in the end; 200.
+            holdout: number of draws on which old and new are compared in the end; 200.
             budget: most candidates to try; by default 60 populations; with 0 only the present values fly.
             optimiser: "cma", or "optuna" for choices and for the front of several goals; by default what suits.
             aim: whether the "mean" over draws counts, or the "worst"; the mean.
@@ -92,58 +92,58 @@ def tune(
 def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: TuneProgress | None) -> Tuning:
     if how.aim not in ("mean", "worst"):
         raise unknown("aim", how.aim, ("mean", "worst"))
-    _check_count("--holdout", how.fresh)
+    _check_count("--holdout", how.holdout)
     loaded = source.load()
     kind, parameters = _parameters(loaded, goals, how)
     drawn = _drawn(loaded, source, how)
-    compared, unseen = drawn.search_draws(), drawn.other_draws(how.fresh, FRESH_SEED)
+    compared, unseen = drawn.search_draws(), drawn.other_draws(how.holdout, HOLDOUT_SEED)
     _check_apart(compared, parameters)
     goals = tuple(goal.with_targets(drawn.targets) for goal in goals)
     task, trial = started(Task(source, loaded, parameters, goals, (), (), how.aim, how.threads, how.strict), compared)
-    search = _search(kind, task, how.seed, step=FAR_STEP if trial.bad.all() else FIRST_STEP)
-    budget = POPULATIONS * search.size if how.budget is None else how.budget
-    if budget != 0 and budget < search.size:
-        raise InputError(f"--budget {budget}: must be at least {search.size}, which are tried at a time, or 0")
-    hunt = Hunt(task, compared, budget, (present_values(task), trial), progress)
+    optimiser = _optimiser(kind, task, how.seed, step=FAR_STEP if trial.bad.all() else FIRST_STEP)
+    budget = POPULATIONS * optimiser.size if how.budget is None else how.budget
+    if budget != 0 and budget < optimiser.size:
+        raise InputError(f"--budget {budget}: must be at least {optimiser.size}, which are tried at a time, or 0")
+    search = TuningSearch(task, compared, budget, (present_values(task), trial), progress)
     with progress_or_own("Tuning", None, "candidates") as shown:
         if shown and not progress:
-            hunt.progress = lambda tried, most, cost: shown(tried, most)
-        hunt.run(search, is_front=kind == "optuna")
-    new, costs = hunt.best.values, (hunt.tried[0].cost, hunt.best.cost)
-    if budget and hunt.ended != INTERRUPTED:
+            search.progress = lambda tried, most, cost: shown(tried, most)
+        search.run(optimiser, is_front=kind == "optuna")
+    new, costs = search.best.values, (search.tried[0].cost, search.best.cost)
+    if budget and search.ended != INTERRUPTED:
         try:
-            new, costs = choose(hunt, search, drawn.other_draws(TIMES * len(compared), CHOICE_SEED))
+            new, costs = choose(search, optimiser, drawn.other_draws(TIMES * len(compared), CHOICE_SEED))
         except KeyboardInterrupt:
-            hunt.ended = INTERRUPTED
+            search.ended = INTERRUPTED
     found = Tuning(
         task=task,
         optimiser=kind,
         seed=how.seed,
         budget=budget,
         draws=tuple(compared),
-        fresh=tuple(unseen),
-        old=hunt.tried[0].values,
+        holdout=tuple(unseen),
+        old=search.tried[0].values,
         new=new,
         costs=costs,
-        history=tuple(t.cost for t in hunt.tried),
-        apart=tuple(t.apart for t in hunt.tried),
-        records=hunt.records,
-        ended=hunt.ended,
-        is_finished=hunt.ended != INTERRUPTED,
-        front=front_of(hunt.tried, new) if kind == "optuna" and len(goals) > 1 else (),
+        history=tuple(t.cost for t in search.tried),
+        apart=tuple(t.apart for t in search.tried),
+        records=search.records,
+        ended=search.ended,
+        is_finished=search.ended != INTERRUPTED,
+        front=front_of(search.tried, new) if kind == "optuna" and len(goals) > 1 else (),
     )
     return _with_evidence(found) if found.is_finished else found
 
 
 def _with_evidence(found: Tuning) -> Tuning:
-    """The result with what fresh draws say of the new values and of the front; unfinished if Ctrl-C comes."""
-    task = found.task.for_draws(found.fresh)
+    """The result with what holdout draws say of the new values and of the front; unfinished if Ctrl-C comes."""
+    task = found.task.for_draws(found.holdout)
     front = [task.changes(point.values) for point in found.front]
     try:
-        old, new, *others = task.fly([{}, found.changes, *front], found.fresh)
+        old, new, *others = task.fly([{}, found.changes, *front], found.holdout)
     except KeyboardInterrupt:
         return found._replace(ended=INTERRUPTED, is_finished=False)
-    points = [p._replace(fresh=tuple(task.costs_apart(t))) for p, t in zip(found.front, others, strict=True)]
+    points = [p._replace(holdout=tuple(task.costs_apart(t))) for p, t in zip(found.front, others, strict=True)]
     return found._replace(evidence=evidence_of(old, new, task.goals, task.scales, task.aim), front=tuple(points))
 
 
@@ -151,8 +151,8 @@ def _parameters(mission: Mission, goals: Sequence[Goal], how: How) -> tuple[str,
     """The optimiser, and the parameters that it searches."""
     if how.optimiser is not None and how.optimiser not in FACTORS:
         raise unknown("optimiser", how.optimiser, FACTORS)
-    over = [how.over] if isinstance(how.over, str) else how.over
-    ranges = over if isinstance(over, Mapping) else dict.fromkeys(over)
+    parameters = [how.parameters] if isinstance(how.parameters, str) else how.parameters
+    ranges = parameters if isinstance(parameters, Mapping) else dict.fromkeys(parameters)
     kind = how.optimiser or ("optuna" if len(goals) > 1 else "cma")
     found = parameters_of(mission, ranges, FACTORS[kind])
     if how.optimiser is None and any(p.choices for p in found):
@@ -160,12 +160,12 @@ def _parameters(mission: Mission, goals: Sequence[Goal], how: How) -> tuple[str,
     return kind, found
 
 
-def _search(kind: str, task: Task, seed: int, *, step: float) -> Optimiser:
+def _optimiser(kind: str, task: Task, seed: int, *, step: float) -> Optimiser:
     if kind == "cma":
-        return EvolutionSearch(task.parameters, seed, step)
-    from tandemlift.analysis.studies.tuning.optuna_search import EstimatorSearch
+        return EvolutionStrategy(task.parameters, seed, step)
+    from tandemlift.analysis.studies.tuning.optuna_optimiser import ParzenEstimator
 
-    return EstimatorSearch(task.parameters, seed, len(task.goals))
+    return ParzenEstimator(task.parameters, seed, len(task.goals))
 
 
 def _drawn(mission: Mission, source: MissionSource, how: How) -> DrawSource:

@@ -15,7 +15,7 @@ from tandemlift.apps.cli.terminal.mission_options import parse_setting
 
 if TYPE_CHECKING:
     from tandemlift.analysis.studies.design.plan import StudyPlan
-    from tandemlift.analysis.studies.units.store import StudyFolder
+    from tandemlift.analysis.studies.execution.store import StudyFolder
 
 
 @click.command()
@@ -75,7 +75,7 @@ def study(
     Files in the folder of the study:
       study.toml      what it flies
       study.json      the same, with all missions and controllers
-      units/          the table: tl.load_study, or any reader of Parquet files
+      chunks/         the table: tl.load_study, or any reader of Parquet files
       report.html     outcomes, distributions, maps, the worst rows; `tandemlift report DIR` writes it anew
 
     \b
@@ -104,9 +104,9 @@ def study(
 
 
 def _fly(plan: StudyPlan, out: str | None, part: str, **where: Any) -> StudyFolder:
-    from tandemlift.analysis.studies.units.anywhere import fly_study
-    from tandemlift.analysis.studies.units.running import part_from
-    from tandemlift.analysis.studies.units.store import open_folder
+    from tandemlift.analysis.studies.execution.anywhere import fly_study
+    from tandemlift.analysis.studies.execution.running import part_from
+    from tandemlift.analysis.studies.execution.store import open_folder
 
     chosen = part_from(part)
     folder = open_folder(plan, Path("out") / plan.settings.study.name if out is None else Path(out))
@@ -116,11 +116,11 @@ def _fly(plan: StudyPlan, out: str | None, part: str, **where: Any) -> StudyFold
 
 
 def _print_estimate(plan: StudyPlan, threads: int) -> None:
-    from tandemlift.analysis.studies.units.estimate import estimate
+    from tandemlift.analysis.studies.execution.estimate import estimate
 
     with compile_notices.together():
         found = estimate(plan)
-    echo(f"  files   {found.units:,} of {plan.rows_per_unit} rows, some {_bytes(found.size)} in all")
+    echo(f"  files   {found.chunks:,} of {plan.rows_per_chunk} rows, some {_bytes(found.size)} in all")
     echo(f"  time    some {_time(found.seconds / threads)} on {threads} threads; {_time(found.seconds)} on one")
 
 

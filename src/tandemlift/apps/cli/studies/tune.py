@@ -1,4 +1,4 @@
-"""`tandemlift tune`: search values of a mission that make metrics small, and compare them on fresh draws."""
+"""`tandemlift tune`: search values of a mission that make metrics small, and compare them on holdout draws."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ FILES = ("tuned.toml", "evidence.json", "tune.html")
 )
 @click.option(
     "--parameter",
-    "over",
+    "parameters",
     multiple=True,
     metavar="KEY[=RANGE]",
     shell_complete=keys,
@@ -48,7 +48,7 @@ FILES = ("tuned.toml", "evidence.json", "tune.html")
     "  [default: the controller's gains]",
 )
 @click.option("--draws", default="8", show_default=True, metavar="N|FILE", help="Flights that compare candidates.")
-@click.option("--holdout", "fresh", default=200, show_default=True, help="Flights that compare old and new in the end.")
+@click.option("--holdout", default=200, show_default=True, help="Flights that compare old and new in the end.")
 @click.option("--budget", type=int, metavar="N", help="Candidates to try.  [default: 60 populations]")
 @click.option("--optimiser", metavar="cma|optuna", help="[default: cma; optuna for choices and several goals]")
 @click.option("--aim", default="mean", show_default=True, metavar="mean|worst", help="What of all draws counts.")
@@ -66,7 +66,7 @@ FILES = ("tuned.toml", "evidence.json", "tune.html")
 def tune(
     mission: str,
     goals: tuple[str, ...],
-    over: tuple[str, ...],
+    parameters: tuple[str, ...],
     draws: str,
     controller: str | None,
     settings: tuple[str, ...],
@@ -88,13 +88,13 @@ def tune(
     \b
     Files in the results folder (other files there are left alone):
       tuned.toml     the mission with the new values; `tandemlift run` flies it
-      evidence.json  what was searched, every cost, and old against new on every fresh draw
+      evidence.json  what was searched, every cost, and old against new on every holdout draw
       tune.html      all of it on one page that needs no network
-      figures/       cost over candidates; old and new on fresh draws; the front (PNG and PDF)
+      figures/       cost over candidates; old and new on holdout draws; the front (PNG and PDF)
 
     \b
     Exit code:
-      0    the new values are better on fresh draws
+      0    the new values are better on holdout draws
       1    they are not; everything is written
       2    bad input: one message, nothing is written
       130  Ctrl-C: the best so far is written, marked as unfinished
@@ -103,13 +103,18 @@ def tune(
 
     changes, chosen = dict(map(parse_setting, settings)), controller and chosen_controller(controller).name
     name = load_mission(mission, changes, controller=chosen).mission.name
-    how |= {"over": dict(map(_range_of, over)), "draws": _draws_of(draws), "changes": changes, "controller": chosen}
+    how |= {
+        "parameters": dict(map(_range_of, parameters)),
+        "draws": _draws_of(draws),
+        "changes": changes,
+        "controller": chosen,
+    }
     with results_folder(out, Path("out") / f"{name}-tuned", FILES) as folder:
         found = _search(mission, dict(map(_goal_of, goals)), how)
         _write(found, folder)
     _print(found, folder)
     if not found.is_finished:
-        click.echo("stopped; the best so far is written, and was not flown on fresh draws", err=True)
+        click.echo("stopped; the best so far is written, and was not flown on holdout draws", err=True)
         sys.exit(INTERRUPTED)
     if not found.is_better:
         sys.exit(NOT_BETTER)
@@ -190,10 +195,10 @@ def _print(found: Tuning, folder: Path) -> None:
         echo(f"  cost on the draws of the search: {old}; now {new}")
     if found.evidence is not None:
         words = "better" if found.is_better else "not better"
-        echo(f"  {words} on {len(found.fresh)} fresh draws: {found.evidence.words}")
+        echo(f"  {words} on {len(found.holdout)} holdout draws: {found.evidence.words}")
         _print_table(found)
     for place, point in enumerate(found.front, 1):
-        costs = "  ".join(cost_words(cost, len(found.fresh)) for cost in point.fresh or point.costs)
+        costs = "  ".join(cost_words(cost, len(found.holdout)) for cost in point.holdout or point.costs)
         echo(f"  front {place}: {costs}")
     echo(f"  mission: {folder / 'tuned.toml'}")
     echo(f"  page: {folder / 'tune.html'}")

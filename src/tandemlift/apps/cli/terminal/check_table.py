@@ -8,9 +8,9 @@ from collections.abc import Sequence
 import click
 
 from tandemlift.apps.cli.terminal.console import echo
-from tandemlift.missions.flight_checks.result import CLOSE, FAILS, OK, CheckResult
+from tandemlift.core.checks import CLOSE, FAILS, OK, REFUSED, CheckResult
 
-COLOURS = {OK: None, CLOSE: "yellow", FAILS: "red"}
+COLOURS = {OK: None, CLOSE: "yellow", FAILS: "red", REFUSED: "red"}
 HEAD = ("check", "of", "value", "limit", "unit", "margin", "verdict")
 
 
@@ -28,7 +28,7 @@ def print_checks(results: Sequence[CheckResult]) -> None:
     for result in results:
         if result.text:
             echo(click.style(f"{result.verdict}: {result.text}", fg=COLOURS[result.verdict]))
-    counts = {verdict: sum(result.verdict == verdict for result in results) for verdict in COLOURS}
+    counts = {verdict: sum(result.verdict == verdict for result in results) for verdict in (OK, CLOSE, FAILS)}
     echo(", ".join(f"{count} {verdict}" for verdict, count in counts.items()))
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.compiler.machine_code.compile_events import Compiled
+from tandemlift.compiler.jit.compile_events import Compiled
 from tandemlift.core.progress import shown_progress
 
 if TYPE_CHECKING:

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
 from tandemlift.apps.live.offline.message_rules import message_rules, name_rule
@@ -36,12 +35,12 @@ from tandemlift.flight.record import ENDING_TEXT
 from tandemlift.missions import changed, tables_of
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
-from tandemlift.simulation.interactive.recorded_flight import EMPTY_FLIGHT, HAND, MISSION
-from tandemlift.simulation.kernels import leaf_offset
+from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.outcome import NOT_FINITE, limit_of
 from tandemlift.simulation.parameter_changes import LATER, NO_EFFECT, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import GUIDANCE_MEMORY
+from tandemlift.simulation.stepwise.recorded_flight import EMPTY_FLIGHT, HAND, MISSION
 
 ENGINE = "compiled"
 ONLY_SERVER = "{what}: only a flight of `tandemlift live` has it"
@@ -90,36 +89,26 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
 
 def _tunable(plan: FlightPlan, shown: SceneParameter) -> dict[str, Any]:
     """A parameter as the page has it, with the refusals of values out of bounds and of lists of another length."""
-    keys = keys_of(plan.mission, shown["key"])
-    return {"shown": shown, "keys": keys, **_bounds(shown["min"], shown["max"]), **_shape(plan, keys[0])}
+    keys, value = keys_of(plan.mission, shown["key"]), shown["value"]
+    rule = _refusal(plan, keys[0], [1.0] * (MOST_NUMBERS + 1)).rpartition(": ")[2]
+    return {
+        "shown": shown,
+        "keys": keys,
+        "count": len(value) if isinstance(value, list) else 0,
+        "out_of_bounds": texts.OUT_OF_BOUNDS.format(key="{key}", value="{value}", low=shown["min"], high=shown["max"]),
+        "wrong_shape": f"mission: {keys[0]} = {{value}}: {rule}",
+    }
 
 
-def _shape(plan: FlightPlan, key: str) -> dict[str, Any]:
-    """How many numbers a list for a key has, 0 if it takes no list; and the refusal of any other list."""
-    rule = _refusal(plan, key, [1.0] * (MOST_NUMBERS + 1)).rpartition(": ")[2]
-    found = re.search(r"list of (\d+) numbers", rule)
-    return {"count": int(found[1]) if found else 0, "wrong_shape": f"mission: {key} = {{value}}: {rule}"}
-
-
-def _bounds(low: float, high: float) -> dict[str, Any]:
-    """The bounds of a parameter, and the refusal of what is beyond them."""
-    text = texts.OUT_OF_BOUNDS.format(key="{key}", value="{value}", low=low, high=high)
-    return {"min": low, "max": high, "out_of_bounds": text}
-
-
-def _absent(plan: FlightPlan) -> dict[str, dict[str, Any]]:
-    """The parameters that a mission does not have, with the refusal of a value within their bounds."""
+def _absent(plan: FlightPlan) -> dict[str, str]:
+    """The parameters that a mission does not have, and why they are refused."""
     present = {shown["key"] for shown in parameters_of(plan.mission, plan.mission)}
-    return {key: _absence(plan, key) for key in [*BY_KEY, *CHOICES] if key not in present or key in CHOICES}
-
-
-def _absence(plan: FlightPlan, key: str) -> dict[str, Any]:
-    if key in CHOICES:
-        unbounded = {"min": 0.0, "max": 0.0, "out_of_bounds": "", "count": 0, "wrong_shape": ""}
-        return {**unbounded, "refusal": ONLY_SERVER.format(what=key)}
-    low, high = bounds_of(BY_KEY[key], plan.mission)
-    first = keys_of(plan.mission, key)[0]
-    return {**_bounds(low, high), **_shape(plan, first), "refusal": _refusal(plan, first, high)}
+    lost = {
+        key: _refusal(plan, keys_of(plan.mission, key)[0], bounds_of(parameter, plan.mission)[1])
+        for key, parameter in BY_KEY.items()
+        if key not in present
+    }
+    return {key: ONLY_SERVER.format(what=key) for key in CHOICES} | lost
 
 
 def _refusal(plan: FlightPlan, key: str, value: Any) -> str:

@@ -16,7 +16,7 @@ from tandemlift.core.algebra.vector import ZERO, Vec3, dot
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, PHASE_NAMES
 from tandemlift.missions import Mission
-from tandemlift.simulation.interactive.recorded_flight import RecordedFlight
+from tandemlift.simulation.stepwise.recorded_flight import RecordedFlight
 
 TARE = "estimator.tare_start"
 HOVER_TIME = ("memory", "guidance", "phase", "hover_time")  # of a flight's state

@@ -13,8 +13,8 @@ from tandemlift.apps.live.session.scene_builder import scene_of
 from tandemlift.apps.live.wire.frames import layout_for, pack_frames
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, tables_of
-from tandemlift.parts.vehicle import Vehicle
-from tandemlift.simulation.interactive.recorded_flight import FlightSetup
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.simulation.stepwise.recorded_flight import FlightSetup
 
 
 class FrameBuilder:

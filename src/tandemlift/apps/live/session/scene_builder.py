@@ -16,25 +16,28 @@ from tandemlift.apps.live.wire.scene import (
     ScenePayload,
     SceneQuadrotor,
     SceneRotor,
+    SceneShape,
     SceneSpring,
     SceneVehicle,
     SceneWall,
 )
-from tandemlift.core.algebra.vector import Nothing
+from tandemlift.core.algebra.vector import Absent
 from tandemlift.core.faults import ALARM_TEXTS
 from tandemlift.core.phases import PHASE_NAMES
-from tandemlift.core.settings import Mission, Quadrotor, wall_tables
 from tandemlift.core.types import Array
 from tandemlift.core.version import __version__
 from tandemlift.engines.models.surroundings import floor_from
-from tandemlift.missions import tables_of
+from tandemlift.engines.models.visuals import BEAM_RADIUS, SHAPELESS, VisualShape, vehicle_shapes
+from tandemlift.missions import Mission, tables_of
+from tandemlift.parts.contact.corridor import wall_tables
 from tandemlift.parts.contact.feet import sole_positions
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 
 SPRING = SceneSpring(stiffness=8.0, damping=2.0, max_force=8.0)  # of a page's hand, where a mission has none
 WALL_THICKNESS = 0.02  # m, as drawn; walls have none
-SHORT = 0.2  # m, length and width drawn for a payload without length
-BEAM_RADIUS = 0.03  # m, drawn for a beam without a radius
+TURNING = ("blades", "rotor")  # begin the names of the shapes that turn
+DIGITS = 6  # decimals of shapes [m]
 
 
 def scene_of(
@@ -54,7 +57,7 @@ def scene_of(
     """
     vehicle = Vehicle.from_settings(mission.vehicle)
     floor = floor_from(mission, vehicle)
-    height = _lowest(mission, vehicle) if isinstance(floor, Nothing) else float(floor.height)
+    height = _lowest(mission, vehicle) if isinstance(floor, Absent) else float(floor.height)
     scene = scene_of_tables(tables_of(mission), vehicle, engine, height)
     scene["spring"], scene["parameters"] = spring, list(parameters)
     return scene
@@ -94,34 +97,42 @@ def _vehicle(vehicle: Vehicle) -> SceneVehicle:
     if payload.length:
         length, across = payload.length, 2.0 * (payload.radius or BEAM_RADIUS)
     else:
-        length, across = SHORT, SHORT
-    position = -vehicle.center_of_mass
+        length, across = SHAPELESS, SHAPELESS
+    shapes = vehicle_shapes(vehicle)
+    blades, discs = ([_shape(s) for s in shapes if s.name.startswith(name)] for name in TURNING)
+    turning = list(zip(blades, discs, strict=True))
     parts = zip(vehicle.quadrotors, vehicle.lever_arms, strict=True)
     return SceneVehicle(
-        quadrotors=[_quadrotor(q, center, position) for q, center in parts],
-        payload=ScenePayload(position=_list(position), length=length, width=across, height=across),
+        quadrotors=[_quadrotor(q, center, turning[4 * i : 4 * i + 4]) for i, (q, center) in enumerate(parts)],
+        payload=ScenePayload(position=_list(-vehicle.center_of_mass), length=length, width=across, height=across),
+        shapes=[_shape(s) for s in shapes if not s.name.startswith(TURNING)],
         mass=vehicle.mass,
     )
 
 
-def _quadrotor(quadrotor: Quadrotor, center: Array, payload: Array) -> SceneQuadrotor:
-    """A quadrotor at `center`; `payload`: where the payload is."""
+def _quadrotor(quadrotor: Quadrotor, center: Array, shapes: Sequence[tuple[SceneShape, SceneShape]]) -> SceneQuadrotor:
+    """A quadrotor at `center`; `shapes`: blades and disc of each rotor."""
     rotors = [
         SceneRotor(
             position=_list(center + np.array([x, y, 0.0])),
             spin=int(spin),
             radius=quadrotor.rotor_radius,
             max_thrust=quadrotor.max_thrust,
+            blades=blades,
+            disc=disc,
         )
-        for (x, y), spin in zip(quadrotor.rotors, quadrotor.spins, strict=True)
+        for (x, y), spin, (blades, disc) in zip(quadrotor.rotors, quadrotor.spins, shapes, strict=True)
     ]
-    return SceneQuadrotor(
-        position=_list(center),
-        joint=_list(payload + np.array(quadrotor.joint_position)),
-        arm=float(np.linalg.norm(quadrotor.rotors, axis=1).mean()),
-        guard=quadrotor.guard_radius,
-        feet={"spread": quadrotor.feet_spread, "depth": quadrotor.feet_depth},
-        rotors=rotors,
+    return SceneQuadrotor(position=_list(center), guard=quadrotor.guard_radius, rotors=rotors)
+
+
+def _shape(shape: VisualShape) -> SceneShape:
+    return SceneShape(
+        kind=shape.kind,
+        size=_list(np.round(shape.size, DIGITS)),
+        position=_list(np.round(shape.position, DIGITS)),
+        axes=_list(np.round(shape.axes.T.ravel(), DIGITS)),
+        color=shape.color,
     )
 
 

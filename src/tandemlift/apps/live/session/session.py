@@ -31,8 +31,8 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import Refusals
 from tandemlift.missions import Mission
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
-from tandemlift.simulation.interactive.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.simulation.results import channels_of
+from tandemlift.simulation.stepwise.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 
 log = logging.getLogger(__name__)
 

@@ -59,7 +59,8 @@ def keys_of(mission: Mission, key: str) -> list[str]:
 def value_of(tables: dict[str, Any], key: str) -> Any:
     """The value of a parameter in a mission's tables, or `MISSING`."""
     place = key.replace(EVERY, "vehicle.quadrotors.0.").split(".")
-    return value_at(tables, tuple(int(part) if part.isdigit() else part for part in place))
+    value = value_at(tables, tuple(int(part) if part.isdigit() else part for part in place))
+    return "hard" if key == GATE and value is MISSING else value
 
 
 def bounds_of(parameter: TunableParameter, first: Mission) -> tuple[float, float]:
@@ -98,8 +99,8 @@ def _choices(mission: Mission, first: Mission) -> Iterator[SceneParameter]:
             key=GATE,
             label="gate",
             group="admittance",
-            value=mission.admittance.gate,
-            initial=first.admittance.gate,
+            value=mission.admittance.gate or "hard",
+            initial=first.admittance.gate or "hard",
             choices=["hard", "soft"],
         )
 

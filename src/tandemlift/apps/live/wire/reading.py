@@ -9,8 +9,8 @@ from pydantic_core import from_json
 
 from tandemlift.apps.live.wire.page_messages import PAGE_MESSAGES, PageMessage
 from tandemlift.core.errors import InputError, suggestion
+from tandemlift.core.toml import shown
 from tandemlift.missions.refusals import problems_in
-from tandemlift.missions.values import shown
 
 MAX_SIZE = 65_536  # bytes; a page that sends more is cut off
 MAX_LENGTH = 4_096  # characters that are read: twice what the longest message has

@@ -6,7 +6,7 @@ vehicle is the nominal one that the pilot is designed for.
 
 from __future__ import annotations
 
-from typing import Annotated, NotRequired, TypedDict
+from typing import Annotated, Literal, NotRequired, TypedDict
 
 from pydantic import Field
 
@@ -27,6 +27,16 @@ Ground = Annotated[list[float], Field(min_length=2, max_length=2), "x, y, m, wor
 FrameFieldName = Annotated[str, OneOf("FrameFieldName", FIELD_NAMES)]
 
 
+class SceneShape(TypedDict):
+    """A part of the vehicle as drawn."""
+
+    kind: Literal["box", "sphere", "cylinder"]
+    size: Annotated[list[float], "edges of a box, radius of a sphere, radius and length of a cylinder, m"]
+    position: Annotated[BodyPosition, "of its centre"]
+    axes: Annotated[list[float], "columns of its rotation to body axes (9); a cylinder lies along its z"]
+    color: Annotated[str, "#rrggbb"]
+
+
 class SceneRotor(TypedDict):
     """A rotor."""
 
@@ -34,28 +44,20 @@ class SceneRotor(TypedDict):
     spin: Annotated[int, "1 or -1: sign of its reaction torque about body z"]
     radius: Metres
     max_thrust: Newtons
-
-
-class SceneFeet(TypedDict):
-    """The four feet of a quadrotor."""
-
-    spread: Annotated[Metres, "of each foot from the quadrotor's centre along x and along y"]
-    depth: Annotated[Metres, "from the quadrotor's centre down to the soles"]
+    blades: Annotated[SceneShape, "as it stands still"]
+    disc: Annotated[SceneShape, "as it turns, transparent"]
 
 
 class SceneQuadrotor(TypedDict):
     """A quadrotor."""
 
     position: BodyPosition
-    joint: Annotated[BodyPosition, "where it is fixed to the payload"]
-    arm: Annotated[Metres, "mean distance of its rotors from its centre"]
     guard: Annotated[Metres, "radius of the sphere that touches walls"]
-    feet: SceneFeet
     rotors: list[SceneRotor]
 
 
 class ScenePayload(TypedDict):
-    """The payload as drawn: a beam along body y."""
+    """The payload as it can be held: a beam along body y."""
 
     position: BodyPosition
     length: Metres
@@ -68,6 +70,7 @@ class SceneVehicle(TypedDict):
 
     quadrotors: list[SceneQuadrotor]
     payload: ScenePayload
+    shapes: Annotated[list[SceneShape], "all that does not turn"]
     mass: Annotated[float, "kg"]
 
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.codegen.c.language.identifiers import Names
 from tandemlift.codegen.c.language.structs import BY_VALUE, Struct, Structs, has_numbers, type_name
-from tandemlift.compiler.trace.structured import TracedLaw, is_nested, numbers_in
+from tandemlift.compiler.tracer.structured import TracedLaw, is_nested, numbers_in
 
 ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
 

@@ -17,13 +17,13 @@ from tandemlift.codegen.c.language.operations import ATOM, CHOSEN, UNARY, Expres
 from tandemlift.codegen.c.language.structs import Struct, parts_of, type_name
 from tandemlift.codegen.c.language.unit import Unit
 from tandemlift.codegen.c.language.variables import Group, Variables
-from tandemlift.compiler.trace import Graph
-from tandemlift.compiler.trace.structured import as_symbol, calls_in, is_nested, numbers_in
+from tandemlift.compiler.tracer import Graph
+from tandemlift.compiler.tracer.structured import as_symbol, calls_in, is_nested, numbers_in
 
 FEW = 4  # numbers of a struct whose members need no names where it is written
 
 
-class Whole(NamedTuple):
+class StructVariable(NamedTuple):
     """A struct that exists in the function: its value and its address."""
 
     value: str
@@ -49,7 +49,7 @@ class Statements:
         roots = list(roots)
         self.taken = Names([unit.signature(n).name for n in calls_in(graph, roots)])
         self._text: dict[int, Expression] = {}
-        self._whole: dict[Any, Whole] = {}
+        self._existing: dict[Any, StructVariable] = {}
         self._done = set[int | float]()
         self._depth = 0
         self._variables = Variables(unit, graph, roots, names or {})
@@ -58,19 +58,19 @@ class Statements:
 
     def know(self, value: Any, name: str, *, pointer: bool = False) -> None:
         """Numbers of a nested value are in a variable of C, or behind a pointer."""
-        whole = Whole(f"*{name}" if pointer else name, name if pointer else f"&{name}")
-        self._know(value, whole, f"{name}->" if pointer else f"{name}.")
+        existing = StructVariable(f"*{name}" if pointer else name, name if pointer else f"&{name}")
+        self._know(value, existing, f"{name}->" if pointer else f"{name}.")
 
-    def _know(self, value: Any, whole: Whole, access: str) -> None:
+    def _know(self, value: Any, existing: StructVariable, access: str) -> None:
         if not is_nested(value):
             self._text[as_symbol(self.graph, value).node] = Expression(
-                whole.value, UNARY if whole.value[0] == "*" else ATOM
+                existing.value, UNARY if existing.value[0] == "*" else ATOM
             )
             return
         nodes = tuple([as_symbol(self.graph, x).node for x in numbers_in(value)])
-        self._whole.setdefault((self.unit.structs.of(value), nodes), whole)
+        self._existing.setdefault((self.unit.structs.of(value), nodes), existing)
         for name, part in parts_of(value):
-            self._know(part, Whole(access + name, "&" + access + name), access + name + ".")
+            self._know(part, StructVariable(access + name, "&" + access + name), access + name + ".")
 
     # branches
 
@@ -92,11 +92,11 @@ class Statements:
     def branch(self, opening: str, last: bool) -> Iterator[None]:
         """Lines in braces; what is computed inside is known only inside. `last`: no other branch follows."""
         self._add("raw", (), opening, joins=opening.startswith("}"))
-        before = dict(self._text), dict(self._whole), set(self._done)
+        before = dict(self._text), dict(self._existing), set(self._done)
         self._depth += 1
         yield
         self._depth -= 1
-        self._text, self._whole, self._done = before
+        self._text, self._existing, self._done = before
         if last:
             self._add("raw", (), "}", joins=True)
 
@@ -137,7 +137,7 @@ class Statements:
 
     def _write_group(self, group: Group) -> None:
         struct = self.unit.structs.of(group.value)
-        if (struct, group.nodes) in self._whole:
+        if (struct, group.nodes) in self._existing:
             return
         text = self._initialiser(group.value)
         name = self._new(group.name)
@@ -201,9 +201,9 @@ class Statements:
         if not is_nested(like):
             return self.number(nodes[0]).within(CHOSEN)
         struct = self.unit.structs.of(like)
-        whole = self._whole.get((struct, tuple([n if n >= 0 else -1 - n for n in nodes])))
-        if whole is not None:
-            return whole.address if pointer else whole.value
+        existing = self._existing.get((struct, tuple([n if n >= 0 else -1 - n for n in nodes])))
+        if existing is not None:
+            return existing.address if pointer else existing.value
         literal_text = f"{struct.name}){self._initialiser(like, nodes)}"
         return f"&(const {literal_text}" if pointer else f"({literal_text}"
 
@@ -220,8 +220,8 @@ class Statements:
     def initialiser(self, value: Any) -> str:
         """What a variable of a nested value is initialised with."""
         nodes = tuple([as_symbol(self.graph, x).node for x in numbers_in(value)])
-        whole = self._whole.get((self.unit.structs.of(value), nodes)) if is_nested(value) else None
-        return whole.value if whole else self._initialiser(value)
+        existing = self._existing.get((self.unit.structs.of(value), nodes)) if is_nested(value) else None
+        return existing.value if existing else self._initialiser(value)
 
     def _initialiser(self, like: Any, nodes: list[int] | None = None) -> str:
         """Members in braces; a node below 0 is one without use."""
@@ -241,5 +241,5 @@ class Statements:
         if not is_nested(part):
             return self.number(nodes[0]).text if nodes[0] >= 0 else "0"
         struct = self.unit.structs.of(part)
-        whole = self._whole.get((struct, tuple([n if n >= 0 else -1 - n for n in nodes])))
-        return whole.value if whole else self._initialiser(part, nodes)
+        existing = self._existing.get((struct, tuple([n if n >= 0 else -1 - n for n in nodes])))
+        return existing.value if existing else self._initialiser(part, nodes)

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from tandemlift.codegen.c.language.identifiers import NO_MEMBER, Names, identifier
-from tandemlift.compiler.trace import Symbol
-from tandemlift.compiler.trace.structured import is_nested, numbers_in
+from tandemlift.compiler.tracer import Symbol
+from tandemlift.compiler.tracer.structured import is_nested, numbers_in
 from tandemlift.core.algebra.vector import is_set
 
 BY_VALUE = 4  # numbers of a struct that is passed by value; larger ones are passed by address

@@ -8,8 +8,8 @@ from typing import Any
 from tandemlift.codegen.c.language.identifiers import Names
 from tandemlift.codegen.c.language.signatures import Signature, signature_of
 from tandemlift.codegen.c.language.structs import Structs
-from tandemlift.compiler.trace import Graph, Symbol
-from tandemlift.compiler.trace.structured import Laws, calls_in, numbers_in, with_numbers
+from tandemlift.compiler.tracer import Graph, Symbol
+from tandemlift.compiler.tracer.structured import Laws, calls_in, numbers_in, with_numbers
 
 
 class Unit:

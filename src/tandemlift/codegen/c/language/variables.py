@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 from tandemlift.codegen.c.language.signatures import Signature
 from tandemlift.codegen.c.language.unit import Unit
-from tandemlift.compiler.trace import LEAVES, Graph
-from tandemlift.compiler.trace.structured import as_symbol, is_nested, numbers_in
+from tandemlift.compiler.tracer import LEAVES, Graph
+from tandemlift.compiler.tracer.structured import as_symbol, is_nested, numbers_in
 
 LONGEST = 12  # operations in one expression
 

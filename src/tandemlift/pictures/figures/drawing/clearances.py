@@ -7,13 +7,12 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.core.algebra.vector import Quat, Vec3, vec3
-from tandemlift.core.settings import wall_tables
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.parts.contact.beam_axis import beam_axis, beam_point, point_by_edge, point_by_top
 from tandemlift.parts.contact.wall_geometry import edges_of, offset, offset_from_top, wall
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.attitude import body_to_world
 
 
@@ -37,7 +36,7 @@ def _length(o: Vec3) -> Array:
 def clearances(flight: Flight) -> Clearances:
     """Distance of guards and beam from the nearest wall; below zero where they are in it."""
     vehicle, s = Vehicle.from_mission(flight.mission), logged_states(flight)
-    upright = [wall(w["start"], w["end"], w["top"]) for w in wall_tables(flight.mission)]
+    upright = [wall(w["start"], w["end"], w["top"]) for w in flight.walls]
     R = body_to_world(flight["attitude"])
     guards = np.full(len(flight.time), np.inf)
     for quadrotor, arm in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):

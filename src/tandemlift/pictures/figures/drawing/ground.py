@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.settings.surroundings import GroundTable
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.parts.contact.feet import floor, sole_positions, standing_height
+from tandemlift.parts.contact.ground_table import GroundTable
 from tandemlift.parts.contact.hull import hull
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.attitude import body_to_world
 from tandemlift.pictures.figures.drawing.vehicle import true_mass
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.core.types import Array
-from tandemlift.parts.vehicle import Vehicle, mixer
+from tandemlift.parts.mechanics.vehicle import Vehicle, mixer
 from tandemlift.pictures.figures.drawing.attitude import body_to_world
 
 CORNERS = 24  # of the polygon that stands for a rotor's disc

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.flight.record import Flight
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
 def true_mass(flight: Flight) -> float:

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.collections import LineCollection
 
-from tandemlift.core.settings import WallTable
 from tandemlift.core.types import Array
+from tandemlift.parts.contact.corridor import WallTable
 from tandemlift.pictures.figures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.pictures.figures.drawing.style import EDGE, GLASS
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.report.paper.tables import agrees
 
 CALM = 10.0  # s, from which on the disturbed start is over

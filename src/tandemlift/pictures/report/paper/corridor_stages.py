@@ -9,10 +9,9 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
-from tandemlift.core.settings import wall_tables
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.figure import Caption
 from tandemlift.pictures.figures.drawing.ground import floor_height
 from tandemlift.pictures.figures.drawing.scene import NEAR, on_paper
@@ -66,7 +65,7 @@ def _walls(ax: Any, flight: Flight, place: Array, floor: float) -> list[Array]:
     """Draw the walls around a place (3) [m], before the vehicle or behind it. Returns their rims (2, 3) [m]."""
     reach = np.append(AROUND, 10.0)
     rims, low, high = [], place - reach, place + reach
-    for wall in walls_in(wall_tables(flight.mission), low, high):
+    for wall in walls_in(flight.walls, low, high):
         foot = np.column_stack([wall.rim[:, :2], np.full(2, floor)])
         nearer = (wall.rim.mean(axis=0) - place)[:2] @ NEAR[:2] > 0.0
         face = PolyCollection([on_paper([*wall.rim, *foot[::-1]])], facecolor=(GLASS, 0.35), lw=0.0)

@@ -5,8 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from tandemlift.core.errors import InputError
-from tandemlift.core.extras import extra
+from tandemlift.core.errors import InputError, extra
 from tandemlift.core.files import atomic_write
 from tandemlift.core.types import Progress
 from tandemlift.pictures.report.paper.contents import paper_figures

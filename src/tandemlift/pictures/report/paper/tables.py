@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.parts.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.report.paper.errata import DATA, errata
 
 AXES = {"position": slice(0, 3), "attitude": slice(3, 6), "one": slice(None)}
@@ -78,6 +78,9 @@ def _about(table: Mapping[str, Any]) -> list[str]:
     return [erratum.about for erratum in errata() if table["number"] in erratum.tables]
 
 
+LEFT_OUT = {"admittance.gate": "hard"}  # what a key means that the paper's mission leaves out
+
+
 def value_at(mission: Mapping[str, Any], key: str) -> Any:
     """The value of a dotted key of a mission.
 
@@ -86,6 +89,8 @@ def value_at(mission: Mapping[str, Any], key: str) -> Any:
     """
     value: Any = mission
     for part in key.split("."):
+        if key in LEFT_OUT and part not in value:
+            return LEFT_OUT[key]
         value = value[int(part) if part.isdigit() else part]
     return value
 

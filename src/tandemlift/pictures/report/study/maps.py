@@ -16,7 +16,7 @@ from tandemlift.core.types import Array
 from tandemlift.pictures.figures.drawing.figure import Caption
 from tandemlift.pictures.figures.drawing.style import BLUE, GREY, LIGHT_BLUE, VERMILLION, page_figure, points, styled
 from tandemlift.pictures.report.study.curves import compared
-from tandemlift.pictures.report.study.words import Shown, is_far, shown_column, shown_quantity
+from tandemlift.pictures.report.study.words import QuantityDisplay, is_far, shown_column, shown_quantity
 
 MOST_GROUPS = 3
 MOST_QUANTITIES = 2  # beside the share of bad outcomes
@@ -41,7 +41,7 @@ CURVE_CAPTION = Caption(
 class MapAxis(NamedTuple):
     """A parameter as cells: of each row the number of its cell (-1 without one), and edges or texts of the cells."""
 
-    shown: Shown
+    shown: QuantityDisplay
     cell: Places
     size: int
     edges: Array | None

@@ -17,12 +17,12 @@ from tandemlift.analysis.studies.reading.study_rows import StudyRows
 from tandemlift.analysis.studies.reading.table import Study
 from tandemlift.core.findings import KIND_OF
 from tandemlift.core.outcomes import FAILURES
-from tandemlift.missions.values import shown
+from tandemlift.core.toml import shown
 from tandemlift.pictures.report.findings_section import with_keys
 from tandemlift.pictures.report.flight_report import DASH, html_table, number
 from tandemlift.pictures.report.study.commands import html_row_command
 from tandemlift.pictures.report.study.outcome_tables import MOST_GROUPS, outcome_counts, tabled_groups
-from tandemlift.pictures.report.study.words import Shown, shown_column, shown_quantity
+from tandemlift.pictures.report.study.words import QuantityDisplay, shown_column, shown_quantity
 
 MOST_COLUMNS = 6  # of groups beside each other
 MOST_REASONS = 5
@@ -203,7 +203,7 @@ def measured(rows: StudyRows) -> str:
     )
 
 
-def _quantiles(values: Any, look: Shown, low_is_bad: bool) -> Sequence[str]:
+def _quantiles(values: Any, look: QuantityDisplay, low_is_bad: bool) -> Sequence[str]:
     known = finite(values) * look.scale
     if not len(known):
         return [count(0), *[DASH] * 4]

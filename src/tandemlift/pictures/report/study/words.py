@@ -17,7 +17,7 @@ FAR = 30.0  # times the median, from where on values are shown on a logarithmic 
 SMALL = 0.5  # m, below which lengths are shown in mm
 
 
-class Shown(NamedTuple):
+class QuantityDisplay(NamedTuple):
     """How a number is shown: what it is called, its unit, and how many of these are one of SI."""
 
     words: str
@@ -30,15 +30,15 @@ class Shown(NamedTuple):
         return f"{self.words} ({self.unit})" if self.unit else self.words
 
 
-def shown_quantity(quantity: Quantity, values: Array) -> Shown:
+def shown_quantity(quantity: Quantity, values: Array) -> QuantityDisplay:
     """How a quantity with these values is shown; small lengths in millimetres."""
     stem, dot, entry = quantity.name.partition(".")
     words, unit = split_unit(stem)
     words += f", entry {entry}" if dot else ""
     known = values[np.isfinite(values)]
     if unit == "m" and len(known) and np.quantile(np.abs(known), 0.95) < SMALL:
-        return Shown(words, "mm", 1e3)
-    return Shown(words, unit)
+        return QuantityDisplay(words, "mm", 1e3)
+    return QuantityDisplay(words, unit)
 
 
 def is_far(values: Array) -> bool:
@@ -53,7 +53,7 @@ def _units() -> dict[str, str]:
     return {plain_name(key.name): key.facts.unit or "" for section in sections() for key in section.keys}
 
 
-def shown_column(column: str) -> Shown:
+def shown_column(column: str) -> QuantityDisplay:
     """How a column that varies is shown: by its key, with the unit of the key."""
     unit = _units().get(plain_name(column.partition(" (")[0]), "")
-    return Shown(column, "" if unit == "1" or " (" in column else unit)
+    return QuantityDisplay(column, "" if unit == "1" or " (" in column else unit)

@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tandemlift.analysis.studies.feel.feel_study import HEADS, FeelStudy, gate_text, study_feel, table_of
+from tandemlift.core.checks import FAILS, CheckResult
 from tandemlift.core.files import atomic_write
 from tandemlift.core.types import Progress
 from tandemlift.missions import Mission, format_toml, tables_of
-from tandemlift.missions.flight_checks.result import FAILS, CheckResult
 from tandemlift.pictures.report.controller_comparison import html_figures, versions_of
 from tandemlift.pictures.report.flight_report import DASH, NO_BREAK, html_table
 from tandemlift.pictures.report.page import html, write_page

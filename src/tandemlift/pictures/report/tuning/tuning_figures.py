@@ -1,4 +1,4 @@
-"""Figures of a tuning: cost over candidates, old against new on fresh draws, the front of several goals."""
+"""Figures of a tuning: cost over candidates, old against new on holdout draws, the front of several goals."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ CAPTIONS = {
     ),
     "evidence": Caption(
         "Evidence",
-        "Share of fresh draws whose value is at most that on the axis: present values (grey) and new values (blue). "
+        "Share of holdout draws whose value is at most that on the axis: present values (grey) and new values (blue). "
         "The farther left a curve, the better; one that does not reach 100 % has bad outcomes.",
         "A panel for each component of the goals: two curves rising from 0 to 100 %, present and new values.",
     ),
@@ -90,7 +90,7 @@ def _log_if_wide(ax: Axes, low: float, high: float) -> None:
 
 @styled
 def draw_evidence(found: Tuning) -> Figure:
-    """Distributions of old and new values on fresh draws."""
+    """Distributions of old and new values on holdout draws."""
     assert found.evidence is not None
     old, new = found.evidence.old, found.evidence.new
     columns = [

@@ -11,13 +11,13 @@ from typing import Any
 
 from tandemlift.analysis.studies.tuning.candidates import Cost
 from tandemlift.analysis.studies.tuning.result import MISSION_FILE, Tuning
-from tandemlift.missions.values import shown
+from tandemlift.core.toml import shown
+from tandemlift.core.version import versions
 from tandemlift.pictures.report.controller_comparison import html_figures
 from tandemlift.pictures.report.flight_report import DASH, html_table, number
 from tandemlift.pictures.report.page import html, write_page
 from tandemlift.pictures.report.tuning import tuning_figures
 from tandemlift.pictures.report.tuning.tuning_figures import axis_label, shown_scale
-from tandemlift.simulation.results import versions
 
 METHODS = {"cma": "CMA-ES", "optuna": "Optuna's tree-structured Parzen estimator"}
 FEW_DRAWS = 12  # draws whose changes are listed
@@ -61,10 +61,12 @@ def what_was_done(found: Tuning) -> str:
 
 def _verdict(found: Tuning) -> str:
     if found.evidence is None:
-        return '<p class="verdict missed"><strong>Unfinished</strong>: interrupted; not flown on fresh draws.</p>'
+        return '<p class="verdict missed"><strong>Unfinished</strong>: interrupted; not flown on holdout draws.</p>'
     if found.is_better:
-        return f'<p class="verdict"><strong>Better</strong> on fresh draws: {escape(found.evidence.words)}.</p>'
-    return f'<p class="verdict missed"><strong>Not better</strong> on fresh draws: {escape(found.evidence.words)}.</p>'
+        return f'<p class="verdict"><strong>Better</strong> on holdout draws: {escape(found.evidence.words)}.</p>'
+    return (
+        f'<p class="verdict missed"><strong>Not better</strong> on holdout draws: {escape(found.evidence.words)}.</p>'
+    )
 
 
 def cost_words(cost: Cost, draws: int) -> str:
@@ -84,13 +86,13 @@ def _evidence(found: Tuning) -> str:
         cells = [DASH if math.isnan(x) else number(x * scale) for x in (*c.old, *c.new, c.difference)]
         cells += [interval, DASH if math.isnan(c.improved) else f"{100.0 * c.improved:.0f} %", unit]
         rows.append(_row(f"{escape(words)}<br><code>{escape(c.label)}</code>", cells))
-    count = len(found.fresh)
+    count = len(found.holdout)
     rows.append(_bad_row(found, count))
     of_values = ("Present<br>median", "<br>worst", "New<br>median", "<br>worst")
     heads = ("", *of_values, "Difference<br>median", "<br>95 %", "Improved", "Unit")
     note = (
-        f"On {count} fresh draws, which the search never saw; both fly the same draws. Medians and worst values are of "
-        "draws that went well. The difference is new minus present, draw by draw, over draws that went well with "
+        f"On {count} holdout draws, which the search never saw; both fly the same draws. Medians and worst values are "
+        "of draws that went well. The difference is new minus present, draw by draw, over draws that went well with "
         "both; its interval holds for any distribution."
     )
     table = html_table(_head(heads), rows, "compared part")
@@ -111,13 +113,13 @@ def _front(found: Tuning) -> str:
     if not found.front:
         return ""
     goals = [axis_label(goal.name)[0] for goal in found.task.goals]
-    heads = ("", *(f"{g}<br>search" for g in goals), *(f"{g}<br>fresh" for g in goals), "")
+    heads = ("", *(f"{g}<br>search" for g in goals), *(f"{g}<br>holdout" for g in goals), "")
     rows = [
         _row(
             f"{place}{' (the mission below)' if point.values == found.new else ''}",
             [
                 *(cost_words(cost, len(found.draws)) for cost in point.costs),
-                *(cost_words(cost, len(found.fresh)) for cost in point.fresh),
+                *(cost_words(cost, len(found.holdout)) for cost in point.holdout),
                 "",
             ],
         )
@@ -159,7 +161,7 @@ def _draws(found: Tuning) -> str:
     more = f"; the first {len(listed)} are listed" if len(found.draws) > len(listed) else ""
     note = (
         f"Every candidate flew the same {len(found.draws)} draws{more}. <code>evidence.json</code> lists all "
-        "draws, fresh ones too, with outcomes and values."
+        "draws, holdout ones too, with outcomes and values."
     )
     return f'<p class="soft">{note}</p>\n{html_table("", rows, "setup")}'
 

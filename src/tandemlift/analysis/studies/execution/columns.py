@@ -1,0 +1,119 @@
+"""The table of a chunk as columns, and its Parquet file."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tandemlift.analysis.studies.design.keys import columns_of
+from tandemlift.analysis.studies.design.plan import SEED, StudyRow
+from tandemlift.analysis.studies.design.settings import REFUSED
+from tandemlift.analysis.studies.execution.checked_file import write_checked
+from tandemlift.analysis.studies.execution.chunk import Chunk
+from tandemlift.core.errors import extra
+from tandemlift.core.types import Array
+from tandemlift.flight.channels import DERIVED
+from tandemlift.flight.record import Flight
+
+Columns = dict[str, list[Any]]
+Result = tuple[StudyRow, Mapping[str, Any] | None, str]  # a row, its metrics, or why it was refused
+
+ALWAYS = ("outcome", "failure", "findings", "events")  # metrics with columns of their own
+NOT_KEPT = ("wall_s",)  # not reproducible
+CHANNEL = "flight."  # begins the name of a channel's column
+WHOLE = ("row", "draw", "seed", "steps")  # columns of whole numbers
+
+
+def columns_of_rows(chunk: Chunk, results: Sequence[Result], flights: Mapping[int, Flight]) -> Columns:
+    """The columns of a chunk's table; what a row does not have is None.
+
+    Args:
+        chunk: whose rows these are.
+        results: of its rows, in order.
+        flights: those of which channels are kept, by the row's number.
+    """
+    rows = [_row(chunk, *result) for result in results]
+    for number, flight in flights.items():
+        rows[number - chunk.first] |= _channels(flight, chunk.keep.channels)
+    names = dict.fromkeys(name for row in rows for name in row)
+    return {name: [row.get(name) for row in rows] for name in names}
+
+
+def _row(chunk: Chunk, row: StudyRow, metrics: Mapping[str, Any] | None, refusal: str) -> dict[str, Any]:
+    variant = chunk.variants[row.variant]
+    found: dict[str, Any] = {
+        "row": row.number,
+        "mission": variant.mission,
+        "controller": variant.controller,
+        "engine": variant.engine,
+        "case": row.case,
+        "draw": row.draw,
+        "seed": row.changes[SEED],
+    }
+    for key, value in row.varied.items():
+        found |= columns_of(key, value)
+    if metrics is None:
+        none = {"findings": "[]", "finding_kinds": "", "events": "[]"}  # every file has these columns
+        return {**found, "outcome": REFUSED, "reason": refusal, **none}
+    findings = metrics["findings"]
+    found |= {
+        "outcome": metrics["outcome"],
+        "reason": metrics["failure"],
+        "findings": json.dumps(findings),
+        "finding_kinds": ",".join(dict.fromkeys(kind for _, kind, _ in findings)),
+        "events": json.dumps(metrics["events"]),
+    }
+    for name in _kept(chunk.keep.metrics, metrics):
+        if metrics[name] is not None:  # whether it is one number or a list is known of the others
+            found |= columns_of(name, metrics[name])
+    return found
+
+
+def _kept(chosen: Sequence[str], metrics: Mapping[str, Any]) -> Iterable[str]:
+    """The names of the metrics that go into the table, beside those of `ALWAYS`."""
+    known = [name for name in metrics if name not in (*ALWAYS, *NOT_KEPT)]
+    return [name for name in known if not chosen or name in chosen]
+
+
+def _channels(flight: Flight, names: Sequence[str]) -> dict[str, Array]:
+    """The chosen channels that a flight has, row-major, and its time."""
+    has = (*flight, *(name for name, (*both, _) in DERIVED.items() if set(both) <= set(flight)))
+    kept = {name: flight[name].ravel() for name in names if name in has}
+    return {f"{CHANNEL}{name}": values for name, values in {"time": flight.time, **kept}.items()}
+
+
+def write_columns(columns: Columns, path: Path, about: Mapping[str, str]) -> None:
+    """Write a table as a Parquet file with checksums, whole or not at all.
+
+    Args:
+        columns: from `columns_of_rows`.
+        path: of the file, called by the name of its chunk.
+        about: what the file says of itself.
+
+    Raises:
+        InputError: the file cannot be written: no space left, or no right to.
+    """
+    with extra("study", "a study"):
+        import pyarrow as pa
+
+    arrays = {name: _array(pa, name, values) for name, values in columns.items()}
+    table = pa.table(arrays).replace_schema_metadata({f"tandemlift.{key}": value for key, value in about.items()})
+    write_checked(table, path)
+
+
+def _array(pa: Any, name: str, values: list[Any]) -> Any:
+    """A column of one type: whole numbers, numbers, truths, texts, or lists of numbers."""
+    known = [value for value in values if value is not None]
+    if name in WHOLE:
+        return pa.array(values, pa.int64())
+    if known and all(isinstance(value, bool) for value in known):
+        return pa.array(values, pa.bool_())
+    if known and all(isinstance(value, np.ndarray) for value in known):
+        return pa.array(values, pa.list_(pa.float64()))
+    if known and any(isinstance(value, str) for value in known):
+        return pa.array([value if value is None or isinstance(value, str) else json.dumps(value) for value in values])
+    return pa.array(values, pa.float64())

@@ -1,0 +1,51 @@
+"""What a study will take, from a few of its flights."""
+
+from __future__ import annotations
+
+import tempfile
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+from tandemlift.analysis.studies.design.plan import StudyPlan
+from tandemlift.analysis.studies.design.settings import BLOCK
+from tandemlift.analysis.studies.execution.chunk import Chunk, chunk_count
+from tandemlift.analysis.studies.execution.columns import write_columns
+from tandemlift.analysis.studies.execution.flying import fly_chunk
+
+
+class StudyEstimate(NamedTuple):
+    """What a study will take: rows, chunks, computing time of one thread [s], and bytes of all its files."""
+
+    rows: int
+    chunks: int
+    seconds: float
+    size: int
+
+
+def estimate(plan: StudyPlan) -> StudyEstimate:
+    """What a study will take, from the first block of each variant, flown twice: the first time compiles."""
+    per_variant = plan.count // len(plan.variants)
+    seconds, size, chunks = 0.0, 0.0, chunk_count(plan)
+    with tempfile.TemporaryDirectory() as folder:
+        for variant in range(len(plan.variants)):
+            first = variant * per_variant
+            block = _sample(plan, first, first + min(BLOCK, per_variant))
+            fly_chunk(block)
+            began = time.perf_counter()
+            columns = fly_chunk(block)
+            seconds += (time.perf_counter() - began) / len(block.rows) * per_variant
+            sizes = []
+            for times in (1, 2):
+                path = Path(folder) / f"{variant}-{times}.parquet"
+                write_columns({name: values * times for name, values in columns.items()}, path, {})
+                sizes.append(path.stat().st_size)
+            per_row = max(0.0, sizes[1] - sizes[0]) / len(block.rows)
+            size += (sizes[0] * chunks + per_row * plan.count) / len(plan.variants)
+    return StudyEstimate(plan.count, chunks, seconds, round(size))
+
+
+def _sample(plan: StudyPlan, first: int, last: int) -> Chunk:
+    rows = tuple(plan.rows(first, last))
+    variants = {row.variant: plan.variants[row.variant] for row in rows}
+    return Chunk("sample", first, last, rows, variants, plan.settings.keep)

@@ -1,0 +1,203 @@
+"""Flying the chunks of a study, or of other work, one by one on workers; those that are flown already are left out.
+
+Nothing but the files of finished chunks says what is done. So a study can be stopped, killed, started again and spread
+over processes and machines that share a folder, and gives the same rows.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, deque
+from collections.abc import Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from functools import partial
+from typing import Any, NamedTuple, Protocol
+
+from tandemlift.analysis.studies.design.plan import StudyPlan
+from tandemlift.analysis.studies.execution.chunk import chunk_of
+from tandemlift.analysis.studies.execution.files import ChunkFiles
+from tandemlift.analysis.studies.execution.flying import fly_chunk
+from tandemlift.analysis.studies.execution.workers import Task, Workers
+from tandemlift.core.errors import InputError
+from tandemlift.core.types import Progress
+
+WAITING = 2  # chunks handed over for each worker, so that none waits
+BEAT = 1.0  # s, after which progress is told although no chunk has ended
+MOST_LOST = 5  # times that a chunk is handed over again because its worker ended
+
+
+class StudyPart(NamedTuple):
+    """Part `number` of `parts`, from 1: every so many chunks."""
+
+    number: int = 1
+    parts: int = 1
+
+
+WHOLE = StudyPart()
+
+
+def part_from(text: str) -> StudyPart:
+    """The part that a text such as 3/40 names.
+
+    Raises:
+        InputError: it has another form.
+    """
+    number, slash, parts = text.partition("/")
+    if not (slash and number.isdecimal() and parts.isdecimal() and 1 <= int(number) <= int(parts)):
+        raise InputError(f"part = {text!r}: must be K/N with 1 ≤ K ≤ N, such as 3/40")
+    return StudyPart(int(number), int(parts))
+
+
+class Work(Protocol):
+    """Chunks that are flown into files."""
+
+    @property
+    def names(self) -> Sequence[str]:
+        """Of all chunks; that of a chunk says all that decides its rows."""
+        ...
+
+    def size(self, i: int) -> int:
+        """Number of rows of chunk i."""
+        ...
+
+    def task(self, i: int) -> Task:
+        """What flies chunk i, on any worker."""
+        ...
+
+
+class StudyWork:
+    """The chunks of a study.
+
+    Args:
+        plan: of the study.
+        names: of its chunks.
+    """
+
+    def __init__(self, plan: StudyPlan, names: Sequence[str]) -> None:
+        self.names, self._plan = names, plan
+
+    def size(self, i: int) -> int:
+        """See `Work`."""
+        return min(self._plan.rows_per_chunk, self._plan.count - i * self._plan.rows_per_chunk)
+
+    def task(self, i: int) -> Task:
+        """See `Work`."""
+        return partial(fly_chunk, chunk_of(self._plan, i, self.names[i]))
+
+
+def run_chunks(
+    work: Work, files: ChunkFiles, workers: Workers, part: StudyPart = WHOLE, progress: Progress | None = None
+) -> int:
+    """Fly all chunks of a part that are not flown yet.
+
+    Args:
+        work: the chunks.
+        files: receive what is flown.
+        workers: fly the chunks.
+        part: of the chunks to fly.
+        progress: called with (rows flown, rows of the part), at least every second or so.
+
+    Returns:
+        Number of chunks flown.
+
+    Raises:
+        InputError: a chunk cannot be flown or written; those that are done stay.
+    """
+    return _Run(work, files, workers, part, progress).run()
+
+
+class _Run:
+    """A run over the chunks of a part: those to do, those that others do, and those that are handed over."""
+
+    def __init__(
+        self, work: Work, files: ChunkFiles, workers: Workers, part: StudyPart, progress: Progress | None
+    ) -> None:
+        self.work, self.files, self.workers, self.progress = work, files, workers, progress
+        self.names = work.names
+        own = range(part.number - 1, len(self.names), part.parts)
+        self.todo = deque(i for i in own if not files.is_flown(self.names[i]))
+        self.others = deque[int]()
+        self.pending, self.claimed = dict[Future[Any], int](), set[int]()
+        self.lost, self.flown = Counter[int](), 0
+        self.total = sum(map(work.size, own))
+        self.done = self.total - sum(map(work.size, self.todo))
+
+    def run(self) -> int:
+        try:
+            self._tell()
+            self._hand_over()
+            while self.pending:
+                for future in wait(self.pending, BEAT, FIRST_COMPLETED).done:
+                    self._take(future)
+                    self._hand_over()
+                self._hand_over()  # to workers that have joined, although no chunk has ended
+                self._tell()
+        finally:
+            for future in self.pending:
+                future.cancel()
+            for i in list(self.claimed):
+                self._release(i)
+        return self.flown
+
+    def _tell(self) -> None:
+        while self.others and self.files.is_flown(self.names[self.others[0]]):
+            self.done += self.work.size(self.others.popleft())
+        if self.progress:
+            self.progress(self.done, self.total)
+
+    def _hand_over(self) -> None:
+        while len(self.pending) < WAITING * self.workers.count:
+            i = self._next()
+            if i is None:
+                return
+            self._submit(i)
+
+    def _submit(self, i: int) -> None:
+        self.pending[self.workers.submit(self.work.task(i))] = i
+
+    def _release(self, i: int) -> None:
+        self.files.release(self.names[i])
+        self.claimed.discard(i)
+
+    def _next(self) -> int | None:
+        """The next chunk to fly: those that other processes say they fly come last, for these may have been killed."""
+        while self.todo:
+            i = self.todo.popleft()
+            if not self.files.claim(self.names[i]):
+                self.others.append(i)
+                continue
+            self.claimed.add(i)
+            if not self.files.is_flown(self.names[i]):
+                return i
+            self._release(i)
+            self.done += self.work.size(i)
+        while self.others:
+            i = self.others.pop()
+            if not self.files.is_flown(self.names[i]):
+                return i
+            self.done += self.work.size(i)
+        return None
+
+    def _take(self, future: Future[Any]) -> None:
+        """Write the results of a chunk; if its worker ended, hand it over again."""
+        i = self.pending.pop(future)
+        try:
+            columns = self.workers.columns(future)
+        except BaseException as error:
+            if not self.workers.is_lost(error):
+                raise
+            self._fly_again(i, error)
+            return
+        if not self.files.is_flown(self.names[i]):
+            self.files.write(self.names[i], columns)
+        self._release(i)
+        self.done, self.flown = self.done + self.work.size(i), self.flown + 1
+
+    def _fly_again(self, i: int, error: BaseException) -> None:
+        self.lost[i] += 1
+        if self.lost[i] > MOST_LOST:
+            first = sum(map(self.work.size, range(i)))
+            raise InputError(
+                f"rows {first} to {first + self.work.size(i) - 1}: whatever worker flies them ends: {error} "
+                "What else is flown stays"
+            )
+        self._submit(i)

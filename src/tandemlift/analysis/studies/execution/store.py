@@ -1,0 +1,148 @@
+"""The folder of a study: what it flies, and one Parquet file for each chunk that was flown."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from tandemlift.analysis.studies.design.keys import leaves_of
+from tandemlift.analysis.studies.design.plan import StudyPlan
+from tandemlift.analysis.studies.design.study_files import checked_settings
+from tandemlift.analysis.studies.design.variants import variant_from
+from tandemlift.analysis.studies.execution.chunk import chunk_names, sources_digest, study_digest
+from tandemlift.analysis.studies.execution.files import ChunkFiles
+from tandemlift.analysis.studies.execution.kept import check_kept
+from tandemlift.core.errors import InputError, extra
+from tandemlift.core.files import atomic_write
+from tandemlift.core.toml import shown
+from tandemlift.missions import format_toml
+
+STUDY, PLAN, CHUNKS = "study.toml", "study.json", "chunks"
+FORMAT = 2
+
+
+class StudyFolder:
+    """The folder of a study.
+
+    Args:
+        path: of the folder.
+
+    Attributes:
+        digest: of the study.
+        count: number of rows.
+        rows_per_chunk: rows of each chunk but the last.
+        sources: digest of the sources that fly it.
+        files: those of its chunks.
+
+    Raises:
+        InputError: the folder holds no study.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._said = _plan_in(path)
+        self.digest, self.sources = self._said["digest"], self._said["sources"]
+        self.count, self.rows_per_chunk = self._said["rows"], self._said["rows_per_chunk"]
+        self.files = ChunkFiles(path / CHUNKS, {"study": self.digest, "sources": self.sources})
+
+    def plan(self) -> StudyPlan:
+        """The plan, from what the folder holds alone."""
+        variants = [variant_from(said) for said in self._said["variants"]]
+        return StudyPlan(checked_settings(self._said["settings"], str(self.path / PLAN)), variants)
+
+    def names(self) -> list[str]:
+        """The names of all chunks, in order."""
+        return list(chunk_names(self.digest, self.count, self.rows_per_chunk))
+
+
+def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
+    """The folder of a study, made if it is not there.
+
+    Raises:
+        InputError: what is to be kept does not exist, or the folder holds another study or cannot be written to.
+    """
+    with extra("study", "a study"):  # before anything flies
+        import pyarrow  # noqa: F401
+    check_kept(plan)
+    contents = _contents(plan)
+    if (path / PLAN).exists():
+        folder = StudyFolder(path)
+        if folder.digest != contents["digest"]:
+            if name := _changed_file(folder, plan):
+                said = f"{path} was flown with another version of {name}"
+                raise InputError(f"{said}: choose another --out, or remove the folder to fly it anew")
+            raise InputError(f"{path} holds another study: {_difference(folder, plan)}; choose another --out")
+        folder.files.clean()
+        return folder
+    _make(path, contents)
+    return StudyFolder(path)
+
+
+def _contents(plan: StudyPlan) -> dict[str, Any]:
+    """What the file of a plan says; the digest of all else in it is that of the study."""
+    contents = {
+        "format": FORMAT,
+        "sources": sources_digest(),
+        "rows": plan.count,
+        "rows_per_chunk": plan.rows_per_chunk,
+        "varied": plan.varied,
+        "settings": plan.settings.model_dump(mode="json", exclude_none=True),
+        "variants": [variant._asdict() for variant in plan.variants],
+    }
+    return {**contents, "digest": study_digest(contents)}
+
+
+def _make(path: Path, contents: dict[str, Any]) -> None:
+    try:
+        (path / CHUNKS).mkdir(parents=True, exist_ok=True)
+        with atomic_write(path / STUDY) as partial:
+            partial.write_text(format_toml(contents["settings"]), "utf-8")
+        with atomic_write(path / PLAN) as partial:  # last: with it, the folder is a study's
+            partial.write_text(json.dumps(contents) + "\n", "utf-8")
+    except OSError as error:
+        raise InputError(f"--out {path}: cannot be made or written to: {error.strerror or error}") from None
+
+
+def _plan_in(path: Path) -> dict[str, Any]:
+    try:
+        said: dict[str, Any] = json.loads((path / PLAN).read_text("utf-8"))
+        made_by, digest = said["format"], said["digest"]
+    except FileNotFoundError:
+        raise InputError(f"{path} is not the folder of a study: it has no {PLAN}") from None
+    except OSError as error:
+        raise InputError(f"{path / PLAN}: {error.strerror or error}") from None
+    except (ValueError, KeyError, TypeError, RecursionError):
+        raise InputError(f"{path / PLAN} is not the plan of a study") from None
+    if made_by != FORMAT:
+        raise InputError(f"{path}: the study was made by another version of tandemlift; fly it again")
+    if digest != study_digest(said):
+        again = "Remove this file and start the study again: what is flown stays"
+        raise InputError(f"{path / PLAN} is damaged, or was edited: it does not fit its digest. {again}")
+    return said
+
+
+def _changed_file(folder: StudyFolder, plan: StudyPlan) -> str:
+    """The controller's file or recording that alone has changed since a study was flown; "" if there is none."""
+    there = [variant_from(said) for said in folder._said["variants"]]
+    settings = plan.settings.model_dump(mode="json", exclude_none=True)
+    if (folder._said["settings"], folder.sources, len(there)) != (settings, sources_digest(), len(plan.variants)):
+        return ""
+    for flown, here in zip(there, plan.variants, strict=True):
+        for old, new in ((flown.controller_file, here.controller_file), (flown.recording, here.recording)):
+            if old != new and old[:1] == new[:1]:
+                return str(new[0])
+    return ""
+
+
+def _difference(folder: StudyFolder, plan: StudyPlan) -> str:
+    """The first difference of the study in a folder from another one."""
+    there, here = folder._said["settings"], plan.settings.model_dump(mode="json", exclude_none=True)
+    sides = [dict(leaves_of(side, lambda _: False)) for side in (there, here)]
+    for place in {**sides[0], **sides[1]}:
+        if sides[0].get(place) != sides[1].get(place):
+            values = ["none" if place not in side else shown(side[place]) for side in sides]
+            return f"its {'.'.join(map(str, place))} is {values[0]}, here it is {values[1]}"
+    if folder.sources != sources_digest():
+        return f"it was flown by sources with digest {folder.sources}, these have {sources_digest()}"
+    return "its missions differ from those that their files say now"

@@ -1,0 +1,127 @@
+"""The Parquet files of a study as one table: chosen columns, file by file, so that memory holds these alone."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Collection, Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from tandemlift.analysis.studies.execution.checked_file import CheckedFile, DamagedFile
+from tandemlift.core.errors import InputError, extra, unknown
+
+if TYPE_CHECKING:
+    import pyarrow
+
+CHANNEL = "flight."  # begins the name of a kept channel's column
+CODED = ("mission", "controller", "engine", "case", "outcome", "finding_kinds")  # few different texts in many rows
+ABOUT = "tandemlift."  # begins what a file says of itself
+THREADS = 4  # that read files; PyArrow reads without Python
+MARK = b"PAR1"  # begins and ends a whole Parquet file
+
+
+class ChunkFile(NamedTuple):
+    """A file of results, and its rows: first ≤ row < last."""
+
+    path: Path
+    first: int
+    last: int
+
+
+def check_whole(path: Path) -> None:
+    """Check that a file begins and ends as a Parquet file does.
+
+    Raises:
+        InputError: it does not, or cannot be read.
+    """
+    try:
+        with path.open("rb") as file:
+            begin, size = file.read(len(MARK)), file.seek(0, 2)
+            file.seek(max(size - len(MARK), 0))
+            end = file.read()
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror or error}") from None
+    if (begin, end) != (MARK, MARK):
+        raise DamagedFile(path, "it is cut short, or no Parquet file")
+
+
+def _opened(file: ChunkFile, coded: Collection[str] = ()) -> CheckedFile:
+    """A file, with some columns as codes of their texts."""
+    try:
+        return CheckedFile(file.path, coded)
+    except OSError as error:
+        raise DamagedFile(file.path, error) from None
+
+
+def columns_in(files: Iterable[ChunkFile]) -> tuple[str, ...]:
+    """The columns of all files together, in the order in which they first come."""
+    with ThreadPoolExecutor(THREADS) as pool:
+        names = pool.map(lambda file: _opened(file).names, files)
+        return tuple(dict.fromkeys(itertools.chain.from_iterable(names)))
+
+
+def about(file: ChunkFile) -> dict[str, str]:
+    """What a file says of itself: study, chunk, sources and version of tandemlift."""
+    said = {key.decode(): value.decode() for key, value in _opened(file).about.items()}
+    return {key.removeprefix(ABOUT): value for key, value in said.items() if key.startswith(ABOUT)}
+
+
+def _read_file(file: ChunkFile, names: Sequence[str], coded: Collection[str]) -> pyarrow.Table:
+    """Chosen columns of a file, of those that it has."""
+    opened = _opened(file, coded)
+    try:
+        table: pyarrow.Table = opened.read(names)
+    except OSError as error:
+        raise DamagedFile(file.path, error) from None
+    if opened.rows != file.last - file.first:
+        raise DamagedFile(file.path, f"it has {opened.rows} rows in place of {file.last - file.first}")
+    return table
+
+
+def read(files: Sequence[ChunkFile], names: Sequence[str], *, coded: bool = False) -> pyarrow.Table:
+    """Chosen columns of all files as one table, in the order of the rows.
+
+    Args:
+        files: of a study, in the order of their rows.
+        names: of columns; null in rows of a file that lacks one.
+        coded: whether columns with few different texts hold codes of them, which takes less memory.
+
+    Raises:
+        InputError: there is no such column, a file is damaged, or PyArrow is not installed (extra: study).
+    """
+    codes = [name for name in names if name in CODED] if coded else []
+    with ThreadPoolExecutor(THREADS) as pool:
+        parts = list(pool.map(lambda file: _read_file(file, names, codes), files))
+    known = {name for part in parts for name in part.column_names}
+    if files and any(name not in known for name in names):
+        missing = next(name for name in names if name not in known)
+        raise unknown("column", missing, columns_in(files))
+    with extra("study", "load_study"):
+        import pyarrow
+    columns = {name: _joined(parts, name) for name in names}
+    return pyarrow.table(columns).unify_dictionaries()
+
+
+def _joined(parts: Sequence[pyarrow.Table], name: str) -> pyarrow.ChunkedArray:
+    """A column of all files; of one type, although a file in which it is empty has another one."""
+    import pyarrow
+
+    found = [part[name] if name in part.column_names else None for part in parts]
+    kinds = {column.type for column in found if column is not None and column.null_count < len(column)}
+    kind = kinds.pop() if len(kinds) == 1 else _common_type(kinds)
+    chunks = list[Any]()
+    for part, column in zip(parts, found, strict=True):
+        if column is None or column.null_count == len(column):
+            chunks.append(pyarrow.nulls(part.num_rows, kind))
+        else:
+            chunks += column.cast(kind).chunks
+    return pyarrow.chunked_array(chunks, kind)
+
+
+def _common_type(kinds: Iterable[pyarrow.DataType]) -> pyarrow.DataType:
+    """The type that holds values of several: numbers if they are, else texts; numbers of none."""
+    import pyarrow
+
+    numbers = all(pyarrow.types.is_integer(kind) or pyarrow.types.is_floating(kind) for kind in kinds)
+    return pyarrow.float64() if numbers else pyarrow.string()

@@ -1,0 +1,72 @@
+"""Machine code of any function of values over rows of numbers, for tests, benchmarks and studies of single laws."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from tandemlift.compiler.jit import machine
+from tandemlift.compiler.tracer.fused import traced
+from tandemlift.compiler.tracer.graph import Graph, symbols
+from tandemlift.compiler.tracer.llvm import Function
+from tandemlift.compiler.tracer.rolled import Place
+from tandemlift.compiler.tracer.text import Module
+from tandemlift.core.algebra.layout import leaves
+from tandemlift.core.types import Array
+
+
+def written(function: Callable[..., Any], *likes: Any, lanes: int = 1, rolls_from: int = 0) -> tuple[str, int]:
+    """The text of a module whose `rows` evaluates a function as `compiled` does, and the number of its results."""
+    graph, ends = Graph(rolls_from), list(itertools.accumulate(map(leaves, likes), initial=0))
+    arguments = [graph.inputs("x", like, first) for like, first in zip(likes, ends, strict=False)]
+    found = symbols(graph, traced(function)(*arguments))
+    module = Module()
+    f = Function(module, graph, lanes, "i64 @rows(ptr %x, ptr %y, i64 %count) #0")
+    with f.repeat("%count") as row:
+        x = f.at("%x", f.integer("mul", row, ends[-1]))
+        y = f.at("%y", f.integer("mul", row, len(found)))
+        f.read["x"] = lambda i: Place(x, i)
+        f.put(y, 0, found)
+    f.end("i64 0")
+    return module.text, len(found)
+
+
+def compiled(
+    function: Callable[..., Any],
+    *likes: Any,
+    lanes: int = 1,
+    level: machine.Level = machine.BEST,
+    rolls_from: int = 0,
+) -> Callable[[Array], Array]:
+    """Machine code of a function of values.
+
+    Args:
+        function: a law, or any function of values that can be traced; a law is fused as in a flight.
+        likes: a value laid out like each of its arguments (a number for a number).
+        lanes: rows per instruction, 1 or a power of two.
+        level: optimisation level.
+        rolls_from: size from which on sets are handled in loops; 0 for never.
+
+    Returns:
+        A function from (rows, numbers of all arguments) to (rows, numbers of what it returns), depth first. The
+        last row is repeated up to a multiple of the lanes.
+
+    Raises:
+        TraceError: the function cannot be traced.
+    """
+    text, height = written(function, *likes, lanes=lanes, rolls_from=rolls_from)
+    width = sum(map(leaves, likes))
+    code = machine.Loaded(machine.compiled(text, level), ["rows"])
+
+    def call(rows: Array) -> Array:
+        blocks = -(-len(rows) // lanes)
+        filled = np.concatenate([rows, np.repeat(rows[-1:], blocks * lanes - len(rows), axis=0)])
+        x = np.ascontiguousarray(filled.reshape(blocks, lanes, width).swapaxes(1, 2))
+        y = np.empty((blocks, height, lanes))
+        machine.ROWS(code.addresses["rows"])(x.ctypes.data, y.ctypes.data, blocks)
+        return y.swapaxes(1, 2).reshape(blocks * lanes, height)[: len(rows)]
+
+    return call

@@ -1,0 +1,216 @@
+"""A cache of machine code on disk: one file for each object, in a folder that belongs to the user.
+
+Files are written atomically. A file is read only if it belongs to the user, nobody else can write it, and its checksum
+is right; otherwise it is made anew. The folder keeps the newest `MOST_BYTES`. No function here raises: without a usable
+folder, everything is compiled.
+
+The key of code is a hash of its module as text, the processor and the compiler's version. Which module belongs to what
+sources, layouts of values and versions is an entry of its own, so that code on disk is found without tracing.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import hashlib
+import inspect
+import json
+import linecache
+import os
+import stat
+import sys
+import tempfile
+from collections.abc import Iterable, Mapping
+from importlib import metadata
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tandemlift.compiler.tracer.refusal import is_ours
+from tandemlift.core.algebra.law import LAWS
+from tandemlift.core.algebra.layout import is_value
+
+MAGIC = b"tandemlift machine code 1\n"
+MOST_BYTES = 256 * 2**20
+CHECKSUM = 32  # bytes
+
+PACKAGE = Path(__file__).resolve().parents[2]
+FOLDERS = ("core/algebra", "parts", "compiler", "engines", "simulation/loop_code", "simulation/loop")
+FILES = ("simulation/pilot_api",)
+
+
+class StoredCode(NamedTuple):
+    """Object code, and the facts that its callers need."""
+
+    about: dict[str, Any]
+    code: bytes
+
+
+def root() -> Path:
+    """Where machine code is kept: TANDEMLIFT_CACHE if set, else the user's cache folder."""
+    given = os.environ.get("TANDEMLIFT_CACHE")
+    if given:
+        return Path(given)
+    import platformdirs
+
+    return Path(platformdirs.user_cache_dir("tandemlift"))
+
+
+def folder() -> Path | None:
+    """The folder of objects, made if necessary; None without a folder that only the user can write to."""
+    path = root() / "code"
+    try:
+        path.mkdir(mode=0o700, parents=True, exist_ok=True)
+        return path if _is_own(path.lstat(), stat.S_ISDIR) else None
+    except OSError:
+        return None
+
+
+def _is_own(found: os.stat_result, kind: Any) -> bool:
+    """Whether a file or folder belongs to the user and nobody else can write it."""
+    if not kind(found.st_mode):
+        return False
+    return not hasattr(os, "geteuid") or (found.st_uid == os.geteuid() and not found.st_mode & 0o022)
+
+
+def path_of(key: str) -> Path | None:
+    """The file of a key, whether it exists or not."""
+    home = folder()
+    return home and home / f"{key}.o"
+
+
+def read(key: str) -> StoredCode | None:
+    """The entry of a key, or None without one that can be trusted; an untrusted one is removed."""
+    path = path_of(key)
+    if path is None:
+        return None
+    try:
+        handle = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0))
+        with open(handle, "rb") as file:
+            entry = _entry(file.read()) if _is_own(os.fstat(handle), stat.S_ISREG) else None
+        os.utime(path) if entry else path.unlink()
+        return entry
+    except OSError:
+        return None
+
+
+def _entry(data: bytes) -> StoredCode | None:
+    """The entry in a file, or None if the file is damaged."""
+    body = data[len(MAGIC) + CHECKSUM :]
+    if not data.startswith(MAGIC) or hashlib.sha256(body).digest() != data[len(MAGIC) :][:CHECKSUM]:
+        return None
+    about, newline, code = body.partition(b"\n")
+    return StoredCode(json.loads(about), code) if newline else None
+
+
+def write(key: str, entry: StoredCode) -> bool:
+    """Store an entry; whether that was possible."""
+    path = path_of(key)
+    if path is None:
+        return False
+    body = json.dumps(entry.about).encode() + b"\n" + entry.code
+    try:
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=".")  # readable and writable by the user only
+    except OSError:
+        return False
+    try:
+        with open(handle, "wb") as file:
+            file.write(MAGIC + hashlib.sha256(body).digest() + body)
+        os.replace(name, path)
+    except OSError:
+        with contextlib.suppress(OSError):
+            os.unlink(name)
+        return False
+    _trim(path.parent)
+    return True
+
+
+def remove(key: str) -> None:
+    """Remove an entry that is no longer needed."""
+    path = path_of(key)
+    if path is not None:
+        with contextlib.suppress(OSError):
+            path.unlink()
+
+
+def _trim(home: Path) -> None:
+    """Remove the least recently used entries beyond `MOST_BYTES`."""
+    with contextlib.suppress(OSError):
+        files = sorted(((f.stat().st_mtime, f.stat().st_size, f) for f in home.iterdir()), reverse=True)
+        total = 0
+        for _, size, file in files:
+            total += size
+            if total > MOST_BYTES:
+                file.unlink(missing_ok=True)
+
+
+def classes(value: Any) -> set[type]:
+    """The classes of nested values."""
+    if not isinstance(value, tuple):
+        return set()
+    own = {type(value)} if is_value(value) else set()
+    return own.union(*map(classes, value))
+
+
+def sources(value: Any) -> list[Path]:
+    """All source files that determine the code for values like this one."""
+    own = {p for folder in FOLDERS for p in (PACKAGE / folder).rglob("*.py")}
+    own |= {PACKAGE / f"{name}.py" for name in FILES}
+    theirs = {Path(inspect.getfile(c)) for c in classes(value) if not c.__module__.startswith("tandemlift.")}
+    if theirs:  # a user's laws may call laws of other files
+        files = {Path(law.__code__.co_filename) for law in LAWS if not is_ours(law.__code__)}
+        theirs |= {path for path in files if path.is_file()}
+    return sorted(own | theirs)
+
+
+@functools.lru_cache(maxsize=4096)
+def _content(path: Path, changed: int, size: int) -> bytes:
+    return path.read_bytes()
+
+
+def content(path: Path) -> bytes:
+    """Content of a file; of this package that at its first use, of a user's controller its text, for they run."""
+    if path.is_relative_to(PACKAGE):
+        return _content(path, 0, 0)
+    entry: tuple[Any, ...] = linecache.cache.get(str(path), ())
+    if len(entry) == 4 and entry[1] is None:  # put there by `run_controller`, and never taken out
+        return "".join(entry[2]).encode()
+    found = path.stat()
+    return _content(path, found.st_mtime_ns, found.st_size)
+
+
+def described(value: Any) -> str:
+    """The layout of a nested value, or of a tuple of them, as text."""
+    if not isinstance(value, tuple):
+        return "n"
+    kind = type(value)
+    return f"{kind.__module__}.{kind.__qualname__}({','.join(map(described, value))})"
+
+
+def _of_compiler() -> list[Path]:
+    """The sources of tracer and compiler."""
+    return list((PACKAGE / "compiler").rglob("*.py"))
+
+
+def key_of_module(text: str, about: Mapping[str, Any]) -> str:
+    """The key of a module as text, with what its callers need to know."""
+    from tandemlift.compiler.jit.machine import processor
+
+    facts = metadata.version("llvmlite"), processor(), json.dumps(about, sort_keys=True)
+    return hashlib.sha256(f"{facts} {text}".encode()).hexdigest()[:32]
+
+
+def key_of(value: Any, *more: Any, files: Iterable[Path] = ()) -> str:
+    """The key of code for values laid out like this one.
+
+    Args:
+        value: nested, or a tuple of such.
+        more: further values that determine the code.
+        files: its sources beside tracer and compiler, if it is not the code of a flight.
+    """
+    from tandemlift.compiler.jit.machine import processor
+
+    versions = sys.version_info[:2], metadata.version("llvmlite"), processor()
+    digest = hashlib.sha256(f"{versions} {described(value)} {more}".encode())
+    for path in sorted([*files, *_of_compiler()]) if files else sources(value):
+        digest.update(path.name.encode() + b"\0" + content(path) + b"\0")
+    return digest.hexdigest()[:32]

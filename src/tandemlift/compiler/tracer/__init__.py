@@ -1,0 +1,32 @@
+"""The tracer of the laws: it writes them as a graph, and the graph as LLVM text.
+
+`symbol` and `graph` build the graph; `fused` makes the copy of a law that is traced; `elementary` has the functions
+without a machine instruction; `llvm` writes the graph as text, which `jit` compiles.
+"""
+
+from tandemlift.compiler.tracer import elementary  # gives symbols their functions
+from tandemlift.compiler.tracer.fused import rounded_twice, traced, tracer
+from tandemlift.compiler.tracer.graph import LEAVES, Graph, symbols, written_out
+from tandemlift.compiler.tracer.llvm import Function
+from tandemlift.compiler.tracer.refusal import TraceError, refused
+from tandemlift.compiler.tracer.rolled import Place
+from tandemlift.compiler.tracer.symbol import Symbol
+from tandemlift.compiler.tracer.text import Module, double
+
+__all__ = [
+    "LEAVES",
+    "Function",
+    "Graph",
+    "Module",
+    "Place",
+    "Symbol",
+    "TraceError",
+    "double",
+    "elementary",
+    "refused",
+    "rounded_twice",
+    "symbols",
+    "traced",
+    "tracer",
+    "written_out",
+]

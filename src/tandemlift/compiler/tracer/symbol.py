@@ -1,0 +1,294 @@
+"""Symbols: numbers that are not known yet. Operations on them are written into a graph.
+
+Operations on constants alone are folded, rounded as IEEE 754 says.
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+from fractions import Fraction
+from types import ModuleType
+from typing import Any, ClassVar
+
+from tandemlift.compiler.tracer.nodes import Nodes
+from tandemlift.compiler.tracer.refusal import refused_here
+from tandemlift.core.algebra.vector import is_set
+
+NAMES = {"f": "a number", "b": "a truth", "i": "an integer"}
+
+
+class Symbol:
+    """A number that is not known yet, or a large set of such numbers, which machine code handles in loops."""
+
+    __slots__ = ("graph", "node", "type")
+    functions: ClassVar[
+        ModuleType
+    ]  # elementary functions of symbols, for `core.algebra.ops`; set by `compiler.tracer.elementary`
+    __array_ufunc__ = None  # a NumPy scalar on the left defers to our operators
+    __hash__ = object.__hash__
+
+    def __init__(self, graph: Nodes, node: int, type: str) -> None:
+        self.graph, self.node, self.type = graph, node, type
+
+    @property
+    def rolled(self) -> int:
+        """Size of the set; 0 for a single number."""
+        return self.graph.counts[self.node]
+
+    def packed(self, value: Any) -> Any:
+        """A set of values as one symbol; any other value unchanged."""
+        return Symbol(self.graph, self.graph.pack(value), "f") if is_set(value) else value
+
+    def __len__(self) -> int:
+        if not self.rolled:
+            raise refused_here("takes the length of a number")
+        return self.rolled
+
+    def __getitem__(self, which: Any) -> Any:
+        count, graph = len(self), self.graph
+        if isinstance(which, slice):
+            first, _, step = which.indices(count)
+            return Symbol(graph, graph.take(self.node, first, step, len(range(count)[which])), "f")
+        return Symbol(graph, graph.get(self.node, range(count)[which]), "f")
+
+    def __add__(self, other: Any) -> Any:
+        return _arithmetic("fadd", "add", self, other)
+
+    def __radd__(self, other: Any) -> Any:
+        return _arithmetic("fadd", "add", other, self)
+
+    def __sub__(self, other: Any) -> Any:
+        return _arithmetic("fsub", "sub", self, other)
+
+    def __rsub__(self, other: Any) -> Any:
+        return _arithmetic("fsub", "sub", other, self)
+
+    def __mul__(self, other: Any) -> Any:
+        return _arithmetic("fmul", "mul", self, other)
+
+    def __rmul__(self, other: Any) -> Any:
+        return _arithmetic("fmul", "mul", other, self)
+
+    def __truediv__(self, other: Any) -> Any:
+        return _arithmetic("fdiv", "", self, other)
+
+    def __rtruediv__(self, other: Any) -> Any:
+        return _arithmetic("fdiv", "", other, self)
+
+    def __neg__(self) -> Any:
+        return _made(self.graph, "fneg", self)
+
+    def __pos__(self) -> Any:
+        return self
+
+    def __abs__(self) -> Any:
+        return _made(self.graph, "fabs", self)
+
+    def __lt__(self, other: Any) -> Any:
+        return _compared("olt", "slt", self, other)
+
+    def __le__(self, other: Any) -> Any:
+        return _compared("ole", "sle", self, other)
+
+    def __gt__(self, other: Any) -> Any:
+        return _compared("ogt", "sgt", self, other)
+
+    def __ge__(self, other: Any) -> Any:
+        return _compared("oge", "sge", self, other)
+
+    def __eq__(self, other: Any) -> Any:
+        return _compared("oeq", "eq", self, other)
+
+    def __ne__(self, other: Any) -> Any:
+        return _compared("une", "ne", self, other)
+
+    def __and__(self, other: Any) -> Any:
+        return _bitwise("and", self, other)
+
+    def __or__(self, other: Any) -> Any:
+        return _bitwise("or", self, other)
+
+    def __xor__(self, other: Any) -> Any:
+        return _bitwise("xor", self, other)
+
+    __rand__, __ror__, __rxor__ = __and__, __or__, __xor__
+
+    def __invert__(self) -> Any:
+        return _bitwise("xor", self, self.type == "b" or -1)
+
+    def __lshift__(self, count: int) -> Any:
+        return _bitwise("shl", self, count)
+
+    def __rshift__(self, count: int) -> Any:
+        return _bitwise("ashr", self, count)
+
+    def __pow__(self, power: Any) -> Any:
+        return self.graph.power(self, power)
+
+    def __rpow__(self, base: Any) -> Any:
+        return self.graph.power(base, self)
+
+    def __bool__(self) -> bool:
+        return self.graph.truth(self)
+
+    def __float__(self) -> float:
+        return self.graph.plain(self)
+
+    def __int__(self) -> int:
+        return int(self.graph.plain(self, rounded=True))
+
+    __index__ = __trunc__ = __int__
+
+    def __round__(self, digits: int | None = None) -> Any:
+        return round(self.graph.plain(self, rounded=True), digits)
+
+    def __iter__(self) -> Any:
+        if self.rolled:
+            return (self[i] for i in range(self.rolled))
+        raise refused_here("takes a number apart as if it were a vector")
+
+
+def _graph_of(*values: Any) -> Nodes:
+    return next(v.graph for v in values if isinstance(v, Symbol))
+
+
+def _is_integer(value: Any) -> bool:
+    """Whether a value is an integer of integer arithmetic."""
+    return value.type == "i" if isinstance(value, Symbol) else type(value) is int
+
+
+def _node_of(graph: Nodes, value: Any) -> int:
+    """The node of a value in its own type."""
+    if isinstance(value, tuple):
+        return graph.pack(value)
+    return value.node if isinstance(value, Symbol) else graph.constant(value)
+
+
+def _type_of(value: Any) -> str:
+    if isinstance(value, Symbol):
+        return value.type
+    return "b" if isinstance(value, bool) else "i" if isinstance(value, int) else "f"
+
+
+def _is_operand(value: Any, other: Any) -> bool:
+    """Whether a value can be an operand next to another: a number, or a set next to a symbol of equal size."""
+    if isinstance(value, tuple):
+        return is_set(value) and isinstance(other, Symbol) and other.rolled == len(value)
+    if isinstance(value, (Symbol, float, int)):
+        return True
+    return hasattr(value, "__float__") and not getattr(value, "ndim", 0)
+
+
+def _arithmetic(op: str, whole: str, a: Any, b: Any) -> Any:
+    if not (_is_operand(a, b) and _is_operand(b, a)):
+        return _with_array(op, whole, a, b)
+    graph = _graph_of(a, b)
+    if whole and _is_integer(a) and _is_integer(b):
+        return Symbol(graph, graph.node(whole, (_node_of(graph, a), _node_of(graph, b)), "i"), "i")
+    if op in ("fmul", "fdiv") and not isinstance(b, Symbol) and b == 1.0:
+        return a
+    if op == "fmul" and not isinstance(a, Symbol) and a == 1.0:
+        return b
+    return _made(graph, op, a, b)
+
+
+def _with_array(op: str, whole: str, a: Any, b: Any) -> Any:
+    """Arithmetic of a symbol and a NumPy array, element by element; other operands are refused."""
+    array = a if getattr(a, "ndim", 0) else b
+    if not getattr(array, "ndim", 0):
+        return NotImplemented
+    made = array.astype(object)
+    for place, x in enumerate(array.flat):
+        made.flat[place] = _arithmetic(op, whole, *((x, b) if array is a else (a, x)))
+    return made
+
+
+def _made(graph: Nodes, op: str, *values: Any) -> Symbol:
+    """A new double from doubles."""
+    return Symbol(graph, graph.node(op, tuple([graph.number(v) for v in values]), "f"), "f")
+
+
+def _compared(predicate: str, whole: str, a: Any, b: Any) -> Any:
+    if not _is_operand(b, a):
+        return NotImplemented
+    graph = _graph_of(a, b)
+    if _type_of(a) == _type_of(b) == "b" and whole in ("eq", "ne"):
+        differs = _bitwise("xor", a, b)
+        return differs if whole == "ne" else ~differs
+    if _is_integer(a) and _is_integer(b):
+        op, args = f"icmp {whole}", (_node_of(graph, a), _node_of(graph, b))
+    else:
+        op, args = f"fcmp {predicate}", (graph.number(a), graph.number(b))
+    return Symbol(graph, graph.node(op, args, "b"), "b")
+
+
+def _bitwise(op: str, a: Any, b: Any) -> Any:
+    graph, kind = _graph_of(a, b), _type_of(a)
+    if kind != _type_of(b) or kind == "f":
+        raise refused_here(f"joins {NAMES[kind]} and {NAMES[_type_of(b)]} bit by bit: only truths, or integers")
+    return Symbol(graph, graph.node(op, (_node_of(graph, a), _node_of(graph, b)), kind), kind)
+
+
+def select(condition: Any, a: Any, b: Any) -> Any:
+    """a where the condition holds, else b."""
+    if not isinstance(condition, Symbol):
+        return a if condition else b
+    graph = condition.graph
+    test = condition if condition.type == "b" else condition != 0
+    if a is b:
+        return a
+    kind = _type_of(a) if _type_of(a) == _type_of(b) and isinstance(a, Symbol) | isinstance(b, Symbol) else "f"
+    if kind == "f" and isinstance(a, bool) and isinstance(b, bool):
+        kind = "b"
+    nodes = [graph.number(v) if kind == "f" else _node_of(graph, v) for v in (a, b)]
+    if nodes[0] == nodes[1]:
+        return a
+    return Symbol(graph, graph.node("select", (test.node, *nodes), kind), kind)
+
+
+def unary(op: str, x: Any) -> Any:
+    """A root, a floor or an absolute value."""
+    return _made(x.graph, op, x)
+
+
+def converted(op: str, x: Any, kind: str) -> Any:
+    """A value in another type: `bitcast` keeps the bits, `fptosi` truncates to an integer."""
+    return Symbol(x.graph, x.graph.node(op, (x.node,), kind), kind)
+
+
+def once_rounded(a: Any, b: Any, c: Any) -> Any:
+    """a b + c of numbers or symbols, rounded once."""
+    if any(isinstance(v, Symbol) for v in (a, b, c)):
+        graph = _graph_of(a, b, c)
+        if not any(isinstance(v, (Symbol, tuple)) for v in (a, b)) and _is_exact(a, b):
+            return _made(graph, "fadd", a * b, c)
+        return _made(graph, "fma", a, b, c)
+    if all(isinstance(v, int) for v in (a, b, c)):
+        return a * b + c
+    if not (math.isfinite(a) and math.isfinite(b) and math.isfinite(c)):
+        return c if math.isfinite(a) and math.isfinite(b) else a * b + c
+    exact = Fraction(a) * Fraction(b) + Fraction(c)
+    try:
+        return float(exact) if exact else a * b + c
+    except OverflowError:
+        return math.inf if exact > 0 else -math.inf
+
+
+def _is_exact(a: Any, b: Any) -> bool:
+    """Whether a product of two numbers needs no rounding."""
+    return math.isfinite(a * b) and Fraction(a) * Fraction(b) == Fraction(a * b)
+
+
+def fma(a: Any, b: Any, c: Any) -> Any:
+    """a · b + c of the source of a law: rounded once for numbers, field by field for linear values."""
+    rolled = any(isinstance(v, Symbol) and v.rolled for v in (a, b, c))
+    if not any(isinstance(v, tuple) and not (rolled and is_set(v)) for v in (a, b, c)):
+        return once_rounded(a, b, c) if all(_type_of(v) != "b" for v in (a, b, c)) else operator.add(a * b, c)
+    kind = type(c)
+    fits = all(not isinstance(v, tuple) or type(v) is kind for v in (a, b))
+    product = not isinstance(a, tuple) or not isinstance(b, tuple) or getattr(kind, "componentwise", False)
+    if not (getattr(kind, "linear", False) and fits and product):
+        return a * b + c
+    columns = [v if isinstance(v, tuple) else (v,) * len(c) for v in (a, b)]
+    return kind(*map(fma, *columns, c))

@@ -1,0 +1,176 @@
+"""Keys of tables: what each is, in which unit, and what it may be; strict pydantic models."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+from typing import Annotated, Any, NamedTuple, get_args, get_origin
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
+from pydantic.fields import FieldInfo
+from pydantic_core import PydanticCustomError, core_schema
+
+__all__ = [
+    "AtLeastOne",
+    "AtLeastOne6",
+    "Axes3",
+    "Bandwidth",
+    "Delay",
+    "Exactly3",
+    "Fraction",
+    "KeyDescription",
+    "Length",
+    "NonNegative",
+    "NonNegative3",
+    "NonNegative6",
+    "PerAxis",
+    "Positive",
+    "Positive3",
+    "Positive6",
+    "Scale",
+    "Share",
+    "Size",
+    "Table",
+    "Tilt",
+    "Triple",
+    "description_of",
+    "key",
+]
+
+SMALLEST = 1e-300  # of a divisor: its inverse is finite
+
+
+def must(kind: str, words: str) -> PydanticCustomError:
+    """The error of a value that breaks a rule: 'must …'."""
+    return PydanticCustomError(kind, "must {words}", {"words": words})
+
+
+def divisor(value: float) -> float:
+    """A number whose inverse is finite."""
+    if value < SMALLEST:
+        raise must("size", f"be at least {SMALLEST}")
+    return value
+
+
+Positive = Annotated[float, Field(gt=0.0), AfterValidator(divisor)]
+NonNegative = Annotated[float, Field(ge=0.0)]
+AtLeastOne = Annotated[float, Field(ge=1.0)]
+Scale = Annotated[float, Field(ge=1e-6, le=1e6)]
+Size = Annotated[float, Field(ge=0.0, le=1e6)]
+Delay = Annotated[float, Field(ge=0.0, le=1.0)]  # s
+Tilt = Annotated[float, Field(gt=0.0, le=1.4)]  # rad
+Bandwidth = Annotated[float, Field(gt=0.0, le=1e4), AfterValidator(divisor)]  # rad/s
+Fraction = Annotated[float, Field(gt=0.0, le=1.0)]
+Share = Annotated[float, Field(ge=0.0, le=1.0)]
+Length = Annotated[float, Field(gt=0.0, le=1e3), AfterValidator(divisor)]  # m
+
+
+class Table(BaseModel):
+    """A strict, frozen table of a mission."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False, validate_default=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _lists_as_tuples(cls, data: Any) -> Any:
+        if not isinstance(data, dict):
+            return data
+        listed = {name: tuple(data[name]) for name in _tuples_of(cls) if isinstance(data.get(name), list)}
+        return {**data, **listed} if listed else data
+
+
+@functools.lru_cache(maxsize=256)
+def _tuples_of(table: type[BaseModel]) -> tuple[str, ...]:
+    """The keys of a table that hold tuples; kept, because every mission asks it of every table."""
+    kinds = {name: (field.annotation, *get_args(field.annotation)) for name, field in table.model_fields.items()}
+    return tuple(name for name, options in kinds.items() if any(get_origin(o) is tuple for o in options))
+
+
+def is_number(value: Any) -> bool:
+    """Whether a value is a whole or a real number."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+class PerAxis:
+    """Mark of a leaf given per axis: one number for all `count` axes (unless `single` is False), or one number each."""
+
+    def __init__(self, count: int, *, single: bool = True) -> None:
+        self.count, self.single = count, single
+
+    def describe(self, limits: str) -> str:
+        """What is allowed, in words; `limits` is what each number must keep to."""
+        return f"{'one number or ' if self.single else ''}a list of {self.count} numbers{limits and ', each ' + limits}"
+
+    def spread(self, value: Any) -> Any:
+        """The numbers of all axes."""
+        if self.single and is_number(value):
+            return (value,) * self.count
+        if isinstance(value, (list, tuple)) and len(value) == self.count and all(map(is_number, value)):
+            return tuple(value)
+        raise must("axes", f"be {self.describe('')}")
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        return core_schema.no_info_before_validator_function(self.spread, handler(source))
+
+
+Triple = tuple[float, float, float]
+Axes3 = Annotated[Triple, PerAxis(3)]
+Positive3 = Annotated[tuple[Positive, Positive, Positive], PerAxis(3)]
+NonNegative3 = Annotated[tuple[NonNegative, NonNegative, NonNegative], PerAxis(3)]
+Exactly3 = Annotated[Triple, PerAxis(3, single=False)]
+Positive6 = Annotated[tuple[Positive, Positive, Positive, Positive, Positive, Positive], PerAxis(6)]
+NonNegative6 = Annotated[
+    tuple[NonNegative, NonNegative, NonNegative, NonNegative, NonNegative, NonNegative], PerAxis(6)
+]
+AtLeastOne6 = Annotated[tuple[AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne], PerAxis(6)]
+
+
+BELIEVED = "chosen: near the iris's rotors, 0.0125 s up and 0.025 s down"
+TRIAL = "chosen; the baseline controllers are tuned with it (benchmarks/trial.toml)"
+DESCRIPTION = "key"  # names the description among what pydantic keeps of a field
+
+
+class KeyDescription(NamedTuple):
+    """What is said of a key beside its type and default; all of it in plain English, without a full stop.
+
+    Attributes:
+        unit: in SI, "1" for a number without a unit; None for what is no number.
+        meaning: what the key is.
+        source: where the default is from, or why it was chosen.
+        rule: what else holds for its value, beyond its type.
+        unset: what happens when the key is left out, for a key whose default is to be left out.
+        example: a value for the template, where the default is none or would say little.
+        choices: what each of its choices means.
+    """
+
+    unit: str | None = None
+    meaning: str = ""
+    source: str = ""
+    rule: str = ""
+    unset: str = ""
+    example: Any = None
+    choices: Mapping[str, str] = {}
+
+
+def key(
+    default: Any,
+    unit: str | None,
+    meaning: str,
+    *,
+    source: str = "",
+    rule: str = "",
+    unset: str = "",
+    example: Any = None,
+    choices: Mapping[str, str] | None = None,
+) -> Any:
+    """A field of a table with what is said of it; `...` as the default makes the key required. See `KeyDescription`."""
+    description = KeyDescription(unit, meaning, source, rule, unset, example, choices or {})
+    return Field(default, description=meaning, json_schema_extra={DESCRIPTION: description._asdict()})
+
+
+def description_of(field: FieldInfo) -> KeyDescription:
+    """What is said of a field; of one that was not made by `key`, no more than its description."""
+    extra = field.json_schema_extra
+    if isinstance(extra, dict) and DESCRIPTION in extra:
+        return KeyDescription(**extra[DESCRIPTION])  # type: ignore[arg-type]
+    return KeyDescription(meaning=field.description or "")

@@ -1,0 +1,190 @@
+"""The whole of a mission: its tables, and `[mission]` and `[[changes]]` themselves."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from html import escape
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, Field, SerializeAsAny, ValidationError, model_validator
+
+from tandemlift.core.errors import InputError
+from tandemlift.core.keys import NonNegative, Positive, Table, divisor, key, must
+from tandemlift.missions.tables.outcomes import CrashTable, FindingsTable, OutcomeTable, PromiseTable
+from tandemlift.parts.compliance.admittance import AdmittanceTable, with_feel
+from tandemlift.parts.contact.corridor import CorridorTable, WallTable
+from tandemlift.parts.contact.ground_table import GroundTable
+from tandemlift.parts.controllers import ControllerTable
+from tandemlift.parts.estimation.contact_table import ContactTable
+from tandemlift.parts.estimation.disturbance_observer import ObserverTable
+from tandemlift.parts.estimation.estimator_table import EstimatorTable
+from tandemlift.parts.guidance.compliance_table import ComplianceTable
+from tandemlift.parts.guidance.guidance import PilotTable
+from tandemlift.parts.guidance.supervision_table import SupervisionTable
+from tandemlift.parts.mechanics.plant_table import DisturbanceTable, PlantTable
+from tandemlift.parts.mechanics.push import PushTable
+from tandemlift.parts.mechanics.rigid_body import InitialTable
+from tandemlift.parts.mechanics.vehicle_table import VehicleTable
+from tandemlift.parts.mechanics.wind import WindTable
+from tandemlift.parts.person.person_table import PersonTable
+from tandemlift.parts.requests import RequestTable
+from tandemlift.parts.rotor_loss.detection_table import DetectionTable
+from tandemlift.parts.rotors.allocation import AllocationTable
+from tandemlift.parts.rotors.rotor_faults import FaultTable
+from tandemlift.parts.rotors.rotors import ActuatorsTable
+from tandemlift.parts.sensors.sensors_table import SensorFaultTable, SensorsTable
+from tandemlift.parts.trajectories import PhasesTable
+
+
+def _name(name: str) -> str:
+    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}", name):
+        raise must("name", "be 1 to 64 letters, digits, '.', '_' or '-', the first a letter or a digit")
+    return name
+
+
+class MissionTable(Table):
+    """`[mission]`: name, duration and sampling of the flight."""
+
+    name: Annotated[str, AfterValidator(_name)] = key(
+        ...,
+        None,
+        "name of the flight; results are written to out/NAME",
+        rule="1 to 64 letters, digits, '.', '_' or '-', the first a letter or a digit",
+        example="my-mission",
+    )
+    duration: Positive = key(
+        ..., "s", "duration of the flight, rounded to whole steps", rule="at most 1e9 steps", example=30.0
+    )
+    step: Annotated[float, Field(gt=0.0, le=0.02), AfterValidator(divisor)] = key(
+        0.001,
+        "s",
+        "sampling time of the pilot, and time step of the simulated body",
+        rule="at most the duration",
+        source="chosen: 1 kHz",
+    )
+    log_interval: Positive = key(
+        0.01,
+        "s",
+        "time between logged samples, rounded to whole steps; metrics are formed from every step all the same",
+        rule="the log must not exceed 4 GB",
+        source="chosen: 100 Hz",
+    )
+    seed: Annotated[int, Field(ge=0, le=10**18)] = key(0, "1", "seed of every random number of the flight")
+    fma: bool = key(
+        True,
+        None,
+        "whether a·b + c is rounded once, as processors do it fastest; false gives the same bits on every machine, in "
+        "WebAssembly and in C",
+    )
+
+    @property
+    def steps(self) -> int:
+        """Number of steps of the run, at least one."""
+        return max(1, round(self.duration / self.step))
+
+    @property
+    def log_every(self) -> int:
+        """Steps from one logged sample to the next, at least one and at most one more than there are."""
+        return max(1, round(min(self.log_interval / self.step, self.steps + 1)))
+
+
+describe_key = key  # `[[changes]]` has a key of that name
+
+
+class ChangeTable(Table):
+    """`[[changes]]`: a key that takes another value in flight; one table for each change, in the order of their times.
+
+    Numbers (gains, admittance, wind, lags, noise, an efficiency) move in a straight line within `duration`. A choice,
+    such as `admittance.gate` or the controller, switches from one step to the next; a new controller starts with a
+    fresh memory. A change is refused if it would need another memory of anything else: another `wind.model`, a delay,
+    another body or other channels. A flight with changes is flown step by step, at about 20 µs a step.
+    """
+
+    time: NonNegative = describe_key(
+        ..., "s", "start of the change, rounded to a whole step", rule="not before the change above it", example=10.0
+    )
+    key: str = describe_key(..., None, "dotted key that changes, as for --set", example="admittance.damping")
+    value: Any = describe_key(..., None, "new value of the key", rule="as the key takes it", example=[4.0, 4.0, 4.0])
+    duration: NonNegative = describe_key(
+        0.0, "s", "time within which numbers move to the new value, in a straight line"
+    )
+
+
+class Mission(Table):
+    """Everything that a flight depends on; see `tandemlift.missions` for loading one."""
+
+    mission: MissionTable
+    vehicle: VehicleTable
+    controller: SerializeAsAny[ControllerTable]
+    admittance: AdmittanceTable
+    allocation: AllocationTable = AllocationTable()
+    initial: InitialTable = InitialTable()
+    phases: PhasesTable = PhasesTable()
+    pushes: tuple[PushTable, ...] = ()
+    disturbance: DisturbanceTable = DisturbanceTable()
+    plant: PlantTable = PlantTable()
+    pilot: PilotTable = PilotTable()
+    estimator: EstimatorTable = EstimatorTable()
+    compliance: ComplianceTable = ComplianceTable()
+    observer: ObserverTable = ObserverTable()
+    supervision: SupervisionTable = SupervisionTable()
+    contact: ContactTable = ContactTable()
+    requests: tuple[RequestTable, ...] = ()
+    detection: DetectionTable = DetectionTable()
+    actuators: ActuatorsTable = ActuatorsTable()
+    faults: tuple[FaultTable, ...] = ()
+    sensors: SensorsTable = SensorsTable()
+    sensor_faults: tuple[SensorFaultTable, ...] = ()
+    wind: WindTable = WindTable()
+    ground: GroundTable = GroundTable()
+    walls: tuple[WallTable, ...] = ()
+    corridor: CorridorTable = CorridorTable()
+    person: PersonTable = PersonTable()
+    changes: tuple[ChangeTable, ...] = ()
+    crash: CrashTable = CrashTable()
+    outcome: OutcomeTable = OutcomeTable()
+    promise: PromiseTable = PromiseTable()
+    findings: FindingsTable = FindingsTable()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _by_feel(cls, data: Any) -> Any:
+        return with_feel(data) if isinstance(data, dict) else data
+
+    @property
+    def all_walls(self) -> tuple[WallTable, ...]:
+        """Every wall that there is: those of `walls`, then the corridor's."""
+        return (*self.walls, *self.corridor.walls)
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the choices that make the mission what it is."""
+        payload, quadrotors = self.vehicle.payload, self.vehicle.quadrotors
+        mass = payload.mass + sum(q.mass for q in quadrotors)
+        rows = {
+            "mission": f"{self.mission.name}, {self.mission.duration:g} s in steps of {1e3 * self.mission.step:g} ms",
+            "vehicle": f"{len(quadrotors)} quadrotors on a payload of {payload.mass:g} kg; {mass:g} kg in all",
+            "controller": self.controller.name,
+            "guidance": self.pilot.guidance,
+            "rotors": f"{self.actuators.model}, {self.allocation.method}",
+            "sensors": self.sensors.model,
+            "pushes": f"{len(self.pushes)}; simulated person: {self.person.model}",
+            "around": f"wind: {self.wind.model}; ground: {self.ground.model}; walls: {len(self.all_walls)}",
+        }
+        cells = (f"<tr><th style='text-align:left'>{k}</th><td>{escape(v)}</td></tr>" for k, v in rows.items())
+        return f"<table>{''.join(cells)}</table>"
+
+
+def check_keys(tables: Mapping[str, Any]) -> None:
+    """Refuse a flown mission's nested tables that have a key unknown here; a controller's own keys are left alone.
+
+    Raises:
+        InputError: with the dotted key.
+    """
+    try:
+        Mission.model_validate(tables)
+    except ValidationError as error:
+        for problem in error.errors(include_url=False, include_input=False):
+            if problem["type"] == "extra_forbidden" and problem["loc"][0] != "controller":
+                key = ".".join(map(str, problem["loc"]))
+                raise InputError(f"{key}: unknown key of a mission; `tandemlift explain` lists all") from None

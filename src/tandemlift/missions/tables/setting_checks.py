@@ -1,0 +1,155 @@
+"""The checks of a mission's settings, each by the part that it is about: what is refused, and what may fly badly.
+
+The order is that in which a mission's first refusal is found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from tandemlift.core.algebra.vector import vec3
+from tandemlift.core.checks import CheckResult, warned
+from tandemlift.core.outcomes import HARD
+from tandemlift.missions.tables import outcome_checks as outcomes
+from tandemlift.missions.tables.mission import Mission
+from tandemlift.missions.tables.weight import lift_of, weight_of
+from tandemlift.parts.compliance.admittance import admittance_checks, gate_checks
+from tandemlift.parts.contact import standing
+from tandemlift.parts.contact.corridor import wall_checks, wall_warnings
+from tandemlift.parts.estimation import estimator_table as estimator
+from tandemlift.parts.estimation.contact_table import contact_checks
+from tandemlift.parts.estimation.disturbance_observer import observer_checks
+from tandemlift.parts.estimation.wind_compensation import compensation_checks
+from tandemlift.parts.guidance import supervision_table as supervision
+from tandemlift.parts.guidance.guidance import reading_checks
+from tandemlift.parts.mechanics.push import point_checks
+from tandemlift.parts.mechanics.rotation import rotation_from_euler
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_checks import vehicle_checks
+from tandemlift.parts.mechanics.wind import wind_warnings
+from tandemlift.parts.person.person_table import person_checks, person_warnings
+from tandemlift.parts.requests import request_checks
+from tandemlift.parts.rotor_loss.detection_table import detection_checks
+from tandemlift.parts.rotors import lift_checks as lifts
+from tandemlift.parts.rotors.rotor_faults import fault_checks, fault_warnings
+from tandemlift.parts.sensors import sensor_checks as sensors
+from tandemlift.parts.trajectories import phase_warnings
+
+
+def standing_of(m: Mission) -> standing.Standing:
+    """How the vehicle stands on the floor of a mission."""
+    at = m.initial
+    return standing.standing_on(m.ground, m.vehicle, m.plant.mass_scale, m.mission.step, at.position[2], at.euler)
+
+
+def part_refusals(m: Mission) -> Iterator[CheckResult]:
+    """Vehicle, rotors, sensors, estimators, surroundings, guidance and person that cannot be."""
+    guidance, step, rotors, s = m.pilot.guidance, m.mission.step, m.actuators.model, m.sensors
+    count, walls = len(m.vehicle.quadrotors), bool(m.all_walls)
+    yield from vehicle_checks(m.vehicle, m.allocation.weights)
+    yield from admittance_checks(m.admittance, step)
+    yield from fault_checks(m.faults, count, rotors)
+    yield from lifts.lift_checks(rotors, weight_of(m), lift_of(m), m.plant.mass_scale)
+    yield from sensors.delay_checks(_delays(m), step)
+    yield from sensors.additional_checks(s)
+    yield from reading_checks(m.pilot, s.model)
+    yield from estimator.tare_checks(m.estimator, s.interval, step)
+    yield from compensation_checks(m.estimator.wind_compensation, m.vehicle.quadrotors)
+    yield from observer_checks(m.observer, m.allocation.method)
+    yield from detection_checks(m.detection, m.allocation.method)
+    yield from standing.floor_checks(m.ground, rotors, m.phases, walls=walls)
+    if m.ground.model != "none":
+        yield from standing.depth_checks(m.ground, m.initial, standing_of(m))
+    yield from wall_checks(m.walls)
+    yield from supervision.supervision_checks(m.supervision, guidance)
+    yield from request_checks(m.requests, guidance)
+    yield from estimator.hover_tare_checks(m.estimator, guidance)
+    yield from gate_checks(m.admittance, guidance)
+    yield from contact_checks(m.contact, guidance, s.model, m.pilot.push)
+    yield from supervision.limit_checks(m.supervision)
+    yield from outcomes.fence_crash_checks(m.crash, m.supervision, m.initial)
+    intervals = {"sensors.interval": s.interval, "sensors.motion.interval": s.motion.interval}
+    yield from supervision.watchdog_checks(m.supervision, intervals, step)
+    yield from sensors.sensor_fault_checks(m.sensor_faults, s, count)
+    for i, push in enumerate(m.pushes):
+        yield from point_checks(f"pushes.{i}.point", push.point, Vehicle.from_settings(m.vehicle))
+    yield from person_checks(m.person, m.corridor, m.vehicle.payload.length)
+
+
+def _delays(m: Mission) -> dict[str, float]:
+    delays = {
+        "actuators.delay": m.actuators.delay,
+        "sensors.delay": m.sensors.delay,
+        "sensors.motion.delay": m.sensors.motion.delay,
+        "person.delay": m.person.delay,
+    }
+    return delays | {f"sensors.additional.{i}.delay": s.delay for i, s in enumerate(m.sensors.additional)}
+
+
+def outcome_refusals(m: Mission) -> Iterator[CheckResult]:
+    """Promises and thresholds that contradict each other, and a lift into the floor."""
+    yield from outcomes.crash_checks(m.crash, m.initial)
+    yield from outcomes.promise_checks(m.promise, m.findings, m.crash, m.pilot.guidance)
+    yield from outcomes.oscillation_checks(m.findings, m.mission.step)
+    yield from standing.lift_height_checks(m.ground, m.phases)
+
+
+def setting_warnings(m: Mission) -> Iterator[CheckResult]:
+    """What may fly badly by settings that do not fit each other."""
+    yield from phase_warnings(m.phases)
+    yield from _promise_warnings(m)
+    yield from _hardware_warnings(m)
+    if m.ground.model == "floor":
+        yield from _floor_warnings(m)
+    yield from wind_warnings(m.wind)
+    e, push = m.estimator, m.pilot.push
+    tared = None if e.tare_start is None or push == "truth" else e.tare_start + e.tare_duration
+    yield from person_warnings(m.person, m.pilot.guidance, tared)
+
+
+def _promise_warnings(m: Mission) -> Iterator[CheckResult]:
+    guidance, p = m.pilot.guidance, m.phases
+    if m.sensors.model == "simulated" and m.pilot.state != "truth":
+        yield from outcomes.sensed_promise_warnings(m.promise, guidance, m.sensors.motion)
+    lands = m.ground.model == "floor" and p.land_start is not None and p.land_start < m.mission.duration
+    if guidance == "interactive" and lands:
+        yield from outcomes.landing_promise_warnings(m.promise, guidance, m.compliance.touchdown_depth)
+
+
+def _hardware_warnings(m: Mission) -> Iterator[CheckResult]:
+    vehicle, weight = Vehicle.from_settings(m.vehicle), weight_of(m)
+    thrusts = lifts.hover_thrusts(vehicle, m.allocation.weights, weight)
+    if m.actuators.model == "rotors":
+        yield from lifts.hover_warnings(vehicle, thrusts)
+        yield from fault_warnings(m.faults, weight, lift_of(m, faulty=True), m.allocation.method)
+    else:
+        yield from lifts.ideal_lift_warnings(weight, lift_of(m))
+    if m.sensors.model == "simulated":
+        yield from sensors.range_warnings(m.sensors, vehicle, thrusts)
+        yield from _payload_warnings(m)
+        yield from estimator.bias_warnings(m.estimator, m.sensors.joints.force_bias, m.pilot.push)
+        yield from estimator.tare_warnings(m.estimator, m.phases, m.pushes, m.mission.duration)
+
+
+def _payload_warnings(m: Mission) -> Iterator[CheckResult]:
+    real = m.vehicle.payload.mass + (m.plant.mass_scale - 1.0) * Vehicle.from_settings(m.vehicle).mass
+    if real <= 0.0:
+        yield warned(
+            f"plant.mass_scale = {m.plant.mass_scale}: what joints feel puts all of the difference to the payload, "
+            f"which would weigh {real:.4g} kg"
+        )
+
+
+def _floor_warnings(m: Mission) -> Iterator[CheckResult]:
+    stands, vehicle = standing_of(m), Vehicle.from_settings(m.vehicle)
+    yield from standing.floor_warnings(m.ground, m.vehicle, m.actuators.model, m.mission.step, stands)
+    yield from standing.start_warnings(m.phases, stands)
+    mass = vehicle.mass * m.plant.mass_scale
+    limit = mass * HARD if m.crash.impulse is None else m.crash.impulse
+    yield from standing.blow_warnings(m.phases, m.initial, mass, limit, stands)
+    yield from standing.reference_warnings(m.phases, m.mission.duration, stands)
+    R = np.array(rotation_from_euler(vec3(m.initial.euler)))
+    centres = np.array(m.initial.position) + vehicle.lever_arms @ R.T
+    yield from wall_warnings(m.walls, m.corridor, centres, [q.guard_radius for q in vehicle.quadrotors])

@@ -1,0 +1,156 @@
+"""How the vehicle stands on the floor where it starts and lands, and what cannot be or goes badly there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.algebra.vector import vec3
+from tandemlift.core.caching import cached
+from tandemlift.core.checks import CheckResult, refused, warned
+from tandemlift.core.toml import shown
+from tandemlift.parts.contact.feet import Floor, floor, sinkage_of, sole_positions, standing_height
+from tandemlift.parts.contact.ground_table import GroundTable
+from tandemlift.parts.contact.hull import hull, lowest_of_hull
+from tandemlift.parts.mechanics.rigid_body import InitialTable
+from tandemlift.parts.mechanics.rotation import rotation_from_euler
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import VehicleTable
+from tandemlift.parts.trajectories import PhasesTable
+
+DEEP = 0.02  # m, of feet in the floor at the start
+FAR_DOWN, FAR_UP = 0.02, 0.3  # m, of the landed reference above and below where the vehicle stands
+THROWN = 5.0  # times its sinkage
+NEARLY = 0.75  # of the impulse that ends a flight, as a contact gives back some of it
+SOFT = 2.0  # times the sinkage that was asked for
+
+
+class Standing(NamedTuple):
+    """The floor and, as the vehicle really is, z [m] of its centre of mass where it stands, and its sinkage there [m].
+
+    `depth`: of its lowest point in the floor at t = 0, beyond that sinkage [m].
+    """
+
+    floor: Floor
+    rests: float
+    sinkage: float
+    depth: float
+
+
+@cached
+def standing_on(
+    g: GroundTable, table: VehicleTable, mass_scale: float, step: float, z: float, euler: tuple[float, float, float]
+) -> Standing:
+    """How a vehicle stands on the floor, for steps of `step` [s], which starts at height z [m] with these angles."""
+    vehicle, fleet = Vehicle.from_settings(table), table.quadrotors
+    mass = vehicle.mass * mass_scale
+    soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
+    shapes = hull(**vehicle.hull_shapes, mass=mass, inertia=vehicle.inertia, step=step)
+    built = floor(soles, mass, vehicle.inertia, step, friction=g.friction, sinkage=g.sinkage, hull=shapes)
+    stands, sinkage = standing_height(built, mass * GRAVITY), sinkage_of(built, mass * GRAVITY)
+    height = z - stands if g.height is None else g.height
+    R = rotation_from_euler(vec3(euler))
+    lowest = z + min(float((soles @ np.array(R.z)).min()), lowest_of_hull(shapes, R))
+    return Standing(built._replace(height=height), height + stands, sinkage, height - lowest - sinkage)
+
+
+def floor_checks(g: GroundTable, rotors: str, phases: PhasesTable, *, walls: bool) -> Iterator[CheckResult]:
+    """What needs a floor that is not there, and an effect of it on ideal rotors; `rotors`: `actuators.model`."""
+    if g.model != "none":
+        if g.effect and rotors != "rotors":
+            yield refused('ground.effect = true: must be false where actuators.model is "ideal"')
+        return
+    if g.effect:
+        yield refused('ground.effect = true: must be false without a floor, or ground.model must be "floor"')
+    if walls:
+        yield refused('ground.model = "none": must be "floor" where there are walls or a corridor')
+    if phases.rotors == "flight":
+        yield refused(
+            'phases.rotors = "flight": must be "always" without a floor, or the vehicle falls while its rotors are '
+            'stopped; or ground.model must be "floor"'
+        )
+
+
+def lift_height_checks(g: GroundTable, phases: PhasesTable) -> Iterator[CheckResult]:
+    """A lift that leads down into the floor."""
+    if g.model == "floor" and phases.height < 0.0:
+        given = f"phases.height = {phases.height}"
+        yield refused(f"{given}: must be 0 or above over a floor, or the reference leads into it")
+
+
+def depth_checks(g: GroundTable, initial: InitialTable, standing: Standing) -> Iterator[CheckResult]:
+    """A start deep in the floor."""
+    if standing.depth > DEEP:
+        key, value, hint = "ground.height", g.height, "must be lower, or initial.position higher"
+        if value is None:
+            key, hint = "initial.euler", "must be level, or ground.height lower"
+        given = shown(initial.euler if value is None else value)
+        yield refused(f"{key} = {given}: the vehicle starts {standing.depth:.3g} m deep in the floor; {hint}")
+
+
+def floor_warnings(
+    g: GroundTable, vehicle: VehicleTable, rotors: str, step: float, standing: Standing
+) -> Iterator[CheckResult]:
+    """A soft floor, ideal rotors on a floor, and a payload that hangs lower than the feet."""
+    if standing.sinkage > SOFT * g.sinkage:
+        yield warned(
+            f"ground.sinkage = {g.sinkage} m: with mission.step = {step} s the floor must be softer, "
+            f"and the standing vehicle sinks by {standing.sinkage:.2g} m"
+        )
+    if rotors == "ideal":
+        yield warned(
+            'actuators.model = "ideal": thrusts have no limits and may pull down, so the pilot may press the vehicle '
+            'on the floor as hard as a blow; "rotors" cannot'
+        )
+    lower = min(q.position[2] - q.feet_depth for q in vehicle.quadrotors) + (vehicle.payload.radius or 0.0)
+    if lower > 0.0:
+        yield warned(f"the payload hangs {lower:.3g} m lower than the feet: the vehicle stands on it, and may roll")
+
+
+def start_warnings(p: PhasesTable, standing: Standing) -> Iterator[CheckResult]:
+    """A start deep in the floor, or above it with rotors stopped."""
+    depth = standing.depth
+    if depth > THROWN * standing.sinkage:
+        thrown = f"{depth**2 / (2.0 * standing.sinkage):.2g} m"  # of springs, undamped
+        yield warned(
+            f"the vehicle starts {depth:.2g} m deep in the floor, which throws the vehicle up by as much as {thrown}"
+        )
+    if p.rotors == "flight" and p.lift_start > 0.0 and -depth > FAR_DOWN:
+        until = f"with its rotors stopped until {p.lift_start:g} s"
+        yield warned(f"the vehicle starts {-depth:.3g} m above the floor, {until}")
+
+
+def blow_warnings(
+    p: PhasesTable, initial: InitialTable, mass: float, limit: float, standing: Standing
+) -> Iterator[CheckResult]:
+    """A start so fast into the floor that it ends the flight, or nearly so; a contact gives back some of the speed.
+
+    With stopped rotors, a vehicle that starts upwards falls back as fast. `mass` [kg] is the real one; an impulse of
+    `limit` [N s] ends a flight.
+    """
+    stopped = p.rotors == "flight" and p.lift_start > 0.0
+    down = max(-initial.velocity[2], 0.0)
+    speed = math.hypot(*initial.velocity) if stopped or down else 0.0
+    if -standing.depth < FAR_DOWN and mass * speed > NEARLY * limit:
+        straight = mass * down > NEARLY * limit
+        speed = down if straight else speed
+        what = f"[2] = {-down:g}" if straight else f" = {shown(initial.velocity)}"
+        yield warned(
+            f"initial.velocity{what} m/s drives the vehicle into the floor with "
+            f"{mass * speed:.3g} N s, and a blow of {limit:.3g} N s (crash.impulse) ends the flight"
+        )
+
+
+def reference_warnings(p: PhasesTable, duration: float, standing: Standing) -> Iterator[CheckResult]:
+    """A reference that leads to a height where the vehicle does not stand, in a flight of `duration` [s]."""
+    rests = standing.rests
+    stops = math.inf if p.land_start is None else p.land_start + p.land_duration
+    if p.rotors == "flight" and rests < -FAR_DOWN and stops < duration:
+        yield warned(f"the landing ends at z = 0, {-rests:.3g} m above where the vehicle stands: then its rotors stop")
+    if rests > FAR_UP:
+        where = f"the vehicle stands at z = {rests:.3g} m while its reference, not lifted, is at z = 0"
+        yield warned(f"{where}: it presses down")

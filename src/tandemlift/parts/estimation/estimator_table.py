@@ -1,0 +1,142 @@
+"""The estimators of push and state, `[estimator]`: their keys."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Literal
+
+from tandemlift.core.checks import CheckResult, refused, warned
+from tandemlift.core.keys import Bandwidth, NonNegative, Positive, Scale, Table, key
+from tandemlift.parts.mechanics.push import PushTable
+from tandemlift.parts.trajectories import PhasesTable
+
+
+class EstimatorTable(Table):
+    """`[estimator]`: the push from the joints' force sensors, and the state from inertial and motion sensors.
+
+    The push is the force that accelerates the payload and does not come through a joint: wind on the payload is part of
+    it. During the tare, in hover, it is assumed to be zero; what the joints then read is their bias.
+    """
+
+    push_bandwidth: Bandwidth = key(
+        36.0,
+        "rad/s",
+        "bandwidth of the second-order low-pass filter on the push",
+        source="as compliance.input_bandwidth",
+    )
+    tare: Literal["at-time", "hover"] = key(
+        "at-time",
+        None,
+        "when the force sensors are tared",
+        choices={
+            "at-time": "at tare_start",
+            "hover": "once the vehicle has hovered steadily for a second (needs guidance by hand)",
+        },
+    )
+    tare_start: NonNegative | None = key(
+        None,
+        "s",
+        "start of the tare, in hover and without a push (or a warning says so)",
+        unset="there is no tare",
+        example=9.0,
+    )
+    tare_duration: Positive = key(2.0, "s", "duration of the tare", rule="at least one sample", source="chosen")
+    identify_mass: bool = key(
+        False,
+        None,
+        "true identifies the payload's mass during the tare; false takes the excess for a bias of the joints",
+        rule="true needs a tare",
+    )
+    disagreement_limit: Scale = key(
+        2.0,
+        "N",
+        "the push is not trusted once one joint's sensor alone would have to be wrong by this horizontal force",
+        source="chosen",
+    )
+    min_force: Scale = key(
+        0.5,
+        "N",
+        "smallest force for which a point of application is estimated",
+        source="chosen: ten times the noise of mission iris's sensors",
+    )
+    position_bandwidth: Bandwidth = key(
+        6.0, "rad/s", "bandwidth with which the motion measurement corrects position and velocity", source="chosen"
+    )
+    attitude_bandwidth: Bandwidth = key(
+        4.0, "rad/s", "bandwidth with which the motion measurement corrects the attitude", source="chosen"
+    )
+    confirmation: Literal["none", "motion"] = key(
+        "motion",
+        None,
+        "what a push must agree with to be followed",
+        choices={
+            "none": "nothing",
+            "motion": "how the vehicle moves under the thrust that the pilot knows: of a push that the motion "
+            "contradicts, or that came with wind on the quadrotors, less than the threshold is left",
+        },
+    )
+    wind_compensation: Literal["none", "quadrotors"] = key(
+        "none",
+        None,
+        "what the push is freed of",
+        choices={
+            "none": "nothing",
+            "quadrotors": "the wind on the payload along body x and y, estimated from the outside forces on the "
+            "quadrotors by the ratio of drag areas (needs quadrotors with drag along both)",
+        },
+    )
+    wind_bandwidth: Bandwidth = key(
+        25.0,
+        "rad/s",
+        "bandwidth of the low-pass filter on the estimated wind force; lower for noisy joints, higher for gusts",
+        source="chosen",
+    )
+
+
+WIDTH = 3.0  # of a push, in standard deviations
+
+
+def tare_checks(e: EstimatorTable, sampling: float, step: float) -> Iterator[CheckResult]:
+    """A mass that no tare identifies, and a tare between two samples of the joints, every `sampling` [s]."""
+    if e.identify_mass and e.tare_start is None and e.tare == "at-time":
+        yield refused(
+            "estimator.identify_mass = true: the payload's mass is identified during the tare: "
+            "give estimator.tare_start, or do not identify"
+        )
+    interval = step * max(1, round(sampling / step))
+    if (e.tare_start is not None or e.tare == "hover") and e.tare_duration < interval:
+        yield refused(
+            f"estimator.tare_duration = {e.tare_duration}: a tare must hold a sample: they come every {interval:g} s"
+        )
+
+
+def hover_tare_checks(e: EstimatorTable, guidance: str) -> Iterator[CheckResult]:
+    """A tare once the vehicle hovers, which only guidance by hand finds out; `guidance`: `pilot.guidance`."""
+    if e.tare == "hover" and guidance != "interactive":
+        yield refused('estimator.tare = "hover": must be "at-time" where pilot.guidance is "scheduled"')
+
+
+def bias_warnings(e: EstimatorTable, force_bias: float, push: str) -> Iterator[CheckResult]:
+    """A bias of the joints [N] that no tare takes off; `push`: `pilot.push`."""
+    if e.tare != "hover" and e.tare_start is None and push != "truth" and force_bias > 0.0:
+        bias = f"sensors.joints.force_bias = {force_bias}"
+        yield warned(f"{bias} N is read as a push, as estimator.tare_start is left out")
+
+
+def tare_warnings(
+    e: EstimatorTable, p: PhasesTable, pushes: Sequence[PushTable], duration: float
+) -> Iterator[CheckResult]:
+    """A tare outside the hover or the flight of `duration` [s], or within a push."""
+    if e.tare == "hover" or e.tare_start is None:
+        return
+    end, lifted = e.tare_start + e.tare_duration, p.lift_start + p.lift_duration
+    window = f"the tare, from {e.tare_start:g} s to {end:g} s,"
+    if end > duration:
+        yield warned(f"{window} is not over before the flight is, at {duration:g} s: no push is ever estimated")
+    if p.height and e.tare_start < lifted:
+        yield warned(f"{window} begins before the lift ends at {lifted:g} s")
+    if p.land_start is not None and end > p.land_start:
+        yield warned(f"{window} ends after the landing begins at {p.land_start:g} s")
+    for i, push in enumerate(pushes):
+        if e.tare_start - WIDTH * push.sigma < push.time < end + WIDTH * push.sigma:
+            yield warned(f"{window} takes a part of pushes.{i} at {push.time:g} s for a bias")

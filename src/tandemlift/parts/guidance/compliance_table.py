@@ -1,0 +1,103 @@
+"""Guidance by hand, `[compliance]`: its keys."""
+
+from __future__ import annotations
+
+from tandemlift.core.algebra.vector import Vec3, vec3
+from tandemlift.core.keys import TRIAL, Bandwidth, Delay, Fraction, NonNegative, Positive, Positive3, Table, Tilt, key
+from tandemlift.parts.compliance.admittance import Admittance
+from tandemlift.parts.compliance.compliance import Compliance, MotionLimits, PushFilters
+from tandemlift.parts.compliance.energy_tank import TankTable
+from tandemlift.parts.compliance.following import FollowingTable
+from tandemlift.parts.guidance.yaw_compliance import YawTable
+from tandemlift.parts.low_pass import low_pass
+
+
+class ComplianceTable(Table):
+    """`[compliance]`: guidance by hand, around mass, damping, stiffness and threshold of `[admittance]`.
+
+    It applies where `pilot.guidance = "interactive"`: measured push → low-pass → dead band → low-pass → admittance →
+    limits.
+    Accelerations are limited as well by the thrust that weight and disturbance leave to the rotors.
+    """
+
+    input_bandwidth: Bandwidth = key(
+        36.0, "rad/s", "bandwidth of the second-order low-pass filter on the measured push", source=TRIAL
+    )
+    output_bandwidth: Bandwidth = key(
+        60.0, "rad/s", "bandwidth of the second-order low-pass filter after the dead band", source=TRIAL
+    )
+    release_fraction: Fraction = key(
+        0.67, "1", "a push ends below this fraction of the threshold", source="chosen: a hysteresis of a third"
+    )
+    dwell: NonNegative = key(
+        0.016,
+        "s",
+        "time for which a force must exceed the threshold before it counts as a push",
+        source="chosen",
+    )
+    bias_time_constant: Positive = key(
+        20.0,
+        "s",
+        "time constant with which the mean of the measured push is learned as a bias while nobody pushes",
+        source="chosen: slow against any push",
+    )
+    max_speed: Positive3 = key(
+        (2.0, 2.0, 1.0), "m/s", "largest speed of the reference along each axis", source="chosen"
+    )
+    max_acceleration: Positive3 = key((3.0, 3.0, 3.0), "m/s²", "largest acceleration of the reference", source="chosen")
+    max_jerk: Positive3 = key((15.0, 15.0, 15.0), "m/s³", "largest jerk of the reference", source="chosen")
+    braking_gain: Positive = key(
+        4.0,
+        "1/s",
+        "near the largest speed, acceleration is limited to this times the speed that is left",
+        source="chosen",
+    )
+    max_tilt: Tilt = key(
+        0.5,
+        "rad",
+        "largest tilt that accelerations may ask for",
+        source="chosen: 29°, where hover needs 14 % more thrust",
+    )
+    thrust_fraction: Fraction = key(
+        0.9, "1", "fraction of the largest thrust that accelerations may use", source="chosen: leaves 10 % for control"
+    )
+    force_lead: Delay = key(
+        0.11, "s", "lead time of the countered push, which makes up for filters and rotors", source=TRIAL
+    )
+    moment_lead: Delay = key(0.06, "s", "lead time of the countered push's moment", source=TRIAL)
+    reference_lead: Delay = key(0.11, "s", "lead time of the reference's acceleration", source=TRIAL)
+    touchdown_depth: NonNegative = key(
+        0.03, "m", "a landing's reference ends this far below the ground, so that the feet press on it", source="chosen"
+    )
+    min_height: NonNegative = key(
+        0.1,
+        "m",
+        "height above the ground from which it was lifted, below which a push moves the reference no further down; "
+        "where there is a floor",
+        source="chosen: far above the depth of a landing",
+    )
+    spin_up_time: NonNegative = key(0.3, "s", "time from the start of the rotors to the lift", source="chosen")
+    max_descent_speed: Positive = key(0.3, "m/s", "largest speed of a landing", source="chosen")
+    following: FollowingTable = FollowingTable()
+    yaw: YawTable = YawTable()
+    tank: TankTable = TankTable()
+
+
+def push_filters(c: ComplianceTable, step: float) -> PushFilters:
+    """The filters of a push, sampled every `step` [s]."""
+    before, after = low_pass(c.input_bandwidth, step), low_pass(c.output_bandwidth, step)
+    return PushFilters(before, after, c.release_fraction, c.dwell, c.bias_time_constant)
+
+
+def compliance_from(c: ComplianceTable, push: PushFilters, admittance: Admittance, threshold: Vec3) -> Compliance:
+    """The compliance around an admittance; pushes below the threshold [N] are ignored."""
+    limits = MotionLimits(vec3(c.max_speed), vec3(c.max_acceleration), vec3(c.max_jerk), c.braking_gain)
+    return Compliance(
+        input_filter=push.input,
+        band=push.dead_band(threshold),
+        output_filter=push.output,
+        admittance=admittance,
+        limits=limits,
+        force_lead=c.force_lead,
+        reference_lead=c.reference_lead,
+    )

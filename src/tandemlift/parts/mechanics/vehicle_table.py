@@ -1,0 +1,241 @@
+"""The parts of the vehicle: payload, quadrotors, drag."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field, model_validator
+
+from tandemlift.core.keys import (
+    Exactly3,
+    Length,
+    NonNegative,
+    NonNegative3,
+    PerAxis,
+    Positive,
+    Positive3,
+    Size,
+    Table,
+    Triple,
+    key,
+    must,
+)
+
+COINCIDING = 1e-3  # m
+
+
+def _principal(inertia: Triple) -> Triple:
+    x, y, z = sorted(inertia)
+    if z > (x + y) * (1.0 + 1e-9):
+        raise must("inertia", "be principal moments of a body, none greater than the sum of the other two")
+    return inertia
+
+
+Inertia = Annotated[Positive3, AfterValidator(_principal)]
+Areas = Annotated[tuple[Size, Size, Size], PerAxis(3)]
+
+
+class Payload(Table):
+    """`[vehicle.payload]`: a thin beam along body y, or any body with a mass and principal moments of inertia."""
+
+    mass: Positive = key(..., "kg", "mass of the payload", example=0.5)
+    length: Positive | None = key(
+        None, "m", "length of the beam, along body y", unset="inertia must be given", example=2.0
+    )
+    radius: Positive | None = key(None, "m", "radius of the beam", unset="inertia must be given", example=0.05)
+    inertia: Inertia | None = key(
+        None,
+        "kg m²",
+        "principal moments of inertia about the payload's centre of mass, body axes",
+        rule="none above the sum of the other two",
+        unset="that of the beam",
+        example=[0.1667, 0.000625, 0.1667],
+    )
+    drag_area: Areas | None = key(
+        None,
+        "m²",
+        "area A seen along each body axis; drag in moving air is ½ ρ c A v²",
+        unset="that of the beam, or none",
+        example=[0.2, 0.008, 0.2],
+    )
+    drag_coefficient: Size = key(1.0, "1", "drag coefficient c", source="chosen: a bluff body")
+
+    @model_validator(mode="after")
+    def _complete(self) -> Payload:
+        if self.inertia is None and (self.length is None or self.radius is None):
+            raise must("payload", "have either inertia, or length and radius (of a beam)")
+        return self
+
+    @property
+    def moments(self) -> Triple:
+        """Principal moments [kg m²]: as given, or of a thin rod along y (m L²/12) with a solid section (m r²/2)."""
+        if self.inertia is not None:
+            return self.inertia
+        length, radius = (0.0 if size is None else size for size in (self.length, self.radius))
+        across = self.mass * length**2 / 12.0
+        return (across, self.mass * radius**2 / 2.0, across)
+
+    @property
+    def areas(self) -> Triple:
+        """Areas [m²] seen along the body axes: as given, or of a beam along y; zero for a payload without size."""
+        if self.drag_area is not None:
+            return self.drag_area
+        length, radius = (0.0 if size is None else size for size in (self.length, self.radius))
+        return (2.0 * radius * length, math.pi * radius**2, 2.0 * radius * length)
+
+
+Metre = Annotated[float, Field(ge=-1e3, le=1e3)]
+Corner = Annotated[tuple[Metre, Metre], PerAxis(2, single=False)]
+Joint = Annotated[tuple[Metre, Metre, Metre], PerAxis(3, single=False)]
+Turns = Literal[-1, 1]
+
+
+class Quadrotor(Table):
+    """`[[vehicle.quadrotors]]`: one table for each quadrotor, 1 to 64 of them, rigidly fixed to the payload.
+
+    Their axes are parallel to the vehicle's, they are at least 1 mm apart, and no rotor strikes another. In dotted
+    keys, the first has the number 0.
+    """
+
+    mass: Positive = key(..., "kg", "mass of the quadrotor", example=1.5)
+    inertia: Inertia = key(
+        ...,
+        "kg m²",
+        "principal moments of inertia about the quadrotor's centre of mass",
+        rule="none above the sum of the other two",
+        example=[0.029125, 0.029125, 0.055225],
+    )
+    position: Exactly3 = key(
+        ...,
+        "m",
+        "position of the quadrotor's centre of mass from the payload's, body axes",
+        example=[0.0, 1.0, 0.075],
+    )
+    layout: Literal["+", "x"] = key(
+        "x",
+        None,
+        "where the rotors are",
+        example="+",
+        choices={"+": "at +x, +y, -x, -y", "x": "45° further"},
+    )
+    arm: Positive | None = key(
+        None,
+        "m",
+        "distance from the quadrotor's centre of mass to each rotor",
+        unset="rotor_positions must be given",
+        example=0.25,
+    )
+    rotor_positions: tuple[Corner, Corner, Corner, Corner] | None = key(
+        None,
+        "m",
+        "x and y of each rotor from the quadrotor's centre of mass",
+        rule="four pairs within ±1000, such that every moment can be made",
+        unset="by layout and arm",
+        example=[[0.25, 0.0], [0.0, 0.25], [-0.25, 0.0], [0.0, -0.25]],
+    )
+    spins: tuple[Turns, Turns, Turns, Turns] = key(
+        (1, -1, 1, -1),
+        "1",
+        "sign of each rotor's reaction torque on the body, about z",
+        rule="each 1 or -1, such that every moment can be made",
+        source="neighbours turn against each other",
+    )
+    thrust_constant: Positive = key(..., "N/(rad/s)²", "thrust of a rotor over its speed squared", example=5.84e-6)
+    max_speed: Positive = key(..., "rad/s", "largest speed of a rotor", example=1100.0)
+    torque_per_thrust: Positive = key(..., "m", "reaction torque of a rotor over its thrust", example=0.06)
+    lag_up: NonNegative = key(..., "s", "time constant of a rotor that speeds up", example=0.0125)
+    lag_down: NonNegative = key(..., "s", "time constant of a rotor that slows down", example=0.025)
+    rotor_radius: Length = key(
+        0.128,
+        "m",
+        "radius of a rotor, for the ground effect and for contact with floor and walls",
+        source="PX4's Gazebo model iris",
+    )
+    rotor_height: Metre = key(
+        0.05,
+        "m",
+        "height of the rotors' hubs above the quadrotor's centre of mass, for contact with floor and walls",
+        source="chosen: a fifth of an arm of 0.25 m, as the pictures show it",
+    )
+    joint: Joint | None = key(
+        None,
+        "m",
+        "position of the joint and its force sensor from the payload's centre of mass, body axes",
+        unset="below the quadrotor's centre of mass, at the height of the payload's",
+        example=[0.0, 1.0, 0.0],
+    )
+    guard_radius: Length = key(
+        0.375,
+        "m",
+        "radius of the guard about the quadrotor: of a ring to the floor, of a sphere to walls",
+        source="chosen: arm and rotor",
+    )
+    feet_spread: Length = key(
+        0.12, "m", "distance of each of four feet from the quadrotor's centre, along x and along y", source="chosen"
+    )
+    feet_depth: Length = key(
+        0.18,
+        "m",
+        "distance of the soles below the quadrotor's centre",
+        source="chosen: the beam stays off the floor",
+    )
+    drag_area: Areas = key(
+        (0.02, 0.02, 0.05),
+        "m²",
+        "area seen along each body axis, for drag in moving air",
+        source="chosen: a body of 0.2 m by 0.1 m, and rotor discs that are mostly open",
+    )
+    drag_coefficient: Size = key(1.0, "1", "drag coefficient", source="chosen: a bluff body")
+
+    @model_validator(mode="after")
+    def _arms(self) -> Quadrotor:
+        if self.arm is None and self.rotor_positions is None:
+            raise must("quadrotor", "have either arm (and layout), or rotor_positions")
+        return self
+
+    @property
+    def rotors(self) -> tuple[tuple[float, float], ...]:
+        """Position (x, y) [m] of each rotor from the centre of mass, body axes."""
+        if self.rotor_positions is not None:
+            return self.rotor_positions
+        arm = 0.0 if self.arm is None else self.arm
+        if self.layout == "+":
+            return ((arm, 0.0), (0.0, arm), (-arm, 0.0), (0.0, -arm))
+        angles = [math.pi / 4 + i * math.pi / 2 for i in range(4)]
+        return tuple((arm * math.cos(a), arm * math.sin(a)) for a in angles)
+
+    @property
+    def joint_position(self) -> Triple:
+        """Where it is fixed to the payload [m], from the payload's centre of mass, body axes."""
+        return (self.position[0], self.position[1], 0.0) if self.joint is None else self.joint
+
+    @property
+    def max_thrust(self) -> float:
+        """Largest thrust of one rotor [N]."""
+        return self.thrust_constant * self.max_speed**2
+
+
+class Drag(Table):
+    """`[vehicle.drag]`: linear drag of the whole vehicle in air at rest; that of `[wind]` adds to it."""
+
+    force: NonNegative3 = key((0.0, 0.0, 0.0), "N s/m", "drag on the velocity, along each world axis", example=0.006)
+    moment: NonNegative3 = key((0.0, 0.0, 0.0), "N m s", "drag on the rates, about each body axis", example=0.006)
+
+
+def _fleet(quadrotors: tuple[Quadrotor, ...]) -> tuple[Quadrotor, ...]:
+    if not 1 <= len(quadrotors) <= 64:
+        raise must("count", f"be 1 to 64 tables, here are {len(quadrotors)}")
+    for i, q in enumerate(quadrotors):
+        for j in range(i):
+            if math.dist(q.position, quadrotors[j].position) < COINCIDING:
+                raise must("count", f"differ in position, but numbers {j} and {i} are both at {list(q.position)}")
+    return quadrotors
+
+
+class VehicleTable(Table):
+    """`[vehicle]`: the parts, from which mass, centre of mass and inertia of the whole are computed."""
+
+    payload: Payload
+    quadrotors: Annotated[tuple[Quadrotor, ...], AfterValidator(_fleet)]
+    drag: Drag = Drag()

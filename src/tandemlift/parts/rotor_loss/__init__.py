@@ -1,0 +1,1 @@
+"""Rotor-failure detection, `[detection]`."""

@@ -1,0 +1,269 @@
+"""Simulated sensors, and how they fail."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated, Any, Literal, TypeAlias
+
+import numpy as np
+from pydantic import AfterValidator, Field
+
+from tandemlift.core.algebra.vector import Absent
+from tandemlift.core.keys import Axes3, Delay, NonNegative, Positive, Size, Table, key, must
+from tandemlift.core.types import Array
+from tandemlift.parts.sensors.noise_bias_drift import SensorGrade, scalar_sensor_model, sensor_model
+from tandemlift.parts.sensors.readings import AdditionalChannels, SensorNoise, Sensors, by_name, sensors, zero_noise
+from tandemlift.parts.sensors.sensor_list import ADDITIONAL, DEVICES, SENSORS, additional_sensor, sensors_on
+from tandemlift.parts.sensors.sensor_registry import PARAMETERS
+
+FINEST = 1e-9  # resolution of a sensor, in its unit
+BOUNDLESS = "without a bound"
+
+Interval = Annotated[float, Field(ge=0.0, le=10.0)]  # s
+Turn = Annotated[float, Field(ge=0.0, le=1.0)]  # rad
+
+
+def _step_of_quantisation(value: float) -> float:
+    if 0.0 < value < FINEST:
+        raise must("size", f"be 0 (for none) or at least {FINEST}")
+    return value
+
+
+Resolution = Annotated[Size, AfterValidator(_step_of_quantisation)]
+
+NOISE = "standard deviation of a sample"
+BIAS = "standard deviation of the constant error, which is drawn from the seed"
+DRIFT = "growth of the error, a random walk"
+STEP = "step of quantisation"
+RANGE = "largest reading, either way"
+FINE = f"0 for none, or at least {FINEST:g}"
+THE_SENSORS = "the sensor's unit"
+STEPS = "at most 10,000 steps"
+
+
+class JointSensors(Table):
+    """`[sensors.joints]`: the force-torque sensor at each joint, between quadrotor and payload."""
+
+    force_noise: Size = key(0.0, "N", f"force: {NOISE}")
+    force_bias: Size = key(0.0, "N", f"force: {BIAS}")
+    force_drift: Size = key(0.0, "N/√s", f"force: {DRIFT}")
+    force_resolution: Resolution = key(0.0, "N", f"force: {STEP}", rule=FINE)
+    force_range: Positive = key(1e6, "N", f"force: {RANGE}", source=BOUNDLESS)
+    torque_noise: Size = key(0.0, "N m", f"torque: {NOISE}")
+    torque_bias: Size = key(0.0, "N m", f"torque: {BIAS}")
+    torque_drift: Size = key(0.0, "N m/√s", f"torque: {DRIFT}")
+    torque_resolution: Resolution = key(0.0, "N m", f"torque: {STEP}", rule=FINE)
+    torque_range: Positive = key(1e6, "N m", f"torque: {RANGE}", source=BOUNDLESS)
+    misalignment: Turn = key(
+        0.0, "rad", "standard deviation of the sensor's rotation about each axis, which is drawn from the seed"
+    )
+
+
+class Accelerometer(Table):
+    """`[sensors.accelerometer]`: the accelerometer at the payload's centre of mass."""
+
+    noise: Size = key(0.0, "m/s²", NOISE)
+    bias: Size = key(0.0, "m/s²", BIAS)
+    drift: Size = key(0.0, "m/s²/√s", DRIFT)
+    range: Positive = key(1e6, "m/s²", RANGE, source=BOUNDLESS)
+
+
+class Gyroscope(Table):
+    """`[sensors.gyroscope]`: the gyroscope on the payload."""
+
+    noise: Size = key(0.0, "rad/s", NOISE)
+    bias: Size = key(0.0, "rad/s", BIAS)
+    drift: Size = key(0.0, "rad/s/√s", DRIFT)
+    range: Positive = key(1e6, "rad/s", RANGE, source=BOUNDLESS)
+
+
+InertialSensor = Accelerometer | Gyroscope
+
+
+class MotionSensor(Table):
+    """`[sensors.motion]`: position and velocity of the system's centre of mass, and attitude, as by motion capture."""
+
+    position_noise: Size = key(0.0, "m", f"position: {NOISE}")
+    velocity_noise: Size = key(0.0, "m/s", f"velocity: {NOISE}")
+    attitude_noise: Size = key(0.0, "rad", f"attitude: {NOISE}, about each body axis")
+    interval: Interval = key(0.0, "s", "time between samples, rounded to whole steps; 0 samples at every step")
+    delay: Delay = key(
+        0.0,
+        "s",
+        "delay of a sample beyond the one step after which any sample is known, rounded to whole steps",
+        rule=STEPS,
+    )
+
+
+AdditionalName: TypeAlias = Literal[tuple(ADDITIONAL)] | str  # type: ignore[valid-type]
+
+
+class AdditionalSensorTable(Table):
+    """`[[sensors.additional]]`: sensors beyond those that the pilot needs, one table each, with a clock of their own.
+
+    Their samples are recorded in channel `measured_NAME`. CONTRIBUTING.md tells how to add a sensor.
+    """
+
+    name: AdditionalName = key(
+        ...,
+        None,
+        "name of the sensor",
+        rule="or another one that is registered",
+        example="altimeter",
+        choices={sensor.name: sensor.meaning for sensor in ADDITIONAL.values()},
+    )
+    noise: Size = key(0.0, THE_SENSORS, NOISE)
+    bias: Size = key(0.0, THE_SENSORS, BIAS)
+    drift: Size = key(0.0, f"{THE_SENSORS}/√s", DRIFT)
+    resolution: Resolution = key(0.0, THE_SENSORS, STEP, rule=FINE)
+    range: Positive = key(1e6, THE_SENSORS, RANGE, source=BOUNDLESS)
+    interval: Interval = key(0.0, "s", "time between samples, rounded to whole steps; 0 samples at every step")
+    delay: Delay = key(
+        0.0,
+        "s",
+        "delay of a sample beyond the one step after which any sample is known, rounded to whole steps",
+        rule=STEPS,
+    )
+
+
+class SensorsTable(Table):
+    """`[sensors]`: simulated sensors; errors are independent along each axis.
+
+    There are a force-torque sensor at every joint, an accelerometer and a gyroscope, all on one clock, the inertial
+    measurement unit's (imu), and a motion measurement with a clock of its own. The pilot knows a sample one step after
+    it was taken, or later by its delay.
+    """
+
+    model: Literal["none", "simulated"] = key(
+        "none",
+        None,
+        "model of the sensors",
+        choices={"none": "no sensors: the pilot reads the truth", "simulated": "sensors with the errors of this table"},
+    )
+    interval: Interval = key(
+        0.0, "s", "time between samples of the imu and the joints, rounded to whole steps; 0 samples at every step"
+    )
+    delay: Delay = key(
+        0.0,
+        "s",
+        "delay of a sample of the imu and the joints beyond the one step after which any sample is known, rounded to "
+        "whole steps",
+        rule=STEPS,
+    )
+    joints: JointSensors = JointSensors()
+    accelerometer: Accelerometer = Accelerometer()
+    gyroscope: Gyroscope = Gyroscope()
+    motion: MotionSensor = MotionSensor()
+    additional: tuple[AdditionalSensorTable, ...] = ()
+
+
+SensorName: TypeAlias = Literal[(*DEVICES, *SENSORS)] | str  # type: ignore[valid-type]
+SENSOR_CHOICES = {
+    **{device: f"the device with {' and '.join(s.name for s in sensors_on(device))}" for device in DEVICES},
+    **{sensor.name: sensor.meaning for sensor in SENSORS.values()},
+}
+
+
+class SensorFaultTable(Table):
+    """`[[sensor_faults]]`: sensors that fail, one table each; they need `sensors.model = "simulated"`.
+
+    A sensor, or one joint of it, fails once. The devices "imu" and "motion" stand for all sensors on them.
+    """
+
+    sensor: SensorName = key(
+        ...,
+        None,
+        "the sensor or device that fails",
+        rule="or the name of an additional sensor",
+        example="joints",
+        choices=SENSOR_CHOICES,
+    )
+    quadrotor: Annotated[int, Field(ge=1, le=64)] | None = key(
+        None, "1", "number of the quadrotor whose joint fails, from 1", unset="all joints fail", example=1
+    )
+    kind: Literal["stale", "frozen", "nan", "bias", "range"] = key(
+        ...,
+        None,
+        "how the sensor fails",
+        example="frozen",
+        choices={
+            "stale": "a device sends nothing new",
+            "frozen": "it repeats its last value",
+            "nan": "its values are not numbers",
+            "bias": "it has an offset of `size`",
+            "range": "it reads `size`",
+        },
+    )
+    time: NonNegative = key(..., "s", "start of the fault", example=15.0)
+    until: NonNegative | None = key(
+        None, "s", "end of the fault", rule="after its start", unset="it lasts for good", example=20.0
+    )
+    size: Axes3 = key(
+        (0.0, 0.0, 0.0),
+        THE_SENSORS,
+        "offset, or the reading in its place; a force for joints, a rotation about body axes [rad] for the attitude",
+    )
+
+
+def steps_of(interval: float, step: float) -> int:
+    """A sampling interval in whole steps, at least one."""
+    return max(1, round(interval / step))
+
+
+def sensors_from(
+    s: SensorsTable, count: int, step: float, chance: np.random.Generator
+) -> tuple[Sensors | Absent, SensorNoise | Absent]:
+    """The sensors of `count` joints and of the body, and the layout of their noise; or `Absent`.
+
+    `chance` draws biases and misalignments; `step` [s] is that of the simulation.
+    """
+    if s.model == "none":
+        return Absent(), Absent()
+    turns = chance.standard_normal((count, 3)) * s.joints.misalignment
+    devices = sensors(
+        count=count,
+        step=step,
+        force=_joint_grade(s.joints, "force", turns, chance),
+        torque=_joint_grade(s.joints, "torque", turns, chance),
+        accelerometer=_inertial_grade(s.accelerometer, chance),
+        gyroscope=_inertial_grade(s.gyroscope, chance),
+        position_noise=s.motion.position_noise,
+        velocity_noise=s.motion.velocity_noise,
+        attitude_noise=s.motion.attitude_noise,
+        imu_period=steps_of(s.interval, step),
+        motion_period=steps_of(s.motion.interval, step),
+        additional=_additional_sensors(s.additional, step, chance),
+    )
+    return devices, zero_noise(devices)
+
+
+def _joint_grade(s: JointSensors, kind: str, turns: Array, chance: np.random.Generator) -> SensorGrade:
+    """The sensors at the joints, of kind "force" or "torque"; `turns` (N × 3) of their axes [rad]."""
+    noise, bias, drift, resolution, limit = (
+        getattr(s, f"{kind}_{error}") for error in ("noise", "bias", "drift", "resolution", "range")
+    )
+    return SensorGrade(
+        noise=noise,
+        bias=chance.standard_normal(turns.shape) * bias,
+        drift=drift,
+        resolution=resolution,
+        limit=limit,
+        misalignment=turns,
+    )
+
+
+def _inertial_grade(s: InertialSensor, chance: np.random.Generator) -> SensorGrade:
+    return SensorGrade(noise=s.noise, bias=chance.standard_normal((1, 3)) * s.bias, drift=s.drift, limit=s.range)
+
+
+def _additional_sensors(tables: Sequence[AdditionalSensorTable], step: float, chance: np.random.Generator) -> Any:
+    """The parameters of additional sensors by name; `Absent` for none."""
+    return by_name(tuple(s.name for s in tables))(*[_additional(s, step, chance) for s in tables])
+
+
+def _additional(s: AdditionalSensorTable, step: float, chance: np.random.Generator) -> Any:
+    is_vector, period = additional_sensor(s.name).width == 3, steps_of(s.interval, step)
+    bias = chance.standard_normal(3 if is_vector else None) * s.bias
+    grade = SensorGrade(noise=s.noise, bias=bias, drift=s.drift, resolution=s.resolution, limit=s.range)
+    model = (sensor_model if is_vector else scalar_sensor_model)(grade, step * period)
+    return PARAMETERS[s.name](AdditionalChannels(model), float(period))

@@ -1,1 +1,0 @@
-"""Signals: low-pass filters, random numbers and smooth trajectories."""

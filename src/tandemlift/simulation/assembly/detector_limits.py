@@ -1,0 +1,72 @@
+"""From where on a mission's flight has findings: the limits of the detectors in `simulation.loop.detectors`."""
+
+from __future__ import annotations
+
+import math
+
+from tandemlift.core.algebra.ops import cos, maximum, minimum, where
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import Absent, Vec3
+from tandemlift.core.caching import cached
+from tandemlift.missions import Mission
+from tandemlift.missions.tables.outcomes import FindingsTable, promise_of
+from tandemlift.parts.compliance.admittance import AdmittanceTable
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.simulation.loop.detectors import ASLEEP, Detectors, FindingLimits, PushLimits
+from tandemlift.simulation.loop.oscillation import OscillationLimits, Swings
+
+HEARD = 2.0  # times the threshold, from where on a true push should be heard
+LEAST, LEAST_FORCE = 0.1, 0.01  # of the smallest threshold, and N: the least force after the gate that counts
+UNLIMITED = 1e6  # m/s
+
+
+def finding_limits_from(mission: Mission, vehicle: Vehicle) -> FindingLimits:
+    """The limits of a mission's detectors."""
+    promise, f = promise_of(mission.promise, mission.pilot.guidance), mission.findings
+    return FindingLimits(
+        settled=promise.settling_time,
+        distance=promise.distance * promise.distance,
+        heading=promise.heading,
+        upright=cos(promise.tilt),
+        mass=vehicle.mass,
+        thrust=vehicle.max_thrust * vehicle.max_thrust if mission.actuators.model == "rotors" else math.inf,
+        rate=f.oscillation_rate * f.oscillation_rate,
+        push=_push_limits(mission.admittance, f, mission.compliance.max_speed, mission.pilot.guidance == "interactive"),
+        unpushed=f.unpushed_distance,
+        oscillation=OscillationLimits(
+            levels=Swings(f.oscillation_rate, f.oscillation_rate, f.oscillation_rate, f.oscillation_speed),
+            shortest=0.5 / f.fastest_oscillation,
+            longest=0.5 / f.slowest_oscillation,
+            halves=2.0 * f.oscillation_periods,
+        ),
+    )
+
+
+def start_detectors(mission: Mission) -> Detectors:
+    """The detectors' memory before the first step."""
+    if mission.actuators.model == "rotors":
+        return ASLEEP
+    return ASLEEP._replace(saturation=Absent(), reach=Absent())
+
+
+@cached
+def _push_limits(
+    a: AdmittanceTable, f: FindingsTable, max_speed: tuple[float, float, float], by_hand: bool
+) -> PushLimits:
+    least = maximum(minimum(minimum(*a.threshold[:2]), a.threshold[2]) * LEAST, LEAST_FORCE)
+    times = [_over(m, c) for m, c in zip(a.mass, a.damping, strict=True)]
+    return PushLimits(
+        threshold=Vec3(*a.threshold) * HEARD if by_hand else Absent(),
+        least=least * least,
+        inverse_damping=Vec3(
+            *[where(k > 0.0, 0.0, _over(1.0, c)) for k, c in zip(a.stiffness, a.damping, strict=True)]
+        ),
+        speed=Vec3(*max_speed) if by_hand else Vec3(UNLIMITED, UNLIMITED, UNLIMITED),
+        time=f.push_time + maximum(maximum(times[0], times[1]), times[2]),
+        response=f.push_response,
+    )
+
+
+def _over(a: Number, b: Number) -> Number:
+    """a/b, and 0 for b = 0: an axis without damping ends with no speed."""
+    return where(b > 0.0, a / maximum(b, 1e-9), 0.0)

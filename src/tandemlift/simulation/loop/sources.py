@@ -1,0 +1,114 @@
+"""Where the pilot reads state, push and walls from: the truth, the measurement or the estimate."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.vector import Absent, Vec3, apply_transposed, cross
+from tandemlift.parts.mechanics.push import CentralPush, PointPush, push_moment
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.sensors.readings import Readings
+
+
+class TruthSource(NamedTuple):
+    """The pilot uses the true values."""
+
+
+class MeasurementSource(NamedTuple):
+    """The pilot uses the measured values."""
+
+
+class EstimateSource(NamedTuple):
+    """The pilot uses the estimates."""
+
+
+class PushWrench(NamedTuple):
+    """A push: force [N, world axes] and moment about the system's centre of mass [N·m, body axes]."""
+
+    force: Vec3
+    moment: Vec3
+
+
+class KnownWalls(NamedTuple):
+    """The pilot knows the walls."""
+
+
+class PilotSources(NamedTuple):
+    """The source of the state that the pilot uses, and that of the push; `map`: `KnownWalls`, or `Absent`."""
+
+    state: Any
+    push: Any
+    map: Any
+
+
+class NominalVehicle(NamedTuple):
+    """The nominal vehicle.
+
+    The payload's centre of mass from the system's [m, body axes], and linear drag, which loads the joints like a push:
+    of force on world velocity [N·s/m], of moment on body rates [N·m·s].
+    """
+
+    payload: Vec3
+    drag_force: Vec3
+    drag_moment: Vec3
+
+
+@choice
+def read_state(reads: Any, true: State, readings: Any, known: Any) -> Any:
+    """The state that the pilot uses."""
+
+
+@read_state.register(TruthSource)
+def _true_state(reads: TruthSource, true: State, readings: Readings | Absent, known: Any) -> State:
+    return true
+
+
+@read_state.register(MeasurementSource)
+def _measured_state(reads: MeasurementSource, true: State, readings: Any, known: Any) -> Any:
+    motion = readings.motion
+    return State(motion.position, motion.velocity, motion.attitude, readings.imu.rates)
+
+
+@read_state.register(EstimateSource)
+def _estimated_state(reads: EstimateSource, true: State, readings: Readings, known: Any) -> State:
+    return known.state
+
+
+@choice
+def read_push(reads: Any, true: Any, state: State, known: Any) -> Any:
+    """The push that the pilot uses, a `PushWrench`, with the state that it uses; `true`: the true push."""
+
+
+@read_push.register(TruthSource)
+def _true_push(reads: TruthSource, true: CentralPush | PointPush, state: State, known: Any) -> PushWrench:
+    return PushWrench(true.force, push_moment(true, state.attitude))
+
+
+@read_push.register(MeasurementSource)
+def _measured_push(reads: MeasurementSource, true: CentralPush | PointPush, state: State, known: Any) -> PushWrench:
+    p = known.push
+    return push_without_drag(known.vehicle, state, p.measured, p.measured_moment, p.trusted * p.armed)
+
+
+@read_push.register(EstimateSource)
+def _estimated_push(reads: EstimateSource, true: Any, state: State, known: Any) -> Any:
+    p = known.push
+    return push_without_drag(known.vehicle, state, p.force, p.moment, p.trusted * p.armed)
+
+
+@law
+def push_without_drag(vehicle: NominalVehicle, state: State, force: Vec3, moment: Vec3, usable: Number) -> PushWrench:
+    """A push on the payload, less the drag, about the system's centre of mass; zero if it is not `usable` (0).
+
+    `force` [N, world axes]; `moment` [N·m, body axes] is about the payload's centre of mass.
+    """
+    push = force + vehicle.drag_force * state.velocity
+    arm = cross(vehicle.payload, apply_transposed(rotation_from_quaternion(state.attitude), push))
+    return PushWrench(push * usable, (moment + vehicle.drag_moment * state.rates + arm) * usable)
+
+
+READS = {"truth": TruthSource(), "measurement": MeasurementSource(), "estimate": EstimateSource()}
+MAPS = {"none": Absent(), "walls": KnownWalls()}

@@ -1,0 +1,272 @@
+"""The loop over the steps of a flight, written once: for one flight, for a block of them, and cut into parts.
+
+A step is cut where a controller in Python or a body in another engine takes part. Scratch memory carries values from
+one part to the next, and the values that are constant within a flight, which are computed before its first step.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import NamedTuple
+
+from tandemlift.compiler.tracer import LEAVES, Function, Place, Symbol, double
+from tandemlift.simulation.loop_code.compiled_limit_solver import write_limits, write_solver
+from tandemlift.simulation.loop_code.external_inputs import SPAN
+from tandemlift.simulation.loop_code.offsets import leaf_offset
+from tandemlift.simulation.loop_code.precompute import (
+    write_draw,
+    write_gust,
+    write_push,
+    write_surroundings,
+    write_walls,
+)
+from tandemlift.simulation.loop_code.scratch import ScratchValues, steady
+from tandemlift.simulation.loop_code.step_output import write_next_state, write_sample
+from tandemlift.simulation.loop_code.step_writer import StepWriter
+from tandemlift.simulation.loop_code.traced_step import Symbols
+
+
+class StepHalves(NamedTuple):
+    """A step of the loop in two halves, each to be written by a call: up to its sample, and what follows."""
+
+    sample: Callable[[], None]
+    go_on: Callable[[], None]
+
+
+def _write_nodes(nodes: list[int], f: Function) -> None:
+    f.write(nodes)
+
+
+class LoopWriter(StepWriter):
+    """Writes the functions of a flight's loop as LLVM text; arguments as for `StepWriter`."""
+
+    def begin_step(self, f: Function, k: str) -> None:
+        """Form the inputs of step k from outside, once in a span where possible, and bind them."""
+        x, lanes = self.templates, self.lanes
+        in_span = f.integer("and", k, SPAN - 1)
+        begins = f.op(f"icmp eq i64 {in_span}, 0")
+        with f.when(begins):
+            self.call(f, "sum_pushes", f"i64 {k}")
+            if self.draws and lanes == 1:
+                self.call(f, "draw_noise", f"i64 {k}")
+            if x.has_floor or x.has_person:
+                self.call(f, "find_surroundings")
+        if x.has_walls:
+            self.call(f, "find_walls", f"double {f.op(f'uitofp i1 {begins} to double')}")
+        self.bind_inputs(f, k)
+        if self.draws and lanes > 1:
+            self.call(f, "draw_noise", f"i64 {k}")
+        if self.has_gusts:
+            self.call(f, "sum_gusts", f"double {f.read['t'](0)}")
+
+    def bind_inputs(self, f: Function, k: str) -> None:
+        """Bind the inputs of step k to their places in memory."""
+        in_span = f.integer("and", k, SPAN - 1)
+        t = self.time(f, k)
+        hand = f.at("%work", f.integer("add", f.integer("mul", in_span, 2 * self.width), self.pushes_at))
+        noise = f.at("%work", f.integer("add", in_span, self.noise)) if self.lanes == 1 else f.at("%work", self.noise)
+        pace = SPAN if self.lanes == 1 else 1
+        f.read |= {
+            "t": lambda i: t,
+            "hand": lambda i: Place(hand, i),
+            "noise": lambda i: Place(noise, i * pace, pace),
+            "gust": lambda i: Place("%work", self.gust + i),
+            "answer": lambda i: Place("%work", self.answer + i),
+            "external": lambda i: Place("%work", self.external + i),
+            "outside": lambda i: Place("%work", self.outside + i),
+            "moved": lambda i: Place("%work", self.moved + i),
+            "solved": lambda i: Place("%work", self.solved + i),
+        }
+
+    def limit_thrusts(self, f: Function) -> None:
+        """Solve for thrusts within limits in the lanes whose thrusts exceed them."""
+        needs = self.traced.limits
+        if needs is not None:
+            write_limits(f, needs, self.solving)
+
+    def step_body(self, f: Function) -> None:
+        """Move the body over the step."""
+        if not self.traced.body_in_free_air:
+            if self.graph.rolls_from or self.largest:
+                self.store_values(f, self.moved, self.traced.body_in_contact)
+            else:
+                f.read["moved"] = lambda i: f.value(self.traced.body_in_contact[i])  # computed where it is read
+            return
+        x, near, feet, clear, done = self.traced, *[f.fresh(name) for name in ("near", "feet", "clear", "done")]
+        self._choose_body(f, near, feet, clear)
+        bodies = {near: x.body_in_contact, feet: x.body_on_feet, clear: x.body_in_free_air}
+        for name, values in bodies.items():
+            f.lines.append(f"{name}:")
+            f.store(double(float(name == near)), "%work", self.near * self.lanes, "double")
+            with f.scope():
+                self.store_values(f, self.moved, values if name == near else values[: self.moved_touches])
+            f.do(f"br label %{done}")
+        f.lines.append(f"{done}:")
+
+    def _choose_body(self, f: Function, near: str, feet: str, clear: str) -> None:
+        """Branch to the body near walls or with all its parts near the floor, on its feet, or in free air."""
+        low = f.op(f"fcmp one double {f.load('%work', self.low * self.lanes, 'double')}, 0.0")
+        walls, lower, tipped = "false", f.fresh("lower"), f.fresh("tipped")
+        for value in f.values(self.traced.may_touch_walls):
+            walls = f.op(f"or i1 {walls}, {f.any(value)}")
+        f.do(f"br i1 {walls}, label %{near}, label %{lower}")
+        f.lines.append(f"{lower}:")
+        f.do(f"br i1 {low}, label %{tipped}, label %{clear}")
+        f.lines.append(f"{tipped}:")
+        with f.scope():
+            hull = "false"
+            for value in f.values(self.traced.may_touch_hull):
+                hull = f.op(f"or i1 {hull}, {f.any(value)}")
+            f.do(f"br i1 {hull}, label %{near}, label %{feet}")
+
+    # loops
+
+    def write_outside(self) -> None:
+        """The functions that form a step's inputs from outside."""
+        write_push(self)
+        if self.draws:
+            write_draw(self)
+        if self.has_gusts:
+            write_gust(self)
+        if self.templates.has_floor or self.templates.has_person:
+            write_surroundings(self)
+        if self.templates.has_walls:
+            write_walls(self)
+        if self.traced.limits:
+            write_solver(self.module, self.traced.limits.solver, self.lanes)
+
+    def write_loop(self) -> str:
+        """`fly`: steps k to stop − 1, fewer if a flight alone ends before; it returns the step reached."""
+        self.write_outside()
+        f = self.function("fly_", result="i64")
+        begin, stop, steps = self.context_word(f, "k"), self.context_word(f, "stop"), self.context_word(f, "steps")
+        kept = self.prepare(
+            f, begin, [*self.traced.next_state, *self.traced.sample, *self.body_roots(), *self.limit_roots()]
+        )
+        f.label("first")
+        f.label("loop")
+        f.lines.append(f"  %k = phi i64 [ {begin}, %first ], [ %next, %ahead ]")
+        f.do(f"br i1 {f.op(f'icmp slt i64 %k, {stop}')}, label %sound, label %over")
+        f.lines.append("sound:")
+        if self.lanes == 1:
+            lost = f.load("%flight", leaf_offset(self.templates.model, "flight_state", "ended").at)
+            f.do(f"br i1 {f.op(f'fcmp oeq double {lost}, 0.0')}, label %step, label %over")
+            f.lines.append("step:")
+        self.begin_step(f, "%k")
+        sample, go_on = self._step_in_pieces(f, kept) if self.largest else self._step_in_place(f)
+        sample()
+        ends = "over" if self.lanes == 1 else "ahead"
+        f.do(f"br i1 {f.op(f'icmp eq i64 %k, {steps}')}, label %{ends}, label %on")
+        f.lines.append("on:")
+        go_on()
+        f.label("ahead")
+        f.lines.append("  %next = add i64 %k, 1")
+        f.do("br label %loop")
+        f.lines.append("over:")
+        f.end("i64 %k")
+        self.export("fly")
+        return self.module.text
+
+    def _step_in_place(self, f: Function) -> StepHalves:
+        def sample() -> None:
+            self.limit_thrusts(f)
+            self.step_body(f)
+            write_sample(self, f, "%k")
+
+        return StepHalves(sample, lambda: write_next_state(self, f, "%k"))
+
+    def _step_in_pieces(self, f: Function, kept: ScratchValues) -> StepHalves:
+        """Write a step as functions of some `largest` operations each, which are called one after another."""
+        x, sampling = self.traced, list[str]()
+        end = [*x.next_state, *x.sample]
+        body = [*self.body_roots(), *end]
+        acting = [*x.body.acting, *x.body.push]
+        if x.limits:
+            sampling += self._pieces("limits", kept, self.limit_roots(), [*acting, *body])
+            sampling += [self._piece("solving", self.limit_thrusts, kept, [*acting, *body])]
+        sampling += self._pieces("acting", kept, acting, body)
+        sampling += [self._piece("body", self.step_body, kept, end)]
+        sampling += self._pieces("end", kept, x.next_state, x.sample)
+        sampling += [self._piece("sample", lambda g: write_sample(self, g, "%k"), kept, [])]
+        last = self._piece("next", lambda g: write_next_state(self, g, "%k"), kept, [])
+
+        def sample() -> None:
+            for name in sampling:
+                self.call(f, name, "i64 %k")
+
+        return StepHalves(sample, lambda: self.call(f, last, "i64 %k"))
+
+    def _pieces(self, name: str, kept: ScratchValues, roots: Symbols, later: Symbols) -> list[str]:
+        """Compute roots in functions of some `largest` operations each; names of the functions."""
+        g, ids = self.graph, [s.node for s in roots]
+        nodes = [n for n in g.needed(ids, kept.at) if g.ops[n] not in LEAVES and n not in kept.at]
+        parts = [nodes[cut : cut + self.largest] for cut in range(0, len(nodes), self.largest)]
+        writers = [functools.partial(_write_nodes, part) for part in parts]
+        return [self._piece(f"{name}{i}", write, kept, [*roots, *later]) for i, write in enumerate(writers)]
+
+    def _piece(self, name: str, write: Callable[[Function], None], kept: ScratchValues, later: Symbols) -> str:
+        """Write a part of a step as a function, which stores what later parts need; its name."""
+        f = self.function(f"{name}_part", ", i64 %k")
+        kept.bind(f)
+        self.bind_inputs(f, "%k")
+        write(f)
+        kept.store_for_later(f, later)
+        f.end()
+        return f"{name}_part"
+
+    def write_parts(self, leaves_body: bool) -> str:
+        """Step k in parts: `ask` up to a controller in Python, `decide` up to another body, `complete` to its end."""
+        self.moves_body = not leaves_body
+        self.write_outside()
+        x = self.traced
+        parts = ["ask"] * x.calls_python + ["decide"] * leaves_body + ["complete"]
+        ends = [*x.next_state, *x.sample, *([] if leaves_body else self.body_roots())]
+        acts = [*self.limit_roots(), *([*x.body.acting, *x.body.push] if leaves_body else [])]
+        if not leaves_body:
+            ends, acts = [*ends, *acts], []
+        later = {"ask": [*acts, *ends], "decide": ends, "complete": []}
+        for part in parts:
+            f = self.function(f"{part}_", result="i64")
+            k = self.context_word(f, "k")
+            if part == parts[0]:
+                kept = self.prepare(f, k, [*x.asked, *acts, *ends])
+                self.begin_step(f, k)
+            else:
+                kept.bind(f)
+                self.bind_inputs(f, k)
+            if part == "ask":
+                self.store_values(f, self.asked, x.asked)
+            elif part == "decide":
+                self.limit_thrusts(f)
+                self.store_values(f, self.acting, x.body.acting)
+                self.store_values(f, self.push, x.body.push)
+            else:
+                self._complete(f, k, leaves_body)
+            kept.store_for_later(f, later[part])
+            f.end("i64 0")
+            self.export(part)
+        return self.module.text
+
+    def _complete(self, f: Function, k: str, leaves_body: bool) -> None:
+        if not leaves_body:
+            self.limit_thrusts(f)
+            self.step_body(f)
+        write_sample(self, f, k)
+        with f.when(f.op(f"icmp ne i64 {k}, {self.context_word(f, 'steps')}")):
+            write_next_state(self, f, k)
+
+    def prepare(self, f: Function, k: str, roots: Symbols) -> ScratchValues:
+        """At the start of a flight or after a change: form the tables for step k and store the constant values."""
+        kept = ScratchValues(self.graph, self.scratch)
+        nodes = steady(self.graph, roots, self.state_size)
+        f.values(Symbol(self.graph, n, "f") for n in nodes if f.is_uniform(n))
+        with f.when(f.op(f"icmp ne i64 {self.context_word(f, 'fresh')}, 0")):
+            self.call(f, "sum_pushes", f"i64 {k}")
+            if self.draws and self.lanes == 1:
+                self.call(f, "draw_noise", f"i64 {k}")
+            f.store(double(float(self.templates.has_floor)), "%work", self.low * self.lanes, "double")
+            f.put("%work", self.moved + self.moved_touches, self.traced.touches_before)
+            kept.store(f, [n for n in nodes if not f.is_uniform(n)])
+        kept.bind(f)
+        return kept

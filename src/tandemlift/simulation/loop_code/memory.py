@@ -1,0 +1,118 @@
+"""The memory of a flight, or of a block of flights, in a compiled loop."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.compiler.jit.code import Code
+from tandemlift.core.algebra.layout import flat
+from tandemlift.parts.contact.wall_geometry import WALL, Wall
+from tandemlift.parts.mechanics.push import GaussianPush
+from tandemlift.parts.mechanics.wind import Gust
+from tandemlift.parts.person.person import PATH_LEG, PathLeg
+from tandemlift.simulation.loop_code.context import AT, WORDS, aligned
+from tandemlift.simulation.loop_code.external_inputs import GAUSSIAN, GUST, InputTables
+
+Numbers = NDArray[np.float64]
+IDLE = InputTables(GAUSSIAN._replace(per_sigma=1.0), GUST, WALL, PATH_LEG)  # rows without effect
+COUNTS = ("push_count", "gust_count", "wall_count", "leg_count")
+
+
+class FlightStart(NamedTuple):
+    """A flight at its first step: numbers, tables, delay lines (rows × numbers), and the key of its random numbers."""
+
+    numbers: Numbers
+    tables: InputTables
+    ring: Numbers
+    keys: Numbers
+
+
+class TimeGrid(NamedTuple):
+    """Steps in all, steps between logged samples, rows of the log, length of a step [s], delays in steps."""
+
+    steps: int
+    every: int
+    rows: int
+    dt: float
+    delays: NDArray[np.int64]
+
+
+class FlightMemory:
+    """The memory that a loop works on.
+
+    Args:
+        code: the loop.
+        starts: a flight for each lane.
+        grid: of time steps, the same for all lanes.
+        columns: numbers of a sample.
+
+    Attributes:
+        numbers: of all flights, interleaved: number i of lane l stands at i · lanes + l.
+        log: samples (lanes, rows, columns).
+        k: the next step.
+    """
+
+    def __init__(self, code: Code, starts: Sequence[FlightStart], grid: TimeGrid, columns: int) -> None:
+        self.code, self.grid, self.k, lanes = code, grid, 0, len(starts)
+        self.numbers, self.ring = (
+            _interleaved([s.numbers for s in starts]),
+            _interleaved([s.ring.ravel() for s in starts]),
+        )
+        self.keys = _interleaved([s.keys for s in starts])
+        tables = [_table([s.tables[i] for s in starts], IDLE[i]) for i in range(len(IDLE))]
+        self.work = aligned(code.about["size"] * lanes)
+        self.log, self.last = np.zeros((lanes, grid.rows, columns)), np.full(columns, np.nan)
+        self._context = np.zeros(len(WORDS), dtype=np.int64)
+        self._kept = tables, grid.delays
+        arrays = (self.numbers, self.work, self.ring, grid.delays, self.keys, self.log, self.last, *tables)
+        for word, array in zip(WORDS, arrays, strict=False):
+            self.put(word, array.ctypes.data)
+        for word, table in zip(COUNTS, zip(*[s.tables for s in starts], strict=True), strict=True):
+            self.put(word, max(map(len, table)))
+        self.put("rings", len(starts[0].ring))
+        self.put("stride", grid.rows * columns)
+        self.put("steps", grid.steps)
+        self.put("every", grid.every)
+        self.put("fresh", 1)
+        self._context.view(np.float64)[AT["dt"]] = grid.dt
+        self.address = self._context.ctypes.data
+
+    def put(self, word: str, value: int) -> None:
+        """Set a word of the context."""
+        self._context[AT[word]] = value
+
+    def fly(self, stop: int) -> int:
+        """Fly on to step `stop`; a flight alone stops where it crashes or diverges. The step reached."""
+        self.put("k", self.k)
+        self.put("stop", stop)
+        self.k = self.code.free["fly"](self.address)
+        self.put("fresh", 0)
+        return self.k
+
+    def span(self, name: str) -> slice:
+        """The place of a span of the scratch memory."""
+        at, size = self.code.about["rooms"][name]
+        lanes = len(self.log)
+        return slice(at * lanes, (at + size) * lanes)
+
+
+def _interleaved(rows: Sequence[Any]) -> Numbers:
+    """The numbers of all lanes, interleaved."""
+    woven = aligned(len(rows) * len(rows[0]))
+    woven.reshape(-1, len(rows))[:] = np.stack(rows, axis=1)
+    return woven
+
+
+def _table(tables: Sequence[Numbers], idle: Wall | GaussianPush | Gust | PathLeg) -> Numbers:
+    """A table of all lanes: row i holds row i of every lane's table, an idle row where a lane has fewer."""
+    lanes, numbers = len(tables), flat(idle)
+    woven = aligned(max(map(len, tables)) * len(numbers) * lanes)
+    rows = woven.reshape(-1, len(numbers), lanes)
+    rows[:] = np.array(numbers)[:, None]
+    for lane, own in enumerate(tables):
+        rows[: len(own), :, lane] = own
+    return woven

@@ -1,0 +1,91 @@
+"""The pilot alone, compiled: a measurement in, rotor thrusts out."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.compiler.jit.code import Written
+from tandemlift.compiler.tracer import Function, Module, Place, symbols, tracer, written_out
+from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters, decide
+from tandemlift.parts.rotors.allocation import ConstrainedAllocation
+from tandemlift.simulation.loop_code.compiled_limit_solver import write_limits, write_solver
+from tandemlift.simulation.loop_code.traced_step import check_layout, graph_for, limit_thrusts
+
+POINTERS = ("numbers", "pilot_input", "thrusts", "work")  # words of the context, and behind them the step [s] as bits
+
+
+class PilotData(NamedTuple):
+    """The pilot's numbers in one array: the samples taken so far, its memory and its parameters."""
+
+    samples: Any
+    memory: PilotMemory
+    parameters: PilotParameters
+
+
+class PilotDataState(NamedTuple):
+    """The part of `PilotData` that changes."""
+
+    samples: Any
+    memory: PilotMemory
+
+
+class PilotSample(NamedTuple):
+    """A decision, and the pilot's memory after it."""
+
+    decision: Any
+    memory: PilotMemory
+
+
+class PilotSampler:
+    """A traced sample of a pilot; inputs: `pilot`, `pilot_input`, `dt`, and `solved`, the limit solver's result."""
+
+    def __init__(
+        self, onboard: PilotData, pilot_input: Any, quadrotors: int, *, fuses: bool = True, rolls: bool = True
+    ) -> None:
+        self.graph, self.trace = graph_for(quadrotors, rolls=rolls), tracer(fuses)
+        pilot, dt = self.input_of("pilot", onboard), self.graph.input("dt")
+        t = pilot.samples * dt
+        decided = PilotSample(
+            *self.trace(decide)(pilot.parameters, pilot.memory, self.input_of("pilot_input", pilot_input), t, dt)
+        )
+        self.limits = None
+        if isinstance(onboard.parameters.allocation, ConstrainedAllocation):
+            self.limits, *within = limit_thrusts(self, pilot.parameters, pilot.memory, decided, t)
+            decided = PilotSample(*within)
+        self.thrusts = self.numbers(decided.decision.thrusts)
+        after = PilotDataState(pilot.samples + 1.0, decided.memory)
+        check_layout(pilot.parameters.controller, PilotDataState(onboard.samples, onboard.memory), written_out(after))
+        self.after = self.numbers(after)
+
+    def input_of(self, kind: str, like: Any) -> Any:
+        """A nested value whose numbers are inputs of a kind."""
+        return self.graph.inputs(kind, like)
+
+    def numbers(self, value: Any) -> Any:
+        """The numbers of a nested value."""
+        return symbols(self.graph, value)
+
+    def written(self) -> Written:
+        """The function `sample`, whose argument is a context of `POINTERS`."""
+        module = Module()
+        if self.limits:
+            write_solver(module, self.limits.solver, 1)
+        f = Function(module, self.graph, 1, "i64 @sample(ptr %c) #0")
+        for i, word in enumerate(POINTERS):
+            f.lines.append(f"  %{word} = load ptr, ptr {f.at('%c', i, 'i64')}, align 8")
+        dt = f.load("%c", len(POINTERS), "double")
+        solved = len(self.limits.problem) if self.limits else 0
+        f.read = {
+            "pilot": lambda i: Place("%numbers", i),
+            "pilot_input": lambda i: Place("%pilot_input", i),
+            "dt": lambda i: dt,
+            "solved": lambda i: Place("%work", solved + i),
+        }
+        if self.limits:
+            write_limits(f, self.limits, 0)
+        f.values(self.after)
+        f.put("%thrusts", 0, self.thrusts)
+        f.put("%numbers", 0, self.after, "pilot")
+        f.end("i64 0")
+        size = solved + len(self.limits.search) if self.limits else 1
+        return Written(module.text, {"size": size})

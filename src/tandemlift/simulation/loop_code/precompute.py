@@ -1,0 +1,129 @@
+"""Functions that form the inputs of steps ahead of them: pushes, gusts, random numbers, surroundings."""
+
+from __future__ import annotations
+
+from tandemlift.compiler.tracer import Function, Place, double
+from tandemlift.core.algebra.layout import leaves
+from tandemlift.parts.contact.wall_geometry import WALL
+from tandemlift.parts.person.person import PATH_LEG
+from tandemlift.simulation.loop_code.context import MEMORY
+from tandemlift.simulation.loop_code.external_inputs import GAUSSIAN, GUST, HALVES, SPAN
+from tandemlift.simulation.loop_code.offsets import leaf_offset
+from tandemlift.simulation.loop_code.step_writer import StepWriter
+from tandemlift.simulation.loop_code.traced_step import Symbols
+
+
+def write_push(step: StepWriter) -> None:
+    """The sum of all pushes at the half steps of the span that holds step k."""
+    f, width = step.function("sum_pushes", ", i64 %k"), step.width
+    first = f.integer("and", "%k", -SPAN)
+    with f.repeat(HALVES * width) as i:
+        f.store(f.zero, "%work", f.integer("add", i, step.pushes_at))
+    opens, closes = step.time(f, first), step.time(f, f.integer("add", first, SPAN))
+    half, twice = f.op(f"fmul double %dt, {double(0.5)}"), f.integer("mul", first, 2)
+    pushes, count = step.context_word(f, "pushes"), step.context_word(f, "push_count")
+    with f.repeat(count) as i:
+        row = f.at(pushes, f.integer("mul", i, leaves(GAUSSIAN)))
+        f.read |= {"push": lambda m: Place(row, m), "opens": lambda m: opens, "closes": lambda m: closes}
+        with f.when(f.any(f.value(step.traced.push_is_active))), f.repeat(HALVES) as j:
+            number = f.op(f"sitofp i64 {f.integer('add', twice, j)} to double")
+            when = f.op(f"fmul double {number}, {half}")
+            f.read["when"] = lambda m: when
+            _add_to(f, f.integer("add", f.integer("mul", j, width), step.pushes_at), step.traced.push)
+    f.end()
+
+
+def write_gust(step: StepWriter) -> None:
+    """The velocity of all gusts at the time of a step."""
+    f = step.function("sum_gusts", ", double %t")
+    f.read["t"] = lambda m: "%t"
+    for m in range(3):
+        f.store(f.zero, "%work", step.gust + m)
+    gusts, count = step.context_word(f, "gusts"), step.context_word(f, "gust_count")
+    with f.repeat(count) as i:
+        row = f.at(gusts, f.integer("mul", i, leaves(GUST)))
+        f.read["gusts"] = lambda m: Place(row, m)
+        _add_to(f, step.gust, step.traced.gust)
+    f.end()
+
+
+def _add_to(f: Function, at: str | int, more: Symbols) -> None:
+    """Add values to those in scratch memory."""
+    place = f.at("%work", at)
+    for m, value in enumerate(f.values(more)):
+        f.store(f.op(f"fadd {f.vector} {f.load(place, m)}, {value}"), place, m)
+
+
+def write_draw(step: StepWriter) -> None:
+    """Standard normals of one step in every lane; for a flight alone, of all steps of the span that holds step k."""
+    lanes = step.lanes if step.lanes > 1 else step.draw_lanes
+    uniform = ("number",) if step.lanes > 1 else ("key",)
+    f = Function(step.module, step.graph, lanes, f"internal void @draw_noise({MEMORY}, i64 %k) #1", uniform)
+    keys = step.context_word(f, "keys")
+    if step.lanes > 1:
+        f.read = {"number": lambda m: "%k", "key": lambda m: f.load(keys, m)}
+        for m, value in enumerate(v for four in step.traced.normals for v in f.values(four)):
+            f.store(value, "%work", step.noise + m)
+        f.end()
+        return
+    first = f.integer("and", "%k", -SPAN)
+    kind = f"<{lanes} x i64>" if lanes > 1 else "i64"
+    ramp = "<" + ", ".join(f"i64 {j}" for j in range(lanes)) + ">" if lanes > 1 else "0"
+    f.read = {"key": lambda m: f.load(keys, m, "double")}
+    with f.repeat(SPAN // lanes) as j:
+        base = f.spread(f.integer("add", first, f.integer("mul", j, lanes)), "i64")
+        numbers = f.op(f"add {kind} {base}, {ramp}")
+        f.read["number"] = lambda m: numbers
+        for m, value in enumerate(v for four in step.traced.normals for v in f.values(four)):
+            at = f.integer("add", f.integer("mul", j, lanes), step.noise + m * SPAN)
+            f.store(value, f.at("%work", at, "double"))
+    f.end()
+
+
+def write_surroundings(step: StepWriter) -> None:
+    """Search once per span: whether the floor is near, the leg of the person's path."""
+    x, f = step.templates, step.function("find_surroundings")
+    if x.has_floor:
+        low = f.any(f.value(step.traced.may_touch_floor))
+        f.store(f.op(f"uitofp i1 {low} to double"), "%work", step.low * step.lanes, "double")
+    if x.has_person:
+        _find_legs(step, f)
+    f.end()
+
+
+def write_walls(step: StepWriter) -> None:
+    """Find the nearest walls of the flights for which they are due."""
+    f, at = (
+        step.function("find_walls", ", double %begins"),
+        leaf_offset(step.templates.model, "flight_state", "near").at,
+    )
+    f.read |= {"begins": lambda m: "%begins", "due": lambda m: Place("%work", step.due)}
+    is_due, first, more = step.traced.wall_search
+    due = f.value(is_due)
+    f.store(due, "%work", step.due)
+    with f.when(f.any(f.op(f"fcmp one {f.vector} {due}, {f.zero}"))):
+        f.put("%flight", at, first)
+        walls, count = step.context_word(f, "walls"), step.context_word(f, "wall_count")
+        with f.repeat(count) as i:
+            row = f.at(walls, f.integer("mul", i, leaves(WALL)))
+            f.read["wall"] = lambda m: Place(row, m)
+            with f.afresh():
+                f.put("%flight", at, more)
+    f.end()
+
+
+def _find_legs(step: StepWriter, f: Function) -> None:
+    model, lanes = step.templates.model, step.lanes
+    index, leg = (
+        leaf_offset(model, "flight_state", "person", "index").at,
+        leaf_offset(model, "flight_state", "person", "leg").at,
+    )
+    legs, last = step.context_word(f, "legs"), f.integer("sub", step.context_word(f, "leg_count"), 1)
+    for lane in range(lanes):
+        number = f.load("%flight", index * lanes + lane, "double")
+        i = f.call("i64", "@llvm.fptosi.sat.i64.f64", number, types=["double"])
+        i = f.call("i64", "@llvm.smax.i64", i, "0", types=["i64", "i64"])
+        i = f.call("i64", "@llvm.smin.i64", i, last, types=["i64", "i64"])
+        row = f.at(legs, f.integer("mul", i, leaves(PATH_LEG)))
+        for m in range(leaves(PATH_LEG)):
+            f.store(f.load(row, m * lanes + lane, "double"), "%flight", (leg + m) * lanes + lane, "double")

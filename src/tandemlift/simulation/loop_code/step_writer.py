@@ -1,0 +1,126 @@
+"""What the functions of a flight's loop share: the traced step, scratch memory, arguments and the context's words."""
+
+from __future__ import annotations
+
+from tandemlift.compiler.tracer import Function, Module, Place
+from tandemlift.core.algebra.layout import leaves
+from tandemlift.simulation.loop_code.context import AT, MEMORY, POINTERS, ScratchLayout
+from tandemlift.simulation.loop_code.external_inputs import HALVES, SPAN
+from tandemlift.simulation.loop_code.offsets import delayed_spans, leaf_offset
+from tandemlift.simulation.loop_code.traced_step import Symbols, TracedStep
+
+UNIFORM = ("t", "dt", "when", "opens", "closes", "number", "begins")
+ARGUMENTS = "ptr %c, ptr %flight, ptr %work"
+
+
+class StepWriter:
+    """What the functions of a flight's loop share: the traced step, the scratch memory, and how functions are written.
+
+    Args:
+        traced: the graph of a step.
+        lanes: flights that one instruction serves: 1, or LANES for a block.
+        largest: operations of a function, about, where a step is cut into several; 0 for a step in one function.
+        draw_lanes: steps that one instruction draws random numbers for, in a flight alone: a power of two up to SPAN.
+    """
+
+    def __init__(self, traced: TracedStep, lanes: int, draw_lanes: int = 8, largest: int = 0) -> None:
+        self.traced, self.templates, self.graph, self.lanes = traced, traced.templates, traced.graph, lanes
+        self.module, self.scratch, self.draw_lanes, self.largest = Module(), ScratchLayout(), draw_lanes, largest
+        self.moves_body = True
+        self.width, self.draws = leaves(self.templates.given.hand.start), 0
+        self.state_size = leaves(self.templates.model.flight_state)
+        self.delayed = delayed_spans(self.templates.model)
+        self.touches = leaf_offset(self.templates.model, "flight_state", "touches")
+        self.moved_touches = leaf_offset(self.templates.moved, "touches").at
+        g, roots = self.graph, [s.node for s in self.all_roots]
+        self.has_gusts = any(g.ops[n] == "in" and g.args[n][0] == "gust" for n in g.needed(roots))
+        self._lay_out_scratch()
+
+    @property
+    def all_roots(self) -> Symbols:
+        """Every value that a step computes."""
+        x = self.traced
+        return [
+            *x.next_state,
+            *x.sample,
+            *self.body_roots(),
+            *self.limit_roots(),
+            *x.asked,
+            *x.body.acting,
+            *x.body.push,
+        ]
+
+    def _lay_out_scratch(self) -> None:
+        x, take = self.templates, self.scratch.take
+        self.pushes_at = take("hands", HALVES * self.width)
+        self.draws = len(self.traced.normals)
+        self.noise = take("noise", 4 * self.draws * (SPAN if self.lanes == 1 else 1))
+        self.gust = take("gust", 3)
+        self.asked, self.answer = take("asked", len(self.traced.asked)), take("answer", 4 + 3)
+        self.acting = take("acting", len(self.traced.body.acting))
+        self.external = take("external", leaves(x.given.external))
+        self.outside = take("outside", leaves(x.given.outside))
+        self.push, self.moved = take("push", 6), take("moved", leaves(x.moved))
+        needs = self.traced.limits
+        self.solving = take("solving", len(needs.problem) + len(needs.search) if needs else 0)
+        self.sample = take("sample", leaves(x.sample) if self.lanes > 1 else 0)
+        self.low, self.near, self.due = take("low", 1), take("near", 1), take("due", 1)
+
+    def function(self, name: str, more: str = "", result: str = "void") -> Function:
+        """An internal function whose arguments are the context %c, the flight, the scratch memory, and `more`."""
+        head = f"internal {result} @{name}({MEMORY}{more}) #1"
+        f = Function(self.module, self.graph, self.lanes, head, UNIFORM)
+        f.lines.append(f"  %dt = load double, ptr {f.at('%c', AT['dt'], 'i64')}, align 8")
+        f.sets.room = self.scratch_place
+        f.read = {"fly": lambda i: Place("%flight", i), "dt": lambda i: "%dt"}
+        return f
+
+    def export(self, name: str) -> None:
+        """A function for Python, with the context as its only argument, that calls the internal one of that name."""
+        f = Function(self.module, self.graph, self.lanes, f"i64 @{name}(ptr %c) #0")
+        given = [f"ptr {self.context_word(f, word)}" for word in ("flight", "work")]
+        f.end("i64 " + f.op(f"call i64 @{name}_({', '.join(['ptr %c', *given])})"))
+
+    def scratch_place(self, count: int) -> Place:
+        """Scratch memory for a set of `count` numbers."""
+        return Place("%work", self.scratch.take(f"room_{self.scratch.size}", count))
+
+    def call(self, f: Function, name: str, *more: str) -> None:
+        """Call another internal function."""
+        f.do(f"call void @{name}({', '.join([ARGUMENTS, *more])})")
+
+    def context_word(self, f: Function, name: str) -> str:
+        """A word of the context; words have 64 bits, also where addresses have 32."""
+        kind = "ptr" if name in POINTERS else "i64"
+        return f.op(f"load {kind}, ptr {f.at('%c', AT[name], 'i64')}, align 8")
+
+    def time(self, f: Function, k: str) -> str:
+        """The time of step k."""
+        number = f.op(f"sitofp i64 {k} to double")
+        return f.op(f"fmul double {number}, %dt")
+
+    @property
+    def solved(self) -> int:
+        """Offset of the limit solver's result in scratch memory."""
+        needs = self.traced.limits
+        return self.solving + (len(needs.problem) if needs else 0)
+
+    def store_values(self, f: Function, at: int, values: Symbols) -> None:
+        """Write values to scratch memory."""
+        f.put("%work", at, values)
+
+    @property
+    def keeps_touches(self) -> bool:
+        """Whether the record of touches stays in its place except in steps near floor or walls."""
+        return bool(self.moves_body and self.touches.size and self.traced.body_in_free_air)
+
+    def body_roots(self) -> Symbols:
+        """The values of the body after the step in all its forms, and what decides among them."""
+        x = self.traced
+        bodies = [*x.body_in_contact, *x.body_on_feet, *x.body_in_free_air]
+        return [*bodies, *x.may_touch_walls, *x.may_touch_hull]
+
+    def limit_roots(self) -> Symbols:
+        """The values that the limit solver needs; none where thrusts have no limits."""
+        needs = self.traced.limits
+        return [needs.beyond, *needs.problem, *needs.plain, *needs.search] if needs else []

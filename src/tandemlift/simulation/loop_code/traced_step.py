@@ -1,0 +1,300 @@
+"""A traced step of a flight: each number that the step computes, as a symbol of the step's inputs.
+
+Inputs by kind: `fly` (leaf of the flight), `hand`, `gust`, `noise`, `t`, `dt`; `answer` of a controller in Python;
+`solved`, the limit solver's result; `external`, what the caller of a step adds; `moved`, the body after the step, and
+`outside`, the push that it was given outside of the loop.
+Inputs of values computed before the step: `push`, `gusts`, `wall` (rows), `begins`, `due`, `when`, `number`, `key`.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any, NamedTuple
+
+from tandemlift.compiler.tracer import Graph, Symbol, TraceError, refused, symbols, tracer, written_out
+from tandemlift.core.algebra.layout import leaves
+from tandemlift.core.algebra.ops import where
+from tandemlift.core.algebra.selection import chosen
+from tandemlift.core.algebra.vector import ZERO, layout, total
+from tandemlift.engines.compiled import BodyStep, first_motion
+from tandemlift.engines.compiled_contact import CompiledPlant, on_feet_only, without_contact
+from tandemlift.parts.contact.clearance import clearance, is_fast, may_touch_wall
+from tandemlift.parts.contact.feet import may_touch
+from tandemlift.parts.contact.hull import hull_may_touch
+from tandemlift.parts.contact.wall_geometry import WALL
+from tandemlift.parts.contact.walls import nearest_with
+from tandemlift.parts.controllers import control
+from tandemlift.parts.mechanics.push import push_at, push_moment
+from tandemlift.parts.mechanics.wind import gust_velocity
+from tandemlift.parts.pilot.pilot import control_input, with_allocation, with_command, with_thrusts
+from tandemlift.parts.random_numbers import normals
+from tandemlift.parts.rotor_loss.detection import left_of, with_trials
+from tandemlift.parts.rotors.allocation import AllocationState, limits_at, outside_limits, rotor_commands
+from tandemlift.parts.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
+from tandemlift.simulation.loop.step import (
+    PilotOutput,
+    StepInputs,
+    actuate,
+    finish_sample,
+    perceive,
+    run_pilot,
+    step_body,
+    with_caller_thrusts,
+    with_person,
+)
+from tandemlift.simulation.loop_code.external_inputs import GAUSSIAN, GUST, SPAN, draw_count, is_active
+from tandemlift.simulation.loop_code.templates import COMMAND, Templates
+
+Symbols = list[Symbol]
+MANY = 5  # quadrotors from which on sets are arrays in memory, and operations on them loops
+
+
+def graph_for(quadrotors: int, *, rolls: bool = True) -> Graph:
+    """An empty graph for the laws of a number of quadrotors; `rolls`: whether large sets may be loops."""
+    return Graph(MANY if rolls and quadrotors >= MANY else 0)
+
+
+class TracedSolver:
+    """A traced step of the limit solver; its inputs are `problem` and the `search` so far."""
+
+    def __init__(self, like: BoundedProblem, rolls_from: int = 0) -> None:
+        self.graph, rotors = Graph(rolls_from), like.unlimited
+        self.rotors, self.problem_size = len(rotors), leaves(like)
+        problem = self.graph.inputs("problem", like)
+        search = self.graph.inputs("search", Search(AllocationState(rotors, rotors), 0.0, 0.0, 0.0))
+        self.begun = symbols(self.graph, self._unless_ended(search, start_search(problem.limits, search.found)))
+        self.after = symbols(self.graph, self._unless_ended(search, search_step(problem, search)))
+
+    def _unless_ended(self, s: Search, after: Search) -> Search:
+        """A search that has ended stays as it is."""
+        over = s.ended > 0.0
+        found = AllocationState(*[where(over, a, b) for a, b in zip(s.found, after.found, strict=True)])
+        return Search(found, *[where(over, a, b) for a, b in zip(s[1:], after[1:], strict=True)])
+
+
+class LimitProblem(NamedTuple):
+    """The problem of thrusts within limits.
+
+    Attributes:
+        beyond: whether a thrust exceeds its limits.
+        problem: the numbers of the `BoundedProblem`.
+        plain: the result where no thrust exceeds its limits.
+        search: the search at its start.
+        solver: a traced step of the search.
+    """
+
+    beyond: Symbol
+    problem: Symbols
+    plain: Symbols
+    search: Symbols
+    solver: TracedSolver
+
+
+class BodyInputs(NamedTuple):
+    """Inputs of a body in another engine: `acting` (with thrusts and loads of the air), and the mean `push`."""
+
+    acting: Symbols
+    push: Symbols
+
+
+def changed_layout(before: Any, after: Any, path: str = "") -> str:
+    """The first part of a flight whose layout differs after a step, in words."""
+    if type(before) is type(after) and hasattr(before, "_fields"):
+        for name, a, b in zip(before._fields, before, after, strict=True):
+            if layout(a) != layout(b):
+                return changed_layout(a, b, f"{path}.{name}" if path else name)
+    kinds = [type(x).__name__ if hasattr(x, "_fields") else "a number" for x in (before, after)]
+    return f"{path or 'a step'} is {kinds[0]} before a step and {kinds[1]} after it: a law returns what it was given"
+
+
+def check_layout(gains: Any, before: Any, after: Any) -> None:
+    """Refuse laws that change the layout of a flight; `gains`: of the controller.
+
+    Raises:
+        TraceError: with the law, if it is the controller's.
+    """
+    if layout(before) == layout(after):
+        return
+    what, law = changed_layout(before, after), control.table.get(type(gains))
+    if law is not None and "memory.controller" in what:
+        raise refused(f"returns another layout: {what}", law.__code__, law.__code__.co_firstlineno)
+    raise TraceError(what)
+
+
+class TracedStep:
+    """The graph of a step of flights like `templates`.
+
+    Args:
+        templates: the layouts of what passes through a step.
+        calls_python: whether a controller in Python is called in the middle of the step.
+        fuses: whether a·b + c is rounded once.
+        rolls: whether large sets may be loops.
+    """
+
+    def __init__(
+        self, templates: Templates, calls_python: bool = False, *, fuses: bool = True, rolls: bool = True
+    ) -> None:
+        self.templates, self.calls_python = templates, calls_python
+        self.trace = tracer(fuses)
+        self.graph = graph_for(len(templates.model.plant.frame.mass), rolls=rolls)
+        self.model = self.input_of("fly", templates.model)
+        self.t, self.dt = self.graph.input("t"), self.graph.input("dt")
+        outer = StepInputs(
+            self.input_of("hand", templates.given.hand),
+            self.input_of("gust", ZERO),
+            self.input_of("noise", templates.given.noise),
+            self.model.flight_state.person,
+            self.input_of("external", templates.given.external),
+            self.input_of("outside", templates.given.outside),
+        )
+        self.given = self.trace(with_person)(self.model, outer, self.t, self.dt)
+        self.asked: Symbols = []
+        output = (
+            self._ask_python()
+            if calls_python
+            else self.trace(run_pilot)(self.model, self.given.hand.start, self.t, self.dt)
+        )
+        self.limits: LimitProblem | None = None
+        if templates.has_thrust_limits:
+            output = self._limit_thrusts(output)
+        output = self.trace(with_caller_thrusts)(output, self.given.external)
+        acting = self.trace(actuate)(self.model, output.decision.thrusts, self.given, self.t)
+        self.body = BodyInputs(self.numbers(acting), self._mean_push())
+        plant = self.model.plant
+        self.body_in_contact = self.numbers(self._stepped_body(plant, acting))
+        self.body_on_feet, self.body_in_free_air = list[Symbol](), list[Symbol]()
+        if templates.has_floor or templates.has_walls:
+            self.body_on_feet = self.numbers(self._stepped_body(on_feet_only(plant), acting))
+            self.body_in_free_air = self.numbers(self._stepped_body(without_contact(plant), acting))
+        self.may_touch_walls = [self._may_touch_walls(acting)] if templates.has_walls else []
+        moved = self.input_of("moved", templates.moved)
+        after, sample = self.trace(finish_sample)(self.model, output, acting, moved, self.given, self.t, self.dt)
+        check_layout(self.model.pilot.controller, templates.model.flight_state, written_out(after))
+        self.next_state, self.sample = self.numbers(after), self.numbers(sample)
+
+    @property
+    def touches_before(self) -> Symbols:
+        """The record of touches at the start of the step."""
+        return self.numbers(self.model.flight_state.touches)
+
+    def input_of(self, kind: str, like: Any) -> Any:
+        """A nested value whose numbers are inputs of a kind."""
+        return self.graph.inputs(kind, like)
+
+    def numbers(self, value: Any) -> Symbols:
+        """The numbers of a nested value."""
+        return symbols(self.graph, value)
+
+    def _ask_python(self) -> PilotOutput:
+        f, push, t, dt = self.model, self.given.hand.start, self.t, self.dt
+        estimates, pilot_input, estimator = self.trace(perceive)(f, push, t, dt)
+        memory = f.flight_state.memory
+        briefed = self.trace(control_input)(f.pilot, memory, pilot_input, t, dt)
+        self.asked = [*self.numbers(briefed.measured), *self.numbers(briefed.guidance.reference)]
+        command = self.input_of("answer", COMMAND)
+        decision, memory = self.trace(with_command)(f.pilot, memory, briefed, command, memory.controller)
+        return PilotOutput(estimates, pilot_input.state.attitude, decision, memory, estimator)
+
+    def _limit_thrusts(self, output: PilotOutput) -> PilotOutput:
+        self.limits, decision, memory = limit_thrusts(
+            self, self.model.pilot, self.model.flight_state.memory, output, self.t
+        )
+        return output._replace(decision=decision, memory=memory)
+
+    def _stepped_body(self, plant: CompiledPlant, acting: Any) -> BodyStep:
+        return self.trace(step_body)(plant, self.model.flight_state, acting, self.given.hand, self.t, self.dt)
+
+    @cached_property
+    def may_touch_hull(self) -> Symbols:
+        """Whether anything but feet may touch the floor in this step; none without a floor."""
+        floor, state = self.model.plant.floor, self.model.flight_state.state
+        if not self.templates.has_floor:
+            return []
+        return [self.trace(hull_may_touch)(floor.hull, floor.height, state, self.dt)]
+
+    def _may_touch_walls(self, acting: Any) -> Symbol:
+        """Whether anything may touch a wall in this step."""
+        before, plant, dt = self.model.flight_state, self.model.plant, self.dt
+        args = before.state, before.grip, before.near, acting.thrusts, acting.wind.loads, self.given.hand
+        rate = self.trace(first_motion)(without_contact(plant), *args)
+        room = self.trace(clearance)(plant.walls, before.near, plant.frame, before.state)
+        return self.trace(may_touch_wall)(plant.walls, room, before.state, rate, dt)
+
+    def _mean_push(self) -> Symbols:
+        hand, attitude = self.given.hand, self.model.flight_state.state.attitude
+        mean = (hand.start + hand.middle * 4.0 + hand.end) * (1.0 / 6.0)
+        return [*self.numbers(mean.force), *self.numbers(self.trace(push_moment)(mean, attitude))]
+
+    # values computed before the step
+
+    @property
+    def when(self) -> Symbol:
+        """The time at which a push is evaluated."""
+        return self.graph.input("when")
+
+    @cached_property
+    def push(self) -> Symbols:
+        """A row of the table of pushes at the time `when`."""
+        return self.numbers(
+            self.trace(push_at)(self.templates.given.hand.start, self.input_of("push", GAUSSIAN), self.when)
+        )
+
+    @cached_property
+    def push_is_active(self) -> Symbol:
+        """Whether that push is other than zero between the times `opens` and `closes`."""
+        return is_active(self.input_of("push", GAUSSIAN), self.graph.input("opens"), self.graph.input("closes"))
+
+    @cached_property
+    def gust(self) -> Symbols:
+        """The velocity of a row of the table of gusts."""
+        return self.numbers(self.trace(gust_velocity)(self.input_of("gusts", GUST), self.t))
+
+    @cached_property
+    def normals(self) -> list[Symbols]:
+        """The standard normals of step `number`, four for each draw."""
+        number, keys = self.graph.input("number", type="i"), [self.graph.input("key", i) for i in (0, 1)]
+        draws = range(draw_count(self.templates.given.noise))
+        return [self.numbers(self.trace(normals)(number, i, *keys)) for i in draws]
+
+    @cached_property
+    def wall_search(self) -> tuple[Symbol, Symbols, Symbols]:
+        """1 where the nearest walls are `due`: as a span `begins`, and if fast; they at first, and with a row more."""
+        f, walls, g = self.model.flight_state, self.model.plant.walls, self.graph
+        found = self.trace(nearest_with)(walls, self.input_of("wall", WALL), f.near, self.model.plant.frame, f.state)
+        first, more = (self.numbers(chosen(g.input("due"), near, f.near)) for near in (self.templates.nowhere, found))
+        return where(self.trace(is_fast)(walls, f.state, self.dt * float(SPAN)), 1.0, g.input("begins")), first, more
+
+    @cached_property
+    def may_touch_floor(self) -> Symbol:
+        """Whether a foot may touch the floor within the steps of a span."""
+        return self.trace(may_touch)(self.model.plant.floor, self.model.flight_state.state, self.dt * float(SPAN))
+
+
+def limit_thrusts(owner: Any, pilot: Any, held: Any, output: Any, t: Any) -> Any:
+    """(`LimitProblem`, a decision within them, the memory after it); `held`: the pilot's memory before.
+
+    Args:
+        owner: of the graph; it gives the symbols of an input by `input_of`, those of a value by `numbers`, and the
+            traced form of a law by `trace`.
+        pilot: its parameters.
+        held: its memory before.
+        output: with its decision and its memory after it, without limits.
+        t: time [s].
+    """
+    how, decision = pilot.allocation, output.decision
+    wished = decision.thrusts
+    limits = owner.trace(limits_at)(how, owner.trace(left_of)(pilot.detection, held.detection), t)
+    outside = total(owner.trace(outside_limits)(wished, limits)) > 0.0
+    problem, plain, before = (
+        BoundedProblem(how.rows, how.weights, decision.command.wrench, wished, limits),
+        AllocationState(wished * 0.0, wished),
+        held.allocation,
+    )
+    start = AllocationState(where(outside, before.active, plain.active), where(outside, before.thrusts, plain.thrusts))
+    search = Search(start, 1.0, 0.0, where(outside, 0.0, 1.0))
+    solver = TracedSolver(written_out(problem), owner.graph.rolls_from)
+    needs = LimitProblem(outside, owner.numbers(problem), owner.numbers(plain), owner.numbers(search), solver)
+    solved = owner.input_of("solved", written_out(plain))
+    wanted = owner.trace(rotor_commands)(how, solved.thrusts, t)
+    commands = owner.trace(with_trials)(pilot.detection, held.detection, wanted, t)
+    return needs, owner.trace(with_thrusts)(decision, commands), owner.trace(with_allocation)(output.memory, solved)

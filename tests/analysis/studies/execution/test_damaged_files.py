@@ -1,0 +1,116 @@
+"""A file of results that is not as it was written: it is never read as if it were, and is flown again."""
+
+import random
+import shutil
+
+import polars
+import pyarrow.parquet as pq
+import pytest
+from study_runs import TWELVE, assert_same_rows, files_of, fly
+
+from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.execution.checked_file import DamagedFile
+from tandemlift.analysis.studies.execution.store import open_folder
+from tandemlift.analysis.studies.reading.table import load_study
+from tandemlift.core.errors import InputError
+
+KEPT = TWELVE | {"keep": {"channels": ["position"], "rows": [0, 5, 20]}}
+FLIPS, SEED = 500, 25
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("studies") / "twelve"
+    fly(KEPT, folder, threads=2)
+    return folder
+
+
+@pytest.fixture
+def twelve(whole, tmp_path):
+    return shutil.copytree(whole, tmp_path / "twelve")
+
+
+def all_columns(folder):
+    study = load_study(folder)
+    return study.read(study.columns)
+
+
+def flipped(content, bit):
+    damaged = bytearray(content)
+    damaged[bit // 8] ^= 1 << bit % 8
+    return bytes(damaged)
+
+
+def with_damage_in(path, name):
+    """The content of a file with a bit changed in the last page of a column."""
+    metadata = pq.read_metadata(path)
+    column = metadata.row_group(0).column(metadata.schema.names.index(name))
+    first = column.dictionary_page_offset if column.has_dictionary_page else column.data_page_offset
+    return flipped(path.read_bytes(), 8 * (first + column.total_compressed_size - 1))
+
+
+def test_no_bit_of_a_file_can_change_and_be_read_or_taken_for_flown(twelve):
+    store = open_folder(load_plan(KEPT), twelve)
+    name = store.names()[0]
+    path = store.files.file(name)
+    content, drawn = path.read_bytes(), random.Random(SEED)
+    bits = [*range(64), *range(8 * len(content) - 64, 8 * len(content))]
+    for bit in [*bits, *(drawn.randrange(8 * len(content)) for _ in range(FLIPS))]:
+        path.write_bytes(flipped(content, bit))
+        assert not store.files.is_flown(name), bit
+        with pytest.raises(
+            InputError, match=rf"{path.name} is damaged: .* Run the study again: it makes this file anew"
+        ):
+            all_columns(twelve)
+    path.write_bytes(content)
+    assert store.files.is_flown(name)
+
+
+def test_every_damaged_file_is_flown_again_and_no_other_one(whole, twelve):
+    one, other, copied, swapped, with_it, *rest = files_of(twelve).values()
+    one.write_bytes(flipped(one.read_bytes(), 8 * 100))
+    other.write_bytes(other.read_bytes() + b"\0")
+    shutil.copy(rest[0], copied)
+    first, second = swapped.read_bytes(), with_it.read_bytes()
+    swapped.write_bytes(second)
+    with_it.write_bytes(first)
+    before = {path: path.stat().st_mtime_ns for path in rest}
+    assert fly(KEPT, twelve) == 5
+    assert_same_rows(whole, twelve)
+    assert {path: path.stat().st_mtime_ns for path in rest} == before
+
+
+def test_the_file_of_other_rows_or_of_another_study_in_its_place_is_refused(twelve, tmp_path):
+    path, other, *_ = files_of(twelve).values()
+    fly(KEPT | {"set": {"mission.duration": 0.25}}, tmp_path / "shorter")
+    shorter = next(iter(files_of(tmp_path / "shorter").values()))
+    for source in (other, shorter):
+        shutil.copy(source, path)
+        with pytest.raises(DamagedFile, match=rf"{path.name} is damaged: it is not as it was written, or holds other"):
+            load_study(twelve).read(["row"])
+
+
+def test_a_file_that_another_program_wrote_is_refused(twelve):
+    path, *_ = files_of(twelve).values()
+    table = pq.read_table(path)
+    pq.write_table(table.set_column(0, "row", [[3, 2, 1, 0]]), path)
+    with pytest.raises(DamagedFile):
+        load_study(twelve).read(["row"])
+
+
+def test_a_damaged_column_does_not_keep_others_from_being_read(twelve):
+    path, *_ = files_of(twelve).values()
+    path.write_bytes(with_damage_in(path, "human_work_j"))
+    study = load_study(twelve)
+    assert study.read(["row"])["row"].to_pylist() == list(range(48))
+    with pytest.raises(DamagedFile, match="column human_work_j is not as it was written"):
+        study.read(["row", "human_work_j"])
+
+
+def test_any_reader_of_parquet_reads_the_files_and_finds_checksums_of_pages(twelve):
+    path, *_ = files_of(twelve).values()
+    table = pq.read_table(path, page_checksum_verification=True)
+    assert polars.read_parquet(path).to_arrow().to_pylist() == table.to_pylist()
+    path.write_bytes(with_damage_in(path, "human_work_j"))
+    with pytest.raises(OSError, match="CRC"):
+        pq.read_table(path, page_checksum_verification=True)

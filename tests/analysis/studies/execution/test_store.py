@@ -1,0 +1,198 @@
+"""The folder of a study when something is wrong with it: files cut short, no space, no rights, another study."""
+
+import json
+import os
+import random
+import shutil
+import tempfile
+from pathlib import Path
+
+import pyarrow.parquet as pq
+import pytest
+from listings import LAW
+from study_runs import TWELVE, assert_same_rows, files_of, fly, started
+
+from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.execution.files import LEFT_OVER
+from tandemlift.analysis.studies.execution.store import open_folder
+from tandemlift.analysis.studies.reading.table import load_study
+from tandemlift.analysis.studies.study import mission_of_row
+from tandemlift.core.errors import InputError
+from tandemlift.parts.controllers import CONTROLLERS
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("studies") / "twelve"
+    fly(TWELVE, folder, threads=2)
+    return folder
+
+
+@pytest.fixture
+def twelve(whole, tmp_path):
+    return shutil.copytree(whole, tmp_path / "twelve")
+
+
+def stamps(folder):
+    return {name: path.stat().st_mtime_ns for name, path in files_of(folder).items()}
+
+
+def test_a_study_that_is_flown_flies_no_chunk_again(twelve):
+    before = stamps(twelve)
+    assert fly(TWELVE, twelve) == 0
+    assert stamps(twelve) == before
+
+
+@pytest.mark.parametrize("keep", [0, 3, 100, -8, -1])
+def test_a_file_that_was_cut_short_is_made_again_and_no_other_one(whole, twelve, keep):
+    cut, *_ = files_of(twelve)
+    before = stamps(twelve)
+    path = twelve / "chunks" / cut
+    path.write_bytes(path.read_bytes()[:keep])
+    assert fly(TWELVE, twelve) == 1
+    after = stamps(twelve)
+    assert [name for name in after if after[name] != before[name]] == [cut]
+    assert_same_rows(whole, twelve)
+
+
+def test_a_file_of_something_else_is_made_again(whole, twelve):
+    one, other, *_ = files_of(twelve).values()
+    one.write_bytes(bytes(one.stat().st_size))
+    text = b"PAR1" + b"x" * 40 + (20).to_bytes(4, "little") + b"PAR1"
+    other.write_bytes(text)
+    assert fly(TWELVE, twelve) == 2
+    assert_same_rows(whole, twelve)
+
+
+def test_a_file_says_of_which_study_and_chunk_it_is(twelve):
+    folder = open_folder(load_plan(TWELVE), twelve)
+    for name in folder.names():
+        about = pq.read_metadata(folder.files.file(name)).metadata
+        assert about[b"tandemlift.study"].decode() == folder.digest
+        assert about[b"tandemlift.chunk"].decode() == name
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"set": {"mission.duration": 0.6}}, r"its set.mission.duration is 0.5, here it is 0.6"),
+        ({"study": TWELVE["study"] | {"draws": 96}}, r"its study.draws is 48, here it is 96"),
+        (
+            {"study": TWELVE["study"] | {"missions": ["hover"]}},
+            r'its study.missions is \["one-push"\], here it is \["hover"\]',
+        ),
+    ],
+)
+def test_the_folder_of_another_study_is_refused_and_stays(twelve, changed, said):
+    before = stamps(twelve)
+    with pytest.raises(InputError, match=f"holds another study: {said}; choose another --out"):
+        fly(TWELVE | changed, twelve)
+    assert stamps(twelve) == before
+
+
+def test_a_controller_s_file_that_changed_since_is_named(tmp_path):
+    path = tmp_path / "changing.py"
+    path.write_text(LAW.replace("my-pd", "changing"), "utf-8")
+    tables = {"study": {"name": "mine", "missions": ["hover"], "controllers": [str(path)]}}
+    open_folder(load_plan(tables), tmp_path / "out")
+    path.write_text(path.read_text("utf-8") + "\n# edited\n", "utf-8")
+    del CONTROLLERS["changing"]  # as in a new process
+    with pytest.raises(InputError, match=r"flown with another version of changing\.py: choose another --out"):
+        open_folder(load_plan(tables), tmp_path / "out")
+    del CONTROLLERS["changing"]
+
+
+EDITS = {
+    "a setting": lambda said: said["settings"]["set"].update({"mission.duration": 0.4}),
+    "a mission": lambda said: said["variants"][0]["tables"].update(plant={"mass_scale": 1.1}),
+    "a controller": lambda said: said["variants"][0].update(controller_file=["mine.py", "raise SystemExit('ran')"]),
+    "the rows": lambda said: said.update(rows=44),
+    "the columns": lambda said: said.update(varied=[]),
+    "the sources": lambda said: said.update(sources="0" * 16),
+    "the digest": lambda said: said.update(digest=said["digest"][::-1]),
+    "a key of its own": lambda said: said.update(more=1),
+}
+
+
+@pytest.mark.parametrize("edit", EDITS.values(), ids=EDITS)
+def test_a_plan_that_was_edited_is_refused_before_anything_of_it_is_used(twelve, edit):
+    path = twelve / "study.json"
+    said = json.loads(path.read_text("utf-8"))
+    edit(said)
+    path.write_text(json.dumps(said), "utf-8")
+    for use in (load_study, lambda folder: mission_of_row(folder, 0), lambda folder: fly(TWELVE, folder)):
+        with pytest.raises(InputError, match=r"study\.json is damaged, or was edited: .* Remove this file and start"):
+            use(twelve)
+    path.unlink()
+    assert fly(TWELVE, twelve) == 0
+
+
+def test_a_plan_of_which_a_bit_changed_is_refused(twelve):
+    path = twelve / "study.json"
+    content, drawn = path.read_bytes(), random.Random(25)
+    for _ in range(200):
+        bit = drawn.randrange(8 * len(content.rstrip()))
+        path.write_bytes(bytes(byte ^ (1 << bit % 8) * (i == bit // 8) for i, byte in enumerate(content)))
+        with pytest.raises(InputError, match=r"study\.json|made by another version"):
+            load_study(twelve)
+
+
+def test_a_folder_of_another_format_is_said_to_be_of_another_version(twelve):
+    path = twelve / "study.json"
+    path.write_text(path.read_text("utf-8").replace('"format": ', '"format": 99'), "utf-8")
+    with pytest.raises(InputError, match="made by another version of tandemlift; fly it again"):
+        load_study(twelve)
+
+
+@pytest.fixture
+def locked(whole):
+    """The folder of a study that lacks one file, and to which this process may not write."""
+    above = Path(tempfile.mkdtemp())
+    above.chmod(0o755)
+    folder = shutil.copytree(whole, above / "twelve")
+    next(iter(files_of(folder).values())).unlink()
+    (folder / "chunks").chmod(0o555)
+    folder.chmod(0o555)
+    root = os.geteuid() == 0
+    if root:  # whom no mode stops
+        os.seteuid(65534)
+    yield folder
+    if root:
+        os.seteuid(0)
+    for path in (folder, folder / "chunks"):
+        path.chmod(0o755)
+    shutil.rmtree(above)
+
+
+def test_a_read_only_folder_is_one_clear_line(locked):
+    there = stamps(locked)
+    with pytest.raises(InputError, match=r"/twelve/chunks: cannot be written to: Permission denied$"):
+        fly(TWELVE, locked, threads=1)
+    with pytest.raises(InputError, match=r"/inner: cannot be made or written to: Permission denied$"):
+        fly(TWELVE, locked / "inner", threads=1)
+    assert stamps(locked) == there
+
+
+def test_a_full_disk_is_one_clear_line_and_what_was_flown_stays(whole, tmp_path):
+    limit = 12_000  # bytes of a file: fewer than one of results has, more than the study's own files have
+    sizes = [path.stat().st_size for path in files_of(whole).values()]
+    assert min(sizes) > limit > (whole / "study.json").stat().st_size
+    process = started(TWELVE, tmp_path, largest_file=limit)
+    _, errors = process.communicate(timeout=300)
+    assert errors.splitlines()[-1].startswith("tandemlift.core.errors.InputError: ")
+    assert errors.splitlines()[-1].endswith("cannot be written: File too large; what is done so far stays")
+    assert list(tmp_path.glob("chunks/*")) == []
+    assert fly(TWELVE, tmp_path) == 12
+    assert_same_rows(whole, tmp_path)
+
+
+def test_what_a_killed_process_left_behind_is_removed_once_it_is_old(twelve):
+    chunks = twelve / "chunks"
+    old, new = chunks / ".a.parquet.0123.partial", chunks / ".b.claim"
+    for path in (old, new):
+        path.touch()
+    past = old.stat().st_mtime - 2 * LEFT_OVER
+    os.utime(old, (past, past))
+    open_folder(load_plan(TWELVE), twelve)
+    assert not old.exists()
+    assert new.exists()
