@@ -172,6 +172,7 @@ class Exchanging(Chosen):
         path, self.tests = str(self.copy.tree / "src" / "tandemlift" / mutant.file), tests
         name = mutant.function.partition(".<locals>")[0]
         (code,) = (c for c in _codes(compile(Path(path).read_bytes(), path, "exec")) if c.co_qualname == name)
+        gc.unfreeze()  # what is frozen is not listed
         for thing in gc.get_objects():
             if (
                 type(thing) is FunctionType
