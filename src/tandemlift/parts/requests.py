@@ -74,7 +74,7 @@ class RequestSchedule(NamedTuple):
     land: Any
     stop: Any
     change: Any
-    enabled: Any
+    enabled: Number
 
 
 class RequestCounts(NamedTuple):
@@ -87,23 +87,23 @@ class RequestCounts(NamedTuple):
 
 
 @elementwise
-def due(time: Any, request: Any, t: Any) -> Any:
+def due(time: Number, request: Number, t: Number) -> Number:
     """A request from its time on, before 0."""
     return where(t >= time, request, 0.0)
 
 
 @choice(absent=NO_REQUEST)
-def operator_request(person: Any) -> Any:
+def operator_request(person: object) -> OperatorRequest:
     """`OperatorRequest` of a person at the vehicle, from their memory."""
 
 
 @choice(absent=RequestCounts(0.0, 0.0, 0.0, 1.0))
-def requests_until(requests: Any, t: Any) -> Any:
+def requests_until(requests: RequestSchedule | Absent, t: Number) -> RequestCounts:
     """`RequestCounts` of a schedule until time t [s]."""
 
 
 @requests_until.register(RequestSchedule)
-def _until(requests: RequestSchedule, t: Any) -> RequestCounts:
+def _until(requests: RequestSchedule, t: Number) -> RequestCounts:
     r = requests
     return RequestCounts(
         total(due(r.time, r.lift, t)),

@@ -250,10 +250,11 @@ def _events(log: EventLog) -> list[tuple[float, float]]:
 
 def _by_lost_rotor(p: FlightPlan, flight_state: FlightState) -> Iterator[Finding]:
     """The landing after a failed rotor that was found, where no supervision reports it."""
-    detection, guidance = p.model.pilot.detection, flight_state.memory.guidance
-    if isinstance(detection, Absent) or isinstance(getattr(guidance, "supervision", None), SupervisionState):
+    detection, memory, guidance = p.model.pilot.detection, flight_state.memory.detection, flight_state.memory.guidance
+    supervised = isinstance(getattr(guidance, "supervision", None), SupervisionState)
+    if isinstance(detection, Absent) or isinstance(memory, Absent) or supervised:
         return
-    verdict = flight_state.memory.detection.verdict
+    verdict = memory.verdict
     if p.mission.pilot.guidance != "interactive" or not total(verdict.lost):
         return
     text = f"landed because of a fault: rotor {int(dot(verdict.lost, detection.numbers))} failed"

@@ -148,7 +148,7 @@ def describe_event(now: EventCode, before: EventCode) -> str:
 def _detection_metrics(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     """Metrics of the rotor-loss detection: number of detections, and delay [s] of the correct one (None without)."""
     detection, memory = p.model.pilot.detection, flown.flight_state.memory.detection
-    if isinstance(detection, Absent):
+    if isinstance(detection, Absent) or isinstance(memory, Absent):
         return {}
     v = memory.verdict
     lost = int(dot(v.lost, detection.numbers))

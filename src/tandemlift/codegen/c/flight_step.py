@@ -12,6 +12,7 @@ from tandemlift.codegen.c.limits import Solver, write_limits
 from tandemlift.codegen.c.source_file import SourceFile
 from tandemlift.core.algebra.layout import leaves, rebuilt
 from tandemlift.core.algebra.vector import ZERO
+from tandemlift.parts.rotors.allocation import ConstrainedAllocation
 from tandemlift.simulation.loop_code.traced_step import Symbols, TracedStep
 
 COMMENT = """/* One step of a flight from time t [s] by dt [s]: its state after it, and the sample at its start
@@ -51,8 +52,8 @@ class FlightStep:
         for number in unit.reached(self.traced.graph, self.roots):
             done.append(number)
             texts.append(law_function(unit, number))
-        if self.traced.limits:
-            texts += Solver(unit, self.traced.templates.model.pilot.allocation).functions(done)
+        if isinstance(allocation := self.traced.templates.model.pilot.allocation, ConstrainedAllocation):
+            texts += Solver(unit, allocation).functions(done)
         return [*texts, self._advance()]
 
     def _advance(self) -> str:
@@ -74,8 +75,8 @@ class FlightStep:
         given += [f"{unit.real} t", f"{unit.real} dt", f"{kind(templates.sample)} *sample"]
         body.know(graph.input("t"), "t")
         body.know(graph.input("dt"), "dt")
-        if x.limits:
-            write_limits(body, x.limits, templates.model.pilot.allocation)
+        if x.limits and isinstance(allocation := templates.model.pilot.allocation, ConstrainedAllocation):
+            write_limits(body, x.limits, allocation)
         self._move_body(body)
         body.compute([s.node for s in [*x.sample, *x.next_state]])
         sample = rebuilt(iter(x.sample), templates.sample)

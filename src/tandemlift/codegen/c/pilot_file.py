@@ -13,6 +13,7 @@ from tandemlift.compiler.tracer import Graph
 from tandemlift.core.algebra.layout import leaves, rebuilt
 from tandemlift.core.algebra.vector import each
 from tandemlift.parts.pilot.pilot import PilotInput
+from tandemlift.parts.rotors.allocation import ConstrainedAllocation
 from tandemlift.simulation.loop_code.pilot_sampling import PilotData, PilotDataState, PilotSampler
 
 
@@ -48,7 +49,7 @@ class PilotFile:
         return self.file.source("pilot.c", [self.pilot, self.input], functions, SET=kind)
 
     def _sample(self, done: list[int]) -> list[str]:
-        unit, x = self.file.unit, self.sampler
+        unit, x, allocation = self.file.unit, self.sampler, self.start.parameters.allocation
         graph, texts = x.graph, list[str]()
         roots = [s.node for s in [*x.after, *x.thrusts]]
         if x.limits:
@@ -56,16 +57,16 @@ class PilotFile:
         for number in unit.reached(graph, roots):
             done.append(number)
             texts.append(law_function(unit, number))
-        if x.limits:
-            texts += Solver(unit, self.start.parameters.allocation).functions(done)
+        if isinstance(allocation, ConstrainedAllocation):
+            texts += Solver(unit, allocation).functions(done)
         body = Statements(unit, graph, roots)
         for name in ("pilot", "input", "dt", "thrusts"):
             body.taken.new(name)
         body.know(graph.inputs("pilot", self.start), "pilot", pointer=True)
         body.know(graph.inputs("pilot_input", self.pilot_input), "input", pointer=True)
         body.know(graph.input("dt"), "dt")
-        if x.limits:
-            write_limits(body, x.limits, self.start.parameters.allocation)
+        if x.limits and isinstance(allocation, ConstrainedAllocation):
+            write_limits(body, x.limits, allocation)
         body.compute(roots_of(graph, [*x.after, *x.thrusts]))
         after = rebuilt(iter(x.after), PilotDataState(self.start.samples, self.start.memory))
         thrusts = rebuilt(iter(x.thrusts), unit_set(self.rotors))

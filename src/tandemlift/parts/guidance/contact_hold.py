@@ -10,7 +10,7 @@ The time in contact, which time without one takes back, leads to a landing.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import maximum, minimum, sqrt, where
@@ -92,7 +92,7 @@ class Boundary(NamedTuple):
 
 
 @choice
-def contact_of(sensed: Any) -> Any:
+def contact_of(sensed: object) -> ContactEstimate:
     """`ContactEstimate` from readings and estimates."""
 
 
@@ -117,7 +117,9 @@ def code_of(c: ContactEstimate) -> Number:
 
 
 @choice(absent=("k", "m"))
-def react_to_contact(k: Any, m: Any, pilot_input: PilotInput, aloft: Any, dt: Any) -> Any:
+def react_to_contact(
+    k: ContactReaction | Absent, m: ContactReactionState | Absent, pilot_input: PilotInput, aloft: Number, dt: Number
+) -> tuple[Boundary | Absent, ContactReactionState | Absent]:
     """(`Boundary`, the new memory) at a sample; `aloft` is 1 in flight, except in lift and landing."""
 
 
@@ -160,7 +162,7 @@ def _outward(boundary: Boundary, acceleration: Vec3) -> Vec3:
 
 
 @choice(absent="m")
-def kept_out(b: Any, m: ComplianceState, dt: Any) -> Any:
+def kept_out(b: Boundary | Absent, m: ComplianceState, dt: Number) -> ComplianceState:
     """The reference on the outer side of a boundary."""
 
 
@@ -181,7 +183,7 @@ def _kept_out(b: Boundary, m: ComplianceState, dt: Number) -> ComplianceState:
 
 
 @choice(absent="moment")
-def turning_out(b: Any, moment: Any) -> Any:
+def turning_out(b: Boundary | Absent, moment: Number) -> Number:
     """The moment about the vertical that may turn the vehicle [N·m]: none that turns the part into the wall."""
 
 
@@ -198,7 +200,7 @@ def slower(m: HandWrench, force: Vec3, moment: Vec3, dt: Number) -> HandWrench:
 
 
 @choice(absent="pilot_input")
-def without_wall(b: Any, pilot_input: PilotInput) -> Any:
+def without_wall(b: Boundary | Absent, pilot_input: PilotInput) -> PilotInput:
     """The pilot's input without what a wall gives of the push; of a beam that touches, what points out of the wall."""
 
 
@@ -211,7 +213,7 @@ def _less_wall(b: Boundary, pilot_input: PilotInput) -> PilotInput:
 
 
 @choice(absent="bounds")
-def bounded_by(b: Any, bounds: PhaseBounds) -> Any:
+def bounded_by(b: Boundary | Absent, bounds: PhaseBounds) -> PhaseBounds:
     """The bounds of the phases, with those of a contact."""
 
 
@@ -221,7 +223,7 @@ def _bounded(b: Boundary, bounds: PhaseBounds) -> PhaseBounds:
 
 
 @choice(absent=Absent())
-def load_of_wall(b: Any) -> Any:
+def load_of_wall(b: Boundary | Absent) -> LoadOfWall | Absent:
     """The load of the wall on a guard that touches; that on the beam is a part of the measured push already."""
 
 
@@ -239,7 +241,7 @@ def load_at(c: ContactEstimate, state: State) -> LoadOfWall:
 
 
 @choice(absent=0.0)
-def contact_code(b: Any) -> Any:
+def contact_code(b: Boundary | Absent) -> Number:
     """The code of the contact that holds, or 0."""
 
 

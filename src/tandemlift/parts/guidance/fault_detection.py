@@ -158,7 +158,7 @@ def distance_outside(low: Vec3, high: Vec3, p: Vec3) -> Number:
 
 
 @law
-def outside(f: Fence, p: Vec3) -> Any:
+def outside(f: Fence, p: Vec3) -> Number:
     """1 if a position is outside the fence by more than the margin, else 0."""
     return where(distance_outside(f.low, f.high, p) > f.margin, 1.0, 0.0)
 

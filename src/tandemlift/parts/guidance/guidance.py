@@ -6,7 +6,7 @@ By a schedule as in the paper: `scheduled_guidance`. By hand, in phases: `hand_g
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple, TypeVar
 
 from tandemlift.core.algebra.constants import NEVER
 from tandemlift.core.algebra.law import Absent, choice
@@ -15,6 +15,7 @@ from tandemlift.core.algebra.types import Number, PerRotor
 from tandemlift.core.algebra.vector import Vec3
 from tandemlift.core.checks import CheckResult, refused
 from tandemlift.core.keys import Table, key
+from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.requests import (
     NO_REQUEST,
@@ -24,6 +25,7 @@ from tandemlift.parts.requests import (
 )
 from tandemlift.parts.trajectories import PhasesTable, Reference, Trajectory
 
+M = TypeVar("M")
 Reading = Literal["truth", "measurement", "estimate"]
 
 
@@ -84,7 +86,7 @@ class PilotInput(NamedTuple):
     push: Vec3
     moment: Vec3
     land: Number
-    sensed: Any
+    sensed: object
     operator: OperatorRequest = NO_REQUEST
     status: VehicleStatus = UNKNOWN_STATUS
 
@@ -107,8 +109,8 @@ class AlwaysRunning(NamedTuple):
 class RunningInFlight(NamedTuple):
     """Rotors run from the `start` [s] of the lift to the end of the landing at `stop` [s]."""
 
-    start: Any
-    stop: Any
+    start: Number
+    stop: Number
 
 
 class ThrustFraction(NamedTuple):
@@ -134,12 +136,20 @@ class Guidance(NamedTuple):
     running: AlwaysRunning | ThrustFraction
     flying: Number
     learning: Number
-    channels: Any
+    channels: object
     wall: LoadOfWall | Absent = Absent()
 
 
 @choice
-def guide(g: Any, m: Any, pilot_input: Any, disturbance: Any, rotor_failed: Any, t: Any, dt: Any) -> Any:
+def guide(
+    g: object,
+    m: M,
+    pilot_input: PilotInput,
+    disturbance: DisturbanceEstimate,
+    rotor_failed: Number,
+    t: Number,
+    dt: Number,
+) -> tuple[Guidance, M]:
     """(`Guidance`, the new memory) at time t [s].
 
     Args:
@@ -154,12 +164,12 @@ def guide(g: Any, m: Any, pilot_input: Any, disturbance: Any, rotor_failed: Any,
 
 
 @choice
-def checked_input(g: Any, m: Any, pilot_input: PilotInput, thrust: Any, rotor_failed: Any) -> Any:
+def checked_input(g: object, m: object, pilot_input: PilotInput, thrust: Number, rotor_failed: Number) -> PilotInput:
     """The pilot's input, made usable; with the thrust of all rotors [N], and 1 once a rotor has failed, else 0."""
 
 
 @choice(absent="pilot_input")
-def with_wall(wall: Any, pilot_input: PilotInput) -> Any:
+def with_wall(wall: LoadOfWall | Absent, pilot_input: PilotInput) -> PilotInput:
     """The pilot's input with the load of a wall added to the push, so that it is no disturbance."""
 
 
@@ -169,7 +179,7 @@ def _with_wall(wall: LoadOfWall, pilot_input: PilotInput) -> PilotInput:
 
 
 @choice(absent=1.0)
-def untouched(wall: Any) -> Any:
+def untouched(wall: LoadOfWall | Absent) -> Number:
     """1 while no wall acts, else 0."""
 
 
@@ -179,7 +189,7 @@ def _untouched(wall: LoadOfWall) -> Number:
 
 
 @choice
-def running(rotors: Any, thrusts: Any) -> Any:
+def running(rotors: AlwaysRunning | ThrustFraction, thrusts: PerRotor) -> PerRotor:
     """Thrusts [N] as commanded while the rotors run, or none while they are stopped."""
 
 
@@ -194,7 +204,7 @@ def _fraction(rotors: ThrustFraction, thrusts: PerRotor) -> PerRotor:
 
 
 @choice
-def thrust_fraction(rotors: Any) -> Any:
+def thrust_fraction(rotors: AlwaysRunning | ThrustFraction) -> Number:
     """The fraction of every thrust that is commanded."""
 
 
@@ -209,7 +219,7 @@ def _value(rotors: ThrustFraction) -> Number:
 
 
 @choice
-def run(rotors: Any, t: Any) -> Any:
+def run(rotors: AlwaysRunning | RunningInFlight, t: Number) -> AlwaysRunning | ThrustFraction:
     """`AlwaysRunning` or a `ThrustFraction`, for `running`: whether rotors run at time t [s]."""
 
 
@@ -219,7 +229,7 @@ def _run_always(rotors: AlwaysRunning, t: Number) -> AlwaysRunning:
 
 
 @run.register(RunningInFlight)
-def _run_in_flight(rotors: RunningInFlight, t: Any) -> ThrustFraction:
+def _run_in_flight(rotors: RunningInFlight, t: Number) -> ThrustFraction:
     return ThrustFraction(where(t < rotors.start, 0.0, where(t < rotors.stop, 1.0, 0.0)))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import maximum, where
@@ -61,6 +61,7 @@ from tandemlift.parts.guidance.supervised_reference import fenced, usable_input,
 from tandemlift.parts.guidance.supervision import (
     Supervision,
     SupervisionChannels,
+    SupervisionOutput,
     SupervisionState,
     finish_supervision,
     supervise,
@@ -219,7 +220,7 @@ def supervised_phase(
     rotor_failed: Number,
     t: Number,
     dt: Number,
-) -> Any:
+) -> tuple[PhaseState, SupervisionOutput, SupervisionState | Absent]:
     """(the phase, `SupervisionOutput`, the memory of supervision) at time t [s]."""
     k, operator = g.phasing, pilot_input.operator
     requests = with_operator(

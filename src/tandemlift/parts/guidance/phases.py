@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import law
+from tandemlift.core.algebra.law import Absent, law
 from tandemlift.core.algebra.ops import absolute, maximum, minimum, where
 from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import dot
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, STOPPED
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.requests import RequestCounts
+from tandemlift.parts.requests import RequestCounts, RequestSchedule
 from tandemlift.parts.trajectories import SmoothStep, smoothstep
 
 SETTLING_TIME = 1.0  # s, of steady hover before a tare
@@ -41,7 +41,7 @@ class PhaseSettings(NamedTuple):
     spin_up_time: Number
     always_running: Number
     max_descent_speed: Number
-    requests: Any
+    requests: RequestSchedule | Absent
 
 
 class PhaseState(NamedTuple):

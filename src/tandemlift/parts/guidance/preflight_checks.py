@@ -67,12 +67,12 @@ class SensorStatus(NamedTuple):
 
 
 @choice
-def sensor_status(sensed: Any, payload: Any) -> Any:
+def sensor_status(sensed: object, payload: Number) -> SensorStatus:
     """`SensorStatus` from readings and estimates; `payload` is the nominal mass [kg], used where none is estimated."""
 
 
 @sensor_status.register(Absent)
-def _without_sensors(sensed: Absent, payload: Any) -> SensorStatus:
+def _without_sensors(sensed: Absent, payload: Number) -> SensorStatus:
     return SensorStatus(WELL, 0.0, 1.0, payload)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra.law import Absent
 from tandemlift.core.algebra.types import Number
@@ -16,8 +16,10 @@ from tandemlift.parts.compliance.admittance import (
 )
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.guidance import (
+    AlwaysRunning,
     Guidance,
     PilotInput,
+    RunningInFlight,
     checked_input,
     guide,
     run,
@@ -31,7 +33,7 @@ class ScheduledGuidance(NamedTuple):
     admittance: Admittance
     phases: ScheduledPhases
     yaw: Number
-    rotors: Any
+    rotors: AlwaysRunning | RunningInFlight
 
 
 @checked_input.register(ScheduledGuidance)

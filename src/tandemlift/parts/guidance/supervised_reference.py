@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra.law import Absent, choice, elementwise
 from tandemlift.core.algebra.ops import clip, maximum, where
@@ -31,12 +31,14 @@ class UsableInput(NamedTuple):
 
 
 @choice
-def usable_input(k: Any, m: Any, pilot_input: Any, thrust: Any, rotor_failed: Any) -> Any:
+def usable_input(
+    k: Supervision | Absent, m: SupervisionState | Absent, pilot_input: PilotInput, thrust: Number, rotor_failed: Number
+) -> UsableInput:
     """`UsableInput` from the pilot's input, the thrust of all rotors [N], and 1 once a rotor has failed, else 0."""
 
 
 @usable_input.register(Absent)
-def _unchecked(k: Absent, m: Any, pilot_input: PilotInput, thrust: Number, rotor_failed: Number) -> UsableInput:
+def _unchecked(k: Absent, m: Absent, pilot_input: PilotInput, thrust: Number, rotor_failed: Number) -> UsableInput:
     status = VehicleStatus(rotor_failed, thrust, state_invalid=0.0)
     return UsableInput(pilot_input.state, pilot_input.push, pilot_input.moment, status)
 
@@ -67,7 +69,7 @@ def speed_limit(
 
 
 @choice(absent="compliance")
-def fenced(k: Any, compliance: Compliance, m: ComplianceState, lift: Any) -> Any:
+def fenced(k: Supervision | Absent, compliance: Compliance, m: ComplianceState, lift: Number) -> Compliance:
     """The compliance with speed limits that keep the reference inside the fence; `lift`: height already lifted [m]."""
 
 
@@ -79,7 +81,9 @@ def _fenced(k: Supervision, compliance: Compliance, m: ComplianceState, lift: Nu
 
 
 @choice(absent="target")
-def with_blind_descent(k: Any, target: Trajectory, state: State, blind: Any, landing: Any, fraction: Any) -> Any:
+def with_blind_descent(
+    k: Supervision | Absent, target: Trajectory, state: State, blind: Number, landing: Number, fraction: Number
+) -> Trajectory:
     """The reference; a level descent if nothing of the motion is known (`blind` 1) and the vehicle lands (1).
 
     `fraction` of the landing's time that is over: in the second half the descent accelerates, so that the feet press.

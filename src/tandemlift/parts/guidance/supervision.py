@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.law import Absent, choice, elementwise, law
 from tandemlift.core.algebra.ops import maximum, where
 from tandemlift.core.algebra.types import Number, PerRotor
 from tandemlift.core.algebra.vector import Vec3, total
@@ -38,7 +38,7 @@ from tandemlift.parts.guidance.preflight_checks import (
     sensor_status,
 )
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.rotors.rotor_faults import efficiency_at
+from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at
 
 TOUCHDOWN_TIME = 0.2  # s, after which a vehicle above its landing's reference is taken to stand on something
 CONTACT, PHASE, ALARM = 1e8, 1e6, 1e2  # factors in the code of an event: contact, phase, alarm, failed check
@@ -56,7 +56,7 @@ class Supervision(NamedTuple):
     mass: Number
     payload: Number
     limits: PerRotor
-    known: Any
+    known: NoFaults | RotorFaults
     checks: PreflightChecks
     fence: Fence
     bounds: SupervisionLimits
@@ -73,9 +73,9 @@ class EventLog(NamedTuple):
 
     time: Any
     code: Any
-    count: Any
-    last: Any
-    failed_check: Any
+    count: Any  # a tuple's `count` is a method
+    last: Number
+    failed_check: Number
 
 
 class SupervisionState(NamedTuple):
@@ -126,7 +126,15 @@ UNSUPERVISED = SupervisionOutput(
 
 
 @choice(absent=(UNSUPERVISED, "m"))
-def supervise(k: Any, m: Any, pilot_input: Any, phase: PhaseState, lift_requested: Any, t: Any, dt: Any) -> Any:
+def supervise(
+    k: Supervision | Absent,
+    m: SupervisionState | Absent,
+    pilot_input: PilotInput,
+    phase: PhaseState,
+    lift_requested: Number,
+    t: Number,
+    dt: Number,
+) -> tuple[SupervisionOutput, SupervisionState | Absent]:
     """(`SupervisionOutput`, the new memory) at time t [s]; `lift_requested` is 1 or 0."""
 
 
@@ -220,7 +228,14 @@ def with_event(k: Supervision, m: EventLog, now: Number, failed_check: Number, t
 
 
 @choice(absent=("k", "m"))
-def finish_supervision(k: Any, m: Any, phase: PhaseState, reference: Vec3, contact: Any, t: Any) -> Any:
+def finish_supervision(
+    k: Supervision | Absent,
+    m: SupervisionState | Absent,
+    phase: PhaseState,
+    reference: Vec3,
+    contact: Number,
+    t: Number,
+) -> tuple[SupervisionChannels | Absent, SupervisionState | Absent]:
     """(`SupervisionChannels`, the new memory) once the phase and the reference [m] are known; `contact`: its code."""
 
 

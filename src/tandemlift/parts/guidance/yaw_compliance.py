@@ -6,12 +6,11 @@ only need to give the damping, at most U: a larger moment of the person turns th
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
-from tandemlift.core.algebra.law import choice
+from tandemlift.core.algebra.law import Absent, choice
 from tandemlift.core.algebra.ops import clip, where
 from tandemlift.core.algebra.types import Number, number
-from tandemlift.core.algebra.vector import Absent
 from tandemlift.core.keys import NonNegative, Positive, Table, Tilt, key
 from tandemlift.parts.compliance.compliance import DeadBand, DeadBandState, PushFilters, dead_band
 from tandemlift.parts.guidance.phases import PhaseOutput
@@ -97,7 +96,15 @@ class HeadingReference(NamedTuple):
 
 
 @choice
-def yaw_step(k: Any, m: Any, moment: Any, yaw: Any, phase: PhaseOutput, rotor_failed: Any, dt: Any) -> Any:
+def yaw_step(
+    k: FixedHeading | YawCompliance,
+    m: YawState | Absent,
+    moment: Number,
+    yaw: Number,
+    phase: PhaseOutput,
+    rotor_failed: Number,
+    dt: Number,
+) -> tuple[HeadingReference, YawState | Absent]:
     """(`HeadingReference`, the new memory) under a moment about the vertical [N·m] at the vehicle's yaw [rad].
 
     `rotor_failed` is 1 once a rotor has failed, else 0.
@@ -106,8 +113,8 @@ def yaw_step(k: Any, m: Any, moment: Any, yaw: Any, phase: PhaseOutput, rotor_fa
 
 @yaw_step.register(FixedHeading)
 def _fixed(
-    k: FixedHeading, m: Any, moment: Number, yaw: Number, phase: PhaseOutput, rotor_failed: Number, dt: Number
-) -> Any:
+    k: FixedHeading, m: Absent, moment: Number, yaw: Number, phase: PhaseOutput, rotor_failed: Number, dt: Number
+) -> tuple[HeadingReference, Absent]:
     near = wrap_angle(yaw + clip(wrap_angle(k.angle - yaw), -k.max_lead_angle, k.max_lead_angle))
     return HeadingReference(where(rotor_failed > 0.0, near, k.angle), 0.0, 0.0), m
 

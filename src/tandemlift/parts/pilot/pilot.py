@@ -7,7 +7,7 @@ are held until the next sample. `simulation.assembly.pilot` makes one from a mis
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.types import Number, PerRotor
@@ -16,6 +16,7 @@ from tandemlift.parts.compliance.admittance import AdmittanceState
 from tandemlift.parts.controllers import Command, Disturbance, Measured, control
 from tandemlift.parts.estimation.disturbance_observer import (
     DisturbanceEstimate,
+    DisturbanceObserver,
     ObserverState,
     last_known,
     observer_step,
@@ -29,9 +30,10 @@ from tandemlift.parts.guidance.guidance import (
     untouched,
     with_wall,
 )
-from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
-from tandemlift.parts.rotor_loss.detection import DetectionState, detection_step, failed_rotors
-from tandemlift.parts.rotors.allocation import AllocationState, allocate
+from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
+from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
+from tandemlift.parts.rotor_loss.detection import DetectionState, RotorLossDetection, detection_step, failed_rotors
+from tandemlift.parts.rotors.allocation import AllocationState, ConstrainedAllocation, Mixer, allocate
 
 __all__ = [
     "ControlInput",
@@ -48,21 +50,21 @@ __all__ = [
 class PilotParameters(NamedTuple):
     """The parameters of the pilot; the types of its members pick the laws."""
 
-    guidance: Any
-    observer: Any
-    controller: Any
-    allocation: Any
-    detection: Any
+    guidance: ScheduledGuidance | HandGuidance
+    observer: DisturbanceObserver | Absent
+    controller: object
+    allocation: Mixer | ConstrainedAllocation
+    detection: RotorLossDetection | Absent
 
 
 class PilotMemory(NamedTuple):
     """The memory of the pilot from sample to sample."""
 
-    guidance: Any
-    observer: Any
-    controller: Any
-    allocation: Any
-    detection: Any
+    guidance: AdmittanceState | HandGuidanceState
+    observer: ObserverState | Absent
+    controller: object
+    allocation: AllocationState | Absent
+    detection: DetectionState | Absent
 
 
 class ControlInput(NamedTuple):
@@ -86,7 +88,7 @@ class Decision(NamedTuple):
 
 
 @choice(absent="allocation")
-def last_thrusts(allocation: Any) -> Any:
+def last_thrusts(allocation: AllocationState | Absent) -> PerRotor | Absent:
     """The thrusts [N] of the last sample, from the memory of the allocation."""
 
 
@@ -96,7 +98,7 @@ def _thrusts(allocation: AllocationState) -> PerRotor:
 
 
 @choice(absent=0.0)
-def last_total_thrust(allocation: Any) -> Any:
+def last_total_thrust(allocation: AllocationState | Absent) -> Number:
     """The thrust of all rotors [N] at the last sample; 0 if the allocation has no memory of it."""
 
 
@@ -130,7 +132,7 @@ def control_input(p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t
 
 @law
 def with_command(
-    p: PilotParameters, m: PilotMemory, given: ControlInput, command: Command, memory: Any
+    p: PilotParameters, m: PilotMemory, given: ControlInput, command: Command, memory: object
 ) -> tuple[Decision, PilotMemory]:
     """(`Decision`, the new memory) once the controller has commanded; `memory` is the controller's."""
     thrusts = running(given.guidance.running, allocate(p.allocation, command.wrench))

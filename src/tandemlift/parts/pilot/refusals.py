@@ -6,10 +6,10 @@ The law reads what the pilot knew at its last sample, and is no part of a step. 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import choice, law
+from tandemlift.core.algebra.law import Absent, choice, law
 from tandemlift.core.algebra.ops import absolute, atan2, maximum, minimum, sqrt, where
 from tandemlift.core.algebra.selection import selected
 from tandemlift.core.algebra.types import Number
@@ -17,6 +17,7 @@ from tandemlift.core.algebra.vector import dot, total
 from tandemlift.core.faults import FAULTS
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, STOPPED
 from tandemlift.core.refusals import NUMBER_OF, REQUESTS, Refusals, refusal_of
+from tandemlift.parts.compliance.admittance import AdmittanceState
 from tandemlift.parts.compliance.compliance import Compliance, ComplianceState
 from tandemlift.parts.guidance.contact_hold import ContactReaction, ContactReactionState
 from tandemlift.parts.guidance.fault_detection import HOLDS
@@ -62,7 +63,7 @@ def reason(key: str, value: Number = 0.0, limit: Number = 0.0, parts: float = HU
     return ReasonNumbers(NUMBER_OF[key], rounded(value, parts), rounded(limit, parts))
 
 
-def by_value(number: Any, cases: dict[float, ReasonNumbers], other: ReasonNumbers) -> ReasonNumbers:
+def by_value(number: Number, cases: dict[float, ReasonNumbers], other: ReasonNumbers) -> ReasonNumbers:
     """The reason of the case that a number equals, or the other one."""
     found = other
     for case, answer in cases.items():
@@ -71,17 +72,19 @@ def by_value(number: Any, cases: dict[float, ReasonNumbers], other: ReasonNumber
 
 
 @choice
-def refusal_numbers(guidance: Any, memory: Any, t: Any) -> Any:
+def refusal_numbers(
+    guidance: ScheduledGuidance | HandGuidance, memory: AdmittanceState | HandGuidanceState, t: Number
+) -> RefusalNumbers:
     """`RefusalNumbers` of a guidance with its memory after the last sample, at time t [s]."""
 
 
 @refusal_numbers.register(ScheduledGuidance)
-def _by_schedule(g: ScheduledGuidance, m: Any, t: Any) -> RefusalNumbers:
+def _by_schedule(g: ScheduledGuidance, m: AdmittanceState, t: Number) -> RefusalNumbers:
     return RefusalNumbers(reason("scheduled"), reason("scheduled"), NONE)
 
 
 @refusal_numbers.register(HandGuidance)
-def _by_hand(g: HandGuidance, m: HandGuidanceState, t: Any) -> RefusalNumbers:
+def _by_hand(g: HandGuidance, m: HandGuidanceState, t: Number) -> RefusalNumbers:
     phase, once = m.phase.phase, where(m.phase.land_rate > 0.0, g.phasing.always_running, 0.0)
     grounded = selected(once > 0.0, reason("once"), lift_check(g.supervision, m.supervision, t))
     landing, stopped = reason("landing"), reason("stopped")
@@ -106,12 +109,12 @@ def _by_hand(g: HandGuidance, m: HandGuidanceState, t: Any) -> RefusalNumbers:
 
 
 @choice(absent=NONE)
-def lift_check(k: Any, m: Any, t: Any) -> Any:
+def lift_check(k: Supervision | Absent, m: SupervisionState | Absent, t: Number) -> ReasonNumbers:
     """`ReasonNumbers` of the check that fails before a lift; `k`: the supervision."""
 
 
 @lift_check.register(Supervision)
-def _lift_check(k: Supervision, m: SupervisionState, t: Any) -> ReasonNumbers:
+def _lift_check(k: Supervision, m: SupervisionState, t: Number) -> ReasonNumbers:
     c, state = k.checks, m.state
     available = total(k.limits * efficiency_at(k.known, t))
     hover = (k.mass + m.payload - k.payload) * GRAVITY / maximum(available, 1e-9)
@@ -131,7 +134,7 @@ def _lift_check(k: Supervision, m: SupervisionState, t: Any) -> ReasonNumbers:
 
 
 @law
-def tilt_of(upright: Any) -> Any:
+def tilt_of(upright: Number) -> Number:
     """The angle [rad] whose cosine is given."""
     return atan2(sqrt(maximum(1.0 - upright * upright, 0.0)), upright)
 
@@ -145,7 +148,7 @@ def failed_sensor(k: Supervision, m: SupervisionState) -> ReasonNumbers:
 
 
 @choice(absent=reason("disabled"))
-def why_it_holds(k: Any, m: Any) -> Any:
+def why_it_holds(k: Supervision | Absent, m: SupervisionState | Absent) -> ReasonNumbers:
     """`ReasonNumbers`: why a vehicle in the air does not follow pushes; `k`: the supervision."""
 
 
@@ -158,7 +161,7 @@ def _why_it_holds(k: Supervision, m: SupervisionState) -> ReasonNumbers:
 
 
 @choice(absent=NONE)
-def touching_part(k: Any, m: Any) -> Any:
+def touching_part(k: ContactReaction | Absent, m: ContactReactionState | Absent) -> ReasonNumbers:
     """`ReasonNumbers`: which part touches a wall; `k`: the reaction to contacts."""
 
 
@@ -178,7 +181,9 @@ def below_threshold(k: Compliance, m: ComplianceState) -> ReasonNumbers:
     return selected(total(m.band.active) > 0.0, NONE, selected(nearest > 0.0, found, NONE))
 
 
-def refusals_of(guidance: Any, memory: Any, t: float) -> Refusals:
+def refusals_of(
+    guidance: ScheduledGuidance | HandGuidance, memory: AdmittanceState | HandGuidanceState, t: float
+) -> Refusals:
     """The refusals of a pilot in words; arguments as for `refusal_numbers`."""
     found = refusal_numbers(guidance, memory, t)
     return Refusals(*[refusal_of(request, *numbers) for request, numbers in zip(REQUESTS, found, strict=True)])
