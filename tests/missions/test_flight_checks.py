@@ -43,11 +43,11 @@ def push(**keys):
 
 HEARD = "turbulence pushes the payload along x"
 TOLD = {  # of iris, and what its warnings must say: quantity, limit, key
-    "delay 0.1 s": ({"actuators.delay": 0.1}, ["the pitch loop bears 5", "actuators.delay = 0.1 s", "102 ms"]),
-    "delay 0.2 s": ({"actuators.delay": 0.2}, ["the pitch loop bears 5", "actuators.delay = 0.2 s", "202 ms"]),
+    "delay 0.1 s": ({"actuators.delay": 0.1}, ["the pitch loop tolerates 5", "actuators.delay = 0.1 s", "102 ms"]),
+    "delay 0.2 s": ({"actuators.delay": 0.2}, ["the pitch loop tolerates 5", "actuators.delay = 0.2 s", "202 ms"]),
     "lag 0.5 s": (rotors(lag_up=40.0, lag_down=20.0), ["oscillates with the rotors' lag of 500 ms", "lag_up"]),
-    "slow and late": (rotors(lag_up=4.0, lag_down=4.0) | {"actuators.delay": 0.03}, ["bears 1", "31.5 ms"]),
-    "an unknown yaw moment": ({"disturbance.moment": [0.0, 0.0, 3.0]}, ["yaw with 3 N m", "disturbance.moment"]),
+    "slow and late": (rotors(lag_up=4.0, lag_down=4.0) | {"actuators.delay": 0.03}, ["tolerates 1", "31.5 ms"]),
+    "an unknown yaw moment": ({"disturbance.moment": [0.0, 0.0, 3.0]}, ["yaw moment of 3 N m", "disturbance.moment"]),
     "wind along x": (wind(4.0, 0.0), [HEARD, "admittance.threshold is 0.3 N", "controller.max_tilt = 0.25"]),
     "wind along -x": (wind(-4.0, 0.0), [HEARD]),
     "wind along y": (wind(0.0, 4.0), [HEARD]),
@@ -59,7 +59,7 @@ TOLD = {  # of iris, and what its warnings must say: quantity, limit, key
         push(force=[0.0, 0.0, -5.0]),
         ["pushes.0 moves the reference down", "phases.height = 1 m"],
     ),
-    "a push that turns over": (push(force=[10.0, 0.0, 0.0], point=[0.0, 0.0, 0.5]), ["pitch with 5 N m"]),
+    "a push that turns over": (push(force=[10.0, 0.0, 0.0], point=[0.0, 0.0, 0.5]), ["pitch moment of 5 N m"]),
     "a push that carries away": (push(force=[15.0, 0.0, 0.0]), ["15 N across", "controller.max_tilt"]),
     "a push in the lift": (push(force=[3.0, 0.0, 0.0], time=5.0), ["pushes.0 has its peak at 5 s", "12 s"]),
     "a landing too late": ({"phases.land_start": 85.0}, ["takes until 97 s", "mission.duration is 90 s"]),
@@ -131,7 +131,7 @@ def test_a_corridor_is_held_against_the_way_the_vehicle_is_led():
 
 
 def test_a_way_that_is_too_long_for_its_mission_is_warned_of():
-    assert "the person's way of" in told("zigzag", {"mission.duration": 30.0})
+    assert "the person's path of" in told("zigzag", {"mission.duration": 30.0})
 
 
 @pytest.mark.parametrize("name", built_in())

@@ -1,1 +1,1 @@
-"""What every other room may use: the algebra of laws, the tables of missions, the words of the field, errors, files."""
+"""Shared by all other rooms: the algebra of laws, tables of missions, the field's vocabulary, errors and files."""

@@ -1,7 +1,7 @@
-"""A cache of what many missions share, which keeps nothing of a trace.
+"""Caches of results that many missions share.
 
-While an assembly is traced, tables hold symbols of one graph. They must not stay in a cache of the process: a cache of
-their own serves the trace, and goes with it.
+While an assembly is traced, tables hold symbols of one graph, which must not stay in a cache of the process. The trace
+therefore has its own cache, which is discarded with it.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ _TRACE: ContextVar[dict[Any, Any] | None] = ContextVar("trace", default=None)
 
 
 def cached(function: F) -> F:
-    """A function that keeps its last results.
+    """Wrap a function so that its last results are cached.
 
-    Its arguments are tables, nested values, plain ones and objects. The very same tables and nested values are found at
-    once; equal tables, too, by what they say. Unlike a comparison, that tells 0 from −0, so that no flight depends on
-    which flew before.
+    Its arguments are tables, nested values, plain values and objects. Identical tables and nested values are looked up
+    directly, equal tables by their content. The look-up distinguishes 0 from −0, which a comparison would not, so no
+    flight depends on earlier ones.
     """
     same = OrderedDict[Any, Any]()
     equal = functools.lru_cache(maxsize=KEPT)(lambda said: function(*said.args))
@@ -52,7 +52,7 @@ def cached(function: F) -> F:
 
 
 class _Said:
-    """Arguments that are equal if they say the same."""
+    """The arguments as keys that are equal if their content is."""
 
     def __init__(self, args: tuple[Any, ...]) -> None:
         self.args = args
@@ -66,18 +66,18 @@ class _Said:
 
 
 def _identity(arg: Any) -> Any:
-    """Which argument it is; values without numbers are all the same."""
+    """The identity of an argument; the same for all values without numbers."""
     return type(arg) if isinstance(arg, tuple) and not arg else id(arg)
 
 
 def _text(arg: Any) -> Any:
-    """What a table says; anything else is itself."""
+    """The content of a table; anything else unchanged."""
     return (type(arg), arg.model_dump_json()) if isinstance(arg, BaseModel) else _identity(arg)
 
 
 @contextmanager
 def cached_for_a_trace() -> Iterator[None]:
-    """Within it, results are kept by the identity of arguments, and no longer than it lasts."""
+    """A context in which results are cached by the identity of their arguments, until it ends."""
     before = _TRACE.set({})
     try:
         yield

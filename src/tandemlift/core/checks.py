@@ -22,12 +22,12 @@ class CheckResult(NamedTuple):
     Attributes:
         check: its name, as in docs/reference/checks.md.
         subject: what was checked, such as an axis or a key; "" for the whole mission.
-        value: the number; None where a sentence says it all.
+        value: the number; None where there is only a sentence.
         limit: the largest that is allowed; None likewise.
         unit: of both.
-        verdict: "ok", "close", "fails" or "refused"; what fails is warned of when the mission is loaded, and what is
-            refused is not loaded.
-        text: the number, the limit and the key to change, in one sentence; "" for what is well.
+        verdict: "ok", "close", "fails" or "refused". Loading a mission warns of each check that fails, and raises for
+            one that is refused.
+        text: the number, the limit and the key to change, in one sentence; "" if the check passes.
     """
 
     check: str
@@ -67,22 +67,22 @@ def judged(
 
 
 def noted(check: str, text: str, *, verdict: str, subject: str = "") -> CheckResult:
-    """A result that is a sentence alone."""
+    """A result with a sentence and no numbers."""
     return CheckResult(check, subject, None, None, "", verdict, text)
 
 
 def refused(text: str) -> CheckResult:
-    """Keys with which a mission cannot be flown: the key, its value and what is allowed."""
+    """The result for keys with which a mission cannot be flown: the key, its value and the allowed range."""
     return noted(SETTINGS, text, verdict=REFUSED)
 
 
 def warned(text: str) -> CheckResult:
-    """Keys with which a mission may fly badly, with the numbers."""
+    """The result for keys with which a mission is expected to fly badly, with the numbers."""
     return noted(SETTINGS, text, verdict=FAILS)
 
 
 def accepted(results: Iterable[CheckResult]) -> list[CheckResult]:
-    """Results of which none is refused.
+    """The results as a list, if none of them is refused.
 
     Raises:
         InputError: with the sentence of the first that is; nothing after it is computed.

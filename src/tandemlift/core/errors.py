@@ -1,4 +1,4 @@
-"""What can go wrong, in words that name the place, the value and what is allowed; and packages that are missing."""
+"""Errors and warnings, whose texts name the place, the value and the allowed range; missing optional packages."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from contextlib import contextmanager
 
 
 class InputError(ValueError):
-    """Bad input from a person: a mission, a setting, a file. The message stands on its own; the CLI exits with 2."""
+    """Invalid input: a mission, a setting, a file. The message is complete by itself; the CLI exits with 2."""
 
 
 class FlightWarning(UserWarning):
-    """A mission that will be flown but may fly badly, with the numbers that say why."""
+    """Warns of a mission that can be flown but is expected to fly badly, with the numbers."""
 
 
 def nearest(given: str, known: Iterable[str]) -> str | None:
-    """The known name that the given one is probably meant to be."""
+    """The known name that is most similar to the given one, or None."""
     names = {name.lower(): name for name in known}
     close = difflib.get_close_matches(given.lower(), list(names), n=1, cutoff=0.6)
     return names[close[0]] if close else None
@@ -29,7 +29,7 @@ def suggestion(given: str, known: Iterable[str]) -> str:
 
 
 def unknown(what: str, given: object, known: Iterable[str]) -> InputError:
-    """The error for a name that is not registered: what it is, what there is, and the likely fix."""
+    """The error for a name that is not registered, with the registered names and the closest of them."""
     names, text = list(known), str(given)
     shown = repr(text if len(text) <= 80 else f"{text[:79]}…")
     return InputError(f"unknown {what} {shown}; there are {', '.join(names)}.{suggestion(text, names)}")
@@ -37,11 +37,11 @@ def unknown(what: str, given: object, known: Iterable[str]) -> InputError:
 
 @contextmanager
 def extra(name: str, user: str) -> Iterator[None]:
-    """Import optional packages within it.
+    """A context in which optional packages are imported.
 
     Args:
         name: of the extra of tandemlift that has the packages.
-        user: what needs them.
+        user: the feature that needs them.
 
     Raises:
         InputError: a package is not installed; with the command that installs it.

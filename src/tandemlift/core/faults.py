@@ -1,8 +1,7 @@
-"""What can go wrong in a supervised flight: every fault, every check, and the reactions, each in one record.
+"""The faults, checks and reactions of supervised flights, each in one record.
 
-The keys of `[supervision.reactions]`, the alarms and their texts, the order in which `parts.guidance.fault_detection`
-looks at faults, and the tables in docs/reference/faults.md come from here. What detects a fault is a law:
-`parts.guidance.fault_detection`.
+The keys of `[supervision.reactions]`, the alarms and their texts, the priority of faults, and the tables in
+docs/reference/faults.md come from here. The laws in `parts.guidance.fault_detection` detect the faults.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ REACTION_MEANINGS: dict[str, str] = {
 
 
 class Symptom(NamedTuple):
-    """What is wrong with a sensor's samples: its text in an alarm, and what detects it."""
+    """A symptom of a sensor's fault: its text in an alarm, and its detection."""
 
     text: str
     detection: str
@@ -44,8 +43,8 @@ class Fault(NamedTuple):
         text: in alarms, events and on the live page.
         condition: when it is present, as a clause.
         reaction: the default.
-        detection: what detects it; of a sensor's samples, the largest value in range.
-        symptoms: of which an alarm also says the number, from 1.
+        detection: how it is detected; for a sensor's samples, the largest value in range.
+        symptoms: an alarm also contains the symptom's number, from 1.
     """
 
     number: int
@@ -58,7 +57,7 @@ class Fault(NamedTuple):
 
     @property
     def alarm(self) -> int:
-        """Its number in the channel `alarm`; the number of a symptom, from 1, is added."""
+        """The fault's number in the channel `alarm`, to which the number of a symptom, from 1, is added."""
         return 10 * self.number
 
 
@@ -68,7 +67,7 @@ def _of_sensor(number: int, key: str, condition: str, reaction: Reaction, in_ran
 
 
 STALE = "no fresh sample for `supervision.watchdog.stale_time`"
-FAULTS = (  # by priority: of two with the same reaction, the first gives the alarm
+FAULTS = (  # by priority: if two faults have the same reaction, the first determines the alarm
     Fault(
         13,
         "orientation",
@@ -85,8 +84,8 @@ FAULTS = (  # by priority: of two with the same reaction, the first gives the al
         "stop",
         "in the state given to `tl.Pilot`, for `supervision.watchdog.invalid_time`",
     ),
-    Fault(1, "imu", "imu stale", "the inertial measurement unit sends nothing", "land", STALE),
-    Fault(5, "motion", "motion stale", "the motion measurement sends nothing", "land", STALE),
+    Fault(1, "imu", "imu stale", "the inertial measurement unit sends no data", "land", STALE),
+    Fault(5, "motion", "motion stale", "the motion measurement sends no data", "land", STALE),
     _of_sensor(
         2,
         "joints",
@@ -144,7 +143,7 @@ FAULTS = (  # by priority: of two with the same reaction, the first gives the al
         17,
         "rates",
         "turning too fast",
-        "the vehicle turns too fast",
+        "the vehicle rotates too fast",
         "stop",
         "above `supervision.limits.rates` for `supervision.limits.rates_time`",
     ),
@@ -185,7 +184,7 @@ FAULTS = (  # by priority: of two with the same reaction, the first gives the al
 
 
 class Check(NamedTuple):
-    """A check: its key in the law, its text when it fails, before what it is made, what passes, and its keys."""
+    """A check: its key in the law, its text when it fails, the request it precedes, its condition, and its keys."""
 
     key: str
     text: str
@@ -195,7 +194,7 @@ class Check(NamedTuple):
 
     @property
     def number(self) -> int:
-        """Its number in the channel of failed checks."""
+        """The check's number in the channel of failed checks."""
         return CHECKS.index(self) + 1
 
 
@@ -245,4 +244,4 @@ def _alarm_texts() -> tuple[str, ...]:
 
 
 ALARM_TEXTS = _alarm_texts()
-"""The text of each alarm at the place of its number, such as "gyroscope frozen" at 41; "" where there is none."""
+"""The text of each alarm, indexed by its number, such as "gyroscope frozen" at 41; "" for unused numbers."""

@@ -1,4 +1,4 @@
-"""The files of the package; writing files so that they appear whole or not at all; the size of an archive."""
+"""Files of the package, atomic writing of files, and the unpacked size of an archive."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-DATA = Path(__file__).resolve().parents[1] / "data"  # missions, pages, templates: what is not Python
+DATA = Path(__file__).resolve().parents[1] / "data"  # missions, pages, templates: everything but Python
 
 
 @contextmanager
 def atomic_write(path: Path) -> Iterator[Path]:
-    """A path to write to instead; it becomes `path` at the end, and what was there stays if writing fails.
+    """A temporary path to write to, renamed to `path` at the end; if writing fails, `path` stays as it was.
 
-    Its name has a random part: machines that share a folder may have processes of the same number.
+    Its name has a random part, because machines that share a folder may have processes with the same number.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     partial = path.with_name(f".{path.name}.{secrets.token_hex(6)}.partial")
@@ -27,5 +27,5 @@ def atomic_write(path: Path) -> Iterator[Path]:
 
 
 def unpacked_size(archive: zipfile.ZipFile) -> int:
-    """Bytes that all files of an archive unpack to, by its directory: no more than that is ever read of them."""
+    """Unpacked size of all files of an archive [bytes], by its directory; no more than that is ever read."""
     return sum(file.file_size for file in archive.infolist())

@@ -1,8 +1,8 @@
-"""What a flight's record is searched for, beside its outcome: every kind of finding in one record.
+"""The kinds of findings, each in one record.
 
-A finding says what went badly in a flight that may have ended well: with time, place and number. The choices of the key
-`findings.ignore` and the table of docs/reference/outcomes.md come from here. `simulation.loop.detectors` has the laws
-that watch every step, `simulation.findings` forms findings from what they hold.
+A finding is an undesired event during a flight, with time, place and number; the flight's outcome may still be good.
+The choices of the key `findings.ignore` and the table of docs/reference/outcomes.md come from here. The laws in
+`simulation.loop.detectors` examine every step; `simulation.findings` forms the findings from their states.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ FINDING_NAMES: tuple[FindingName, ...] = get_args(FindingName)
 
 
 class FindingKind(NamedTuple):
-    """A kind of finding: its name, what it means, what to do about it, and the keys of its thresholds."""
+    """A kind of finding: its name, meaning and remedy, and the keys of its thresholds."""
 
     name: FindingName
     meaning: str
@@ -45,7 +45,7 @@ KINDS = (
     ),
     FindingKind(
         "oscillating",
-        "a body rate, or the vertical speed beside its reference, swung to and fro in half periods of similar length "
+        "a body rate, or the error of the vertical speed, oscillated with half periods of similar length "
         "whose amplitude did not decay",
         "lower the controller's gains, or fly rotors with less delay and lag",
         (
@@ -77,7 +77,7 @@ KINDS = (
     ),
     FindingKind(
         "push-refuted",
-        "the joint sensors measured a push along which the vehicle did not move, so that it was not followed",
+        "the joint sensors measured a push, but the vehicle did not move along it; the push was not followed",
         "repair or tare the joint sensors; see channel `push_withheld`",
         ("findings.refuted_time",),
     ),
@@ -96,7 +96,7 @@ KINDS = (
     ),
     FindingKind(
         "out-of-reach",
-        "the reference asked for a thrust that the rotors do not have, or left the vehicle behind",
+        "the reference needed more thrust than the rotors have, or moved away from the vehicle",
         "make the reference slower: a longer `phases.lift_duration`, more `admittance.damping`, less "
         "`compliance.max_acceleration`",
         ("findings.reach_time", "findings.reach_distance"),
@@ -110,12 +110,12 @@ KINDS = (
     ),
     FindingKind(
         "not-landed",
-        "the mission asks for a landing, which should be over, and the vehicle is in the air",
+        "a landing of the mission should be over, but the vehicle is in the air",
         "make `mission.duration` longer, or see in the other findings and in the events what kept it in the air",
     ),
     FindingKind(
         "landed-by-fault",
-        "the vehicle landed, or stopped its rotors, because of a fault, although nobody asked for it",
+        "the vehicle landed, or stopped its rotors, because of a fault and without a request",
         "remove the cause that it names; `supervision.reactions` has the reaction to each fault",
     ),
     FindingKind(
@@ -128,18 +128,18 @@ KIND_OF = {kind.name: kind for kind in KINDS}
 
 
 class Finding(NamedTuple):
-    """Something that went badly in a flight.
+    """An undesired event during a flight.
 
     Attributes:
         kind: one of `FINDING_NAMES`.
         time: when it began [s].
         duration: how long it lasted in all [s].
         place: of the vehicle's centre of mass, or of a touch [m, world axes]; None where there is none.
-        quantity: what was measured, in words.
+        quantity: name of the measured quantity.
         value: its worst value; None where there is no number.
         unit: of value and limit.
-        limit: what it was allowed to be; None where there is no number.
-        text: all of it in a sentence.
+        limit: the largest or smallest allowed value; None where there is no number.
+        text: a sentence with all of this.
     """
 
     kind: FindingName

@@ -1,4 +1,4 @@
-"""Keys of tables: what each is, in which unit, and what it may be; strict pydantic models."""
+"""Keys of tables with meaning, unit and allowed values, as strict pydantic models."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ class Table(BaseModel):
 
 @functools.lru_cache(maxsize=256)
 def _tuples_of(table: type[BaseModel]) -> tuple[str, ...]:
-    """The keys of a table that hold tuples; kept, because every mission asks it of every table."""
+    """The keys of a table that hold tuples; cached, because every mission needs them for every table."""
     kinds = {name: (field.annotation, *get_args(field.annotation)) for name, field in table.model_fields.items()}
     return tuple(name for name, options in kinds.items() if any(get_origin(o) is tuple for o in options))
 
@@ -92,13 +92,13 @@ def is_number(value: Any) -> bool:
 
 
 class PerAxis:
-    """Mark of a leaf given per axis: one number for all `count` axes (unless `single` is False), or one number each."""
+    """Marks a key given per axis: one number for all `count` axes (unless `single` is False), or one number each."""
 
     def __init__(self, count: int, *, single: bool = True) -> None:
         self.count, self.single = count, single
 
     def describe(self, limits: str) -> str:
-        """What is allowed, in words; `limits` is what each number must keep to."""
+        """The allowed values in words; `limits` is the condition on each number."""
         return f"{'one number or ' if self.single else ''}a list of {self.count} numbers{limits and ', each ' + limits}"
 
     def spread(self, value: Any) -> Any:
@@ -127,20 +127,20 @@ AtLeastOne6 = Annotated[tuple[AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne, At
 
 BELIEVED = "chosen: near the iris's rotors, 0.0125 s up and 0.025 s down"
 TRIAL = "chosen; the baseline controllers are tuned with it (benchmarks/trial.toml)"
-DESCRIPTION = "key"  # names the description among what pydantic keeps of a field
+DESCRIPTION = "key"  # names the description in the metadata that pydantic keeps of a field
 
 
 class KeyDescription(NamedTuple):
-    """What is said of a key beside its type and default; all of it in plain English, without a full stop.
+    """The documentation of a key beside its type and default, in plain English without a full stop.
 
     Attributes:
-        unit: in SI, "1" for a number without a unit; None for what is no number.
-        meaning: what the key is.
-        source: where the default is from, or why it was chosen.
-        rule: what else holds for its value, beyond its type.
-        unset: what happens when the key is left out, for a key whose default is to be left out.
-        example: a value for the template, where the default is none or would say little.
-        choices: what each of its choices means.
+        unit: in SI, "1" for a number without a unit; None if the key is not a number.
+        meaning: the meaning of the key.
+        source: the source of the default, or the reason for it.
+        rule: the condition on its value beyond its type.
+        unset: the effect of leaving the key out, for a key without a default value.
+        example: a value for the template, if there is no default or it shows little.
+        choices: the meaning of each of its choices.
     """
 
     unit: str | None = None
@@ -163,13 +163,13 @@ def key(
     example: Any = None,
     choices: Mapping[str, str] | None = None,
 ) -> Any:
-    """A field of a table with what is said of it; `...` as the default makes the key required. See `KeyDescription`."""
+    """A field of a table with its `KeyDescription`; `...` as the default makes the key required."""
     description = KeyDescription(unit, meaning, source, rule, unset, example, choices or {})
     return Field(default, description=meaning, json_schema_extra={DESCRIPTION: description._asdict()})
 
 
 def description_of(field: FieldInfo) -> KeyDescription:
-    """What is said of a field; of one that was not made by `key`, no more than its description."""
+    """The documentation of a field; only its description if the field was not made by `key`."""
     extra = field.json_schema_extra
     if isinstance(extra, dict) and DESCRIPTION in extra:
         return KeyDescription(**extra[DESCRIPTION])  # type: ignore[arg-type]

@@ -1,6 +1,6 @@
-"""How a flight can end: every outcome, and every reason to stop a flight before its end, each in one record.
+"""The outcomes of a flight, and the reasons to stop a flight before its end, each in one record.
 
-The laws in `simulation.loop.ending` find out which one it is, `simulation.outcome` forms the outcome.
+The laws in `simulation.loop.ending` detect these reasons; `simulation.outcome` forms the outcome.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ FLIES, DIVERGED, TURNED_OVER, STRUCK, LEFT_FENCE = map(float, range(5))  # value
 
 
 class OutcomeKind(NamedTuple):
-    """An outcome: its name in metrics.json, what it means, and whether it is a failure (exit code 3)."""
+    """An outcome: its name in metrics.json, its meaning, and whether it is a failure (exit code 3)."""
 
     name: str
     meaning: str
@@ -22,7 +22,7 @@ class OutcomeKind(NamedTuple):
 
 
 class EndingKind(NamedTuple):
-    """A reason to stop a flight: its number, the outcome, what is measured, and what ends the flight."""
+    """A reason to stop a flight: its number, the outcome, the measured quantity, and the condition."""
 
     number: float
     outcome: str
@@ -40,7 +40,7 @@ OUTCOMES = (
     OutcomeKind("flying", "in the air at the end", False),
     OutcomeKind(
         "not-lifted",
-        "the mission asks for a lift that should be over, and the vehicle never rose by `outcome.lifted_height`, or "
+        "a lift of the mission should be over, but the vehicle never rose by `outcome.lifted_height`, or "
         "half of a lower lift",
         True,
     ),
@@ -65,4 +65,4 @@ ENDINGS = (
 )
 ENDING_OF = {kind.number: kind for kind in ENDINGS}
 FAILURES = {kind.name: f"{kind.name}: {kind.meaning}" for kind in OUTCOMES if kind.failed}
-"""The outcomes of flights that have failed, with what each means."""
+"""The outcomes of failed flights, with their meanings."""

@@ -1,8 +1,6 @@
-"""The phases of a flight by hand: their names, their numbers in the channel `phase`, and what each allows.
+"""The phases of interactive guidance with their numbers in the channel `phase`, and the reasons for phase "limited".
 
-And the reasons why a vehicle cannot follow its reference, which lead to the phase "limited".
-
-`parts.guidance.phases` moves from one to another. Numbers are those of recorded flights: a new phase goes to the end.
+`parts.guidance.phases` has the transitions. Recorded flights contain the numbers, so a new phase is added at the end.
 """
 
 from __future__ import annotations
@@ -11,7 +9,7 @@ from typing import NamedTuple
 
 
 class Phase(NamedTuple):
-    """A phase: its name, the state of the rotors, what the vehicle does with a push, and the reference."""
+    """A phase: its name, the state of the rotors, the effect of a push, and the motion of the reference."""
 
     name: str
     rotors: str
@@ -26,7 +24,7 @@ PHASES = (
     Phase("land", "on", "compensated", "descends, at most at `compliance.max_descent_speed`"),
     Phase("hold", "on", "compensated", "brakes and stays in place"),
     Phase("stopped", "off", "ignored", "stays at the vehicle"),
-    Phase("contact", "on", "followed along and away from the wall, and compensated", "stays out of the wall"),
+    Phase("contact", "on", "followed along and away from the wall, and compensated", "stays outside the wall"),
     Phase("limited", "on", "compensated", "brakes and stays in place, as the vehicle cannot follow"),
 )
 PHASE_NAMES = tuple(phase.name for phase in PHASES)
@@ -36,7 +34,7 @@ PHASE_NUMBERS = ", ".join(f"{number} {name}" for number, name in enumerate(PHASE
 
 
 class Reason(NamedTuple):
-    """Why the vehicle cannot follow its reference: its key in the law, its text, and what detects it."""
+    """A reason why the vehicle cannot follow its reference: its key in the law, its text, and its detection."""
 
     key: str
     text: str

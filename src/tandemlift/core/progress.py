@@ -1,4 +1,4 @@
-"""Progress of long work by tqdm: a bar in a terminal or a notebook, a line from time to time in a file."""
+"""Progress of long tasks with tqdm: a bar in a terminal or a notebook, lines at intervals in a file."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TextIO
 
 if TYPE_CHECKING:
-    from tandemlift.core.types import Progress  # which imports NumPy; a shell that completes words cannot wait
+    from tandemlift.core.types import Progress  # tqdm.auto imports NumPy, which is too slow for shell completion
 
 BETWEEN_LINES = 10.0  # s, in a file, as of a job array
 KERNEL = "ipykernel"  # the package of a notebook's streams
@@ -35,7 +35,7 @@ class _Lines(io.TextIOBase):
 
 @contextmanager
 def shown_progress(label: str, unit: str = "rows", stream: TextIO | None = None) -> Iterator[Progress]:
-    """Progress shown as it suits a stream, by default standard error; in a notebook as a bar below the cell.
+    """Show progress on a stream, by default standard error; in a notebook as a bar below the cell.
 
     Args:
         label: first words.
@@ -49,7 +49,7 @@ def shown_progress(label: str, unit: str = "rows", stream: TextIO | None = None)
     look: dict[str, Any] = {"desc": label, "unit": f" {unit}"}
     if stream is None and in_notebook():
         look |= {"delay": 0.5}
-    elif out.isatty():  # one that does not say how large it is counts as 80 × 24; tqdm would show nothing
+    elif out.isatty():  # a terminal of unknown size counts as 80 × 24; tqdm would show nothing
         columns, lines = shutil.get_terminal_size()
         look |= {"file": out, "ncols": columns, "nrows": lines}
     else:
@@ -57,7 +57,7 @@ def shown_progress(label: str, unit: str = "rows", stream: TextIO | None = None)
     with tqdm(total=0, **look) as bar:
 
         def update(done: int, total: int) -> None:
-            if not bar.total:  # what was there before is no part of the rate
+            if not bar.total:  # units done before do not count in the rate
                 bar.initial = bar.n = bar.last_print_n = done
             bar.total = total
             bar.update(done - bar.n)
@@ -67,7 +67,7 @@ def shown_progress(label: str, unit: str = "rows", stream: TextIO | None = None)
 
 @contextmanager
 def progress_or_own(label: str, progress: Progress | None, unit: str = "rows") -> Iterator[Progress | None]:
-    """Progress as the caller wants it; if nothing is said, a notebook shows one bar and a script none.
+    """The caller's choice of progress; by default a notebook shows one bar and a script none.
 
     Args:
         label: first words.

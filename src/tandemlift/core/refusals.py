@@ -1,7 +1,7 @@
-"""Why a pilot refuses to lift or to land, or does not follow a push, and what to do about it: one record each.
+"""The reasons for which a pilot refuses to lift or land, or does not follow a push, each with a remedy.
 
-`parts.pilot.refusals` finds the number of the reason and the numbers in its text; what is said comes from here, so
-Python, the live page and the node of ROS say the same.
+`parts.pilot.refusals` computes the number of the reason and the numbers in its text. The texts come from here, so
+Python, the live page and the ROS node show the same.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ WAIT_FOR_GROUND = "Wait until it stands on the ground, then lift it off again."
 
 
 class PilotRefusal(NamedTuple):
-    """Why a request is refused, or a push is not followed, and what to do; each a sentence."""
+    """The reason for which a request is refused or a push is not followed, and the remedy, each a sentence."""
 
     request: str
     why: str
@@ -54,7 +54,7 @@ class RefusalReason(NamedTuple):
         return REASONS.index(self) + 1
 
 
-CHECK_REASONS = (  # of checks, by the key of `core.faults.CHECKS`
+CHECK_REASONS = (  # for checks, by the key in `core.faults.CHECKS`
     RefusalReason("imu", "no inertial measurement arrives", CONNECT),
     RefusalReason("motion", "no motion measurement arrives", CONNECT),
     RefusalReason("sensors", "a sensor has failed: {alarm}", REPAIR),
@@ -108,7 +108,7 @@ assert tuple(reason.key for reason in CHECK_REASONS) == tuple(check.key for chec
 
 
 class Refusals(NamedTuple):
-    """What a pilot would refuse right now, or None: to lift, to land, to follow a push."""
+    """The refusals that would apply now, or None: of a lift, of a landing, of following a push."""
 
     lift: PilotRefusal | None
     land: PilotRefusal | None
@@ -116,12 +116,12 @@ class Refusals(NamedTuple):
 
 
 def refusals_for(key: str) -> Refusals:
-    """All requests are refused for the same reason, which has no numbers."""
+    """The refusals of all requests for the same reason, which has no numbers."""
     return Refusals(*[refusal_of(request, NUMBER_OF[key], 0.0, 0.0) for request in REQUESTS])
 
 
 def sentences_for(request: Request) -> list[str]:
-    """What is said of a refused request for each reason, by its number; places of numbers are left in braces."""
+    """The refusal of a request for each reason, by its number, with placeholders in braces."""
     return ["", *[str(_refusal(request, reason)) for reason in REASONS]]
 
 
@@ -129,9 +129,9 @@ def refusal_of(request: Request, number: float, value: float, limit: float) -> P
     """The refusal for the number of a reason and the numbers in its text; None for 0, no reason.
 
     Args:
-        request: what is refused.
+        request: the refused request.
         number: of the reason.
-        value: that is shown, rounded; of an alarm, its number.
+        value: the number in the text, rounded; for an alarm, its number.
         limit: of the value.
     """
     if not number:
@@ -142,5 +142,5 @@ def refusal_of(request: Request, number: float, value: float, limit: float) -> P
 
 
 def _refusal(request: Request, reason: RefusalReason) -> PilotRefusal:
-    """The refusal of a request for a reason, with the places of its numbers in braces."""
+    """The refusal of a request for a reason, with placeholders in braces."""
     return PilotRefusal(request, f"{OPENINGS[request]}: {reason.text}.", reason.advice)

@@ -1,6 +1,6 @@
-"""TOML and dotted keys from anyone, and values as one would write them in TOML.
+"""Reading untrusted TOML and dotted keys, and writing values as TOML.
 
-The memory that reading takes grows with the square of a key's parts: there is a bound on them.
+The memory for reading grows with the square of the number of a key's parts, so that number is bounded.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def toml_tables(text: str) -> dict[str, Any]:
 
 
 def parts_of(key: str) -> list[str]:
-    """The parts of a dotted key of plain words.
+    """Split a dotted key of plain words into its parts.
 
     Raises:
         InputError: there are more than `MAX_PARTS`.
@@ -48,7 +48,7 @@ def _too_deep(key: str) -> InputError:
 
 
 def dotted(place: Iterable[str | int]) -> str:
-    """The key at a place as `--set` takes it; a part that is no plain word stands in quotes."""
+    """The dotted key as `--set` accepts it; a part that is no plain word is quoted."""
     return ".".join(part if re.fullmatch(r"[A-Za-z0-9_-]{1,60}", part) else shown(part) for part in map(str, place))
 
 

@@ -1,4 +1,4 @@
-"""The versions of the package and of what it flies with."""
+"""The versions of the package and of the packages that a flight uses."""
 
 from __future__ import annotations
 

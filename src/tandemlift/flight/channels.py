@@ -1,4 +1,4 @@
-"""The channels of a flight: what each holds, its unit, its frame, its width, and the missions that have it.
+"""The channels of a flight: their meanings, units, frames and widths, and the missions that have them.
 
 This is the only list of channels. Data frames, bags, CSV files and docs/reference/channels.md are made from it. The
 laws in `simulation.loop.log_sample` give the values, in the same order. CONTRIBUTING.md says how to add a channel.
@@ -15,12 +15,12 @@ from tandemlift.parts.sensors.sensor_list import ADDITIONAL
 
 
 class Channel(NamedTuple):
-    """What a channel holds.
+    """The description of a channel.
 
     Attributes:
         unit: of its numbers, "1" for none.
         frame: in which they are, "" if they have no direction.
-        meaning: in a few words.
+        meaning: a short description.
         width: how many numbers a sample has, for each `per`.
         per: `rotor` or `quadrotor` if a sample has `width` numbers for each of them, one after another; else "".
     """
@@ -32,12 +32,12 @@ class Channel(NamedTuple):
     per: str = ""
 
     def columns(self, quadrotors: int, rotors: int) -> int:
-        """How many numbers a sample has on a vehicle of so many quadrotors, with so many rotors in all."""
+        """The length of a sample, for a vehicle with that many quadrotors and that many rotors in all."""
         return self.width * {"": 1, "quadrotor": quadrotors, "rotor": rotors}[self.per]
 
 
 class ChannelGroup(NamedTuple):
-    """Channels that are there together: `when` the mission has them, in Markdown, a note on them, and the channels."""
+    """A group of channels with `when`, the condition on the mission in Markdown, and a note."""
 
     when: str
     channels: dict[str, Channel]
@@ -122,13 +122,15 @@ GROUPS: tuple[ChannelGroup, ...] = (
             "push_point_estimate": Channel(
                 "m", "body y", "where on the beam the push acts; 0 while it is too small to tell", 1
             ),
-            "payload_mass_estimate": Channel("kg", "", "payload mass; the tare identifies it where asked to", 1),
+            "payload_mass_estimate": Channel(
+                "kg", "", "payload mass; the tare identifies it if `estimator.identify_mass` is true", 1
+            ),
             "sensor_disagreement": Channel("N", "body", "error of one joint sensor that would explain the readings", 1),
             "push_usable": Channel("1", "", "1 while the push is estimated and the joint sensors agree, else 0", 1),
             "push_withheld": Channel(
                 "N",
                 "world",
-                "part of the measured push that the motion refutes or wind explains, so it is not followed",
+                "part of the measured push that is not followed, because the motion refutes it or wind explains it",
             ),
         },
         "A measured value is the one that the pilot has at that time, taken a step before or earlier; estimates come "
@@ -145,7 +147,7 @@ GROUPS: tuple[ChannelGroup, ...] = (
             "contact_along_beam": Channel("m", "body y", "that point along the beam, from the payload's centre", 1),
             "contact_normal": Channel("1", "world", "unit vector out of the wall, towards the vehicle; zero for none"),
             "contact_rise_time": Channel("s", "", "time in which the force rose, when the contact was found", 1),
-            "contact_on_map": Channel("1", "", "1 if the pilot knows a wall there (`pilot.map`), else 0", 1),
+            "contact_on_map": Channel("1", "", "1 if the pilot's map (`pilot.map`) has a wall there, else 0", 1),
         },
     ),
     ChannelGroup(
@@ -169,7 +171,7 @@ GROUPS: tuple[ChannelGroup, ...] = (
             "push_active": Channel("1", "world", "1 while the pilot follows the push along an axis, else 0"),
             "added_damping": Channel("N s/m", "", "damping that is added to keep the compliance passive", 1),
             "reference_yaw_rate": Channel("rad/s", "world", "derivative of the yaw reference", 1),
-            "limited_reason": Channel("1", "", f"why it cannot follow: 0 it can, {REASON_NUMBERS}", 1),
+            "limited_reason": Channel("1", "", f"reason why the vehicle cannot follow: 0 none, {REASON_NUMBERS}", 1),
         },
     ),
     ChannelGroup(
@@ -181,7 +183,7 @@ GROUPS: tuple[ChannelGroup, ...] = (
     ),
     ChannelGroup(
         'With detection of a lost rotor (`detection.model = "residual"`)',
-        {"failed_rotor": Channel("1", "", "number of the rotor that is taken for failed; 0 for none", 1)},
+        {"failed_rotor": Channel("1", "", "number of the rotor that is classified as failed; 0 for none", 1)},
     ),
 )
 
@@ -194,11 +196,11 @@ DERIVED: dict[str, tuple[str, str, Channel]] = {
     "velocity_error": ("reference_velocity", "velocity", Channel("m/s", "world", "desired minus actual")),
     "attitude_error": ("reference_euler", "euler", Channel("rad", "zxy", "desired minus actual")),
 }
-"""Channels that are formed when they are asked for: the first less the second."""
+"""Channels that are computed on access: the first minus the second."""
 
 
 def channel_of(name: str) -> Channel:
-    """What a channel of that name holds; the channel of an additional sensor is described by the sensor's row."""
+    """The description of the channel of that name; for an additional sensor, that of the sensor."""
     sensor = ADDITIONAL.get(name.removeprefix("measured_"))
     if name in CHANNELS or sensor is None:
         return CHANNELS.get(name, TIME if name == "time" else OTHER)

@@ -13,11 +13,11 @@ from tandemlift.core.errors import extra
 from tandemlift.core.types import Array
 from tandemlift.flight.channels import Channel
 
-NUMBERED = ("rotor", "quadrotor")  # dimensions whose labels are numbers that say nothing alone
+NUMBERED = ("rotor", "quadrotor")  # dimensions whose labels are bare numbers
 
 
 class LoggedFlight(Protocol):
-    """What a table takes of a `Flight`."""
+    """The attributes of a `Flight` that tables need."""
 
     @property
     def name(self) -> str:
@@ -41,7 +41,7 @@ class LoggedFlight(Protocol):
 
     @property
     def version(self) -> dict[str, str]:
-        """Versions of what flew it."""
+        """Versions of the software that flew it."""
 
     def info(self, name: str) -> Channel:
         """Unit, frame and meaning of a channel."""
@@ -51,7 +51,7 @@ class LoggedFlight(Protocol):
 
 
 class Dimension(NamedTuple):
-    """What a channel's columns run over, and what each is called: an axis, an angle, a number from 1."""
+    """A dimension of a channel's columns and its labels: axes, angles, or numbers from 1."""
 
     name: str
     labels: tuple[Any, ...]
@@ -63,11 +63,11 @@ QUATERNION = Dimension("quaternion", ("w", "x", "y", "z"))
 
 
 def dimensions(channel: Channel, count: int) -> tuple[Dimension, ...]:
-    """What a channel's columns run over, the last dimension the fastest.
+    """The dimensions of a channel's columns, the last varying fastest.
 
     Args:
-        channel: what it holds.
-        count: how many columns it has.
+        channel: its description.
+        count: its number of columns.
     """
     if not channel.per:
         return _components(channel.frame, count)
@@ -78,7 +78,7 @@ def dimensions(channel: Channel, count: int) -> tuple[Dimension, ...]:
 
 
 def _components(frame: str, width: int) -> tuple[Dimension, ...]:
-    """What the numbers of a vector, of angles or of a quaternion run over, or plain numbers from 1."""
+    """The dimension of the numbers of a vector, of angles or of a quaternion; by default numbers from 1."""
     if frame == "body to world" and width == 4:
         return (QUATERNION,)
     if width == 3 and frame:
@@ -97,7 +97,7 @@ def columns(flight: LoggedFlight) -> Iterator[tuple[str, Channel, Any]]:
 
 
 def column_names(name: str, channel: Channel, shape: tuple[int, ...]) -> list[str]:
-    """The name of every number of a channel's sample; `shape`: () for a single number, else how many there are."""
+    """The name of each number of a channel's sample, whose shape is () for a single number."""
     if not shape:
         return [name]
     parts = itertools.product(*[[_part(d.name, label) for label in d.labels] for d in dimensions(channel, shape[0])])
@@ -141,13 +141,13 @@ def to_xarray(flight: LoggedFlight) -> Any:
 
 
 def _attributes(info: Channel) -> dict[str, str]:
-    """Unit, frame and meaning of a channel as attributes, those that it has."""
+    """Unit, frame and meaning of a channel as attributes, without empty ones."""
     given = {"units": info.unit, "frame": info.frame, "long_name": info.meaning}
     return {name: text for name, text in given.items() if text}
 
 
 def _record(flight: LoggedFlight) -> dict[str, str]:
-    """What a flight holds besides channels, as texts: mission, metrics and versions in JSON."""
+    """The mission, metrics and versions of a flight as JSON texts."""
     tables = {"mission": flight.mission, "metrics": flight.metrics(), "version": flight.version}
     texts = {name: json.dumps(table, allow_nan=False) for name, table in tables.items()}
     return {"name": flight.name, **texts} | ({"ending": str(flight.ending)} if flight.ending else {})

@@ -1,8 +1,8 @@
 """The metrics of a flight: unit, components and meaning of each, and the missions that have it.
 
 This is the only list of metrics. Tables, reports and the reference of metrics are made from it. Numbers are SI, with
-the unit at the end of a name. They are formed from every step, not from the log; those of a bag from its samples.
-"After 10 s" leaves a disturbed start out. Errors are desired minus actual. A metric that cannot be formed is null.
+the unit at the end of a name. They are computed from every step, not from the log; for a bag from its samples.
+"After 10 s" excludes a disturbed start. Errors are desired minus actual. A metric that cannot be computed is null.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ INPUTS = ("U1", "U2", "U3", "U4")
 
 
 class Metric(NamedTuple):
-    """What a metric is.
+    """The description of a metric.
 
     Attributes:
-        unit: of its number or numbers, "1" for none; "" if it is no number.
-        meaning: in a few words.
-        components: what its numbers belong to; none of a single number.
+        unit: unit of its number or numbers, "1" for none; "" if it is not a number.
+        meaning: a short description.
+        components: names of its numbers; empty for a single number.
         units: of the components, if they differ.
     """
 
@@ -36,7 +36,7 @@ class Metric(NamedTuple):
 
 
 class MetricGroup(NamedTuple):
-    """Metrics that are there together: `when` the mission has them, in Markdown, and the metrics."""
+    """A group of metrics with `when`, the condition on the mission in Markdown."""
 
     when: str
     metrics: dict[str, Metric]
@@ -51,7 +51,9 @@ METRIC_GROUPS: tuple[MetricGroup, ...] = (
             "position_max_error_m": Metric("m", "largest absolute position error", AXES),
             "position_max_error_after_10s_m": Metric("m", "largest absolute position error after 10 s", AXES),
             "attitude_rmse_rad": Metric(
-                "rad", "root mean square of the attitude error, against what the attitude law tracks", ANGLES
+                "rad",
+                "root mean square of the attitude error, relative to the reference that the attitude law tracks",
+                ANGLES,
             ),
             "velocity_max_error_after_10s_m_s": Metric("m/s", "largest absolute velocity error after 10 s", AXES),
             "max_tilt_after_10s_rad": Metric("rad", "largest absolute Euler angle after 10 s", ANGLES),
@@ -61,7 +63,8 @@ METRIC_GROUPS: tuple[MetricGroup, ...] = (
             "human_impulse_n_s": Metric("N s", "integral over time of the person's push, unfiltered", AXES),
             "human_work_j": Metric("J", "work of the person's push: integral of F·v, v of the point pushed"),
             "push_triggers_after_10s": Metric(
-                "1", "how often a pilot guided by hand began to follow a push; one that it follows at 10 s counts"
+                "1",
+                "number of pushes that interactive guidance began to follow, including one followed at 10 s",
             ),
             "rotor_saturated_share": Metric("1", "fraction of steps with any rotor at a limit; 0 with ideal actuators"),
             "final_position_m": Metric("m", "position at the end", AXES),
@@ -69,12 +72,12 @@ METRIC_GROUPS: tuple[MetricGroup, ...] = (
             "command_at_start": Metric(
                 "N, N m", "commanded thrust U1 and moments U2, U3, U4 at t = 0", INPUTS, ("N", "N m", "N m", "N m")
             ),
-            "outcome": Metric("", "how it ended: `landed`, `flying`, `not-lifted`, `crashed`, `diverged`"),
+            "outcome": Metric("", "outcome: `landed`, `flying`, `not-lifted`, `crashed`, `diverged`"),
             "findings": Metric(
-                "", "what went badly: a list of [time in s, kind, text]; `flight.findings` has place, number and remedy"
+                "", "findings: a list of [time in s, kind, text]; `flight.findings` has place, number and remedy"
             ),
             "failure": Metric(
-                "", "why it crashed, diverged or did not lift, in one sentence; empty if it did not fail"
+                "", "reason for which it crashed, diverged or did not lift, in one sentence; empty if it did not fail"
             ),
             "steps": Metric("1", "number of steps"),
             "wall_s": Metric("s", "computing time"),
@@ -93,7 +96,7 @@ METRIC_GROUPS: tuple[MetricGroup, ...] = (
     MetricGroup(
         "With a person who guides the vehicle (`[person]`), over the steps in which the person holds it",
         {
-            "human_time_s": Metric("s", "how long the person held it"),
+            "human_time_s": Metric("s", "time for which the person held it"),
             "human_force_mean_n": Metric("N", "mean magnitude of the person's force"),
             "human_path_m": Metric("m", "distance flown by the centre of mass"),
             "human_work_per_path_j_m": Metric("J/m", "`human_work_j` per distance flown"),
@@ -102,9 +105,9 @@ METRIC_GROUPS: tuple[MetricGroup, ...] = (
     MetricGroup(
         "With detection of a lost rotor (`detection.model`)",
         {
-            "rotor_failure_detections": Metric("1", "how often `[detection]` took a rotor for failed"),
+            "rotor_failure_detections": Metric("1", "number of times that `[detection]` classified a rotor as failed"),
             "rotor_failure_detection_delay_s": Metric(
-                "s", "detection delay of the rotor that is taken for failed at the end"
+                "s", "detection delay of the rotor that is classified as failed at the end"
             ),
         },
     ),
@@ -115,5 +118,5 @@ METRICS: dict[str, Metric] = {name: metric for group in METRIC_GROUPS for name, 
 
 
 def metric_of(name: str) -> Metric:
-    """Unit, components and meaning of a metric; of one that this version does not have, nothing."""
+    """The description of a metric; an empty one for a metric that this version does not have."""
     return METRICS.get(name, Metric("", ""))

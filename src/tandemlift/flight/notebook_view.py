@@ -1,4 +1,4 @@
-"""A flight as a notebook shows it: a table of its numbers and a small picture, as HTML that needs nothing else.
+"""A flight as HTML for a notebook: a table of its metrics and a small picture, without external files.
 
 The text has the colour of the notebook, so that it can be read on a light and on a dark page.
 """
@@ -15,7 +15,7 @@ from tandemlift.flight.thumbnail import thumbnail
 
 MOST_FINDINGS = 3
 CELL = "padding:0.1em 0.8em 0.1em 0;text-align:left;vertical-align:top;white-space:nowrap"
-METRICS = (  # name in metrics.json, what it is called here, unit shown, and its size in SI units
+METRICS = (  # name in metrics.json, label here, displayed unit, and that unit in SI units
     ("position_rmse_after_10s_m", "position error after 10 s (RMS)", "mm", 1e-3),
     ("position_rmse_m", "position error (RMS)", "mm", 1e-3),
     ("final_position_m", "final position", "m", 1.0),
@@ -32,7 +32,7 @@ def flight_html(flight: LoggedFlight, outcome: str, failure: str, findings: Sequ
         flight: the record; it may be empty, or have diverged.
         outcome: how it ended.
         failure: why it failed, or "".
-        findings: what went badly.
+        findings: its findings.
     """
     rows = [*_facts(flight, outcome, failure, findings), *_measured(flight.metrics())]
     cells = "".join(f'<tr><th style="{CELL}">{name}</th><td style="{CELL}">{text}</td></tr>' for name, text in rows)
@@ -59,7 +59,7 @@ def _findings(findings: Sequence[Any]) -> str:
 
 
 def _measured(metrics: dict[str, Any]) -> list[tuple[str, str]]:
-    """The metrics that the flight has; the error of the whole flight only in place of that after 10 s."""
+    """The metrics that the flight has; the error of the whole flight only if there is none after 10 s."""
     rows = list[tuple[str, str]]()
     for name, words, unit, size in METRICS:
         text = _numbers(metrics.get(name), size)
@@ -77,7 +77,7 @@ def _numbers(value: Any, size: float) -> str:
 
 
 def _number(value: float) -> str:
-    """Three digits, and 0 for what is too small to be seen."""
+    """A number with three digits, and 0 if it is negligible."""
     return f"{value:.3g}".replace("-", "−") if abs(value) >= 5e-4 else "0"
 
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 FORMAT = 2
 LATE = 10.0
-"""Time [s] from which metrics with `after_10s` in their names are formed: the disturbed start is left out."""
+"""Time [s] from which metrics with `after_10s` in their names are computed, to exclude a disturbed start."""
 
 
 ENDING_TEXT = "{outcome} at {time:.6g} s: {quantity} = {value:.6g}, {limit}"
@@ -36,9 +36,9 @@ INTERRUPTION_TEXT = "{outcome} at {time:.6g} s: {limit}"
 
 
 class Ending(NamedTuple):
-    """Why a flight was stopped: which quantity, at what time [s], its value, the limit it broke, and the outcome.
+    """The end of a flight that was stopped: the quantity, time [s] and value, the violated limit, and the outcome.
 
-    Of an interruption: no quantity (""), no value (nan), and the reason instead of a limit.
+    An interruption has no quantity (""), no value (nan), and the reason instead of a limit.
     """
 
     quantity: str
@@ -52,7 +52,7 @@ class Ending(NamedTuple):
 
 
 def interruption(time: float, reason: object) -> Ending:
-    """The ending of a flight whose engine was lost at a time [s], for a reason in words."""
+    """The ending of a flight whose engine was lost at a time [s], with the reason in words."""
     return Ending("", time, math.nan, str(reason), INTERRUPTED)
 
 
@@ -64,10 +64,10 @@ class Flight(Mapping[str, Array]):
         time: logged times (T,) [s].
         channels: the recorded arrays by name; `flight[name]` also gives the differences in `DERIVED`.
         mission: the resolved mission as nested tables.
-        results: the metrics, formed from every step and not from the log.
-        ending: why the flight was stopped before its end as crashed, diverged or interrupted, or None.
-        version: of tandemlift and of what it flew with.
-        findings: what went badly, in the order of time; formed from every step, as the metrics.
+        results: the metrics, computed from every step and not from the log.
+        ending: the reason if the flight was stopped early as crashed, diverged or interrupted, else None.
+        version: versions of tandemlift and of the packages that it used.
+        findings: the findings in the order of time, computed from every step.
     """
 
     time: Array
@@ -90,12 +90,12 @@ class Flight(Mapping[str, Array]):
 
     @property
     def outcome(self) -> str:
-        """How it ended, one of `core.outcomes.OUTCOMES`; "unknown" for a flight that was read from a bag."""
+        """The outcome, one of `core.outcomes.OUTCOMES`; "unknown" for a flight that was read from a bag."""
         return self.results.get("outcome", "unknown")
 
     @property
     def failure(self) -> str:
-        """Why the flight failed (crashed, diverged, interrupted, not lifted) in one sentence; "" if it did not."""
+        """The reason of a failure (crashed, diverged, interrupted, not lifted) in one sentence; "" if there is none."""
         return str(self.ending or FAILURES.get(self.outcome, ""))
 
     def __getitem__(self, name: str) -> Array:
@@ -120,13 +120,13 @@ class Flight(Mapping[str, Array]):
         return f"<Flight {self.name}: {len(self.time)} samples to {last}, {len(self.channels)} channels>"
 
     def _repr_html_(self) -> str:
-        """What a notebook shows: mission, outcome, findings, main metrics, and a small picture."""
+        """HTML for a notebook: mission, outcome, findings, main metrics, and a small picture."""
         from tandemlift.flight.notebook_view import flight_html
 
         return flight_html(self, self.outcome, self.failure, self.findings)
 
     def __eq__(self, other: object) -> bool:
-        """Whether two flights are the same to the last bit, records and all."""
+        """Compare two flights bit by bit, including their records."""
         return isinstance(other, Flight) and self._parts() == other._parts()
 
     def __hash__(self) -> int:
@@ -142,7 +142,7 @@ class Flight(Mapping[str, Array]):
         return DERIVED[name][2] if name in DERIVED else channel_of(name)
 
     def metrics(self) -> dict[str, Any]:
-        """The flight's metrics: flat, SI, the unit at the end of each name; None where it could not be formed."""
+        """The flight's metrics: flat, SI, the unit at the end of each name; None if one could not be computed."""
         return dict(self.results)
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -169,7 +169,7 @@ class Flight(Mapping[str, Array]):
         return to_xarray(self)
 
     def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write the flight to an .npz file, exactly; the file appears whole or not at all. Returns its path."""
+        """Write the flight without loss to an .npz file, atomically, and return its path."""
         path = Path(path)
         header = {
             "format": FORMAT,
@@ -202,17 +202,17 @@ class Flight(Mapping[str, Array]):
             raise InputError(f"{path}: {error}") from None
         except OSError as error:
             raise InputError(f"{path}: {error.strerror or error}") from None
-        except Exception as error:  # whatever a file of any content can do to the readers of ZIP, NPY and JSON
+        except Exception as error:  # all errors that arbitrary content can cause in the readers of ZIP, NPY and JSON
             raise InputError(f"{path} is damaged or no flight that tandemlift saved ({error})") from error
 
 
 def _described(channel: Channel) -> dict[str, str]:
-    """What the header of a file says of a channel, for those who read it without tandemlift."""
+    """The description of a channel in a file's header, for readers without tandemlift."""
     return {"unit": channel.unit, "frame": channel.frame, "meaning": channel.meaning}
 
 
 def _written(ending: Ending | None) -> list[Any] | None:
-    """An ending for a strict JSON text: its value, which may be nan, as text."""
+    """An ending as strict JSON: its value, which may be nan, is a text."""
     return ending and [ending.quantity, ending.time, repr(ending.value), ending.limit, ending.outcome]
 
 
@@ -237,14 +237,14 @@ def _read(file: BinaryIO) -> tuple[dict[str, Any], dict[str, Array]]:
 
 
 def _check_names(header: dict[str, Any]) -> None:
-    """Refuse channels that another version had; a channel of the user's own is described as that."""
+    """Reject channels of other versions; channels of user code keep their own description."""
     for name, said in header["channels"].items():
         if channel_of(name) == OTHER and said != _described(OTHER) and not name.startswith("measured_"):
             raise unknown("channel", name, CHANNELS)
 
 
 def _flight(header: dict[str, Any], arrays: dict[str, Array]) -> Flight:
-    """The flight of a header and its arrays, if they fit each other."""
+    """The flight of a header and its arrays, if they are consistent."""
     _check_names(header)
     time = arrays.pop("time")
     for name, array in {"time": time, **arrays}.items():

@@ -11,7 +11,7 @@ from tandemlift.core.types import Array
 from tandemlift.flight.data_frames import LoggedFlight
 from tandemlift.parts.contact.corridor import wall_tables
 
-BLUE, VERMILLION, GREY = "#2a8bcc", "#e0701f", "#8c8c8c"  # that are seen on white and on black
+BLUE, VERMILLION, GREY = "#2a8bcc", "#e0701f", "#8c8c8c"  # visible on white and on black
 INK = "#123456"  # stands for the colour of the notebook's text
 POINTS = 240  # at most, of a line
 SIZE = (6.4, 2.8)  # in
@@ -25,7 +25,7 @@ STYLE = {
 
 
 def thumbnail(flight: LoggedFlight) -> str:
-    """The picture; "" for a flight without two samples that can be drawn."""
+    """The picture; "" for a flight with fewer than two samples that can be drawn."""
     position, time = flight.channels.get("position"), flight.time
     if position is None or position.ndim != 2 or position.shape[1] < 3:
         return ""
@@ -71,7 +71,7 @@ def _draw_path(ax: Any, flight: LoggedFlight, sound: Any) -> None:
 
 
 def _beam(flight: LoggedFlight, k: int) -> list[Array]:
-    """The beam at a sample, as a line (2, 2) [m]; none if it cannot be known."""
+    """The beam at a sample, as a line (2, 2) [m]; None if it is unknown."""
     length = flight.mission.get("vehicle", {}).get("payload", {}).get("length")
     attitude = flight.channels.get("attitude")
     if not length or attitude is None or not np.isfinite(attitude[k]).all():

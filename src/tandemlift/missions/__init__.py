@@ -1,4 +1,4 @@
-"""Missions: from TOML files, with changes on top, to a checked `Mission`; warnings; the reference of keys.
+"""Missions: loading of TOML files with changes into a checked `Mission`; warnings; the reference of keys.
 
 A file may start from another mission with `extends = "NAME or path"` and change some keys; tables merge, everything
 else is replaced, and another `controller.name` starts from that controller's defaults.

@@ -1,4 +1,4 @@
-"""What a key may be, in words, read from its type; so a controller's own keys are explained as well."""
+"""The allowed values of a key in words, from its type; this also covers the keys of a user's controller."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def table_in(annotation: Any) -> Model | None:
 
 
 def allowed(annotation: Any, marks: Iterable[Any] = ()) -> str:
-    """What a key with this annotation may be, in words."""
+    """The allowed values of a key with this annotation, in words."""
     kind, parts = get_origin(annotation), [a for a in get_args(annotation) if a not in (type(None), Ellipsis)]
     if kind is Annotated:
         return allowed(parts[0], (*parts[1:], *marks))
@@ -57,7 +57,7 @@ def bounds(marks: Iterable[Any]) -> dict[str, float]:
 
 
 def limits(marks: Iterable[Any]) -> str:
-    """Such as '> 0 and ≤ 0.02'."""
+    """The bounds as text, such as '> 0 and ≤ 0.02'."""
     return " and ".join(f"{LIMITS[name]} {limit:g}" for name, limit in bounds(marks).items())
 
 

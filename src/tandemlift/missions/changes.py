@@ -1,4 +1,4 @@
-"""One key of a mission changed by its dotted name, as by `--set`."""
+"""Changing a key of a mission by its dotted name, as `--set` does."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def _with(at: Any, parts: list[str], value: Any, key: str) -> Any:
 
 
 def _axis_by_axis(tables: Tables, parts: list[str]) -> Tables:
-    """Tables in which a leaf that is given for all axes at once, or left out, is a list if `parts` name an entry."""
+    """Tables in which a value given for all axes at once, or left out, becomes a list if `parts` name an entry."""
     *above, last = parts
     if not (above and re.fullmatch("[0-9]", last)):
         return tables
@@ -65,7 +65,7 @@ def _controller_of(table: Any) -> Any:
 
 
 def _without_feel(tables: Tables) -> Tables:
-    """Tables with the mass and damping of a feel in its place, for one of them that is set now counts."""
+    """Tables with a feel replaced by its mass and damping, so that one of these can be set."""
     tables = with_feel(tables)
     admittance = tables.get("admittance")
     if not isinstance(admittance, dict) or "feel" not in admittance:

@@ -1,4 +1,4 @@
-"""From nested tables to a checked mission: every refusal names the file, the key, the value and what is allowed."""
+"""Checks nested tables and forms a mission; every error names the file, the key, the value and the allowed values."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ MAX_PROBLEMS = 8  # reported at once
 
 
 class Checked(NamedTuple):
-    """Nested tables that have the right keys and types, and the mission that they are."""
+    """Nested tables with valid keys and types, and their mission."""
 
     tables: Tables
     mission: Mission
 
 
 def as_checked(tables: Tables) -> Checked | None:
-    """Tables with the mission that they are; None if a key of theirs is missing or wrong."""
+    """Tables with their mission; None if one of their keys is missing or invalid."""
     mission, problems = _mission_of(tables, None)
     return None if problems else Checked(tables, mission)
 
@@ -51,8 +51,8 @@ def check(
         tables: of the mission.
         source: names them in messages.
         layers: the files that they are from.
-        known: tables checked before: what `tables` shares with them, the very same objects, is not checked again.
-        quiet: leave out the warnings of what may fly badly.
+        known: tables checked before; identical objects that `tables` shares with them are not checked again.
+        quiet: omit the warnings of a mission that is expected to fly badly.
 
     Raises:
         InputError: something is missing, unknown, of the wrong type, out of range, or cannot fly.
@@ -71,7 +71,7 @@ def check(
 
 
 def _mission_of(tables: Tables, known: Checked | None) -> tuple[Any, list[Problem]]:
-    """The mission of tables that have the right keys and types, or what is wrong with them."""
+    """The mission of tables with valid keys and types, or the problems of the tables."""
     checked, problems = dict(tables), list[Problem]()
     if known is not None:
         checked = {key: _reused(tables[key], known, key) for key in tables}
@@ -82,7 +82,7 @@ def _mission_of(tables: Tables, known: Checked | None) -> tuple[Any, list[Proble
 
 
 def _reused(new: Any, known: Checked, key: str) -> Any:
-    """A table, or a list of tables; what was checked before is replaced by the table that it became."""
+    """A table, or a list of tables, in which objects checked before are replaced by their validated tables."""
     old, made = known.tables.get(key), getattr(known.mission, str(key), None)
     if isinstance(new, dict) and new is old and isinstance(made, BaseModel):
         return new if isinstance(made, ControllerTable) and not _is_registered(made) else made
@@ -93,15 +93,15 @@ def _reused(new: Any, known: Checked, key: str) -> Any:
 
 
 def _is_registered(table: ControllerTable) -> bool:
-    """Whether a controller's settings are those of the controller that has its name now."""
+    """Whether settings belong to the controller that is registered under their name now."""
     return table.name in CONTROLLERS and type(table) is CONTROLLERS[table.name].settings
 
 
 def changed(mission: Mission, key: str, value: Any) -> Mission:
-    """A mission with one key changed, and without what is to change while it is flown.
+    """A mission with one key changed and without `[[changes]]`.
 
     Raises:
-        InputError: there is no such mission.
+        InputError: the changed mission is invalid.
     """
     return check(changed_tables(tables_of(mission.model_copy(update={"changes": ()})), key, value, "mission"))
 
@@ -110,7 +110,7 @@ def in_turn(mission: Mission) -> Iterator[Mission]:
     """The missions that a mission becomes by its `changes`, one after the other.
 
     Raises:
-        InputError: a change comes before the one above it, or makes a mission that there cannot be.
+        InputError: a change is earlier than the one above it, or its mission is invalid.
     """
     before = 0.0
     for i, c in enumerate(mission.changes):
@@ -139,7 +139,7 @@ def _refuse(problems: list[Problem], tables: Tables, source: str, layers: Sequen
 
 
 def _controller(table: Tables, tables: Tables) -> tuple[ControllerTable, list[Problem]]:
-    """The settings of the controller that a table names, or a stand-in and what is wrong with them."""
+    """The settings of the controller that a table names, or a placeholder and the problems."""
     stand_in, name, place = ControllerTable(name=""), table.get("name"), ("controller", "name")
     if not isinstance(name, str):
         given = "is missing: it" if name is None else f"= {shown(name)}:"

@@ -1,6 +1,6 @@
-"""All checks of a mission in one list: what is refused, then what may fly badly.
+"""All checks of a mission in one list: first those that reject it, then those that warn of it.
 
-Loading, `check` and the live page read it. Each part yields the results that are about it alone.
+Loading, `check` and the live page read this list. Each part yields the results that concern it alone.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ GRIP = slice(1, 4)  # of a recorded hand
 
 
 def mission_checks(m: Mission) -> Iterator[CheckResult]:
-    """The results of all checks; the first refusal alone, where there is one."""
+    """The results of all checks, or only the first refusal if there is one."""
     refusal = next(refusals(m), None)
     if refusal is not None:
         yield refusal
@@ -36,7 +36,7 @@ def mission_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def refusals(m: Mission) -> Iterator[CheckResult]:
-    """What no pilot could fly; nothing after the first may be computed."""
+    """Refusals of missions that no pilot can fly; after the first, further checks may fail to compute."""
     yield from time_checks(m.mission)
     yield from log_checks(m.mission, sample_size(m))
     yield from phase_checks(m.phases)
@@ -46,7 +46,7 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
 
 
 def sample_size(m: Mission) -> int:
-    """Bytes of a logged sample: 8 for its time and for each number of the channels that the mission has."""
+    """Size of a logged sample [bytes]: 8 for its time and for each number of the mission's channels."""
     count = len(m.vehicle.quadrotors)
     numbers = {
         "time, state, reference, admittance, push, wrench; rotors and joints": 51 + 10 * count,
@@ -65,7 +65,7 @@ def sample_size(m: Mission) -> int:
 
 
 def time_checks(t: MissionTable) -> Iterator[CheckResult]:
-    """A grid of steps that is empty or endless."""
+    """Refusal of a time grid that is empty or too long."""
     if t.step > t.duration:
         yield refused(f"mission.step = {t.step}: must not be longer than mission.duration = {t.duration}")
     if t.duration / t.step > MAX_STEPS:
@@ -74,7 +74,7 @@ def time_checks(t: MissionTable) -> Iterator[CheckResult]:
 
 
 def log_checks(t: MissionTable, sample: int) -> Iterator[CheckResult]:
-    """A log of samples of so many bytes that would not fit in memory."""
+    """Refusal of a log that would not fit in memory, for a sample's size in bytes."""
     size = t.steps / t.log_every * sample
     if size > MAX_LOG:
         longer = f"must be at least {t.log_interval * size / MAX_LOG:.2g}"
@@ -82,7 +82,7 @@ def log_checks(t: MissionTable, sample: int) -> Iterator[CheckResult]:
 
 
 def recording_checks(m: Mission) -> Iterator[CheckResult]:
-    """A recorded hand that cannot be read, or that holds on beside the vehicle."""
+    """Refusal of a recorded hand that cannot be read, or whose grip is beside the vehicle."""
     path = m.person.recording
     if path is None or m.person.model != "virtual-hand":
         return

@@ -1,4 +1,4 @@
-"""Mission files: which there are, what each says, and what it extends."""
+"""Mission files: the built-in ones, the content of each, and the missions that it extends."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from tandemlift.missions.recording import unpacked_recording
 from tandemlift.missions.values import MISSING, Tables, merge, value_at
 
 MAX_FILE = 1_000_000  # bytes
-_parsed = functools.lru_cache(maxsize=32)(toml_tables)  # for sweeps of one mission; not to be modified
+_parsed = functools.lru_cache(maxsize=32)(toml_tables)  # cached for sweeps of one mission; must not be modified
 
 
 class Layer(NamedTuple):
-    """What one file says; `source` names it in messages."""
+    """The content of one file; `source` names it in messages."""
 
     source: str
     tables: Tables
@@ -34,7 +34,7 @@ def built_in() -> Mapping[str, str]:
 
 
 def path_of(name: str | os.PathLike[str], folder: Path) -> Path:
-    """The file of a built-in mission, or the path given, relative to a folder; of a saved flight (.zip) its mission."""
+    """The file of a built-in mission, or a path relative to a folder; for a saved flight (.zip) that of its mission."""
     if isinstance(name, str) and name in built_in():
         return DATA / "missions" / f"{name}.toml"
     if isinstance(name, str) and not name.endswith((".toml", ".zip")) and not re.search(r"[/\\]", name):
@@ -65,7 +65,7 @@ def _read(path: Path) -> Tables:
 
 
 def overlay(base: Tables, changes: Tables) -> Tables:
-    """`merge` of missions: the settings of another controller do not carry over."""
+    """Merge missions; the settings of another controller are not kept."""
     name = value_at(changes, ("controller", "name"))
     if name not in (MISSING, value_at(base, ("controller", "name"))):
         base = {key: value for key, value in base.items() if key != "controller"}
@@ -73,13 +73,13 @@ def overlay(base: Tables, changes: Tables) -> Tables:
 
 
 def _identity(path: Path) -> tuple[int, int]:
-    """What a file has alone, whatever path leads to it: its device and its number there."""
+    """The identity of a file, whatever its path: its device and inode."""
     status = path.stat()
     return status.st_dev, status.st_ino
 
 
 def layers_of(path: Path, seen: tuple[tuple[int, int], ...] = ()) -> Iterator[Layer]:
-    """What the file says, after what the missions say that it extends."""
+    """The contents of the missions that a file extends, then its own."""
     tables = _read(path)
     parent = tables.pop("extends", None)
     if parent is not None:
@@ -97,7 +97,7 @@ def layers_of(path: Path, seen: tuple[tuple[int, int], ...] = ()) -> Iterator[La
 
 
 def _anchored(tables: Tables, folder: Path) -> Tables:
-    """Tables of a file whose recording, if it names one, is found from the file's own folder."""
+    """Tables of a file, with a recording's path resolved from the file's folder."""
     recording = value_at(tables, ("person", "recording"))
     if not isinstance(recording, str):
         return tables

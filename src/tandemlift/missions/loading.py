@@ -1,4 +1,4 @@
-"""From the name of a mission, or its file, to a checked mission."""
+"""Loads a mission by its name or file, and checks it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tandemlift.parts.controllers import CONTROLLERS, Controller
 
 
 def _last_said_of(controller: str, folded: Sequence[Tables]) -> Any:
-    """The table of a controller in the last of some tables that name it, or one of its name alone."""
+    """The table of a controller in the last of the tables that name it, or a table with only its name."""
     said = (t["controller"] for t in reversed(folded) if value_at(t, ("controller", "name")) == controller)
     return next(said, {"name": controller})
 
@@ -40,7 +40,7 @@ def load_mission(
             there are none, with its own defaults.
 
     Raises:
-        InputError: the mission does not exist, cannot be read or cannot be flown; the message says what is allowed.
+        InputError: the mission does not exist, cannot be read or is invalid; the message has the allowed values.
     """
     with _named(name):
         tables, layers = read_tables(name, controller)
@@ -48,13 +48,13 @@ def load_mission(
 
 
 class MissionTemplate:
-    """Many missions of the same tables, each with a few changes; what they share is checked only once.
+    """A template for many missions with the same tables and a few changes each; shared parts are checked once.
 
     Args:
         tables: from `read_tables`.
-        layers: that the tables are from; their last source names the mission in messages.
+        layers: the layers of the tables; their last source names the mission in messages.
         changes: values by dotted key that all missions have.
-        quiet: leave out the warnings of what may fly badly, for those who have seen them.
+        quiet: omit the warnings, for callers that have shown them already.
 
     Raises:
         InputError: a change has no place in the tables.
@@ -105,7 +105,7 @@ class MissionTemplate:
 
 @contextmanager
 def _named(name: str | os.PathLike[str]) -> Iterator[None]:
-    """Within it, a file that cannot be read or is nested too deeply is refused by its name."""
+    """A context in which a file that cannot be read or is nested too deeply raises an error with its name."""
     try:
         yield
     except RecursionError:
@@ -117,12 +117,12 @@ def _named(name: str | os.PathLike[str]) -> Iterator[None]:
 def read_tables(
     name: str | os.PathLike[str], controller: Controller | str | None = None, folder: Path = Path()
 ) -> tuple[Tables, list[Layer]]:
-    """The tables of a mission, with all that it extends, and the layers that they are from; unchecked.
+    """The unchecked tables of a mission with all that it extends, and the layers that they come from.
 
     Args:
         name: as for `load_mission`; a path is relative to `folder`.
         controller: as for `load_mission`.
-        folder: where relative paths start.
+        folder: base of relative paths.
 
     Raises:
         InputError: the mission does not exist or cannot be read, or the controller is not registered any more.

@@ -1,4 +1,4 @@
-"""A hand as it was moved, step by step: the file that a recorded mission names in `person.recording`.
+"""Recordings of a virtual hand, step by step: the file that a recorded mission names in `person.recording`.
 
 A NumPy archive (.npz) of `step` (n,), whole and rising, and `hand` (n, 14): from that step on, held, grip (3), target
 (3), force (3), lift, land, stop, enabled, as in a `VirtualHandInput`; and `engine`, the one that it was
@@ -27,12 +27,12 @@ from tandemlift.missions.tables.mission import Mission
 WIDTH = 14  # numbers of a `VirtualHandInput`
 ENGINE = "compiled"  # the default engine
 MISSION_FILE, HAND_FILE = "recorded.toml", "hand.npz"  # of a saved flight
-MAX_UNPACKED = 200_000_000  # bytes of one of them, and of what a recording unpacks to: an hour has some 60 million
+MAX_UNPACKED = 200_000_000  # bytes of one of them, and of an unpacked recording: an hour has some 60 million
 _held: dict[str, bytes] = {}
 
 
 class Recording(NamedTuple):
-    """Steps (n,) and, from each on, the numbers of the hand (n, 14); the engine that was flown in."""
+    """Steps (n,), the numbers of the hand from each of them on (n, 14), and the engine of the flight."""
 
     steps: NDArray[np.int64]
     hands: NDArray[np.float64]
@@ -40,7 +40,7 @@ class Recording(NamedTuple):
 
 
 def write_recording(path: Path, recording: Recording) -> None:
-    """Write a recording, whole or not at all."""
+    """Write a recording atomically."""
     with atomic_write(path) as partial, partial.open("wb") as file:
         np.savez_compressed(file, step=recording.steps, hand=recording.hands, engine=recording.engine)
 
@@ -48,7 +48,7 @@ def write_recording(path: Path, recording: Recording) -> None:
 def hold_recording(name: str, content: bytes) -> str:
     """Hold the content of a recording in this process; returns the path by which `read_recording` finds it.
 
-    So a study flies the recording that it holds without a file, which others could change or which might stay behind.
+    A study can thus fly its recording without a temporary file.
     """
     path = f"<study>/{hashlib.sha256(content).hexdigest()[:16]}/{Path(name).name}"
     _held[path] = content
@@ -64,7 +64,7 @@ def read_recording(path: str) -> Recording:
     """Read a recording.
 
     Raises:
-        InputError: the file does not exist, or holds something else; the message says what.
+        InputError: the file does not exist or is no recording; the message has the reason.
     """
     try:
         with np.load(io.BytesIO(recording_bytes(path)), allow_pickle=False) as archive:
@@ -74,7 +74,7 @@ def read_recording(path: str) -> Recording:
             recording = Recording(archive["step"], archive["hand"], str(engine))
     except FileNotFoundError:
         raise InputError(f"person.recording = {path!r}: there is no such file") from None
-    except Exception as error:  # whatever a file of any content can do to the readers of ZIP and NPY
+    except Exception as error:  # all errors that arbitrary content can cause in the readers of ZIP and NPY
         raise InputError(f"person.recording = {path!r}: not a recording: {error}") from None
     _check(path, recording)
     return recording
@@ -122,7 +122,7 @@ def engine_of(mission: Mission) -> str:
 
 
 def portable(tables: dict[str, Any]) -> dict[str, Any]:
-    """A mission's tables without the folder that its recording is in: it stands beside the file that they go to."""
+    """A mission's tables without the folder of its recording, which is stored beside the file of the tables."""
     recording = tables.get("person", {}).get("recording")
     return (
         tables if recording is None else {**tables, "person": {**tables["person"], "recording": Path(recording).name}}

@@ -1,4 +1,4 @@
-"""What is wrong with a table of a mission, in one sentence for each key: the value given and what is allowed."""
+"""Problems of a mission's tables, in one sentence for each key: the given value and the allowed ones."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from tandemlift.core.toml import dotted, shown
 from tandemlift.missions.bounds import Model, allowed, plain, table_in
 from tandemlift.missions.values import MISSING, Place, value_at
 
-BY_ANNOTATION = (  # the beginnings of the kinds of error for which the annotation says what is allowed
+BY_ANNOTATION = (  # prefixes of the kinds of error for which the annotation has the allowed values
     *("missing", "axes", "float_", "int_", "bool_", "string_type", "finite_", "greater_", "less_"),
     *("literal_", "model_", "tuple_", "list_", "dict_", "too_"),
 )
 
 
 class Problem(NamedTuple):
-    """What is wrong with the key at a place in the nested tables."""
+    """A problem of the key at a place in the nested tables."""
 
     place: Place
     sentence: str
@@ -29,7 +29,7 @@ class Problem(NamedTuple):
 def problems_in(
     model: Model, error: ValidationError, tables: Any, prefix: Place = (), whole: str = "a mission"
 ) -> list[Problem]:
-    """The problems of the table at `prefix` in `tables`, one for each key; `whole` says what all tables are."""
+    """The problems of the table at `prefix` in `tables`, one for each key; `whole` names the kind of file."""
     data = value_at(tables, prefix)
     found: dict[Place, Problem] = {}
     for problem in error.errors(include_url=False, include_input=False):
@@ -51,7 +51,7 @@ def keys_of(model: Model, above: Place = ()) -> Iterator[Place]:
 
 
 def _walk(model: Model, loc: Iterable[Any]) -> tuple[Place, Any, Any]:
-    """The place that pydantic means, without its labels of union members, and the last field and table on the way."""
+    """The place of a pydantic error, without labels of union members, and the last field and table on the path."""
     place: list[str | int] = []
     field, table = None, model
     for part in loc:
@@ -66,9 +66,9 @@ def _walk(model: Model, loc: Iterable[Any]) -> tuple[Place, Any, Any]:
 
 def _refusal(model: Model, problem: Any, data: Any, prefix: Place) -> tuple[Place, str]:
     place, field, table = _walk(model, problem["loc"])
-    if not (place or prefix):  # a rule between tables, which names the key itself
+    if not (place or prefix):  # a rule between tables, whose text names the key itself
         return place, problem["msg"]
-    if table is None and value_at(data, place) is MISSING:  # inside one value that serves all axes
+    if table is None and value_at(data, place) is MISSING:  # inside one value for all axes
         while isinstance(place[-1], int):
             place = place[:-1]
     key, given = dotted((*prefix, *place)), value_at(data, place)
@@ -81,7 +81,7 @@ def _refusal(model: Model, problem: Any, data: Any, prefix: Place) -> tuple[Plac
 
 
 def _rule(problem: Any, field: Any, entry: bool) -> str:
-    """'must be …', from the annotation where that says it all, else as the validator said it."""
+    """'must be …', from the annotation if that suffices, else from the validator."""
     if field is None or not problem["type"].startswith(BY_ANNOTATION):
         said = problem["msg"].removeprefix("Value error, ").removeprefix("Assertion failed, ")
         return said.replace("Input should", "must")

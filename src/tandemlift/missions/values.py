@@ -11,7 +11,7 @@ MISSING = object()
 
 
 def value_at(tables: Any, place: Place) -> Any:
-    """What stands at a place in nested tables, or MISSING."""
+    """The value at a place in nested tables, or MISSING."""
     for part in place:
         listed = isinstance(tables, (list, tuple)) and isinstance(part, int) and part < len(tables)
         if not listed and not (isinstance(tables, Mapping) and part in tables):
@@ -21,7 +21,7 @@ def value_at(tables: Any, place: Place) -> Any:
 
 
 def merge(base: Tables, changes: Tables) -> Tables:
-    """`base` with `changes` on top: tables merge, everything else is replaced."""
+    """Merge `changes` into `base`: tables merge, everything else is replaced."""
     merged = dict(base)
     for key, value in changes.items():
         both = isinstance(value, dict) and isinstance(merged.get(key), dict)

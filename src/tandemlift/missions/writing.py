@@ -18,7 +18,7 @@ def tables_of(mission: Mission) -> Tables:
 
 
 def format_toml(tables: Mapping[str, Any]) -> str:
-    """Nested tables as TOML, exactly, with lists of numbers on one line."""
+    """Nested tables as TOML without loss, with lists of numbers on one line."""
     text = re.sub(r"\[\n\s*([-+.\w\s,]*),\n\s*\]", lambda m: f"[{' '.join(m[1].split())}]", tomli_w.dumps(tables))
     return re.sub(r"\[\n\s*(\[[^\[\]\n]*\]),\n\s*\]", r"[\1]", text)  # a list of one such list
 

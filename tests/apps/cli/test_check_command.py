@@ -31,7 +31,7 @@ def test_a_mission_that_flies_well_is_ok(tmp_path):
 def test_what_fails_is_said_with_its_key_and_ends_with_3_if_strict(strict, expected):
     code, text, _ = call("iris", "--set", "actuators.delay=0.1", *strict)
     assert code == expected
-    assert "fails: the pitch loop bears" in text
+    assert "fails: the pitch loop tolerates" in text
     assert "actuators.delay is 100 ms: lower it" in text
     assert "warning" not in text
 

@@ -290,7 +290,7 @@ def test_a_lift_that_never_happens_is_a_failure(run):
     )
     assert code == 3
     assert "iris: not-lifted" in out
-    assert "iris: not-lifted: the mission asks for a lift" in err
+    assert "iris: not-lifted: a lift of the mission" in err
 
 
 def test_a_flight_that_is_lost_in_its_first_step_is_written_too(run, tmp_path):

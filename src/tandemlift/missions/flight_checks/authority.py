@@ -1,8 +1,8 @@
-"""What the rotors can give against what a mission asks of them: thrust, tilt, and a moment about each axis.
+"""Checks of the rotors' thrust, tilt and moments about each axis against a mission's demand.
 
 Moments are those of the allocation's pseudo-inverse in hover: with thrusts f₀ and the moment's column a of the inverse,
-the first rotor reaches a limit at the least of (f_max − f₀)/a and f₀/(−a). A lift that is not there is refused by
-`missions.hardware_checks`.
+the first rotor reaches a limit at the smallest of (f_max − f₀)/a and f₀/(−a). `missions.hardware_checks` rejects
+missions whose rotors cannot lift the vehicle.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from tandemlift.missions.tables.weight import lift_of, weight_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 AXES = ("roll", "pitch", "yaw")
-CONTROL = 0.15  # of the largest moment, left for control; as supervision.checks.thrust_fraction leaves of the thrust
-CLOCKED = 0.95  # of the largest thrust that a flight by the clock may need
+CONTROL = 0.15  # of the largest moment, reserved for control, as supervision.checks.thrust_fraction does for the thrust
+CLOCKED = 0.95  # of the largest thrust that a flight with scheduled guidance may need
 
 
 def authority_checks(m: Mission) -> Iterator[CheckResult]:
-    """Thrust, tilt and moments of real rotors; nothing of ideal ones."""
+    """Checks of thrust, tilt and moments of real rotors; none for ideal ones."""
     if m.actuators.model != "rotors":
         return
     yields = m.pilot.guidance == "interactive" and m.compliance.yaw.model == "compliant"
@@ -44,7 +44,7 @@ def _at(when: str) -> str:
 
 
 def thrust_check(m: Mission, loads: list[VehicleLoads]) -> CheckResult:
-    """The thrust that the worst vertical load needs, against what may be used of all rotors."""
+    """Compare the thrust for the worst vertical load with the usable thrust of all rotors."""
     weight, lift = weight_of(m), lift_of(m, faulty=True)
     by_hand = m.pilot.guidance == "interactive"
     fraction, key = (m.compliance.thrust_fraction, "compliance.thrust_fraction") if by_hand else (CLOCKED, "")
@@ -60,7 +60,7 @@ def thrust_check(m: Mission, loads: list[VehicleLoads]) -> CheckResult:
 
 
 def supervised_check(m: Mission) -> CheckResult:
-    """The weight that the pilot knows, against what it must not exceed for a lift."""
+    """Compare the weight that the pilot assumes with its limit for a lift."""
     vehicle = Vehicle.from_settings(m.vehicle)
     fraction = m.supervision.checks.thrust_fraction
     limit = fraction * vehicle.max_thrust
@@ -77,7 +77,7 @@ def tilt_limit_of(m: Mission) -> float | None:
 
 
 def tilt_check(m: Mission, loads: list[VehicleLoads]) -> CheckResult:
-    """The horizontal force to be countered, against what tilt and thrust can give beside the weight."""
+    """Compare the horizontal load with the force that tilt and thrust provide beside the weight."""
     weight, lift, tilt = weight_of(m), lift_of(m, faulty=True), tilt_limit_of(m)
 
     def limit_of(load: VehicleLoads) -> float:
@@ -109,14 +109,14 @@ def authority_of(m: Mission) -> Array:
 
 
 def moment_checks(m: Mission, loads: list[VehicleLoads]) -> Iterator[CheckResult]:
-    """The moment of all loads about each axis, against what the rotors have left in hover."""
+    """Compare the moment of all loads about each axis with the moment that the rotors have left in hover."""
     authority = authority_of(m)
     for i, axis in enumerate(AXES):
         worst = max(loads, key=lambda load: float(load.about[i]))
         value, limit = float(worst.about[i]), (1.0 - CONTROL) * float(authority[i])
         text = (
-            f"{_at(worst.when)}wind, disturbance and pushes turn the vehicle in {axis} with {value:.3g} N m, and the "
+            f"{_at(worst.when)}wind, disturbance and pushes exert a {axis} moment of {value:.3g} N m, and the "
             f"rotors give {authority[i]:.3g} N m in hover, of which {limit:.3g} N m leaves {CONTROL:.0%} for control: "
-            "it turns over or away; lower disturbance.moment, the wind, or the push and its lever arm"
+            "the vehicle overturns or rotates away; lower disturbance.moment, the wind, or the push and its lever arm"
         )
         yield judged("moment", value, limit, "N m", text, subject=axis, near=0.3)

@@ -1,6 +1,6 @@
-"""The linear response of a controller about hover, by differences of its own law: any registered controller's.
+"""The linear response of any registered controller about hover, by finite differences of its law.
 
-Each component of what the controller reads is changed alone: about hover, axes mix by the products of inertia.
+Each component of the controller's input is changed separately, because products of inertia couple the axes.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class ControllerResponse(NamedTuple):
 
 
 def controller_response(m: Mission) -> ControllerResponse | None:
-    """The response of a mission's controller; None where its law does not answer with numbers at hover."""
+    """The response of a mission's controller; None if its law does not return numbers at hover."""
     return _response(m.controller, CONTROLLERS[m.controller.name].start, m.vehicle, m.mission.step)
 
 

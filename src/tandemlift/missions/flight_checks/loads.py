@@ -1,6 +1,6 @@
 """The loads that a mission puts on the hovering vehicle: weight, unknown force and moment, wind, pushes, over time.
 
-The vehicle is taken level, with the heading of the start. Turbulence counts with `SIGMAS` standard deviations, each
+The vehicle is assumed level, with the heading of the start. Turbulence counts with `SIGMAS` standard deviations, each
 linearised about the wind that blows then: a drag k |v| v changes by k (|v| I + v vᵀ/|v|) dv.
 """
 
@@ -26,14 +26,14 @@ SLOWEST = 1e-3  # m/s, of the wind about which drag is linearised
 
 
 class VehicleLoads(NamedTuple):
-    """What acts on the vehicle at a time, besides weight and rotors.
+    """The loads on the vehicle at a time, besides weight and rotors.
 
     Attributes:
-        when: what acts, in words.
+        when: the acting loads, in words.
         force: [N, world axes] (3).
         moment: [N m, body axes] (3).
         gusting: standard deviation of the wind's force [N, world axes] (3).
-        gusting_moment: of its moment [N m, body axes] (3).
+        gusting_moment: standard deviation of its moment [N m, body axes] (3).
     """
 
     when: str
@@ -88,7 +88,7 @@ def turbulence_of(m: Mission) -> Array:
 
 
 def drag_on(part: AirPart, R: Array, air: Array, eddies: Array) -> tuple[Array, Array]:
-    """(The drag of a part at rest in air [N, body axes], what each eddy changes of it (3 × 3), an eddy a row)."""
+    """(The drag of a part at rest in air [N, body axes], its change by each eddy as a row (3 × 3))."""
     v = R.T @ air
     speed = max(float(np.linalg.norm(v)), SLOWEST)
     slope = speed * np.eye(3) + np.outer(v, v) / speed
@@ -156,7 +156,7 @@ def loads_of(m: Mission, *, yielding_yaw: bool) -> Iterator[VehicleLoads]:
 
     Args:
         m: the mission.
-        yielding_yaw: whether the vehicle turns with a push, which then needs no moment about z.
+        yielding_yaw: whether the vehicle rotates with a push, which then needs no moment about z.
     """
     steady, unknown, wind, hand = (
         np.array(m.disturbance.force),

@@ -1,4 +1,4 @@
-"""How much delay the control loops bear: closed forms about hover.
+"""Delay margins of the control loops, in closed form about hover.
 
 The loop leads from the thrust and the moments of the rotors by the body, the sensors' delay, the controller and the
 disturbance observer back to them. It is a matrix of z, roll, pitch and yaw, in accelerations, cut at the rotors:
@@ -8,16 +8,15 @@ L(s) = (1 − Q M)⁻¹ (K P + W + Q) E · G.
 - K: the controller, linear about hover (`controller_response`), sampled; over the mass and the inertia that it assumes.
 - E: the accelerations of the real body over those of the assumed one, J⁻¹ Ĵ: 1 where the model is right.
 - Q = λ²/(s + λ)², the observer of bandwidth λ along each axis; M: its model of the rotors.
-- W: what a measured push adds by a payload's mass, and moment of inertia, that is not what the pilot takes it for.
+- W: the feedback through the measured push, if the payload's mass and inertia differ from those that the pilot assumes.
 - G = e^(−sT)/(1 + τ s): delay and lag of the rotors, half a step of the hold, and the readings' delay.
 
 Products of inertia mix the axes. As G is the same for all of them, det(1 + L) is the product of 1 + λ over the
-eigenvalues λ of L: each of them is a loop of its own (MacFarlane and Postlethwaite, Int. J. Control 25, 1977), named by
-the axis that it belongs to at high frequencies.
+eigenvalues λ of L: each of them is a separate loop (MacFarlane and Postlethwaite, Int. J. Control 25, 1977), named by
+its axis at high frequencies.
 
-The delay that remains until a loop oscillates is (π + arg λ)/ω where |λ| = 1, the least of them. Whether it is stable
-without any delay tells the number of turns of 1 + λ about 0, counted from high frequencies: −n π/2 at the low end for n
-integrators, if it is.
+The delay margin of a loop is the smallest (π + arg λ)/ω where |λ| = 1. A loop is stable without delay if the angle of
+1 + λ about 0, followed from high frequencies, ends at −n π/2 for n integrators.
 """
 
 from __future__ import annotations
@@ -40,18 +39,18 @@ LOOPS = ("z", "roll", "pitch", "yaw")
 LOWEST, HIGHEST, POINTS = 0.02, 1000.0, 120  # rad/s
 MIXED = 1e-9  # of a loop, below which axes do not mix
 TURNED = 0.4 * math.pi  # rad, of a loop that is not stable
-CLEAR = 0.25  # of an integrator, within which the slope of a loop at low frequencies tells their number
-NEAR = 0.3  # of the delay that a loop bears
-NOTABLE = 0.5  # of the payload's mass, by which a measured push errs
+CLEAR = 0.25  # tolerance of the slope at low frequencies, from which the number of integrators is found
+NEAR = 0.3  # of the delay that a loop tolerates
+NOTABLE = 0.5  # of the payload's mass, as an error of the measured push
 
 
 class LoopDelay(NamedTuple):
-    """A loop against its delay.
+    """The delay margin of a loop.
 
     Attributes:
         axis: "z", "roll", "pitch" or "yaw".
-        delay: what there is, of rotors, step and readings [s].
-        bears: what the loop bears with the rotors' lag [s]; 0 where it is unstable without any delay.
+        delay: present delay of rotors, step and readings [s].
+        bears: tolerated delay with the rotors' lag [s]; 0 if the loop is unstable without any delay.
         crossover: the frequency at which it would oscillate [rad/s]; NaN for no crossing.
     """
 
@@ -62,7 +61,7 @@ class LoopDelay(NamedTuple):
 
 
 def loop_checks(m: Mission) -> Iterator[CheckResult]:
-    """The delay of each loop with real rotors; nothing of ideal ones."""
+    """Check the delay of each loop with real rotors; no check for ideal ones."""
     for loop in loop_delays(m):
         value, limit = 1e3 * loop.delay, 1e3 * loop.bears
         parts = f"actuators.delay = {m.actuators.delay:g} s, step and readings make {value:.3g} ms"
@@ -71,7 +70,7 @@ def loop_checks(m: Mission) -> Iterator[CheckResult]:
                 f"the {loop.axis} loop oscillates with the rotors' lag of {1e3 * lag_of(m):.3g} ms, whatever its delay"
             )
         else:
-            what = f"the {loop.axis} loop bears {limit:.3g} ms of delay with the rotors' lag, and {parts}"
+            what = f"the {loop.axis} loop tolerates {limit:.3g} ms of delay with the rotors' lag, and {parts}"
         yield judged("delay", value, limit, "ms", f"{what}{_remedy(m)}", subject=loop.axis, near=NEAR)
 
 
@@ -91,11 +90,11 @@ def lag_of(m: Mission) -> float:
 
 
 def push_mass_error(m: Mission) -> float:
-    """By how much the mass [kg] in the push errs that a guidance by hand counters.
+    """The error of the mass [kg] in the push that interactive guidance compensates.
 
-    The push is m̂ a − Σ f. What joints feel puts the difference of the real mass to the payload; the simulated body
-    keeps its centre of mass, and so does the pilot with a difference that it has identified. A mass that the tare
-    identifies takes a vertical disturbance for weight.
+    The push is m̂ a − Σ f. In the joint forces, the whole difference of the real mass belongs to the payload; the
+    simulated body keeps its centre of mass, and so does the pilot with an identified difference. A mass that the tare
+    identifies includes a vertical disturbance as weight.
     """
     if not measures_push(m):
         return 0.0
@@ -120,14 +119,14 @@ def loop_delays(m: Mission) -> Iterator[LoopDelay]:
     lagging = np.mean(1.0 / (1.0 + 1j * w[:, None] * lags), axis=1)
     loops = eigenvalues_by_axis(open_loop(m, w, K) * lagging[:, None, None])
     turns = [excess_turns(w, L) for L in loops]
-    stable = abs(sum(turns)) < TURNED  # where two loops meet, each may go on as the other
+    stable = abs(sum(turns)) < TURNED  # where two loops meet, they may be interchanged
     for axis, L, turned in zip(LOOPS, loops, turns, strict=True):
         bears, crossover = delay_to_crossing(w, L) if stable or abs(turned) < TURNED else (0.0, math.nan)
         yield LoopDelay(axis, delay, bears, crossover)
 
 
 def reading_delays(m: Mission) -> tuple[float, Array]:
-    """(The delay [s] of all readings, what position, velocity, angles, rates and push have beyond it (5))."""
+    """(Common delay of all readings [s], additional delays of position, velocity, angles, rates and push (5))."""
     s, beyond = m.sensors, np.zeros(INPUTS)
     if s.model == "none" or m.pilot.state == "truth":
         return 0.0, beyond
@@ -163,17 +162,17 @@ def open_loop(m: Mission, w: Array, K: Any) -> Any:
 
 
 def measures_push(m: Mission) -> bool:
-    """Whether a guidance by hand counters a push that is measured."""
+    """Whether interactive guidance compensates a measured push."""
     return m.pilot.guidance == "interactive" and m.pilot.push != "truth"
 
 
 def measured(m: Mission, s: Any, lead: float) -> Any:
-    """What a guidance by hand counters of a push [1], with a lead time [s]."""
+    """The fraction of a push that interactive guidance compensates [1], with a lead time [s]."""
     return (1.0 + lead * s) / (1.0 + s / m.compliance.input_bandwidth) ** 2
 
 
 def eigenvalues_by_axis(L: Any) -> Any:
-    """The eigenvalues (4, w) of a loop (w, 4, 4), each followed from the axis that it is at the highest frequency."""
+    """The eigenvalues (4, w) of a loop (w, 4, 4), each followed from its axis at the highest frequency."""
     own = np.einsum("wii->wi", L)
     mixed = np.abs(L - own[:, None] * np.eye(4)).max()
     if not np.isfinite(L).all() or mixed <= MIXED * np.abs(own).min():
@@ -189,7 +188,7 @@ def eigenvalues_by_axis(L: Any) -> Any:
 
 
 def delay_to_crossing(w: Array, L: Any) -> tuple[float, float]:
-    """(The least delay [s] by which a loop meets −1, the frequency where it does [rad/s])."""
+    """(The smallest delay [s] with which a loop passes through −1, the frequency of this [rad/s])."""
     size, phase = np.log(np.abs(L)), np.unwrap(np.angle(L))
     best, crossover = math.inf, math.nan
     for k in np.flatnonzero((size[:-1] >= 0.0) != (size[1:] >= 0.0)):
@@ -202,9 +201,9 @@ def delay_to_crossing(w: Array, L: Any) -> tuple[float, float]:
 
 
 def excess_turns(w: Array, L: Any) -> float:
-    """By how much 1 + L turns about 0 [rad] beyond what a stable loop does, from the highest to the lowest frequency.
+    """The angle of 1 + L about 0 [rad] beyond that of a stable loop, from the highest to the lowest frequency.
 
-    A loop whose numbers are beyond what can be computed is not judged: it counts as stable.
+    A loop whose numbers are too extreme to compute counts as stable.
     """
     if not np.isfinite(L).all() or not L[0]:
         return 0.0

@@ -1,8 +1,8 @@
-"""The room between walls against what the vehicle needs in the way that a person leads it.
+"""Check of the room between walls on the path along which a person leads the vehicle.
 
-The vehicle is taken to follow exactly. Its quadrotors' guards must stay clear of all walls on the way: with the heading
-kept where one hand steers the centre of mass, with the headings of the way where two hands turn it, and trailing behind
-the hand where one end is pulled: the centre then moves along the line to the grip (a tractrix).
+The vehicle is assumed to follow exactly. The quadrotors' guards must stay clear of all walls. The heading is
+kept if one hand steers the centre of mass, and follows the path if two hands rotate the vehicle. If one end is pulled,
+the vehicle trails behind the hand: the centre moves along the line to the grip (a tractrix).
 """
 
 from __future__ import annotations
@@ -19,28 +19,28 @@ from tandemlift.core.types import Array
 from tandemlift.missions.tables.mission import Mission
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
-APART = 0.1  # m, between places on the way
+APART = 0.1  # m, between places on the path
 MOST = 4000  # places
 NEAR = 0.4  # of the room
-TURNING = 0.7  # rad/s, at which two hands turn the vehicle
+TURNING = 0.7  # rad/s, at which two hands rotate the vehicle
 
 
 class Places(NamedTuple):
-    """Places on the way: the centre of mass [m] (n, 2), and the heading [rad] (n)."""
+    """Places on the path: the centre of mass [m] (n, 2), and the heading [rad] (n)."""
 
     centres: Array
     headings: Array
 
 
 def passage_checks(m: Mission) -> Iterator[CheckResult]:
-    """The distance to the walls that is needed, against what there is on the way."""
+    """Compare the required distance from the walls with the smallest one on the path."""
     places = places_of(m) if m.all_walls else None
     if places is None:
         return
     room, at = least_room(m, places)
     guard = max(q.guard_radius for q in m.vehicle.quadrotors)
     x, y = places.centres[at]
-    how = {"pull": "trailing behind its end", "two-hands": "turned by two hands"}.get(
+    how = {"pull": "trailing behind its end", "two-hands": "rotated by two hands"}.get(
         m.person.model, "with its heading kept"
     )
     text = (
@@ -52,7 +52,7 @@ def passage_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def way_of(m: Mission) -> tuple[Array, list[float]]:
-    """The steered point's way (n, 2) [m] from the start, and the heading of each leg [rad]."""
+    """The path (n, 2) [m] of the steered point from the start, and the heading of each leg [rad]."""
     p = m.person
     points = [w.point for w in p.path] or list(m.corridor.centreline)
     yaw = m.initial.euler[2]
@@ -66,7 +66,7 @@ def way_of(m: Mission) -> tuple[Array, list[float]]:
 
 
 def places_of(m: Mission) -> Places | None:
-    """The way as places of the vehicle; None for a person whose way is not known before."""
+    """The path as places of the vehicle; None for a person whose path is not known in advance."""
     p = m.person
     if p.model not in ("pull", "steer", "two-hands") or (p.model == "steer" and p.grip != 0.0):
         return None
@@ -87,7 +87,7 @@ def places_of(m: Mission) -> Places | None:
 
 
 def turning(headings: Array, speed: float) -> Array:
-    """Headings that follow those of the way at most at `TURNING`, at a speed [m/s]."""
+    """Headings that follow those of the path at a rate of at most `TURNING`, at a speed [m/s]."""
     most, now, found = TURNING * APART / speed, headings[0], []
     for heading in headings:
         off = (heading - now + math.pi) % (2.0 * math.pi) - math.pi
@@ -97,7 +97,7 @@ def turning(headings: Array, speed: float) -> Array:
 
 
 def trailing(grips: Array, grip: float, yaw: float) -> Places | None:
-    """The vehicle behind a grip that is led along a way; None where the grip is the centre."""
+    """The places of a vehicle behind a grip that is led along a path; None if the grip is at the centre."""
     if grip == 0.0:
         return None
     behind = grips[0] - abs(grip) * math.copysign(1.0, grip) * np.array([-math.sin(yaw), math.cos(yaw)])
@@ -121,7 +121,7 @@ def quadrotors_at(m: Mission, places: Places) -> Array:
 
 
 def least_room(m: Mission, places: Places) -> tuple[float, int]:
-    """(The smallest distance of a quadrotor's centre from a wall, less by how much its guard is smaller; the place)."""
+    """(The smallest distance from a wall to a quadrotor's centre, corrected for a smaller guard; its place)."""
     walls = m.all_walls
     starts, ends = np.array([w.start for w in walls]), np.array([w.end for w in walls])
     along = ends - starts

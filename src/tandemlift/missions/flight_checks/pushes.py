@@ -1,4 +1,4 @@
-"""Pushes that are too weak to be followed, or act beside the vehicle."""
+"""Checks for pushes that are too weak to be followed, or act beside the vehicle."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ BESIDE = 0.05  # m, from the box of all parts
 
 
 def point_checks(m: Mission) -> Iterator[CheckResult]:
-    """Pushes beside the box of all parts."""
+    """Check for pushes outside the box around all parts."""
     for i, push in enumerate(m.pushes):
         off = Vehicle.from_settings(m.vehicle).beside(push.point)
         text = f"pushes.{i}.point = {list(push.point)} is {off:.2g} m beside the vehicle, where nobody can push"
@@ -21,7 +21,7 @@ def point_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def push_checks(m: Mission) -> Iterator[CheckResult]:
-    """Pushes of which no axis exceeds its threshold: they are ignored, alone or with the pushes at the same time."""
+    """Check for pushes that exceed no axis' threshold, alone or with simultaneous pushes, and so are ignored."""
     a = m.admittance
     windy = m.wind.model == "air" and m.pilot.push != "truth"  # wind on the payload counts as a push
     if windy or m.person.model != "none" or any(change.key.startswith("admittance") for change in m.changes):

@@ -1,4 +1,4 @@
-"""Heights and times of a mission that do not fit each other: lift, landing, pushes, a person's way."""
+"""Checks of inconsistent heights and times: lift, landing, pushes, a person's path."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ UNLIMITED = 100.0  # m/s², of ideal actuators, which give any thrust
 
 
 def schedule_checks(m: Mission) -> Iterator[CheckResult]:
-    """What of the schedule is not reached, or leads into the floor."""
+    """Checks for parts of the schedule that are not reached or lead into the floor."""
     yield from lift_checks(m)
     yield from haste_checks(m)
     yield from push_time_checks(m)
@@ -33,10 +33,10 @@ def lifted(m: Mission) -> float:
 
 
 def lift_checks(m: Mission) -> Iterator[CheckResult]:
-    """A lift after the flight's end is noted; one that can hardly be told from none fails."""
+    """Check the lift: one after the flight's end counts as close, one with negligible height fails."""
     p, end, least = m.phases, m.mission.duration, m.outcome.lifted_height
     if 0.0 < p.height < least:
-        text = f"phases.height = {p.height:g} m is a lift that can hardly be told from none: raise it to {least:g} m"
+        text = f"phases.height = {p.height:g} m is a negligible lift: raise it to {least:g} m"
         yield noted("schedule", f"{text} (outcome.lifted_height)", verdict=FAILS, subject="lift")
     if p.height and lifted(m) > end:
         when = f"phases.lift_start = {p.lift_start:g} s and phases.lift_duration = {p.lift_duration:g} s"
@@ -46,7 +46,7 @@ def lift_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def haste_checks(m: Mission) -> Iterator[CheckResult]:
-    """Lift, and landing by the clock, in so short a time that thrust between none and all cannot follow."""
+    """Check whether the thrust range suffices for the accelerations of the lift and of a scheduled landing."""
     p, spare = m.phases, (lift_of(m) / weight_of(m) - 1.0) * GRAVITY
     limit = min(max(spare, 0.0), GRAVITY) if m.actuators.model == "rotors" else UNLIMITED
     phases = [("lift", p.lift_duration, p.lift_start)]
@@ -56,7 +56,7 @@ def haste_checks(m: Mission) -> Iterator[CheckResult]:
         if start < m.mission.duration:
             value = SHARPEST * abs(p.height) / duration**2
             text = (
-                f"phases.{name}_duration = {duration:g} s for {p.height:g} m asks for {value:.3g} m/s², and "
+                f"phases.{name}_duration = {duration:g} s for {p.height:g} m needs {value:.3g} m/s², and "
                 f"{limit:.3g} m/s² can be flown: set it to "
                 f"{math.sqrt(value / max(limit, 1e-3)) * duration:.2g} s or more"
             )
@@ -64,7 +64,7 @@ def haste_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def push_time_checks(m: Mission) -> Iterator[CheckResult]:
-    """Pushes that a guidance by hand does not follow, before lift and tare are over; those after the end are noted."""
+    """Check for pushes before interactive guidance follows any; those after the mission's end count as close."""
     by_hand, e = m.pilot.guidance == "interactive", m.estimator
     tared = 0.0 if e.tare_start is None or m.pilot.push == "truth" else e.tare_start + e.tare_duration
     ready = max(lifted(m) if m.phases.height else 0.0, tared)
@@ -83,7 +83,7 @@ def push_time_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def shift_of(m: Mission, push: PushTable) -> float:
-    """By how much a push moves the reference up [m]: what exceeds the threshold, over the damping, within its speed."""
+    """The upward motion of the reference by a push [m]: excess over the threshold by damping, limited in speed."""
     a, force = m.admittance, push.force[2]
     threshold, damping = a.threshold[2], a.damping[2]
     if abs(force) <= threshold or damping == 0.0 or a.stiffness[2] > 0.0:
@@ -106,7 +106,7 @@ def heights_of(m: Mission) -> list[tuple[int, float]]:
 
 
 def descent_checks(m: Mission) -> Iterator[CheckResult]:
-    """Pushes that move the reference down into the floor."""
+    """Check for pushes that move the reference down into the floor."""
     if m.ground.model != "floor" or not m.phases.height:
         return
     for i, height in heights_of(m):
@@ -119,7 +119,7 @@ def descent_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def landing_duration(m: Mission) -> float:
-    """The duration of the landing [s]: a guidance by hand keeps to its largest speed of descent."""
+    """The duration of the landing [s]; interactive guidance limits the speed of descent."""
     p, heights = m.phases, heights_of(m)
     if m.pilot.guidance != "interactive":
         return p.land_duration
@@ -128,7 +128,7 @@ def landing_duration(m: Mission) -> float:
 
 
 def landing_checks(m: Mission) -> Iterator[CheckResult]:
-    """A landing that begins and does not end before the mission does."""
+    """Check for a landing that begins but does not end before the mission's end."""
     p, end = m.phases, m.mission.duration
     if not p.height or p.land_start is None or p.land_start >= end:
         return
@@ -141,7 +141,7 @@ def landing_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def way_checks(m: Mission) -> Iterator[CheckResult]:
-    """A person's way that is too long for the time there is, at the speed that the person aims at."""
+    """Check for a person's path that takes longer than the mission, at the person's desired speed."""
     p = m.person
     points = [w.point for w in p.path] or list(m.corridor.centreline)
     if p.model not in ("pull", "steer", "two-hands") or not points:
@@ -153,7 +153,7 @@ def way_checks(m: Mission) -> Iterator[CheckResult]:
     least = begins + length / p.speed + sum(w.dwell for w in p.path) + landing_duration(m)
     end = m.mission.duration
     text = (
-        f"the person's way of {length:.3g} m at person.speed = {p.speed:g} m/s and the landing take until "
+        f"the person's path of {length:.3g} m at person.speed = {p.speed:g} m/s and the landing take until "
         f"{least:.4g} s at the soonest, and mission.duration = {end:g} s: set it to more than {math.ceil(least)} s"
     )
     yield judged("schedule", least, end, "s", text, subject="person", near=0.1)

@@ -1,7 +1,7 @@
-"""What the pilot measures: the threshold of a push against wind and noise; how often and how late samples come.
+"""Checks of the push threshold against wind and noise, and of sampling intervals and delays.
 
-Whatever acts on the payload besides the joints is measured as a push. A critically damped low-pass of bandwidth ω
-leaves ω T/4 of the variance of white noise that is sampled every T.
+Every load on the payload besides the joints is measured as a push. A critically damped low-pass of bandwidth ω reduces
+the variance of white noise sampled every T to ω T/4 of it.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ from tandemlift.core.types import Array
 from tandemlift.missions.flight_checks.loads import SIGMAS, gust_times, payload_gusting, wind_on_payload
 from tandemlift.missions.tables.mission import Mission
 
-REMOVED = 0.75  # of the wind on the payload, that estimator.wind_compensation takes off
-CARRIED = 2.0  # m, by which gusts may carry a vehicle in turbulence, as in mission gusts
+REMOVED = 0.75  # fraction of the wind on the payload that estimator.wind_compensation subtracts
+CARRIED = 2.0  # m, displacement by gusts that is accepted in turbulence, as in mission gusts
 TARED = 21  # times of the tare
-SELDOM = 0.1  # s between samples that no loop of a vehicle of this kind is too fast for
+SELDOM = 0.1  # s between samples, short enough for every loop of such a vehicle
 NOISE_SIGMAS = 4.0  # standard deviations of noise that the threshold must exceed
 
 
 def sensing_checks(m: Mission) -> Iterator[CheckResult]:
-    """Of a push that is measured; none of one that is known."""
+    """Checks for a measured push; none for a known one."""
     if m.sensors.model == "none" or m.pilot.push == "truth":
         return
     if m.wind.model == "air":
@@ -34,13 +34,13 @@ def sensing_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def wind_checks(m: Mission) -> Iterator[CheckResult]:
-    """Turbulence, gusts, and what no tare takes off of the mean wind, on the payload, against each axis' threshold.
+    """Compare turbulence, gusts, and the mean wind that the tare leaves, on the payload, with each axis' threshold.
 
-    A threshold that turbulence does not reach was chosen for the wind: there a gust fails once it carries the reference
+    A threshold above the turbulence was chosen for the wind: there a gust fails only if it moves the reference
     by more than `CARRIED`.
     """
     removed = REMOVED if m.estimator.wind_compensation == "quadrotors" else 0.0
-    left = 1.0 - removed * np.array([1.0, 1.0, 0.0])  # of the wind along z nothing is taken off
+    left = 1.0 - removed * np.array([1.0, 1.0, 0.0])  # nothing is subtracted along z
     times, forces = wind_after_tare(m)
     eddies, blown = SIGMAS * left * payload_gusting(m), left * forces
     beyond = np.maximum(blown - m.admittance.threshold, 0.0)
@@ -50,7 +50,7 @@ def wind_checks(m: Mission) -> Iterator[CheckResult]:
         gust = 0.0 if eddies[i] > 0.0 and way[i] <= CARRIED else float(blown[:, i].max())
         parts = f"turbulence pushes the payload along {axis} with {eddies[i]:.3g} N ({SIGMAS:g} standard deviations)"
         if gust > eddies[i]:
-            parts = f"wind and gusts push the payload along {axis} with {gust:.3g} N beside what the tare takes off"
+            parts = f"wind and gusts push the payload along {axis} with {gust:.3g} N beyond the tare"
         text = (
             f"{parts}, and admittance.threshold is {threshold:g} N there: the vehicle may follow the wind; raise the "
             "threshold, lower wind.turbulence or wind.gusts, or take estimator.wind_compensation"
@@ -59,7 +59,7 @@ def wind_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def wind_after_tare(m: Mission) -> tuple[Array, Array]:
-    """Times while pushes count [s] (n,), and the wind's force on the payload beside that in the tare [N] (n, 3)."""
+    """Times while pushes count [s] (n,), and the wind's force on the payload less that in the tare [N] (n, 3)."""
     e, p = m.estimator, m.phases
     lifted = p.lift_start + p.lift_duration if p.height else 0.0
     begins = lifted if e.tare == "hover" else e.tare_start
@@ -72,7 +72,7 @@ def wind_after_tare(m: Mission) -> tuple[Array, Array]:
 
 
 def noise_of(m: Mission) -> float:
-    """Standard deviation of the measured push [N] that the dead band sees."""
+    """Standard deviation of the measured push [N] at the input of the dead band."""
     s, h = m.sensors, m.mission.step
     interval = max(s.interval, h)
     sample = math.sqrt(
@@ -84,7 +84,7 @@ def noise_of(m: Mission) -> float:
 
 
 def noise_checks(m: Mission) -> Iterator[CheckResult]:
-    """Noise of the joints' sensors and the accelerometer against the smallest threshold."""
+    """Compare the noise of joint sensors and accelerometer with the smallest threshold."""
     value, threshold = NOISE_SIGMAS * noise_of(m), min(m.admittance.threshold)
     text = (
         f"sensors make {value:.3g} N of noise ({NOISE_SIGMAS:g} standard deviations) of the measured push, and "
@@ -95,10 +95,10 @@ def noise_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def sampling_checks(m: Mission) -> Iterator[CheckResult]:
-    """Time between samples with their delay, against the bandwidths that they serve."""
+    """Compare sampling intervals plus delays with the bandwidths that use the samples."""
     s, e = m.sensors, m.estimator
     push = m.compliance.input_bandwidth if m.pilot.guidance == "interactive" else e.push_bandwidth
-    served = [("sensors", s.interval, s.delay, math.pi / push, "pushes are found too late, or missed")]
+    served = [("sensors", s.interval, s.delay, math.pi / push, "pushes are detected too late, or missed")]
     if m.pilot.state == "estimate":
         slowest = 1.0 / max(e.position_bandwidth, e.attitude_bandwidth)
         served.append(("sensors.motion", s.motion.interval, s.motion.delay, slowest, "the estimate drifts and jumps"))

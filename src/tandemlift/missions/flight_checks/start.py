@@ -1,10 +1,10 @@
-"""A start that is not at rest at its reference: speed, rates, and what the controller asks for, against the rotors.
+"""Checks of a start away from rest or reference: speed, rates, and the controller's commands against the rotors.
 
-A vehicle that turns with ω is stopped by a moment M after ω² J/(2 M).
+A vehicle that rotates with ω is stopped by a moment M after an angle of ω² J/(2 M).
 
-The controller is taken as linear: a moment for an angle and a rate of the start, and, once its filters have settled, an
-angle for a position and a velocity. An allocation by the pseudo-inverse loses thrust and the other moments where one is
-beyond the rotors' limits; the constrained one keeps to its priorities, so it is not checked.
+The controller is assumed linear: angle and rate of the start give a moment and, once its filters have settled, position
+and velocity give an angle. If a moment exceeds the rotors' limits, the pseudo-inverse also loses thrust and other
+moments; the constrained allocation keeps its priorities, so it is not checked.
 """
 
 from __future__ import annotations
@@ -20,15 +20,15 @@ from tandemlift.missions.tables.mission import Mission
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 BEYOND = 4.0  # times the rotors' moment, up to which flights recover; found by flights of mission flight-ready
-TILTED = 0.4  # rad, of the attitude that is asked for; likewise
+TILTED = 0.4  # rad, of the commanded attitude; likewise
 FASTEST = {"rotors": 5.0, "ideal": 10.0}  # m/s, at a start from which flights recover; found by flights, as above
-SPINNING = 20.0  # rad/s, which no vehicle of this kind can turn with
-TURNS = (0.35, 0.35, 2.0)  # rad, about each axis until a turn is stopped, as FASTEST
+SPINNING = 20.0  # rad/s, too fast for any vehicle of this kind
+TURNS = (0.35, 0.35, 2.0)  # rad, about each axis until a rotation is stopped, as FASTEST
 SETTLED = np.array([1.0 + 1e-9])  # in the discrete plane
 
 
 def start_checks(m: Mission) -> Iterator[CheckResult]:
-    """Moments and tilt that are asked for at the start of real rotors that run, allocated by the pseudo-inverse."""
+    """Check the commanded moments and tilt at a start with real, running rotors and the pseudo-inverse."""
     yield from motion_checks(m)
     free = m.actuators.model == "rotors" and m.allocation.method == "pseudo-inverse" and m.phases.rotors == "always"
     response = controller_response(m) if free else None
@@ -39,7 +39,7 @@ def start_checks(m: Mission) -> Iterator[CheckResult]:
     for axis, name in enumerate(AXES):
         value = abs(asked[axis + 1, 2] @ i.euler + asked[axis + 1, 3] @ i.rates)
         text = (
-            f"at the start the controller asks for {value:.3g} N m in {name}; the rotors give {authority[axis]:.3g} "
+            f"at the start the controller commands {value:.3g} N m in {name}; the rotors give {authority[axis]:.3g} "
             f"in hover, and flights recover up to {BEYOND:g} times that: start nearer to rest (initial.euler, "
             'initial.rates), lower the gains, or take allocation.method = "constrained"'
         )
@@ -48,7 +48,7 @@ def start_checks(m: Mission) -> Iterator[CheckResult]:
         place, speed, angle = asked[axis + 1, 0, along], asked[axis + 1, 1, along], asked[axis + 1, 2, axis]
         tilt = abs(place * i.position[along] + speed * i.velocity[along]) / max(abs(angle), 1e-12)
         text = (
-            f"at the start the controller asks for {tilt:.3g} rad of tilt along {'xy'[along]}, and {TILTED:g} rad is "
+            f"at the start the controller commands {tilt:.3g} rad of tilt along {'xy'[along]}, and {TILTED:g} rad is "
             "what flights recover from: start nearer to the reference (initial.position, initial.velocity), or set "
             "controller.max_tilt"
         )
@@ -56,7 +56,7 @@ def start_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def motion_checks(m: Mission) -> Iterator[CheckResult]:
-    """Speed and rates at the start."""
+    """Check speed and rates at the start."""
     speed, fastest = float(np.linalg.norm(m.initial.velocity)), FASTEST[m.actuators.model]
     limits = np.full(3, SPINNING)
     if m.actuators.model == "rotors" and m.phases.rotors == "always":

@@ -1,7 +1,7 @@
-"""How firmly a controller holds the vehicle: its offset under constant loads, and gains that are zero.
+"""Checks of a controller's stiffness: its offset under constant loads, and gains that are zero.
 
-The controller is taken as linear about hover (`controller_response`), once its memory has settled: a force for a
-position, along x and y by way of the angle that it asks for. A disturbance observer leaves no offset.
+The controller is assumed linear about hover (`controller_response`) with a settled memory: a position error gives a
+force, along x and y through the commanded angle. A disturbance observer leaves no offset.
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ from tandemlift.missions.tables.outcomes import promise_of
 from tandemlift.missions.tables.weight import weight_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
-DRIVEN = {"lambda_1": "far from its surface", "lambda_2": "against disturbances"}  # of nftsmc, what a gain is for
+DRIVEN = {"lambda_1": "far from its surface", "lambda_2": "against disturbances"}  # purpose of each gain of nftsmc
 AXES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
 def stiffness_checks(m: Mission) -> Iterator[CheckResult]:
-    """Gains of zero, and the offset from the reference."""
+    """Checks of zero gains, and of the offset from the reference."""
     yield from gain_checks(m)
     if m.observer.model == "none":
         yield from offset_checks(m)
 
 
 def gain_checks(m: Mission) -> Iterator[CheckResult]:
-    """Reaching gains of nftsmc that are zero."""
+    """Check for reaching gains of nftsmc that are zero."""
     gains = getattr(m.controller, "gains", None)
     for name, purpose in DRIVEN.items():
         off = [axis for axis, gain in zip(AXES, getattr(gains, name, ()), strict=False) if gain == 0.0]
@@ -42,7 +42,7 @@ def gain_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def offset_checks(m: Mission) -> Iterator[CheckResult]:
-    """The offset that a wrong mass, the mean wind and an unknown force leave, against what is promised."""
+    """Compare the offset by a wrong mass, the mean wind and an unknown force with the promised distance."""
     response = controller_response(m)
     if response is None:
         return
@@ -64,7 +64,7 @@ def offset_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def stiffness_of(m: Mission, asked: Array) -> Array:
-    """The force [N] along x, y, z for a metre, of a settled response (4, 5, 3)."""
+    """The stiffness [N/m] along x, y, z of a settled response (4, 5, 3)."""
     angles = [
         asked[row, 0, axis] / max(abs(asked[row, 2, about]), 1e-12) for axis, row, about in ((0, 2, 1), (1, 1, 0))
     ]

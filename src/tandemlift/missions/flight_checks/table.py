@@ -20,7 +20,7 @@ from tandemlift.missions.tables.mission import Mission
 
 
 class FlightCheck(NamedTuple):
-    """A check: its name, what is compared with what, in which unit, when it applies, and the keys that change it."""
+    """A check: its name, value, limit and unit, the missions to which it applies, and the keys that change it."""
 
     name: str
     value: str
@@ -35,15 +35,14 @@ CHECKS = (
     FlightCheck(
         "thrust",
         "weight and the largest load downwards, with pushes and wind",
-        "the part of the rotors' thrust, with their faults, that may be used: `compliance.thrust_fraction`, or 95 % by "
-        "the clock",
+        "usable part of the rotors' thrust with their faults: `compliance.thrust_fraction`, or 95 % if scheduled",
         "N",
         ROTORS,
         "`plant.mass_scale`, `compliance.thrust_fraction`, `vehicle.quadrotors`, `disturbance.force`, `pushes`",
     ),
     FlightCheck(
         "supervised lift",
-        "weight that the pilot knows",
+        "weight that the pilot assumes",
         "`supervision.checks.thrust_fraction` of the thrust",
         "N",
         '`supervision.model = "on"`',
@@ -52,7 +51,7 @@ CHECKS = (
     FlightCheck(
         "tilt",
         "horizontal force of disturbance, wind with 2 σ of turbulence, and pushes, at the worst time",
-        "what `controller.max_tilt`, and the thrust beside the weight, can counter",
+        "force that `controller.max_tilt`, and the thrust beside the weight, can provide",
         "N",
         ROTORS,
         "`controller.max_tilt`, `wind`, `disturbance.force`, `pushes`",
@@ -60,14 +59,14 @@ CHECKS = (
     FlightCheck(
         "moment",
         "moment of disturbance, wind and pushes about each axis",
-        "85 % of what the rotors can give in hover before the first one is at a limit",
+        "85 % of the rotors' moment in hover at which the first one reaches a limit",
         "N m",
         ROTORS,
         "`disturbance.moment`, `pushes.*.point`, `allocation.weights`",
     ),
     FlightCheck(
         "start",
-        "speed, and rates; moment, and tilt, that the controller asks for at the start by the pseudo-inverse",
+        "speed and rates; moment and tilt that the controller commands at the start by the pseudo-inverse",
         "5 m/s (of ideal rotors 10 m/s); 20 rad/s, and what the rotors stop in the air within 0.35 rad (yaw: 2 rad); 4 "
         "times what the rotors can give in hover; 0.4 rad",
         "m/s, rad/s, N m, rad",
@@ -93,14 +92,14 @@ CHECKS = (
     FlightCheck(
         "delay",
         "delay of rotors, step and readings",
-        "the delay that the loop of z, roll, pitch or yaw bears beside the rotors' lag until it oscillates",
+        "delay margin of the loop of z, roll, pitch or yaw, with the rotors' lag",
         "ms",
         ROTORS,
         "`actuators.delay`, `sensors.delay`, `vehicle.quadrotors.*.lag_up`, the controller's gains",
     ),
     FlightCheck(
         "wind on the payload",
-        "2 σ of the turbulent wind's force on the payload; that of mean wind and gusts less what the tare takes off",
+        "2 σ of the turbulent wind's force on the payload; that of mean wind and gusts less the tare",
         "`admittance.threshold`; in turbulence, gusts that carry the reference by up to 2 m are left out",
         "N",
         "wind, and a push that is measured",
@@ -124,15 +123,15 @@ CHECKS = (
     ),
     FlightCheck(
         "haste",
-        "largest acceleration of the lift and, by the clock, of the landing",
-        "what thrust between none and all can give; 100 m/s² of ideal actuators",
+        "largest acceleration of the lift and, if scheduled, of the landing",
+        "largest acceleration within the thrust range; 100 m/s² for ideal actuators",
         "m/s²",
         "",
         "`phases.lift_duration`, `phases.land_duration`, `phases.height`",
     ),
     FlightCheck(
         "descent",
-        "how far pushes move the reference down",
+        "distance by which pushes move the reference down",
         "the height of the lift",
         "m",
         "a floor",
@@ -140,7 +139,7 @@ CHECKS = (
     ),
     FlightCheck(
         "schedule",
-        "end of the landing, of a person's way, of lift and tare before a push; a lift below `outcome.lifted_height`",
+        "end of the landing, of a person's path, of lift and tare before a push; a lift below `outcome.lifted_height`",
         "the end of the mission; the time of the push",
         "s",
         "",
@@ -165,7 +164,7 @@ CHECKS = (
     FlightCheck(
         "passage",
         "radius of a quadrotor's guard",
-        "its distance from the nearest wall on the person's way, with the heading kept, turned or trailing",
+        "its distance from the nearest wall on the person's path, with the heading kept, rotated or trailing",
         "m",
         "walls, and a person",
         "`corridor.width`, `person.model`, `person.path`",
@@ -192,7 +191,7 @@ def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
 
 
 def _results(part: Callable[[Mission], Iterator[CheckResult]], m: Mission) -> Iterator[CheckResult]:
-    """The results of a part, until numbers are too large or too small to compute with."""
+    """Yield the results of a part, until numbers are too extreme to compute with."""
     try:
         yield from part(m)
     except (ArithmeticError, np.linalg.LinAlgError):
@@ -201,7 +200,7 @@ def _results(part: Callable[[Mission], Iterator[CheckResult]], m: Mission) -> It
 
 
 def worst_failures(results: Iterable[CheckResult]) -> Iterator[CheckResult]:
-    """The worst failure of each check; of settings, each."""
+    """The worst failure of each check, and every failure of settings."""
     failed: dict[str, list[CheckResult]] = {}
     for result in results:
         if result.verdict == FAILS:
@@ -210,7 +209,7 @@ def worst_failures(results: Iterable[CheckResult]) -> Iterator[CheckResult]:
 
 
 def _excess(result: CheckResult) -> float:
-    """By how much of its limit a result exceeds it."""
+    """The excess of a result over its limit, as a fraction of the limit."""
     if result.value is None or result.limit is None or result.limit <= 0.0:
         return float("inf")
     return result.value / result.limit

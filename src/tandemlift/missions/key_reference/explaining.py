@@ -1,4 +1,4 @@
-"""`tandemlift explain KEY`: a key or a table in a few lines."""
+"""`tandemlift explain KEY`: the description of a key or a table in a few lines."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ NEAREST = 3
 
 
 def explained(name: str, controller: str = "") -> str:
-    """What there is to say of a key or a table: of a key in one to three lines, of a table with a line for each key.
+    """The description of a key in one to three lines, or of a table with a line for each key.
 
     Args:
         name: a dotted key or a table.
-        controller: of its tables alone, where several controllers have one of that name; "" for those of all.
+        controller: only the tables of this controller, if several have one of that name; "" for all.
 
     Raises:
         InputError: there is none of that name, and the message names the three nearest; or it has too many parts.
@@ -37,7 +37,7 @@ def explained(name: str, controller: str = "") -> str:
 
 
 def index() -> str:
-    """Every table in a line."""
+    """All tables, one line each."""
     seen = dict[str, str]()
     for section in sections():
         seen.setdefault(section.header, section.text[0])
@@ -56,7 +56,7 @@ def plain_name(name: str) -> str:
 
 
 def lines_of(key: Key) -> list[str]:
-    """A key in two or three lines: unit and meaning; what is allowed; the default and where it is from."""
+    """A key in two or three lines: unit and meaning; allowed values; the default and its source."""
     facts = key.facts
     unit = "" if facts.unit is None else f" [{facts.unit}]"
     lines = [f"{key.name}{unit}: {facts.meaning or 'no description'}"]
@@ -76,7 +76,7 @@ def lines_of(key: Key) -> list[str]:
 
 
 def _keys(found: Iterable[tuple[Section, Key]]) -> list[str]:
-    """The lines of a key, once for all controllers that say the same of it."""
+    """The lines of a key, once for all controllers with the same description."""
     said: dict[str, list[str]] = {}
     for section, key in found:
         said.setdefault("\n".join(lines_of(key)), []).append(section.controller)
@@ -107,7 +107,7 @@ def _unknown(name: str, plain: str) -> InputError:
 
 
 def nearest_three(given: str, names: dict[str, str]) -> list[str]:
-    """The three names most like the given one, as a whole or in their last parts."""
+    """The three names most similar to the given one, as a whole or in their last parts."""
 
     def likeness(name: str) -> float:
         whole = difflib.SequenceMatcher(None, given, name).ratio()

@@ -1,7 +1,7 @@
-"""`tandemlift schema`: the JSON Schema (draft 7) of a mission file, which editors of TOML understand.
+"""`tandemlift schema`: the JSON Schema (draft 7) of a mission file, for editors of TOML.
 
-A file that extends another one need not have the keys that must be given; entries of lists are replaced as a whole, so
-theirs must. What holds between keys, such as a landing after the lift, is checked when a mission is loaded.
+A file that extends another one may omit required keys. Entries of lists are replaced as a whole, so theirs stay
+required. Conditions between keys, such as a landing after the lift, are checked when a mission is loaded.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ TYPES = {float: "number", int: "integer", bool: "boolean", str: "string"}
 
 
 def mission_schema() -> Schema:
-    """The schema of a mission file; the settings of every registered controller are in it."""
+    """The schema of a mission file, with the settings of every registered controller."""
     properties = {name: schema_of(field) for name, field in Mission.model_fields.items() if name != "controller"}
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
@@ -44,7 +44,7 @@ def mission_schema() -> Schema:
 
 
 def _table(model: Model) -> Schema:
-    """A table that may be left incomplete, for what a file extends may complete it."""
+    """A table that may be incomplete, because the extended mission may complete it."""
     return {
         "type": "object",
         "description": _text(model),
@@ -69,7 +69,7 @@ def schema_of(field: FieldInfo) -> Schema:
 
 
 def _facts(field: FieldInfo) -> Schema:
-    """Title, description, default and examples of a key; what its choices mean, as the editors' extension has it."""
+    """Title, description, default and examples of a key; the meanings of its choices for the editors' extension."""
     facts, found = description_of(field), Schema()
     unit = "" if facts.unit in (None, "1") else f" [{facts.unit}]"
     choices = [f"{choice}: {text}" for choice, text in facts.choices.items()]
@@ -87,7 +87,7 @@ def _facts(field: FieldInfo) -> Schema:
 
 
 def _leaf(annotation: Any, marks: Iterable[Any] = ()) -> Schema:
-    """What a value with this annotation may be."""
+    """The schema of a value with this annotation."""
     kind = get_origin(annotation)
     parts = [part for part in get_args(annotation) if part not in (type(None), Ellipsis)]
     if kind is Annotated:
@@ -109,7 +109,7 @@ def _leaf(annotation: Any, marks: Iterable[Any] = ()) -> Schema:
 
 
 def _spread(mark: Any, annotation: Any) -> Schema:
-    """A leaf that is given per axis: a list, or a shorter form of it as its mark takes it."""
+    """The schema of a key given per axis: a list, or a shorter form that its mark accepts."""
     whole = _leaf(annotation)
     if not getattr(mark, "single", True):
         return whole
@@ -121,7 +121,7 @@ def _spread(mark: Any, annotation: Any) -> Schema:
 
 
 def _required(model: Model) -> Schema:
-    """What a table must have, and the tables in it, where nothing completes it."""
+    """The required keys of a table and of its tables, where no extended mission completes it."""
     names = [name for name, field in model.model_fields.items() if field.is_required()]
     if model is AdmittanceTable:
         given = {"anyOf": [{"required": ["mass", "damping"]}, {"required": ["feel"]}]}
@@ -133,13 +133,13 @@ def _required(model: Model) -> Schema:
 
 
 def _described(schema: Schema) -> Schema:
-    """What a key is, without what it may be: other controllers may have it too."""
+    """The description of a key without its values: other controllers may have the key too."""
     inner = {name: _described(below) for name, below in schema.get("properties", {}).items()}
     return {"description": schema["description"], **({"properties": inner} if inner else {})}
 
 
 def _controllers() -> Schema:
-    """The controller's table: any name, for a controller of one's own; the keys of a registered one are checked."""
+    """The controller's table: any name, for a user's controller; the keys of registered ones are checked."""
     known = {name: CONTROLLERS[name].settings for name in sorted(CONTROLLERS)}
     shown, cases = Schema(), list[Schema]()
     for name, model in known.items():

@@ -1,4 +1,4 @@
-"""All tables of a mission with their keys, in the order of the template, and those of every registered controller."""
+"""All tables of a mission with their keys, in the template's order, and those of every registered controller."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ EXTENDS = KeyDescription(
 
 
 class Key(NamedTuple):
-    """A key of a mission: its dotted name, in which 0 stands for any entry of a list of tables; its type; its facts."""
+    """A key of a mission: dotted name, in which 0 stands for any entry of a list of tables, type and description."""
 
     name: str
     field: FieldInfo
@@ -30,23 +30,23 @@ class Key(NamedTuple):
 
     @property
     def allowed(self) -> str:
-        """What it may be, in words: its bounds, then what else must hold."""
+        """The allowed values in words: the bounds, then further conditions."""
         words = allowed(self.field.annotation, self.field.metadata)
         return f"{words}; {self.facts.rule}" if self.facts.rule else words
 
     @property
     def default(self) -> Any:
-        """Its default as plain numbers, one for all axes where that says the same; None if it has none."""
+        """The default as plain numbers, one for all axes if they are equal; None if there is no default."""
         return None if self.field.is_required() else compact(self.field, self.field.default)
 
     @property
     def example(self) -> Any:
-        """A value to show, which is the default unless the key says another."""
+        """The value to show: the key's example, else its default."""
         return self.default if self.facts.example is None else self.facts.example
 
 
 class Section(NamedTuple):
-    """A table of a mission: its dotted name, its header in TOML, what it is, and its own keys.
+    """A table of a mission: its dotted name, its header in TOML, its description, and its own keys.
 
     `controller`: the name of the controller whose settings they are, else "". `optional`: left out by default.
     """
@@ -60,14 +60,14 @@ class Section(NamedTuple):
 
     @property
     def text(self) -> list[str]:
-        """What the table is, in paragraphs of one line each; the first is a phrase."""
+        """The description of the table, in paragraphs of one line each; the first is a phrase."""
         paragraphs = (inspect.getdoc(self.model) or "").split("\n\n")
         first, *others = [" ".join(p.split()) for p in paragraphs]
         return [(first.partition("`: ")[2] or first).removesuffix("."), *others]
 
 
 def compact(field: FieldInfo, value: Any) -> Any:
-    """A value as lists, or as one number where one number for all axes says the same."""
+    """A value as lists, or as one number if all axes have the same."""
     if not isinstance(value, tuple):
         return value
     inner = [compact(field, entry) for entry in value]
@@ -87,7 +87,7 @@ def sections() -> Iterator[Section]:
 
 
 def is_of_the_package(controller: str) -> bool:
-    """Whether a section's controller, if it has one, comes with tandemlift and not from a file of one's own."""
+    """Whether a section's controller, if it has one, is built in and not from a user's file."""
     return not controller or CONTROLLERS[controller].start.__module__.startswith("tandemlift.")
 
 
@@ -121,7 +121,7 @@ def _keys(above: str, model: Model) -> tuple[Key, ...]:
 
 
 def default_words(key: Key) -> str:
-    """The default of a key in words: 'required', a TOML value, or what leaving the key out means."""
+    """The default of a key in words: 'required', a TOML value, or the effect of leaving the key out."""
     if key.field.is_required():
         return "required"
     if key.default is None:

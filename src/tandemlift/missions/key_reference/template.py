@@ -18,22 +18,22 @@ HEAD = """\
 
 """
 WIDTH, COLUMN = 120, 34  # of a line, and where its comment starts
-GIVEN = {  # left out by default; given here so that the template flies, and lands
+GIVEN = {  # no default; given here so that the template flies and lands
     *("vehicle.payload.length", "vehicle.payload.radius", "vehicle.quadrotors.0.arm", "phases.land_start"),
     "pushes",
 }
-SECOND = {"vehicle.quadrotors": {"position": [0.0, -1.0, 0.075]}}  # another entry of a list, by what differs in it
+SECOND = {"vehicle.quadrotors": {"position": [0.0, -1.0, 0.075]}}  # another entry of a list, with its differences
 
 
 def template_text() -> str:
-    """A commented mission file with every key, its unit and its meaning; it is a mission as it stands."""
+    """A commented mission file with every key, its unit and its meaning, which can be flown as it is."""
     extends = _commented(f'extends = "{EXTENDS.example}"', EXTENDS.meaning, "# ")
     blocks = [_block(section) for section in _shown()]
     return HEAD + "\n\n".join(["\n".join(extends), *("\n".join(block) for block in blocks)]) + "\n"
 
 
 def _shown() -> Iterator[Section]:
-    """The sections of the template; the keys of the paper's controller stand with the controller's name."""
+    """The sections of the template; the keys of the paper's controller follow the controller's name."""
     ours = [section for section in sections() if section.controller in ("", PAPER)]
     own = next(s for s in ours if s.controller == PAPER and s.name == "controller")
     for section in ours:
@@ -56,7 +56,7 @@ def _block(section: Section) -> Iterator[str]:
 
 
 def _second(section: Section, differing: dict[str, Any]) -> Iterator[str]:
-    """The statements of a list's second entry: what the first one does not leave at its default."""
+    """The statements of a list's second entry: the keys that have no default value in the first."""
     for key in section.keys:
         name = key.name.rpartition(".")[2]
         if name in differing or key.name in GIVEN or (key.facts.example is not None and key.default is not None):
@@ -83,7 +83,7 @@ def comment_of(key: Key) -> str:
 
 
 def _commented(statement: str, comment: str, off: str) -> list[str]:
-    """A statement with its comment beside it, which goes on below it if it is long; `off` stands before each line."""
+    """A statement with its comment beside it, continued below if it is long; `off` precedes each line."""
     column = max(COLUMN, len(off) + len(statement) + 2)
     beside = WIDTH - column - 2
     if beside < 40:  # too little room: the comment stands above

@@ -1,4 +1,4 @@
-"""The whole of a mission: its tables, and `[mission]` and `[[changes]]` themselves."""
+"""The `Mission` with all its tables; the tables `[mission]` and `[[changes]]`."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class MissionTable(Table):
     log_interval: Positive = key(
         0.01,
         "s",
-        "time between logged samples, rounded to whole steps; metrics are formed from every step all the same",
+        "time between logged samples, rounded to whole steps; metrics are computed from every step regardless",
         rule="the log must not exceed 4 GB",
         source="chosen: 100 Hz",
     )
@@ -74,7 +74,7 @@ class MissionTable(Table):
     fma: bool = key(
         True,
         None,
-        "whether a·b + c is rounded once, as processors do it fastest; false gives the same bits on every machine, in "
+        "whether a·b + c is rounded once, which is fastest; false gives the same bits on every machine, in "
         "WebAssembly and in C",
     )
 
@@ -85,7 +85,7 @@ class MissionTable(Table):
 
     @property
     def log_every(self) -> int:
-        """Steps from one logged sample to the next, at least one and at most one more than there are."""
+        """Steps from one logged sample to the next, at least one and at most one more than the flight has."""
         return max(1, round(min(self.log_interval / self.step, self.steps + 1)))
 
 
@@ -95,10 +95,10 @@ describe_key = key  # `[[changes]]` has a key of that name
 class ChangeTable(Table):
     """`[[changes]]`: a key that takes another value in flight; one table for each change, in the order of their times.
 
-    Numbers (gains, admittance, wind, lags, noise, an efficiency) move in a straight line within `duration`. A choice,
-    such as `admittance.gate` or the controller, switches from one step to the next; a new controller starts with a
-    fresh memory. A change is refused if it would need another memory of anything else: another `wind.model`, a delay,
-    another body or other channels. A flight with changes is flown step by step, at about 20 µs a step.
+    Numbers (gains, admittance, wind, lags, noise, an efficiency) change linearly within `duration`. A choice, such as
+    `admittance.gate` or the controller, switches from one step to the next; a new controller starts with an initial
+    memory. A change that needs another layout of any other memory is refused: another `wind.model`, a delay, another
+    body or other channels. A flight with changes is flown step by step, at about 20 µs a step.
     """
 
     time: NonNegative = describe_key(
@@ -106,13 +106,11 @@ class ChangeTable(Table):
     )
     key: str = describe_key(..., None, "dotted key that changes, as for --set", example="admittance.damping")
     value: Any = describe_key(..., None, "new value of the key", rule="as the key takes it", example=[4.0, 4.0, 4.0])
-    duration: NonNegative = describe_key(
-        0.0, "s", "time within which numbers move to the new value, in a straight line"
-    )
+    duration: NonNegative = describe_key(0.0, "s", "time within which numbers change linearly to the new value")
 
 
 class Mission(Table):
-    """Everything that a flight depends on; see `tandemlift.missions` for loading one."""
+    """All data that a flight depends on; see `tandemlift.missions` for loading one."""
 
     mission: MissionTable
     vehicle: VehicleTable
@@ -154,11 +152,11 @@ class Mission(Table):
 
     @property
     def all_walls(self) -> tuple[WallTable, ...]:
-        """Every wall that there is: those of `walls`, then the corridor's."""
+        """All walls: those of `walls`, then the corridor's."""
         return (*self.walls, *self.corridor.walls)
 
     def _repr_html_(self) -> str:
-        """What a notebook shows: the choices that make the mission what it is."""
+        """HTML for a notebook: the main choices of the mission."""
         payload, quadrotors = self.vehicle.payload, self.vehicle.quadrotors
         mass = payload.mass + sum(q.mass for q in quadrotors)
         rows = {
@@ -176,7 +174,7 @@ class Mission(Table):
 
 
 def check_keys(tables: Mapping[str, Any]) -> None:
-    """Refuse a flown mission's nested tables that have a key unknown here; a controller's own keys are left alone.
+    """Reject a flown mission's nested tables that have an unknown key; keys of controllers are not checked.
 
     Raises:
         InputError: with the dotted key.

@@ -1,4 +1,4 @@
-"""Outcomes, promises and findings of a mission that contradict each other, or that no vehicle can keep."""
+"""Checks for outcomes, promises and findings that contradict each other or that no vehicle can keep."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tandemlift.parts.sensors.sensors_table import MotionSensor
 
 
 def fence_crash_checks(c: CrashTable, s: SupervisionTable, initial: InitialTable) -> Iterator[CheckResult]:
-    """A crash that would come before the supervision may react."""
+    """Check for a crash limit that is reached before the supervision may react."""
     if s.model == "none":
         return
     if c.tilt <= s.limits.tilt:
@@ -32,7 +32,7 @@ def fence_crash_checks(c: CrashTable, s: SupervisionTable, initial: InitialTable
 
 
 def crash_checks(c: CrashTable, initial: InitialTable) -> Iterator[CheckResult]:
-    """A start with a tilt that is a crash."""
+    """Check for a start with a tilt that is a crash."""
     tilt = math.acos(math.cos(initial.euler[0]) * math.cos(initial.euler[1]))
     if tilt >= c.tilt:
         limit = f"must tilt by less than crash.tilt = {c.tilt:.4g}, and does so by {tilt:.4g} rad"
@@ -40,7 +40,7 @@ def crash_checks(c: CrashTable, initial: InitialTable) -> Iterator[CheckResult]:
 
 
 def promise_checks(p: PromiseTable, f: FindingsTable, c: CrashTable, guidance: str) -> Iterator[CheckResult]:
-    """Promises that contradict each other, a crash, or a finding."""
+    """Check for promises that contradict each other, a crash, or a finding."""
     promise = promise_of(p, guidance)
     if promise.rms_promised(guidance) > promise.distance:
         given = f"promise.rms_distance = {promise.rms_distance}"
@@ -53,7 +53,7 @@ def promise_checks(p: PromiseTable, f: FindingsTable, c: CrashTable, guidance: s
 
 
 def oscillation_checks(f: FindingsTable, step: float) -> Iterator[CheckResult]:
-    """Frequencies of which none is between the limits, or that are not seen in steps of `step` [s]."""
+    """Check for an empty range of frequencies, or one that steps of `step` [s] cannot resolve."""
     if f.fastest_oscillation <= f.slowest_oscillation:
         given = f"findings.fastest_oscillation = {f.fastest_oscillation}"
         yield refused(f"{given}: must be above findings.slowest_oscillation = {f.slowest_oscillation}")
@@ -64,7 +64,7 @@ def oscillation_checks(f: FindingsTable, step: float) -> Iterator[CheckResult]:
 
 
 def sensed_promise_warnings(p: PromiseTable, guidance: str, motion: MotionSensor) -> Iterator[CheckResult]:
-    """Promises below what a motion measurement, which the pilot reads, tells."""
+    """Check for promises below the error of the motion measurement that the pilot uses."""
     promise = promise_of(p, guidance)
     position, attitude = math.sqrt(3.0) * motion.position_noise, motion.attitude_noise
     for name, value, least, key in (
@@ -74,11 +74,11 @@ def sensed_promise_warnings(p: PromiseTable, guidance: str, motion: MotionSensor
     ):
         if value < least:
             given = f"promise.{name} = {value} cannot be kept"
-            yield warned(f"{given}: a measurement alone is {least:.2g} off, root mean square ({key}); expect a finding")
+            yield warned(f"{given}: a measurement alone has an RMS error of {least:.2g} ({key}); expect a finding")
 
 
 def landing_promise_warnings(p: PromiseTable, guidance: str, depth: float) -> Iterator[CheckResult]:
-    """A promise that a landing, whose reference ends `depth` [m] below the ground, cannot keep."""
+    """Check for a promise that a landing cannot keep, because its reference ends `depth` [m] below the ground."""
     distance = promise_of(p, guidance).distance
     if distance <= depth:
         given = f"promise.distance = {distance} cannot be kept"

@@ -1,4 +1,4 @@
-"""What counts as a crash, a lift, a landing; what the mission promises; from where on a flight has findings."""
+"""Tables of the criteria for crashes, lifts and landings, of the mission's promises, and of findings."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ Periods = Annotated[int, Field(ge=2, le=1000)]
 
 
 class CrashTable(Table):
-    """`[crash]`: what ends a flight as crashed; see docs/reference/outcomes.md."""
+    """`[crash]`: limits beyond which a flight ends as crashed; see docs/reference/outcomes.md."""
 
     tilt: Annotated[float, Field(gt=0.0, le=3.2)] = key(
         1.5533430342749532,
         "rad",
         "largest angle between body z and world z",
         rule='above `supervision.limits.tilt` where supervision.model is "on"; 3.2 for no limit',
-        source="89°: past it no thrust carries the vehicle",
+        source="89°: beyond it no thrust carries the vehicle",
     )
     impulse: Positive | None = key(
         None,
@@ -36,8 +36,8 @@ class CrashTable(Table):
         1.0,
         "m",
         "distance by which the vehicle may be outside `supervision.fence`",
-        rule='at least `supervision.fence.margin`; of use where supervision.model is "on"',
-        source="chosen: the supervision has had time to hold the vehicle",
+        rule='at least `supervision.fence.margin`; effective if supervision.model is "on"',
+        source="chosen: gives the supervision time to hold the vehicle",
     )
     fly_on: NonNegative = key(
         0.0,
@@ -49,13 +49,13 @@ class CrashTable(Table):
 
 
 class OutcomeTable(Table):
-    """`[outcome]`: what counts as a lift and as a landing; see docs/reference/outcomes.md."""
+    """`[outcome]`: criteria for a lift and for a landing; see docs/reference/outcomes.md."""
 
     lifted_height: Positive = key(
         0.05,
         "m",
-        "height above its start from which on the vehicle has lifted; of a lower lift, half of `phases.height`",
-        source="chosen: above what feet sink and spring",
+        "height above the start from which the vehicle counts as lifted; for a lower lift, half of `phases.height`",
+        source="chosen: more than the feet's deflection",
     )
     landed_speed: Positive = key(0.1, "m/s", "largest speed of a vehicle that has landed", source="chosen")
     landed_height: Positive = key(
@@ -64,9 +64,9 @@ class OutcomeTable(Table):
 
 
 class PromiseTable(Table):
-    """`[promise]`: how closely the vehicle follows its reference; where it does not, the flight has a finding.
+    """`[promise]`: largest deviations from the reference; beyond them, the flight has a finding.
 
-    It holds in flight, from the settling time on. See docs/reference/outcomes.md.
+    They apply in flight, from the settling time on. See docs/reference/outcomes.md.
     """
 
     distance: Positive | None = key(
@@ -107,7 +107,7 @@ class PromiseTable(Table):
 
 
 class Promise(NamedTuple):
-    """What a mission promises, with a value for every key: distances [m], angles [rad], and from when on [s].
+    """The promises of a mission with a value for every key: distances [m], angles [rad], settling time [s].
 
     `rms_distance` is None where it is left out; see `rms_promised`.
     """
@@ -129,14 +129,14 @@ SETTLED = {"scheduled": 10.0, "interactive": 0.0}
 
 
 def promise_of(p: PromiseTable, guidance: str) -> Promise:
-    """What a mission with this guidance promises."""
+    """The promises of a mission with this guidance."""
     distance = DISTANCE[guidance] if p.distance is None else p.distance
     settled = SETTLED[guidance] if p.settling_time is None else p.settling_time
     return Promise(distance, p.rms_distance, p.heading, p.tilt, settled)
 
 
 class FindingsTable(Table):
-    """`[findings]`: from where on a flight has findings; see docs/reference/outcomes.md."""
+    """`[findings]`: thresholds of findings; see docs/reference/outcomes.md."""
 
     ignore: tuple[FindingName, ...] = key(
         (),
@@ -160,20 +160,20 @@ class FindingsTable(Table):
         "Hz",
         "lowest frequency of an oscillation",
         rule="below a quarter of the steps a second",
-        source="chosen: slower motion is a person's",
+        source="chosen: slower motion comes from the person",
     )
     fastest_oscillation: Frequency = key(
         25.0,
         "Hz",
         "highest frequency of an oscillation",
         rule="above slowest_oscillation",
-        source="chosen: beyond it is noise",
+        source="chosen: faster motion is noise",
     )
     oscillation_periods: Periods = key(
-        3, "1", "periods in a row that make an oscillation", source="chosen: two may be a push and its echo"
+        3, "1", "consecutive periods that count as an oscillation", source="chosen: two may be a push and its echo"
     )
     saturated_time: Positive = key(
-        1.0, "s", "longest time at a stretch with a rotor at its limit", source="chosen: built-in missions keep 0.2 s"
+        1.0, "s", "longest uninterrupted time with a rotor at its limit", source="chosen: built-in missions keep 0.2 s"
     )
     saturated_fraction: Fraction = key(
         0.1,
@@ -184,13 +184,13 @@ class FindingsTable(Table):
     push_time: Positive = key(
         1.0,
         "s",
-        "time for which a push may go unanswered, beyond the admittance's time constant",
+        "time for which a push may have no response, beyond the admittance's time constant",
         source="chosen: a person notices",
     )
     push_response: Fraction = key(
         0.2,
         "1",
-        "smallest work that a push must do, as a fraction of that at the speed that the admittance ends with",
+        "smallest work of a push, as a fraction of that at the final speed of the admittance",
         source="chosen: built-in missions reach 0.5",
     )
     unpushed_distance: Positive = key(
@@ -200,15 +200,15 @@ class FindingsTable(Table):
         source="chosen: built-in missions keep 0.02 m where there is no wind",
     )
     refuted_time: NonNegative = key(
-        0.5, "s", "time for which the motion may refute a measured push", source="chosen: longer than a blow"
+        0.5, "s", "time for which the motion may refute a measured push", source="chosen: longer than an impact"
     )
     reach_time: NonNegative = key(
-        0.1, "s", "time for which the reference may ask for more thrust than there is", source="chosen"
+        0.1, "s", "time for which the reference may need more thrust than available", source="chosen"
     )
     reach_distance: Positive = key(
         2.0,
         "m",
-        "distance from the vehicle at which the reference has left it behind",
+        "distance from the vehicle beyond which the reference is out of reach",
         rule="above the promised distance",
         source="chosen: the vehicle's length",
     )

@@ -1,4 +1,4 @@
-"""The checks of a mission's settings, each by the part that it is about: what is refused, and what may fly badly.
+"""The checks of a mission's settings, each in the part that it concerns: refusals and warnings.
 
 The order is that in which a mission's first refusal is found.
 """
@@ -39,13 +39,13 @@ from tandemlift.parts.trajectories import phase_warnings
 
 
 def standing_of(m: Mission) -> standing.Standing:
-    """How the vehicle stands on the floor of a mission."""
+    """The vehicle's equilibrium on the floor of a mission."""
     at = m.initial
     return standing.standing_on(m.ground, m.vehicle, m.plant.mass_scale, m.mission.step, at.position[2], at.euler)
 
 
 def part_refusals(m: Mission) -> Iterator[CheckResult]:
-    """Vehicle, rotors, sensors, estimators, surroundings, guidance and person that cannot be."""
+    """Check for an invalid vehicle, rotors, sensors, estimators, surroundings, guidance or person."""
     guidance, step, rotors, s = m.pilot.guidance, m.mission.step, m.actuators.model, m.sensors
     count, walls = len(m.vehicle.quadrotors), bool(m.all_walls)
     yield from vehicle_checks(m.vehicle, m.allocation.weights)
@@ -89,7 +89,7 @@ def _delays(m: Mission) -> dict[str, float]:
 
 
 def outcome_refusals(m: Mission) -> Iterator[CheckResult]:
-    """Promises and thresholds that contradict each other, and a lift into the floor."""
+    """Check for promises and thresholds that contradict each other, and for a lift into the floor."""
     yield from outcomes.crash_checks(m.crash, m.initial)
     yield from outcomes.promise_checks(m.promise, m.findings, m.crash, m.pilot.guidance)
     yield from outcomes.oscillation_checks(m.findings, m.mission.step)
@@ -97,7 +97,7 @@ def outcome_refusals(m: Mission) -> Iterator[CheckResult]:
 
 
 def setting_warnings(m: Mission) -> Iterator[CheckResult]:
-    """What may fly badly by settings that do not fit each other."""
+    """Warnings of settings that do not suit each other."""
     yield from phase_warnings(m.phases)
     yield from _promise_warnings(m)
     yield from _hardware_warnings(m)
@@ -137,7 +137,7 @@ def _payload_warnings(m: Mission) -> Iterator[CheckResult]:
     real = m.vehicle.payload.mass + (m.plant.mass_scale - 1.0) * Vehicle.from_settings(m.vehicle).mass
     if real <= 0.0:
         yield warned(
-            f"plant.mass_scale = {m.plant.mass_scale}: what joints feel puts all of the difference to the payload, "
+            f"plant.mass_scale = {m.plant.mass_scale}: the joint forces assign all of the difference to the payload, "
             f"which would weigh {real:.4g} kg"
         )
 
