@@ -38,7 +38,7 @@ from tandemlift.parts.mechanics.inertia import Inertia, inertia_value
 from tandemlift.parts.mechanics.loads import PartLoads, PerfectReadings, perfect_readings, readings_with_load
 from tandemlift.parts.mechanics.parts import Acceleration
 from tandemlift.parts.mechanics.plant_table import DisturbanceTable, PlantTable
-from tandemlift.parts.mechanics.push import CentralPush, PointPush, PushSamples
+from tandemlift.parts.mechanics.push import CentralPush, PointPush, Push, PushSamples
 from tandemlift.parts.mechanics.rigid_body import InitialTable, RigidBody, State, Wrench, motion, rigid_body_motion, rk4
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -88,7 +88,13 @@ def readings_in(
 
 @law
 def first_motion(
-    plant: CompiledPlant, s: State, grip: Quarters, near: NearWalls, thrusts: PerRotor, air: Any, hand: PushSamples
+    plant: CompiledPlant,
+    s: State,
+    grip: Quarters,
+    near: NearWalls,
+    thrusts: PerRotor,
+    air: Any,
+    hand: PushSamples[Push],
 ) -> State:
     """The motion at the start of a step."""
     b = BodySurroundings(plant, load_about_center(air, plant.frame, s.attitude), grip, near)
@@ -103,7 +109,7 @@ def advance(
     near: NearWalls | Absent,
     thrusts: PerRotor,
     air: PartLoads | Absent,
-    hand: PushSamples,
+    hand: PushSamples[Push],
     dt: Number,
 ) -> BodyStep:
     """One step of dt [s] with rotor thrusts [N] and the air's loads held, and the push continuous.
@@ -129,7 +135,7 @@ def readings_at_rest(
     grip: Quarters | Absent,
     near: NearWalls | Absent,
     thrusts: PerRotor,
-    hand: PushSamples,
+    hand: PushSamples[Push],
 ) -> PerfectReadings:
     """Perfect readings in still air in state `s` under rotor thrusts [N]."""
     b = BodySurroundings(plant, Absent(), grip, near)

@@ -6,9 +6,9 @@ press, what presses back is taken for a disturbance, and the vehicle may turn ov
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from tandemlift.core.algebra.law import choice
+from tandemlift.core.algebra.law import Absent, choice
 from tandemlift.core.algebra.ops import clip, where
 from tandemlift.core.algebra.types import Number
 from tandemlift.parts.compliance.compliance import Compliance, ComplianceState, with_speed
@@ -23,7 +23,7 @@ class GroundClearance(NamedTuple):
 
 
 @choice(absent=0.0)
-def has_floor(k: Any) -> Any:
+def has_floor(k: GroundClearance | Absent) -> Number:
     """1 where there is a floor, else 0."""
 
 
@@ -33,7 +33,7 @@ def _floor(k: GroundClearance) -> Number:
 
 
 @choice(absent="compliance")
-def above_ground(k: Any, compliance: Compliance, m: ComplianceState, height: Any) -> Any:
+def above_ground(k: GroundClearance | Absent, compliance: Compliance, m: ComplianceState, height: Number) -> Compliance:
     """The compliance with a limit of the speed downwards; `height` [m] of the reference above the ground."""
 
 

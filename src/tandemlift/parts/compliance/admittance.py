@@ -171,7 +171,7 @@ class AdmittanceState(NamedTuple):
 
 
 @choice
-def gate(kind: Any, F: Any) -> Any:
+def gate(kind: HardGate | SoftGate, F: Vec3) -> Vec3:
     """The part of a measured force [N, world axes] that the admittance responds to, per axis."""
 
 

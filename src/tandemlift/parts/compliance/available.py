@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.law import choice, law
@@ -28,7 +28,7 @@ class AvailableForce(NamedTuple):
 
 
 @choice
-def remaining_fraction(known: NoFaults | RotorFaults, limits: Any, t: Any) -> Any:
+def remaining_fraction(known: NoFaults | RotorFaults, limits: PerRotor, t: Number) -> Number:
     """The fraction of the largest thrust that rotors with known faults have at time t [s]; `limits` [N] of each."""
 
 

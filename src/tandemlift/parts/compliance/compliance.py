@@ -12,28 +12,28 @@ Passivity: `parts.compliance.energy_tank`. Yaw: `parts.guidance.yaw_compliance`.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Generic, NamedTuple
 
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import absolute, clip, maximum, minimum, sqrt, where
 from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import ZERO, Vec3
 from tandemlift.parts.compliance.admittance import Admittance, anchored, soft_threshold
-from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass_step
+from tandemlift.parts.low_pass import LowPass, LowPassState, V, low_pass_step
 
 QUIET_TIME = 2.0  # s without a push, after which the bias is estimated
 BIAS_CLIP = 0.3  # of the threshold: the largest deviation from the mean that counts for the bias
 BIAS_RATE = 0.5  # 1/s, at which the bias follows the mean: two seconds late
 
 
-class DeadBand(NamedTuple):
+class DeadBand(NamedTuple, Generic[V]):
     """Threshold [N] above which a push is active, and `release` [N] below which it ends; `dwell` [s] before it starts.
 
     `bias_rate` [1/s]: of the mean that becomes the bias, while no push was active for `QUIET_TIME`.
     """
 
-    threshold: Any
-    release: Any
+    threshold: V
+    release: V
     dwell: Number
     bias_rate: Number
 
@@ -47,22 +47,22 @@ class PushFilters(NamedTuple):
     dwell: Number
     bias_time_constant: Number
 
-    def dead_band(self, threshold: Any) -> DeadBand:
+    def dead_band(self, threshold: V) -> DeadBand[V]:
         """The dead band for a threshold [N or N·m]."""
         return DeadBand(threshold, threshold * self.release_fraction, self.dwell, 1.0 / self.bias_time_constant)
 
 
-class DeadBandState(NamedTuple):
+class DeadBandState(NamedTuple, Generic[V]):
     """Memory: 1 while a push is active, else 0; for how long it has been above the threshold, and not active [s]; bias.
 
     The bias follows the `mean` late, and the mean returns to it if it was the beginning of a push.
     """
 
-    active: Any
-    above_time: Any
-    inactive_time: Any
-    mean: Any
-    bias: Any
+    active: V
+    above_time: V
+    inactive_time: V
+    mean: V
+    bias: V
 
 
 class MotionLimits(NamedTuple):
@@ -82,7 +82,7 @@ class Compliance(NamedTuple):
     """
 
     input_filter: LowPass
-    band: DeadBand
+    band: DeadBand[Vec3]
     output_filter: LowPass
     admittance: Admittance
     limits: MotionLimits
@@ -94,7 +94,7 @@ class ComplianceState(NamedTuple):
     """Memory: the push [N] after the first low-pass, the dead-band's, the force [N] after the second; T_r, and T_d."""
 
     filtered: LowPassState
-    band: DeadBandState
+    band: DeadBandState[Vec3]
     output: LowPassState
     position: Vec3
     velocity: Vec3
@@ -104,7 +104,9 @@ class ComplianceState(NamedTuple):
 
 
 @elementwise
-def is_active(active: Any, above_time: Any, force: Any, threshold: Any, release: Any, dwell: Any) -> Any:
+def is_active(
+    active: Number, above_time: Number, force: Number, threshold: Number, release: Number, dwell: Number
+) -> Number:
     """1 while a push is active: once it was above the threshold for the dwell, until it is below the release."""
     begins = where(absolute(force) > threshold, where(above_time < dwell, 0.0, 1.0), 0.0)
     return where(active > 0.0, where(absolute(force) < release, 0.0, 1.0), begins)
@@ -135,7 +137,7 @@ def unless_active(active: Number, old: Number, new: Number) -> Number:
 
 
 @law
-def dead_band(k: DeadBand, m: DeadBandState, force: Any, enabled: Number, dt: Number) -> Any:
+def dead_band(k: DeadBand[V], m: DeadBandState[V], force: V, enabled: Number, dt: Number) -> tuple[V, DeadBandState[V]]:
     """(the part of an active force beyond the threshold, the new memory); while `enabled` is 0, no push is active."""
     f = force - m.bias
     above = time_above(m.above_time, f, k.threshold, dt) * enabled
@@ -179,7 +181,7 @@ def admittance_acceleration(
 
 
 @choice(absent="acceleration")
-def within(boundary: Any, acceleration: Vec3) -> Any:
+def within(boundary: object, acceleration: Vec3) -> Vec3:
     """An acceleration of the reference [m/s²] that does not carry it across a boundary."""
 
 
@@ -191,7 +193,7 @@ def compliance_step(
     enabled: Number,
     damping: Number,
     horizontal: Number,
-    boundary: Any,
+    boundary: object,
     dt: Number,
 ) -> ComplianceState:
     """The memory after a step.

@@ -11,7 +11,7 @@ Ferraguti et al., An energy tank-based interactive control architecture, 2015.
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 from tandemlift.core.algebra.law import choice
 from tandemlift.core.algebra.ops import clip, maximum
@@ -59,7 +59,9 @@ class EnergyTankState(NamedTuple):
 
 
 @choice(absent=(0.0, "m"))
-def passivity_damping(k: Any, m: Any, push: Any, velocity: Any, dissipated: Any, dt: Any) -> Any:
+def passivity_damping(
+    k: EnergyTank | Absent, m: EnergyTankState | Absent, push: Vec3, velocity: Vec3, dissipated: Number, dt: Number
+) -> tuple[Number, EnergyTankState | Absent]:
     """(damping to add [N·s/m], the new memory) under a push [N] at a velocity [m/s]; `dissipated`: by damping [W]."""
 
 

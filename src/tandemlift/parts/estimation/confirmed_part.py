@@ -22,12 +22,12 @@ is larger than 0.4 of the push and lasts; in gusts, joints may be wrong by as mu
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Generic, NamedTuple
 
 from tandemlift.core.algebra.law import elementwise, law
 from tandemlift.core.algebra.ops import absolute, clip, maximum, minimum, sqrt, where
 from tandemlift.core.algebra.types import Number
-from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass_step
+from tandemlift.parts.low_pass import LowPass, LowPassState, V, low_pass_step
 
 REFUTED, CONFIRMED = 0.4, 0.6  # unexplained share of a push up to which none is confirmed, and from which on all is
 RELEARN_TIME = 2.0  # s, in which what is not confirmed becomes the new zero
@@ -41,26 +41,26 @@ NEGLIGIBLE = 0.1  # of a tolerance
 TINY = 1e-12  # N
 
 
-class Zero(NamedTuple):
+class Zero(NamedTuple, Generic[V]):
     """From where on r and a push count, the `mean` of r and the `offset` of the push, and what is remembered of both.
 
     `slow`: F̂ with the low-pass of r; `square`: mean of (F̂ + r)² while there is no push; `lately`: the push that was
     confirmed of late. Forces [N] or moments [N·m].
     """
 
-    mean: Any
-    offset: Any
-    slow: LowPassState
-    square: Any
-    lately: Any
+    mean: V
+    offset: V
+    slow: LowPassState[V]
+    square: V
+    lately: V
 
 
-class Confirmed(NamedTuple):
+class Confirmed(NamedTuple, Generic[V]):
     """Of a push: what is not confirmed, 1 per axis where the motion refutes it, else 0, and the new `Zero`."""
 
-    withheld: Any
-    refuted: Any
-    zero: Zero
+    withheld: V
+    refuted: V
+    zero: Zero[V]
 
 
 @elementwise
@@ -136,8 +136,8 @@ def lately_change(left: Number, lately: Number, dt: Number) -> Number:
 
 @law
 def compared(
-    low_pass: LowPass, zero: Zero, push: Any, rest: Any, tolerance: Any, ratio: Any, tare: Number, dt: Number
-) -> Confirmed:
+    low_pass: LowPass, zero: Zero[V], push: V, rest: V, tolerance: V, ratio: V, tare: Number, dt: Number
+) -> Confirmed[V]:
     """What a push and `rest`, that is r, tell of each other.
 
     Args:

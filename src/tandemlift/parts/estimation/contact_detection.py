@@ -7,7 +7,7 @@ over once there is no force for a time, or once the part has moved away from whe
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import maximum, sqrt, where
@@ -188,8 +188,14 @@ def is_explained(m: ContactState) -> Number:
 
 @choice(absent=("k", "m"))
 def contact_step(
-    k: Any, m: Any, e: PushEstimator, x: PushReading, s: State, surroundings: KnownSurroundings, dt: Any
-) -> Any:
+    k: ContactDetector | Absent,
+    m: ContactState | Absent,
+    e: PushEstimator,
+    x: PushReading,
+    s: State,
+    surroundings: KnownSurroundings,
+    dt: Number,
+) -> tuple[ContactEstimate | Absent, ContactState | Absent]:
     """(`ContactEstimate`, the new memory) at a sample.
 
     Args:
@@ -238,7 +244,7 @@ def _detected(
 
 
 @choice(absent=0.0)
-def shaken(m: Any) -> Any:
+def shaken(m: ContactState | Absent) -> Number:
     """1 in a contact and shortly after it, when readings of different times differ; `m`: memory of the detection."""
 
 
@@ -248,7 +254,7 @@ def _shaken(m: ContactState) -> Number:
 
 
 @choice(absent="push")
-def explained_push(m: Any, push: PushEstimate) -> Any:
+def explained_push(m: ContactState | Absent, push: PushEstimate) -> PushEstimate:
     """The push, trusted although joints disagree while a contact explains it; `m`: memory of the detection."""
 
 

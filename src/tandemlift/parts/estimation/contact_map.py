@@ -6,7 +6,7 @@ Upright sides and edges count; the tops of walls do not, because their forces ar
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import maximum, where
@@ -93,7 +93,7 @@ def guard_match(g: TouchGeometry, wall: Wall, p: Vec3, force: Vec3) -> GuardMatc
 
 
 @choice
-def guards_matched(near: Any, g: TouchGeometry, s: State, force: Vec3) -> Any:
+def guards_matched(near: NearWalls | Absent, g: TouchGeometry, s: State, force: Vec3) -> GuardMatch:
     """`GuardMatch` of forces on the guards [N, world axes], with the walls that the pilot knows near them."""
 
 
@@ -131,7 +131,7 @@ def first_match(a: BeamMatch, b: BeamMatch) -> BeamMatch:
 
 
 @choice(absent=UNMATCHED)
-def beam_matched(near: NearBeam | Absent, g: TouchGeometry, s: State, force: Vec3) -> Any:
+def beam_matched(near: NearBeam | Absent, g: TouchGeometry, s: State, force: Vec3) -> BeamMatch:
     """`BeamMatch` of a force on the beam [N, world axes]."""
 
 
@@ -152,7 +152,7 @@ def wall_of(walls: Wall, i: int) -> Wall:
 
 
 @choice(absent=UNMATCHED)
-def beam_of(near: NearWalls | Absent, g: TouchGeometry, s: State, force: Vec3) -> Any:
+def beam_of(near: NearWalls | Absent, g: TouchGeometry, s: State, force: Vec3) -> BeamMatch:
     """`beam_matched` by the walls that the pilot knows near the beam."""
 
 

@@ -17,8 +17,8 @@ The model includes the measured push of the person, so that is no disturbance.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any, Literal, NamedTuple
+from collections.abc import Iterable, Iterator
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -32,7 +32,7 @@ from tandemlift.core.checks import CheckResult, refused
 from tandemlift.core.keys import BELIEVED, TRIAL, NonNegative, Positive, Positive3, Table, key
 from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
-from tandemlift.parts.mechanics.rigid_body import UP, InitialTable, Wrench
+from tandemlift.parts.mechanics.rigid_body import UP, InitialTable, PushedState, Wrench
 from tandemlift.parts.mechanics.rotation import body_z_axis
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import Mixer, wrench
@@ -141,7 +141,15 @@ def growth(e: Number, bandwidth: Number, slope: Number) -> Number:
 
 
 @choice(absent=(NONE, "memory"))
-def observer_step(k: Any, memory: Any, pilot_input: Any, thrusts: Any, active: Any, learning: Any, dt: Any) -> Any:
+def observer_step(
+    k: DisturbanceObserver | Absent,
+    memory: ObserverState | Absent,
+    pilot_input: PushedState,
+    thrusts: PerRotor,
+    active: Number,
+    learning: Number,
+    dt: Number,
+) -> tuple[DisturbanceEstimate, ObserverState | Absent]:
     """(`DisturbanceEstimate`, the new memory) at a sample.
 
     Args:
@@ -163,7 +171,7 @@ def expected(k: DisturbanceObserver, memory: ObserverState, thrusts: PerRotor) -
 
 
 @law
-def rates_of_change(k: DisturbanceObserver, pilot_input: Any, u: Wrench) -> tuple[Vec3, Vec3]:
+def rates_of_change(k: DisturbanceObserver, pilot_input: PushedState, u: Wrench) -> tuple[Vec3, Vec3]:
     """(acceleration [m/s², world axes], angular acceleration [rad/s², body axes]) without any disturbance."""
     s = pilot_input.state
     force = body_z_axis(s.attitude) * u.thrust + pilot_input.push - k.drag_force * s.velocity
@@ -175,7 +183,7 @@ def rates_of_change(k: DisturbanceObserver, pilot_input: Any, u: Wrench) -> tupl
 def _observed(
     k: DisturbanceObserver,
     memory: ObserverState,
-    pilot_input: Any,
+    pilot_input: PushedState,
     thrusts: PerRotor,
     active: Number,
     learning: Number,
@@ -203,7 +211,7 @@ def unmodelled(k: DisturbanceObserver, m: ObserverState) -> DisturbanceEstimate:
 
 
 @choice(absent=NONE)
-def last_known(k: Any, memory: Any) -> Any:
+def last_known(k: DisturbanceObserver | Absent, memory: ObserverState | Absent) -> DisturbanceEstimate:
     """The `DisturbanceEstimate` at the last sample."""
 
 
@@ -215,7 +223,7 @@ def _known(k: DisturbanceObserver, memory: ObserverState) -> DisturbanceEstimate
 UNBOUNDED = 1e18  # a slope that nothing reaches
 
 
-def _follower(bandwidth: Any, slope: Any, linear: bool, size: np.ndarray) -> DisturbanceFilter:
+def _follower(bandwidth: Iterable[float], slope: Iterable[float], linear: bool, size: np.ndarray) -> DisturbanceFilter:
     """A filter with a slope in N/s or N·m/s, for axes of a mass [kg] or inertia [kg·m²]."""
     most = [UNBOUNDED] * 3 if linear else [minimum(s / m, UNBOUNDED) for s, m in zip(slope, size.tolist(), strict=True)]
     return DisturbanceFilter(vec3(bandwidth), vec3(most))

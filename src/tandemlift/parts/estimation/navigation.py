@@ -18,7 +18,9 @@ bias by integral action on the attitude: R. Mahony, T. Hamel and J.-M. Pflimlin,
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
+
+from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.law import law
@@ -139,7 +141,7 @@ def navigate(k: Navigator, memory: NavigationState, readings: Readings) -> tuple
 
 
 def navigator(
-    centre: Any,
+    centre: ArrayLike,
     step: float,
     imu_period: int = 1,
     motion_period: int = 1,

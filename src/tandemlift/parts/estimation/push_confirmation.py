@@ -67,8 +67,8 @@ class ConfirmationState(NamedTuple):
     speeds: PerRotor | Absent
     rest: LowPassState
     turning: LowPassState
-    force_zero: Zero
-    turning_zero: Zero
+    force_zero: Zero[Vec3]
+    turning_zero: Zero[Number]
 
 
 class SampledPush(NamedTuple):
@@ -107,7 +107,13 @@ def speed_at(thrust: Number, per_constant: Number) -> Number:
 
 
 @choice(absent=(OutsideLoad(ZERO, 0.0), "memory"))
-def outside_load(rotors: Any, memory: Any, commands: Any, quadrotors: Vec3, turning: Any) -> Any:
+def outside_load(
+    rotors: RotorModel | Absent,
+    memory: PerRotor | Absent,
+    commands: PerRotor | Absent,
+    quadrotors: Vec3,
+    turning: Number,
+) -> tuple[OutsideLoad, PerRotor | Absent]:
     """(`OutsideLoad` of a sample, the new memory).
 
     Args:
@@ -130,8 +136,14 @@ def _beside_thrust(
 
 @choice(absent=("push", "memory"))
 def confirm(
-    k: Any, memory: Any, push: PushEstimate, reading: SampledPush, commands: Any, explained: Any, dt: Any
-) -> Any:
+    k: PushConfirmation | Absent,
+    memory: ConfirmationState | Absent,
+    push: PushEstimate,
+    reading: SampledPush,
+    commands: PerRotor | Absent,
+    explained: Number,
+    dt: Number,
+) -> tuple[PushEstimate, ConfirmationState | Absent]:
     """(the confirmed push, a `PushEstimate`, the new memory).
 
     Args:
@@ -172,7 +184,7 @@ def _confirmed(
 
 
 @choice(absent=ZERO)
-def refuted_push(estimates: Any) -> Any:
+def refuted_push(estimates: object) -> Vec3:
     """The part of a push that the motion refutes [N, world axes], or zero."""
 
 

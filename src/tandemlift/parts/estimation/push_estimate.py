@@ -20,19 +20,26 @@ however the force changes and the vehicle turns.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra.arrays import array
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import clip, maximum, sqrt, where
-from tandemlift.core.algebra.types import Number, number
+from tandemlift.core.algebra.types import Number, PerQuadrotor, number
 from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, apply, cross, each, spread, total, vec3
-from tandemlift.parts.estimation.tare import TINY, SideForces, TareSums, summed, tare_of
-from tandemlift.parts.estimation.wind_compensation import start_payload_drag, wind_on_payload
+from tandemlift.parts.estimation.tare import TINY, SideForces, TareSums, summed, tare_fields, tare_of
+from tandemlift.parts.estimation.wind_compensation import (
+    PayloadDrag,
+    PayloadDragState,
+    start_payload_drag,
+    wind_on_payload,
+)
 from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass, low_pass_step
-from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
+from tandemlift.parts.mechanics.inertia import Inertia, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.loads import add_to_each, sum_over_set
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.sensors.readings import ImuReading
@@ -52,11 +59,11 @@ class PushEstimator(NamedTuple):
     """
 
     mass: Number
-    inertia: Any
+    inertia: Inertia
     system: Vec3
     joints: Vec3
     quadrotors: Vec3
-    quadrotor_mass: Any
+    quadrotor_mass: PerQuadrotor
     reach: Number
     per_interval: Number
     low_pass: LowPass
@@ -67,7 +74,7 @@ class PushEstimator(NamedTuple):
     limit: Number
     share: Number
     alone: Number
-    windage: Any
+    windage: PayloadDrag | Absent
 
 
 class PushEstimatorState(NamedTuple):
@@ -80,7 +87,7 @@ class PushEstimatorState(NamedTuple):
     moment: LowPassState
     x: LowPassState
     y: LowPassState
-    wind: Any
+    wind: PayloadDragState | Absent
 
 
 class PushEstimate(NamedTuple):
@@ -158,7 +165,7 @@ def point_of_application(k: PushEstimator, force: Vec3, moment: Vec3) -> Number:
 
 
 @law
-def disagreement(k: PushEstimator, x: Any, y: Any) -> Number:
+def disagreement(k: PushEstimator, x: Number, y: Number) -> Number:
     """The horizontal force [N] by which one joint sensor alone would have to be wrong to explain these `SideForces`."""
     return sqrt(maximum((total(x * x) + total(y * y)) * k.alone, TINY))
 
@@ -194,7 +201,13 @@ def estimate(
 
 @law
 def concluded(
-    k: PushEstimator, imu: ImuReading, force: Vec3, turning: Vec3, after: PushEstimatorState, mass: Any, armed: Any
+    k: PushEstimator,
+    imu: ImuReading,
+    force: Vec3,
+    turning: Vec3,
+    after: PushEstimatorState,
+    mass: Number,
+    armed: Number,
 ) -> PushEstimate:
     """The push from the sample's `force` [N] and `turning` moment [N·m], body axes, and what is low-passed."""
     R = rotation_from_quaternion(imu.frame)
@@ -215,23 +228,12 @@ def concluded(
     )
 
 
-def _tare_fields(start: float | None, duration: float, identify_mass: bool, interval: float) -> dict[str, Any]:
-    """The fields of an estimator's tare; the end of none is before every time."""
-    if start is None:
-        if identify_mass:
-            raise ValueError("the payload's mass is identified during the tare: give its start, or do not identify")
-        return {"tare_start": 0.0, "tare_end": -math.inf, "identify": 0.0}
-    if duration < interval:
-        raise ValueError(f"a tare of {duration:g} s holds no sample: they come every {interval:g} s")
-    return {"tare_start": number(start), "tare_end": start + duration, "identify": float(identify_mass)}
-
-
 def push_estimator(
     mass: float,
-    inertia: Any,
-    joints: Any,
-    quadrotors: Any,
-    quadrotor_masses: Any,
+    inertia: ArrayLike,
+    joints: Sequence[ArrayLike],
+    quadrotors: Sequence[ArrayLike],
+    quadrotor_masses: Sequence[float],
     step: float,
     imu_period: int = 1,
     length: float = math.inf,
@@ -241,8 +243,8 @@ def push_estimator(
     tare_duration: float = 2.0,
     identify_mass: bool = False,
     disagreement_limit: float = 2.0,
-    windage: Any = NOTHING,
-    system: Any = (0.0, 0.0, 0.0),
+    windage: PayloadDrag | Absent = NOTHING,
+    system: ArrayLike = (0.0, 0.0, 0.0),
 ) -> PushEstimator:
     """The estimator of the push on a payload, as the pilot believes the vehicle to be.
 
@@ -267,7 +269,7 @@ def push_estimator(
     Raises:
         ValueError: the mass is to be identified without a tare, or the tare is shorter than a sample.
     """
-    tare = _tare_fields(tare_start, tare_duration, identify_mass, step * imu_period)
+    tare = tare_fields(tare_start, tare_duration, identify_mass, step * imu_period)
     J, N = array(inertia), len(joints)
     return PushEstimator(
         mass=number(mass),

@@ -6,11 +6,12 @@ of the joints' force along gravity cannot be distinguished from an error of the 
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import maximum, where
-from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.types import Number, number
 from tandemlift.core.algebra.vector import Vec3, dot
 
 TINY = 1e-24
@@ -31,8 +32,8 @@ class TareSums(NamedTuple):
     force: Vec3
     specific_force: Vec3
     moment: Vec3
-    weight: Any
-    square: Any
+    weight: Number
+    square: Number
     sides: SideForces
 
 
@@ -76,3 +77,24 @@ def tare_of(mass: Number, identify: Number, sums: TareSums, armed: Number) -> Ta
         sums.moment * per_sample,
         SideForces(sums.sides.x * per_sample, sums.sides.y * per_sample),
     )
+
+
+def tare_fields(start: float | None, duration: float, identify_mass: bool, interval: float) -> dict[str, float]:
+    """The fields of an estimator's tare; the end of none is before every time.
+
+    Args:
+        start: of the tare [s]; None for no tare.
+        duration: [s].
+        identify_mass: whether to identify the payload's mass.
+        interval: between samples [s].
+
+    Raises:
+        ValueError: the mass is to be identified without a tare, or the tare is shorter than a sample.
+    """
+    if start is None:
+        if identify_mass:
+            raise ValueError("the payload's mass is identified during the tare: give its start, or do not identify")
+        return {"tare_start": 0.0, "tare_end": -math.inf, "identify": 0.0}
+    if duration < interval:
+        raise ValueError(f"a tare of {duration:g} s holds no sample: they come every {interval:g} s")
+    return {"tare_start": number(start), "tare_end": start + duration, "identify": float(identify_mass)}

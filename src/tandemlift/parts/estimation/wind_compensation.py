@@ -10,7 +10,7 @@ of N joints, ratio σ √(ω T/4N); it is as much too late for gusts, 2/ω.
 """
 
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -50,7 +50,7 @@ def wind_on_payload(
     begun: Number,
     taken: Number,
     armed: Number,
-) -> Any:
+) -> tuple[Vec3, PayloadDragState | Absent]:
     """(force of the wind on the payload beyond the tare's [N, body axes], the new memory).
 
     Args:
@@ -87,7 +87,7 @@ def _scaled(
 
 
 @choice(absent=ZERO)
-def subtracted_wind(memory: PayloadDragState | Absent) -> Any:
+def subtracted_wind(memory: PayloadDragState | Absent) -> Vec3:
     """What was subtracted from the push at the last sample [N, body axes], from this memory."""
 
 

@@ -58,7 +58,7 @@ class YawCompliance(NamedTuple):
     """
 
     input_filter: LowPass
-    band: DeadBand
+    band: DeadBand[Number]
     output_filter: LowPass
     inverse_inertia: Number
     damping: Number
@@ -70,7 +70,7 @@ class YawState(NamedTuple):
     """Memory: the moment [N·m] after each low-pass, the dead-band's; ψ_r [rad], its rate and acceleration."""
 
     filtered: LowPassState
-    band: DeadBandState
+    band: DeadBandState[Number]
     output: LowPassState
     angle: Number
     rate: Number

@@ -1,6 +1,6 @@
 """Inertia tensors by type: a `Vec3` is a diagonal one, a `Mat3` a full one."""
 
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ OFF_DIAGONAL = ~np.eye(3, dtype=bool)
 
 
 @choice
-def apply_inertia(J: Inertia, v: Vec3) -> Any:
+def apply_inertia(J: Inertia, v: Vec3) -> Vec3:
     """J v for an inertia tensor J; J⁻¹ v for an inverse one."""
 
 

@@ -3,7 +3,7 @@
 A vector for every quadrotor is a `Vec3` of sets. A joint transmits the load of its quadrotor on the payload.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra.constants import GRAVITY
 from tandemlift.core.algebra.law import choice, elementwise, law
@@ -169,7 +169,9 @@ def without_negative_zero(v: Vec3) -> Vec3:
 
 
 @choice(absent="readings")
-def readings_with_load(load: PartLoad | Absent, frame: PartsLayout, attitude: Quat, readings: PerfectReadings) -> Any:
+def readings_with_load(
+    load: PartLoad | Absent, frame: PartsLayout, attitude: Quat, readings: PerfectReadings
+) -> PerfectReadings:
     """The readings with a load on the quadrotors, which their joints transmit to the payload."""
 
 

@@ -6,7 +6,7 @@ number of pushes does not enter the equations of motion.
 """
 
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple, TypeAlias
+from typing import Generic, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -62,12 +62,16 @@ class PointPush(NamedTuple):
 Push: TypeAlias = CentralPush | PointPush
 
 
-class PushSamples(NamedTuple):
+P = TypeVar("P", CentralPush, PointPush)
+P_co = TypeVar("P_co", covariant=True)
+
+
+class PushSamples(NamedTuple, Generic[P_co]):
     """The push at the start, the middle and the end of a step."""
 
-    start: Push
-    middle: Push
-    end: Push
+    start: P_co
+    middle: P_co
+    end: P_co
 
 
 class GaussianPush(NamedTuple):
@@ -87,7 +91,7 @@ def gaussian_force(p: GaussianPush, t: Number) -> Vec3:
 
 
 @choice
-def push_at(kind: Push, p: GaussianPush, t: Number) -> Any:
+def push_at(kind: P, p: GaussianPush, t: Number) -> P:
     """One push at time t, as a value of the same type as `kind`."""
 
 
@@ -103,7 +107,7 @@ def _at_point(kind: PointPush, p: GaussianPush, t: Number) -> PointPush:
 
 
 @choice
-def push_moment(push: Push, attitude: Quat) -> Any:
+def push_moment(push: Push, attitude: Quat) -> Vec3:
     """Moment of a push about the centre of mass, body axes [N·m]."""
 
 

@@ -5,7 +5,7 @@ axes, moments about the centre of mass.
 """
 
 import math
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple, Protocol
 
 from pydantic import AfterValidator
 
@@ -88,7 +88,7 @@ class RigidBody(NamedTuple):
 
 
 @choice
-def motion(body: Any, s: State, u: Wrench, push: Push) -> Any:
+def motion(body: object, s: State, u: Wrench, push: Push) -> State:
     """The rate of change of the state of a body under a wrench and a person's push."""
 
 
@@ -106,8 +106,27 @@ def rigid_body_motion(body: RigidBody, s: State, u: Wrench, push: Push) -> State
     )
 
 
+class PushedState(Protocol):
+    """A state under a push: what observers read of a pilot's input.
+
+    Force of the push [N, world axes], and its moment about the centre of mass [N·m, body axes].
+    """
+
+    @property
+    def state(self) -> State:
+        """Of the vehicle."""
+
+    @property
+    def push(self) -> Vec3:
+        """Its force."""
+
+    @property
+    def moment(self) -> Vec3:
+        """Its moment."""
+
+
 @law
-def rk4(body: Any, s: State, k1: State, u: Wrench, hand: PushSamples, dt: Number) -> State:
+def rk4(body: object, s: State, k1: State, u: Wrench, hand: PushSamples[Push], dt: Number) -> State:
     """One classical Runge-Kutta step of `dt` [s] with the wrench held and the push continuous; unit quaternion.
 
     `k1` is the motion at the start.

@@ -1,6 +1,6 @@
 """Virtual inputs: the force that the position law commands, and the thrust and tilt that produce it."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import atan_ratio, cos, maximum, minimum, sin, sqrt, tan, where
@@ -24,7 +24,7 @@ class TiltLimit(NamedTuple):
 
 
 @choice(absent="u")
-def limit_tilt(limit: TiltLimit | Absent, u: Vec3) -> Any:
+def limit_tilt(limit: TiltLimit | Absent, u: Vec3) -> Vec3:
     """The force (u_x, u_y, u_z) [N, world axes], its horizontal part shortened to stay within a tilt limit."""
 
 
@@ -62,7 +62,7 @@ def total_thrust(e: Euler, u: Vec3) -> Number:
 
 
 @choice
-def desired_orientation(inverse: TiltZXY | TiltPrinted, u: Vec3, e: Euler, yaw: Number) -> Any:
+def desired_orientation(inverse: TiltZXY | TiltPrinted, u: Vec3, e: Euler, yaw: Number) -> Vec3:
     """(φ_d, θ_d, ψ_d) [rad] that points the thrust along u [N, world axes]; e is the actual attitude, yaw is ψ_d."""
 
 

@@ -8,7 +8,7 @@ of the continuous process, σ² exp(−τ/T) and σ² (1 − τ/2T) exp(−τ/T)
 
 import functools
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -158,7 +158,7 @@ def hidden_component(step: Transverse, v: Number, h: Number, n: Number, m: Numbe
 
 
 @choice(absent=ZERO)
-def turbulence_velocity(turbulence: Dryden | Absent, memory: TurbulenceState | Absent) -> Any:
+def turbulence_velocity(turbulence: Dryden | Absent, memory: TurbulenceState | Absent) -> Vec3:
     """Velocity of the turbulence [m/s, world axes]."""
 
 
@@ -168,7 +168,9 @@ def _dryden_velocity(d: Dryden, m: TurbulenceState) -> Vec3:
 
 
 @choice(absent="memory")
-def turbulence_step(turbulence: Dryden | Absent, memory: TurbulenceState | Absent, noise: WindNoise | Absent) -> Any:
+def turbulence_step(
+    turbulence: Dryden | Absent, memory: TurbulenceState | Absent, noise: WindNoise | Absent
+) -> TurbulenceState | Absent:
     """The memory of the turbulence one step later."""
 
 

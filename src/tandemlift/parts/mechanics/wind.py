@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -140,12 +140,26 @@ class WindOutput(NamedTuple):
 
 
 @choice
-def wind_loads(kind: Any, memory: Any, frame: PartsLayout, state: Any, gust: Any, noise: Any) -> Any:
+def wind_loads(
+    kind: WindModel | Absent,
+    memory: TurbulenceState | Absent,
+    frame: PartsLayout,
+    state: State,
+    gust: Vec3,
+    noise: WindNoise | Absent,
+) -> WindOutput:
     """`WindOutput` over a step that starts in `state`; `gust`: velocity of all gusts together [m/s, world axes]."""
 
 
 @wind_loads.register(Absent)
-def _no_wind(kind: Absent, memory: Any, frame: PartsLayout, state: State, gust: Vec3, noise: Any) -> WindOutput:
+def _no_wind(
+    kind: Absent,
+    memory: TurbulenceState | Absent,
+    frame: PartsLayout,
+    state: State,
+    gust: Vec3,
+    noise: WindNoise | Absent,
+) -> WindOutput:
     return WindOutput(kind, kind, memory)
 
 

@@ -3,12 +3,13 @@
 Both are held over the step. A flight without a caller has `Absent`.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from tandemlift.core.algebra.law import choice, elementwise
+from tandemlift.core.algebra.law import Absent, choice, elementwise
 from tandemlift.core.algebra.ops import where
+from tandemlift.core.algebra.types import Number, PerRotor
 from tandemlift.core.algebra.vector import ZERO, Mat3, Quat, Vec3, linear, outer, plus
-from tandemlift.parts.mechanics.push import CentralPush, PointPush, PushSamples, push_moment
+from tandemlift.parts.mechanics.push import CentralPush, PointPush, Push, PushSamples, push_moment
 
 
 class CallerInput(NamedTuple):
@@ -16,8 +17,8 @@ class CallerInput(NamedTuple):
 
     force: Vec3
     point: Vec3
-    thrusts: Any
-    override: Any
+    thrusts: PerRotor
+    override: Number
 
 
 @linear
@@ -37,7 +38,7 @@ def _moment(push: AddedPush, attitude: Quat) -> Vec3:
 
 
 @choice
-def with_force(push: Any, force: Vec3, point: Vec3) -> Any:
+def with_force(push: Push, force: Vec3, point: Vec3) -> AddedPush | PointPush:
     """A push with a further force [N, world axes] at a point [m, body axes]."""
 
 
@@ -52,27 +53,27 @@ def _on_points(push: PointPush, force: Vec3, point: Vec3) -> PointPush:
 
 
 @choice(absent="push")
-def with_caller_push(external: Any, push: PushSamples) -> Any:
+def with_caller_push(external: CallerInput | Absent, push: PushSamples[Push]) -> PushSamples[Push | AddedPush]:
     """The push of a step with that of the caller."""
 
 
 @with_caller_push.register(CallerInput)
-def _with_force(external: CallerInput, push: PushSamples) -> PushSamples:
+def _with_force(external: CallerInput, push: PushSamples[Push]) -> PushSamples[Push | AddedPush]:
     F, r = external.force, external.point
     return PushSamples(with_force(push.start, F, r), with_force(push.middle, F, r), with_force(push.end, F, r))
 
 
 @elementwise
-def overridden(thrust: Any, given: Any, override: Any) -> Any:
+def overridden(thrust: Number, given: Number, override: Number) -> Number:
     """The thrust of one rotor [N]."""
     return where(override > 0.0, given, thrust)
 
 
 @choice(absent="thrusts")
-def commanded_thrusts(external: Any, thrusts: Any) -> Any:
+def commanded_thrusts(external: CallerInput | Absent, thrusts: PerRotor) -> PerRotor:
     """The commanded thrusts [N], where the pilot commands `thrusts`."""
 
 
 @commanded_thrusts.register(CallerInput)
-def _by_caller(external: CallerInput, thrusts: Any) -> Any:
+def _by_caller(external: CallerInput, thrusts: PerRotor) -> PerRotor:
     return overridden(thrusts, external.thrusts, external.override)

@@ -4,9 +4,9 @@ The simulator of the body applies it by itself, and reports it after the step. S
 step; it is part of the flight's record and of what the person has done. A body that cannot be pushed so has `Absent`.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from tandemlift.core.algebra.law import choice
+from tandemlift.core.algebra.law import Absent, choice
 from tandemlift.core.algebra.ops import where
 from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import Vec3, dot
@@ -23,7 +23,7 @@ class OutsidePush(NamedTuple):
 
 
 @choice(absent="force")
-def total_force(outside: Any, force: Vec3) -> Any:
+def total_force(outside: OutsidePush | Absent, force: Vec3) -> Vec3:
     """The force of all pushes on the body [N, world axes], where those of the loop are `force`."""
 
 
@@ -33,7 +33,7 @@ def _force(outside: OutsidePush, force: Vec3) -> Vec3:
 
 
 @choice(absent="moment")
-def total_moment(outside: Any, moment: Vec3) -> Any:
+def total_moment(outside: OutsidePush | Absent, moment: Vec3) -> Vec3:
     """The moment of all pushes about the centre of mass [N·m, body axes], where those of the loop are `moment`."""
 
 
@@ -43,7 +43,7 @@ def _moment(outside: OutsidePush, moment: Vec3) -> Vec3:
 
 
 @choice(absent="held")
-def held_by_anyone(outside: Any, held: Number) -> Any:
+def held_by_anyone(outside: OutsidePush | Absent, held: Number) -> Number:
     """1 while the vehicle is held in the loop (`held` is 1) or pushed outside of it, else 0."""
 
 

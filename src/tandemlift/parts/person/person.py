@@ -15,19 +15,20 @@ quasi-linear pilot models, 1967; pure pursuit, Coulter, Implementation of the pu
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, TypeVar
 
 from tandemlift.core.algebra.law import Absent, choice, law
 from tandemlift.core.algebra.ops import clip, maximum, minimum, sqrt, where
 from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import ZERO, Vec3, apply, cross, dot, outer
 from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass_step
-from tandemlift.parts.mechanics.push import PointPush, PushSamples
+from tandemlift.parts.mechanics.push import PointPush, Push, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, wrap_angle
 from tandemlift.parts.person.tremor import Tremor, TremorNoise, TremorState, tremor_step
 from tandemlift.parts.requests import NO_REQUEST, OperatorRequest, operator_request
 
+M = TypeVar("M")
 TINY = 1e-12  # m², N²: guards roots and divisions
 NEAR = 1.0  # m
 
@@ -70,16 +71,16 @@ class PersonState(NamedTuple):
     begun, and once they request a landing, else 0; the tremor.
     """
 
-    view: Any
+    view: PersonView
     index: Any
     leg: PathLeg
     place: LowPassState
     couple: LowPassState
     grasp: LowPassState
     trim: Vec3
-    dwelled: Any
-    begun: Any
-    landing: Any
+    dwelled: Number
+    begun: Number
+    landing: Number
     tremor: TremorState
 
 
@@ -149,11 +150,11 @@ class HandTarget(NamedTuple):
     across: Vec3
 
 
-class PersonOutput(NamedTuple):
+class PersonOutput(NamedTuple, Generic[M]):
     """A person's part of a step: the push with theirs, and their new memory."""
 
-    push: PushSamples
-    memory: PersonState | Absent
+    push: PushSamples[Push]
+    memory: M
 
 
 @law
@@ -244,21 +245,29 @@ def advance_on_path(k: Person, m: PersonState, t: Number, dt: Number) -> PersonS
 
 
 @choice
-def person_step(person: Any, memory: Any, push: Any, state: Any, noise: Any, t: Any, dt: Any) -> Any:
+def person_step(
+    person: object, memory: M, push: PushSamples[Push], state: State, noise: TremorNoise | Absent, t: Number, dt: Number
+) -> PersonOutput[M]:
     """A person's part of a step: `PersonOutput`. `state` is the true one; `noise`: standard normals."""
 
 
 @person_step.register(Absent)
 def _nobody(
-    person: Absent, memory: Any, push: PushSamples, state: State, noise: Any, t: Number, dt: Number
-) -> PersonOutput:
+    person: Absent, memory: Absent, push: PushSamples[Push], state: State, noise: Absent, t: Number, dt: Number
+) -> PersonOutput[Absent]:
     return PersonOutput(push, memory)
 
 
 @person_step.register(Person)
 def _guiding(
-    person: Person, memory: PersonState, push: Any, state: State, noise: TremorNoise, t: Any, dt: Any
-) -> PersonOutput:
+    person: Person,
+    memory: PersonState,
+    push: PushSamples[PointPush],
+    state: State,
+    noise: TremorNoise,
+    t: Number,
+    dt: Number,
+) -> PersonOutput[PersonState]:
     m, now, arm = advance_on_path(person, memory, t, dt), person_view(person.grip, state), person.arm
     target, holding = hand_target(person, m), m.begun * (1.0 - m.landing)
     idle = m.view.grip + m.view.grip_velocity * arm.horizon
@@ -276,7 +285,7 @@ def _guiding(
 
 
 @choice(absent=0.0)
-def landing_request(memory: Any) -> Any:
+def landing_request(memory: object) -> Number:
     """1 once the person requests a landing, else 0."""
 
 

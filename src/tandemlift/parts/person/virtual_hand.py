@@ -16,10 +16,11 @@ velocity v the grip trails by c v/k more.
 Source: virtual coupling, Colgate, Stanley and Brown, Issues in the haptic display of tool use, 1995.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from tandemlift.core.algebra.law import law
+from tandemlift.core.algebra.law import Absent, law
 from tandemlift.core.algebra.ops import where
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import ZERO, Vec3, outer
 from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.push import PointPush, PushSamples
@@ -36,24 +37,24 @@ class VirtualHandInput(NamedTuple):
     while the vehicle may follow pushes.
     """
 
-    held: Any
+    held: Number
     grip: Vec3
     target: Vec3
     force: Vec3
-    lift: Any
-    land: Any
-    stop: Any
-    enabled: Any
+    lift: Number
+    land: Number
+    stop: Number
+    enabled: Number
 
 
 class VirtualHand(NamedTuple):
     """The hand: its input, spring [N/m], damper [N·s/m], the low-pass of the target, and the largest force [N]."""
 
     hand: VirtualHandInput
-    stiffness: Any
-    damping: Any
+    stiffness: Number
+    damping: Number
     lag: LowPass
-    max_force: Any
+    max_force: Number
 
 
 class VirtualHandState(NamedTuple):
@@ -65,11 +66,11 @@ class VirtualHandState(NamedTuple):
     place: LowPassState
     grasp: LowPassState
     force: LowPassState
-    holding: Any
-    lift: Any
-    land: Any
-    stop: Any
-    enabled: Any
+    holding: Number
+    lift: Number
+    land: Number
+    stop: Number
+    enabled: Number
 
 
 OPEN = 1e-3  # a grasp below this is none
@@ -85,7 +86,7 @@ def start_place(h: VirtualHandInput, m: VirtualHandState, here: Vec3, velocity: 
 
 
 @law
-def pull_by(k: VirtualHand, m: VirtualHandState, state: State) -> Any:
+def pull_by(k: VirtualHand, m: VirtualHandState, state: State) -> tuple[PointPush, VirtualHandState]:
     """(push over a step, the memory after it) of a hand at a body in a state."""
     h, now = k.hand, person_view(k.hand.grip, state)
     place = low_pass_step(
@@ -102,14 +103,20 @@ def pull_by(k: VirtualHand, m: VirtualHandState, state: State) -> Any:
 
 @person_step.register(VirtualHand)
 def _pulling(
-    person: VirtualHand, memory: VirtualHandState, push: PushSamples, state: State, noise: Any, t: Any, dt: Any
-) -> PersonOutput:
+    person: VirtualHand,
+    memory: VirtualHandState,
+    push: PushSamples[PointPush],
+    state: State,
+    noise: Absent,
+    t: Number,
+    dt: Number,
+) -> PersonOutput[VirtualHandState]:
     more, after = pull_by(person, memory, state)
     return PersonOutput(PushSamples(push.start + more, push.middle + more, push.end + more), after)
 
 
 @landing_request.register(VirtualHandState)
-def _requested(memory: VirtualHandState) -> Any:
+def _requested(memory: VirtualHandState) -> Number:
     return memory.land
 
 

@@ -23,12 +23,13 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import choice, elementwise, law
+from tandemlift.core.algebra.law import Absent, choice, elementwise, law
 from tandemlift.core.algebra.ops import maximum, minimum, where
 from tandemlift.core.algebra.types import Number, PerRotor
 from tandemlift.core.algebra.vector import Mat3, Vec3, each, total
 from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic
+from tandemlift.parts.mechanics.rigid_body import PushedState
 from tandemlift.parts.mechanics.rotation import body_z_axis
 from tandemlift.parts.rotor_loss.decision import (
     DecisionRules,
@@ -81,7 +82,15 @@ class DetectionState(NamedTuple):
 
 
 @choice(absent="memory")
-def detection_step(k: Any, memory: Any, pilot_input: Any, thrusts: Any, active: Any, t: Any, dt: Any) -> Any:
+def detection_step(
+    k: RotorLossDetection | Absent,
+    memory: DetectionState | Absent,
+    pilot_input: PushedState,
+    thrusts: PerRotor,
+    active: Number,
+    t: Number,
+    dt: Number,
+) -> DetectionState | Absent:
     """The memory after a sample.
 
     Args:
@@ -114,7 +123,7 @@ def confirmed(k: RotorLossDetection, verdict: DecisionState, t: Number) -> Numbe
 
 
 @law
-def residual(k: RotorLossDetection, m: DetectionState, pilot_input: Any) -> Any:
+def residual(k: RotorLossDetection, m: DetectionState, pilot_input: PushedState) -> Any:
     """The force along body z [N] and the moment [N·m, body axes] that modelled rotors do not explain, as a set."""
     upright = maximum(body_z_axis(pilot_input.state.attitude).z, UPRIGHT)
     made, p, o = wrench(k.effect, m.thrusts.value), m.momentum.rate, m.others.value
@@ -128,7 +137,7 @@ def residual(k: RotorLossDetection, m: DetectionState, pilot_input: Any) -> Any:
 
 @law
 def followed(
-    k: RotorLossDetection, m: DetectionState, pilot_input: Any, thrusts: PerRotor, t: Number
+    k: RotorLossDetection, m: DetectionState, pilot_input: PushedState, thrusts: PerRotor, t: Number
 ) -> DetectionState:
     """The memory with the low-passes of a sample."""
     s = pilot_input.state
@@ -191,7 +200,7 @@ def explained_by(k: RotorLossDetection, verdict: DecisionState, thrusts: PerRoto
 def _watched(
     k: RotorLossDetection,
     memory: DetectionState,
-    pilot_input: Any,
+    pilot_input: PushedState,
     thrusts: PerRotor,
     active: Number,
     t: Number,
@@ -216,7 +225,7 @@ def _watched(
 
 
 @choice(absent=0.0)
-def failed_rotors(k: Any, memory: Any, t: Any) -> Any:
+def failed_rotors(k: RotorLossDetection | Absent, memory: DetectionState | Absent, t: Number) -> Number:
     """1 once a rotor is lost for good at time t [s], else 0."""
 
 
@@ -232,7 +241,7 @@ def allotted(lost: Number) -> Number:
 
 
 @choice(absent=1.0)
-def left_of(k: Any, memory: Any) -> Any:
+def left_of(k: RotorLossDetection | Absent, memory: DetectionState | Absent) -> PerRotor | Number:
     """The fraction of its largest thrust that each rotor may be allocated, by the detection: a set, or 1."""
 
 
@@ -242,7 +251,9 @@ def _alive(k: RotorLossDetection, memory: DetectionState) -> PerRotor:
 
 
 @choice(absent="commands")
-def with_trials(k: Any, memory: Any, commands: Any, t: Any) -> Any:
+def with_trials(
+    k: RotorLossDetection | Absent, memory: DetectionState | Absent, commands: PerRotor, t: Number
+) -> PerRotor:
     """Commands [N], with those by which a lost rotor is tried again."""
 
 

@@ -4,6 +4,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from pydantic import GetCoreSchemaHandler
 from pydantic_core import core_schema
 
 from tandemlift.core.algebra.arrays import array, square_roots
@@ -27,7 +28,7 @@ class Weights:
         """What is allowed, in words; `limits` is what each number must keep to."""
         return f"one number {limits}, four numbers {limits}, or a list of four for each quadrotor"
 
-    def rows(self, value: Any) -> Any:
+    def rows(self, value: object) -> tuple[tuple[float, ...], ...]:
         """Rows of four: one for all quadrotors, or one each."""
         if is_number(value):
             value = [value] * 4
@@ -37,7 +38,7 @@ class Weights:
                 return tuple(map(tuple, rows))
         raise must("axes", f"be {self.describe('> 0')}")
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+    def __get_pydantic_core_schema__(self, source: type, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
         return core_schema.no_info_before_validator_function(self.rows, handler(source))
 
 

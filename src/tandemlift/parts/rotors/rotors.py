@@ -5,7 +5,7 @@ A set holds a number for each rotor.
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 from tandemlift.core.algebra.law import choice
 from tandemlift.core.algebra.ops import clip, maximum, minimum, sqrt
@@ -78,7 +78,7 @@ class RotorState(NamedTuple):
 @choice
 def rotors_step(
     rotors: IdealRotors | Rotors, memory: RotorState | Absent, command: PerRotor, state: State, t: Number
-) -> Any:
+) -> tuple[PerRotor, RotorState | Absent]:
     """(thrust of each rotor [N] over the step from time t [s], the new memory) under a command [N]."""
 
 

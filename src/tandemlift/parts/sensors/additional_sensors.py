@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import Vec3, apply_transposed
@@ -18,7 +16,7 @@ NORTH = Vec3(1.0, 0.0, 0.0)  # world axes; the inclination of the field is left 
 
 @register_sensor(additional("altimeter", "m", "height of the centre of mass above the world's origin"))
 @law
-def height(sensor: Any, state: State, perfect: PerfectReadings) -> Number:
+def height(sensor: object, state: State, perfect: PerfectReadings) -> Number:
     """The height of the centre of mass [m]."""
     return state.position.z
 
@@ -27,6 +25,6 @@ def height(sensor: Any, state: State, perfect: PerfectReadings) -> Number:
     additional("magnetometer", "1", "direction of magnetic north, which is world x", frame="body", width=3)
 )
 @law
-def magnetic_north(sensor: Any, state: State, perfect: PerfectReadings) -> Vec3:
+def magnetic_north(sensor: object, state: State, perfect: PerfectReadings) -> Vec3:
     """The direction of magnetic north, body axes."""
     return apply_transposed(rotation_from_quaternion(state.attitude), NORTH)

@@ -5,7 +5,7 @@ The checks are mapped over the sensor table; the type of a sensor's limits picks
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Generic, NamedTuple, TypeAlias, TypeVar
 
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import absolute, maximum, minimum, sqrt, where
@@ -19,22 +19,25 @@ FROZEN, NO_NUMBER, OUT_OF_RANGE = (1.0 + i for i in range(len(SYMPTOMS)))
 UNIT_NORM = 0.05  # by which an attitude's norm may differ from 1
 
 
-class PerSensor(NamedTuple):
+T = TypeVar("T")
+
+
+class PerSensor(NamedTuple, Generic[T]):
     """One value for each sensor of IMU and motion measurement, in the order of the sensor table."""
 
-    joints: Any
-    accelerometer: Any
-    gyroscope: Any
-    position: Any
-    velocity: Any
-    attitude: Any
+    joints: T
+    accelerometer: T
+    gyroscope: T
+    position: T
+    velocity: T
+    attitude: T
 
 
 class VectorLimits(NamedTuple):
     """Largest plausible magnitude of a vector's components; `frozen_samples` identical in a row make it frozen."""
 
-    largest: Any
-    frozen_samples: Any
+    largest: Number
+    frozen_samples: Number
 
 
 class JointLimits(NamedTuple):
@@ -48,7 +51,10 @@ class JointLimits(NamedTuple):
 class AttitudeLimits(NamedTuple):
     """As `VectorLimits`, of the attitude, whose norm must be 1."""
 
-    frozen_samples: Any
+    frozen_samples: Number
+
+
+SensorLimits: TypeAlias = VectorLimits | JointLimits | AttitudeLimits
 
 
 class SensorHealth(NamedTuple):
@@ -58,9 +64,9 @@ class SensorHealth(NamedTuple):
     what is wrong with the last sample (`SYMPTOMS`, from 1), 0 for nothing.
     """
 
-    identical: Any
-    invalid_time: Any
-    failure: Any
+    identical: Number
+    invalid_time: Number
+    failure: Number
 
 
 class SampleChecks(NamedTuple):
@@ -143,7 +149,7 @@ def out_of_range_of_sets(v: Vec3, largest: Number) -> Number:
 
 
 @choice
-def check_sample(limits: Any, sample: Any, last: Any) -> Any:
+def check_sample(limits: SensorLimits, sample: tuple[Vec3 | Quat, ...], last: tuple[Vec3 | Quat, ...]) -> SampleChecks:
     """The `SampleChecks` of a sample; it and the one before it are tuples of the sensor's quantities."""
 
 
@@ -191,13 +197,15 @@ def health_after(m: SensorHealth, checks: SampleChecks, fresh: Number, dt: Numbe
     )
 
 
-def quantities(readings: Readings, sensor: Sensor) -> tuple[Any, ...]:
+def quantities(readings: Readings, sensor: Sensor) -> tuple[Vec3 | Quat, ...]:
     """What a sensor read."""
     return tuple(getattr(getattr(readings, sensor.device), name) for name in sensor.quantities)
 
 
 @law
-def judge(limits: PerSensor, healths: PerSensor, last: Readings, readings: Readings, dt: Any) -> PerSensor:
+def judge(
+    limits: PerSensor[SensorLimits], healths: PerSensor[SensorHealth], last: Readings, readings: Readings, dt: Number
+) -> PerSensor[SensorHealth]:
     """The health of every sensor after a step of dt [s] with these readings; `last`: those before them."""
     checks = [
         check_sample(k, quantities(readings, sensor), quantities(last, sensor))
@@ -208,6 +216,6 @@ def judge(limits: PerSensor, healths: PerSensor, last: Readings, readings: Readi
 
 
 @law
-def is_valid(h: SensorHealth) -> Any:
+def is_valid(h: SensorHealth) -> Number:
     """1 if a sensor's last sample was valid, else 0."""
     return where(h.failure > 0.0, 0.0, 1.0)

@@ -14,9 +14,10 @@ number, `WhiteNoise` and `AttitudeNoise` for what has no other error, `NoError` 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra.arrays import array
 from tandemlift.core.algebra.law import choice, elementwise
@@ -38,11 +39,11 @@ class SensorGrade(NamedTuple):
     """
 
     noise: float = 0.0
-    bias: Any = 0.0
+    bias: ArrayLike = 0.0
     drift: float = 0.0
     resolution: float = 0.0
     limit: float = math.inf
-    misalignment: Any = 0.0
+    misalignment: ArrayLike = 0.0
 
 
 PERFECT = SensorGrade()
@@ -100,8 +101,17 @@ def displayed(x: Number, limit: Number, step: Number, per_step: Number) -> Numbe
     return where(step > 0.0, whole * step, held)
 
 
+ChannelModel: TypeAlias = SensorModel | ScalarSensorModel | WhiteNoise | AttitudeNoise | NoError
+Sample: TypeAlias = Number | Vec3 | Quat
+Drift: TypeAlias = Number | Vec3 | Absent
+"""Of a sample: its drift, or the standard normals of its noise."""
+S = TypeVar("S", Number, Vec3, Quat)
+D = TypeVar("D", Number, Vec3, Absent)
+V = TypeVar("V", Number, Vec3)
+
+
 @choice
-def read(model: Any, drift: Any, truth: Any, normals: Any) -> Any:
+def read(model: ChannelModel, drift: Drift, truth: S, normals: Drift) -> S:
     """A sample of `truth` with the drift so far; `normals`: independent standard normals, laid out like the sample."""
 
 
@@ -136,13 +146,13 @@ def _copy(k: NoError, drift: Absent, truth: Quat, normals: Absent) -> Quat:
 
 
 @choice
-def next_drift(model: Any, drift: Any, normals: Any, fresh: Any) -> Any:
+def next_drift(model: ChannelModel, drift: D, normals: Drift, fresh: Number) -> D:
     """The drift after a sample (`fresh` 1), or as it was (0)."""
 
 
 @next_drift.register(SensorModel)
 @next_drift.register(ScalarSensorModel)
-def _random_walk(k: ScalarSensorModel | SensorModel, drift: Any, normals: Any, fresh: Number) -> Any:
+def _random_walk(k: ScalarSensorModel | SensorModel, drift: V, normals: V, fresh: Number) -> V:
     return drift + normals * (k.walk * fresh)
 
 
@@ -158,19 +168,19 @@ def no_drift(count: int | None = None) -> Vec3:
     return ZERO if count is None else Vec3(*[each(count)(*(0.0,) * count)] * 3)
 
 
-def start_drift(model: Any) -> Any:
+def start_drift(model: ChannelModel) -> Drift:
     """The drift before the first sample of a sensor with this model; `Absent` if it does not drift."""
     if isinstance(model, SensorModel):
         return no_drift(len(model.bias.x) if is_set(model.bias.x) else None)
     return 0.0 if isinstance(model, ScalarSensorModel) else Absent()
 
 
-def no_noise(model: Any) -> Any:
+def no_noise(model: ChannelModel) -> Drift:
     """Standard normals of 0 for a sensor, laid out as `read` takes them."""
     return ZERO if isinstance(model, (WhiteNoise, AttitudeNoise)) else start_drift(model)
 
 
-def _rows(value: Any, count: int) -> Array:
+def _rows(value: ArrayLike, count: int) -> Array:
     return np.broadcast_to(array(value), (count, 3))
 
 

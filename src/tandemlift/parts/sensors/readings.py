@@ -10,7 +10,7 @@ in the loop (`simulation.loop.delays`).
 from __future__ import annotations
 
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import where
@@ -22,7 +22,10 @@ from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.noise_bias_drift import (
     PERFECT,
     AttitudeNoise,
+    ChannelModel,
+    Drift,
     NoError,
+    Sample,
     SensorGrade,
     WhiteNoise,
     next_drift,
@@ -34,34 +37,38 @@ from tandemlift.parts.sensors.noise_bias_drift import (
 from tandemlift.parts.sensors.sensor_registry import true_value
 
 NONE = Absent()
+T = TypeVar("T")
 
 
-class ImuChannels(NamedTuple):
+class ImuChannels(NamedTuple, Generic[T]):
     """One value for each quantity that is sampled with the IMU: a truth, a model, a drift, a noise, a fault.
 
     Specific force at the payload's centre of mass [m/s²], rates [rad/s], and what each quadrotor puts on the payload at
     its joint: force [N] and torque [N·m], vectors of sets. `frame` is the attitude estimate of the pilot at that time.
     """
 
-    specific_force: Any
-    rates: Any
-    joint_force: Any
-    joint_torque: Any
-    frame: Any
+    specific_force: T
+    rates: T
+    joint_force: T
+    joint_torque: T
+    frame: T
 
 
-class MotionChannels(NamedTuple):
+class MotionChannels(NamedTuple, Generic[T]):
     """One value for each quantity of the motion measurement: position [m], velocity [m/s] and attitude."""
 
-    position: Any
-    velocity: Any
-    attitude: Any
+    position: T
+    velocity: T
+    attitude: T
 
 
-class AdditionalChannels(NamedTuple):
+class AdditionalChannels(NamedTuple, Generic[T]):
     """One value for the quantity of an additional sensor."""
 
-    value: Any
+    value: T
+
+
+Channels: TypeAlias = ImuChannels[T] | MotionChannels[T] | AdditionalChannels[T]
 
 
 class ImuReading(NamedTuple):
@@ -72,7 +79,7 @@ class ImuReading(NamedTuple):
     joint_force: Vec3
     joint_torque: Vec3
     frame: Quat
-    fresh: Any
+    fresh: Number
 
 
 class MotionReading(NamedTuple):
@@ -81,14 +88,17 @@ class MotionReading(NamedTuple):
     position: Vec3
     velocity: Vec3
     attitude: Quat
-    fresh: Any
+    fresh: Number
 
 
 class AdditionalReading(NamedTuple):
     """A sample of an additional sensor; `fresh` is 1 in the step in which it was taken, else 0."""
 
-    value: Any
-    fresh: Any
+    value: Number | Vec3
+    fresh: Number
+
+
+R = TypeVar("R", ImuReading, MotionReading, AdditionalReading)
 
 
 class Readings(NamedTuple):
@@ -99,18 +109,30 @@ class Readings(NamedTuple):
     additional: Any = Absent()
 
 
+class Device(Protocol):
+    """A device: the models of its channels, and the steps from one sample to the next."""
+
+    @property
+    def channels(self) -> Channels[ChannelModel]:
+        """Their models."""
+
+    @property
+    def period(self) -> Number:
+        """In steps."""
+
+
 class DeviceModel(NamedTuple):
     """A device: the models of its channels, and the steps from one sample to the next."""
 
-    channels: ImuChannels | MotionChannels
+    channels: ImuChannels[ChannelModel] | MotionChannels[ChannelModel]
     period: Number
 
 
-class DeviceState(NamedTuple):
+class DeviceState(NamedTuple, Generic[R]):
     """Memory of a device: its last sample, the drifts of its channels, and the steps to wait for the next sample."""
 
-    reading: Any
-    drift: Any
+    reading: R
+    drift: Channels[Drift]
     wait: Number
 
 
@@ -125,49 +147,52 @@ class Sensors(NamedTuple):
 class SensorState(NamedTuple):
     """Memory of all devices."""
 
-    imu: DeviceState
-    motion: DeviceState
+    imu: DeviceState[ImuReading]
+    motion: DeviceState[MotionReading]
     additional: Any = Absent()
 
 
 class SensorNoise(NamedTuple):
     """Independent standard normals for one step, for every channel of every device."""
 
-    imu: ImuChannels
-    motion: MotionChannels
+    imu: ImuChannels[Drift]
+    motion: MotionChannels[Drift]
     additional: Any = Absent()
 
 
 @law
-def sample_channels(models: Any, drift: Any, truth: Any, normals: Any) -> Any:
+def sample_channels(
+    models: Channels[ChannelModel], drift: Channels[Drift], truth: Channels[Sample], normals: Channels[Drift]
+) -> Channels[Sample]:
     """A sample of every channel of a device."""
     return type(truth)(*[read(*channel) for channel in zip(models, drift, truth, normals, strict=True)])
 
 
 @law
-def sample_device(k: Any, m: DeviceState, truth: Any, normals: Any) -> DeviceState:
+def sample_device(k: Device, m: DeviceState[R], truth: Channels[Sample], normals: Channels[Drift]) -> DeviceState[R]:
     """The memory of a device after a step: with a fresh sample if one is due, else with the last, no longer fresh."""
     due = m.wait <= 0.0
     fresh, samples = where(due, 1.0, 0.0), sample_channels(k.channels, m.drift, truth, normals)
-    held = [selected(due, new, old) for new, old in zip(samples, m.reading[:-1], strict=True)]
+    held: list[Sample] = [selected(due, new, old) for new, old in zip(samples, m.reading[:-1], strict=True)]
     drift = [next_drift(*channel, fresh) for channel in zip(k.channels, m.drift, normals, strict=True)]
-    return DeviceState(type(m.reading)(*held, fresh), type(m.drift)(*drift), where(due, k.period, m.wait) - 1.0)
+    reading, after = type(m.reading)._make([*held, fresh]), type(m.drift)(*drift)
+    return DeviceState(reading, after, where(due, k.period, m.wait) - 1.0)
 
 
 @law
-def true_imu(state: State, perfect: PerfectReadings, believed: Quat) -> ImuChannels:
+def true_imu(state: State, perfect: PerfectReadings, believed: Quat) -> ImuChannels[Sample]:
     """What the IMU and the joints' sensors measure, without errors."""
     return ImuChannels(perfect.specific_force, state.rates, perfect.joint_force, perfect.joint_torque, believed)
 
 
 @law
-def true_motion(state: State) -> MotionChannels:
+def true_motion(state: State) -> MotionChannels[Sample]:
     """What the motion measurement measures, without errors."""
     return MotionChannels(state.position, state.velocity, state.attitude)
 
 
 @law
-def true_additional(sensor: Any, state: State, perfect: PerfectReadings) -> AdditionalChannels:
+def true_additional(sensor: object, state: State, perfect: PerfectReadings) -> AdditionalChannels[Sample]:
     """What an additional sensor measures, without errors."""
     return AdditionalChannels(true_value(sensor, state, perfect))
 
@@ -213,7 +238,7 @@ def sensors(
     attitude_noise: float = 0.0,
     imu_period: int = 1,
     motion_period: int = 1,
-    additional: Any = NONE,
+    additional: tuple[Device, ...] = NONE,
 ) -> Sensors:
     """The sensors of a vehicle of `count` quadrotors; by default perfect and sampled every step.
 
@@ -232,24 +257,27 @@ def sensors(
         additional: parameters of additional sensors by name (`by_name`).
     """
     interval = step * imu_period
-    imu = ImuChannels(
+    imu: ImuChannels[ChannelModel] = ImuChannels(
         specific_force=sensor_model(accelerometer, interval),
         rates=sensor_model(gyroscope, interval),
         joint_force=sensor_model(force, interval, count),
         joint_torque=sensor_model(torque, interval, count),
         frame=NoError(),
     )
-    motion = MotionChannels(WhiteNoise(position_noise), WhiteNoise(velocity_noise), AttitudeNoise(attitude_noise))
+    motion: MotionChannels[ChannelModel] = MotionChannels(
+        WhiteNoise(position_noise), WhiteNoise(velocity_noise), AttitudeNoise(attitude_noise)
+    )
     return Sensors(DeviceModel(imu, float(imu_period)), DeviceModel(motion, float(motion_period)), additional)
 
 
 def zero_noise(k: Sensors) -> SensorNoise:
     """Standard normals of 0 for one step of these sensors."""
 
-    def of(device: Any) -> Any:
-        return type(device.channels)(*map(no_noise, device.channels))
-
-    return SensorNoise(of(k.imu), of(k.motion), type(k.additional)(*map(of, k.additional)))
+    return SensorNoise(
+        ImuChannels(*map(no_noise, k.imu.channels)),
+        MotionChannels(*map(no_noise, k.motion.channels)),
+        type(k.additional)(*[AdditionalChannels(*map(no_noise, sensor.channels)) for sensor in k.additional]),
+    )
 
 
 def start_sensing(k: Sensors, state: State, perfect: PerfectReadings, believed: Quat) -> SensorState:
@@ -259,16 +287,18 @@ def start_sensing(k: Sensors, state: State, perfect: PerfectReadings, believed: 
     """
     noise = zero_noise(k)
 
-    def start(device: Any, truth: Any, normals: Any, reading: Any) -> DeviceState:
-        drift = type(device.channels)(*map(start_drift, device.channels))
-        return DeviceState(reading(*sample_channels(device.channels, drift, truth, normals), 0.0), drift, 0.0)
+    def start(
+        k: Device, drift: Channels[Drift], truth: Channels[Sample], normals: Channels[Drift], kind: type[R]
+    ) -> DeviceState[R]:
+        return DeviceState(kind._make([*sample_channels(k.channels, drift, truth, normals), 0.0]), drift, 0.0)
 
-    more = [
-        start(device, true_additional(device, state, perfect), normals, AdditionalReading)
-        for device, normals in zip(k.additional, noise.additional, strict=True)
-    ]
+    imu, motion = ImuChannels(*map(start_drift, k.imu.channels)), MotionChannels(*map(start_drift, k.motion.channels))
+    more = []
+    for device, normals in zip(k.additional, noise.additional, strict=True):
+        drift, truth = AdditionalChannels(*map(start_drift, device.channels)), true_additional(device, state, perfect)
+        more.append(start(device, drift, truth, normals, AdditionalReading))
     return SensorState(
-        start(k.imu, true_imu(state, perfect, believed), noise.imu, ImuReading),
-        start(k.motion, true_motion(state), noise.motion, MotionReading),
+        start(k.imu, imu, true_imu(state, perfect, believed), noise.imu, ImuReading),
+        start(k.motion, motion, true_motion(state), noise.motion, MotionReading),
         by_name(getattr(k.additional, "_fields", ()))(*more),
     )

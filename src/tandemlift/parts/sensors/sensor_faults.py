@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from tandemlift.core.algebra.constants import NEVER
 from tandemlift.core.algebra.law import choice, elementwise, law
@@ -19,7 +19,16 @@ from tandemlift.core.algebra.selection import chosen
 from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, each, vec3
 from tandemlift.parts.mechanics.rotation import rotated_by
-from tandemlift.parts.sensors.readings import AdditionalChannels, ImuChannels, MotionChannels, Readings, by_name
+from tandemlift.parts.sensors.noise_bias_drift import S, Sample
+from tandemlift.parts.sensors.readings import (
+    AdditionalChannels,
+    Channels,
+    ImuChannels,
+    MotionChannels,
+    R,
+    Readings,
+    by_name,
+)
 from tandemlift.parts.sensors.sensor_list import SENSORS, additional_sensor, sensors_named, sensors_on
 from tandemlift.parts.sensors.sensors_table import SensorFaultTable
 
@@ -57,12 +66,15 @@ class NoFault(NamedTuple):
     """The fault of a channel that does not fail on its own."""
 
 
+ChannelFault: TypeAlias = SensorFault | AttitudeFault | ScalarFault | NoFault
+
+
 class DeviceFaults(NamedTuple):
     """Faults of a device: no new sample from step `start` until before step `end`; and the faults of its channels."""
 
     start: Number
     end: Number
-    channels: ImuChannels | MotionChannels
+    channels: Channels[ChannelFault]
 
 
 class SensorFaults(NamedTuple):
@@ -104,7 +116,7 @@ def faulty_number(
 
 
 @choice
-def faulty(fault: Any, x: Any, given: Any, step: Any) -> Any:
+def faulty(fault: ChannelFault, x: S, given: S, step: Number) -> S:
     """A reading x under a fault at a step; `given`: the last one that was passed on."""
 
 
@@ -118,7 +130,7 @@ def _faulty_vector(f: SensorFault, x: Vec3, given: Vec3, step: Number) -> Vec3:
 
 
 @faulty.register(ScalarFault)
-def _faulty_scalar(k: ScalarFault, x: Any, given: Any, step: Any) -> Any:
+def _faulty_scalar(k: ScalarFault, x: Number, given: Number, step: Number) -> Number:
     f = k.fault
     return faulty_number(x, given, f.size.x, f.start, f.end, f.frozen, f.keep, f.poison, step)
 
@@ -142,16 +154,16 @@ def _no_fault(f: NoFault, x: Quat, given: Quat, step: Number) -> Quat:
 
 
 @law
-def faulty_device(f: DeviceFaults, reading: Any, given: Any, step: Any) -> Any:
+def faulty_device(f: DeviceFaults, reading: R, given: R, step: Number) -> R:
     """The sample of a device under its faults; while it is stale, the last one that was passed on, not fresh."""
     stale = during(f.start, f.end, step)
     samples = [faulty(*channel, step) for channel in zip(f.channels, reading[:-1], given[:-1], strict=True)]
-    held = [chosen(stale, old, new) for old, new in zip(given[:-1], samples, strict=True)]
-    return type(reading)(*held, where(stale > 0.0, 0.0, reading.fresh))
+    held: list[Sample] = [chosen(stale, old, new) for old, new in zip(given[:-1], samples, strict=True)]
+    return type(reading)._make([*held, where(stale > 0.0, 0.0, reading.fresh)])
 
 
 @law
-def apply_faults(k: SensorFaults, m: SensorFaultState, readings: Readings) -> Any:
+def apply_faults(k: SensorFaults, m: SensorFaultState, readings: Readings) -> tuple[Readings, SensorFaultState]:
     """(Readings as they are passed on, the new memory) of a step."""
     given, n = m.given, m.step
     more = [
@@ -210,16 +222,16 @@ def all_faults(
     by_quantity = {q: faults.get(row.name, SOUND) for row in SENSORS.values() for q in row.quantities}
     by_quantity |= {"joint_force": whole, "joint_torque": _torque_fault(whole)}
 
-    def device(name: str, channels: Any) -> DeviceFaults:
+    def device(name: str, channels: Channels[ChannelFault]) -> DeviceFaults:
         return DeviceFaults(*stale.get(name, (NEVER, NEVER)), channels)
 
     def alone(name: str) -> DeviceFaults:
         fault = faults.get(name, SOUND)
         return device(name, AdditionalChannels(fault if additional_sensor(name).width == 3 else ScalarFault(fault)))
 
-    imu = ImuChannels(**{q: by_quantity[q] for row in sensors_on("imu") for q in row.quantities}, frame=NoFault())
-    motion = MotionChannels(**{q: by_quantity[q] for row in sensors_on("motion") for q in row.quantities})
-    motion = motion._replace(attitude=AttitudeFault(motion.attitude))
+    by_channel: dict[str, ChannelFault] = {**by_quantity, "attitude": AttitudeFault(by_quantity["attitude"])}
+    imu = ImuChannels(**{q: by_channel[q] for row in sensors_on("imu") for q in row.quantities}, frame=NoFault())
+    motion = MotionChannels(**{q: by_channel[q] for row in sensors_on("motion") for q in row.quantities})
     return SensorFaults(
         device("imu", imu), device("motion", motion), by_name(tuple(additional))(*map(alone, additional))
     )

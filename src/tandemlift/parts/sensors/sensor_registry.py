@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 from tandemlift.core.algebra.law import choice
+from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, spread
 from tandemlift.core.errors import InputError
 from tandemlift.parts.mechanics.loads import PerfectReadings
@@ -25,7 +26,7 @@ PARAMETERS: dict[str, Any] = {}
 
 
 @choice
-def true_value(sensor: Any, state: State, perfect: PerfectReadings) -> Any:
+def true_value(sensor: object, state: State, perfect: PerfectReadings) -> Number | Vec3:
     """What an additional sensor reads without errors: a number, or a `Vec3`."""
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import numpy as np
 from pydantic import AfterValidator, Field
@@ -12,7 +12,15 @@ from tandemlift.core.algebra.vector import Absent
 from tandemlift.core.keys import Axes3, Delay, NonNegative, Positive, Size, Table, key, must
 from tandemlift.core.types import Array
 from tandemlift.parts.sensors.noise_bias_drift import SensorGrade, scalar_sensor_model, sensor_model
-from tandemlift.parts.sensors.readings import AdditionalChannels, SensorNoise, Sensors, by_name, sensors, zero_noise
+from tandemlift.parts.sensors.readings import (
+    AdditionalChannels,
+    Device,
+    SensorNoise,
+    Sensors,
+    by_name,
+    sensors,
+    zero_noise,
+)
 from tandemlift.parts.sensors.sensor_list import ADDITIONAL, DEVICES, SENSORS, additional_sensor, sensors_on
 from tandemlift.parts.sensors.sensor_registry import PARAMETERS
 
@@ -256,12 +264,14 @@ def _inertial_grade(s: InertialSensor, chance: np.random.Generator) -> SensorGra
     return SensorGrade(noise=s.noise, bias=chance.standard_normal((1, 3)) * s.bias, drift=s.drift, limit=s.range)
 
 
-def _additional_sensors(tables: Sequence[AdditionalSensorTable], step: float, chance: np.random.Generator) -> Any:
+def _additional_sensors(
+    tables: Sequence[AdditionalSensorTable], step: float, chance: np.random.Generator
+) -> tuple[Device, ...]:
     """The parameters of additional sensors by name; `Absent` for none."""
     return by_name(tuple(s.name for s in tables))(*[_additional(s, step, chance) for s in tables])
 
 
-def _additional(s: AdditionalSensorTable, step: float, chance: np.random.Generator) -> Any:
+def _additional(s: AdditionalSensorTable, step: float, chance: np.random.Generator) -> Device:
     is_vector, period = additional_sensor(s.name).width == 3, steps_of(s.interval, step)
     bias = chance.standard_normal(3 if is_vector else None) * s.bias
     grade = SensorGrade(noise=s.noise, bias=bias, drift=s.drift, resolution=s.resolution, limit=s.range)

@@ -12,7 +12,7 @@ from tandemlift.core.algebra.types import Number
 from tandemlift.core.algebra.vector import ZERO, Vec3, apply_transposed
 from tandemlift.parts.mechanics.rigid_body import UP, State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.sensors.health import PerSensor, WatchdogReport, is_valid
+from tandemlift.parts.sensors.health import PerSensor, SensorHealth, WatchdogReport, is_valid
 from tandemlift.parts.sensors.readings import ImuReading, MotionReading
 
 SETTLING_TIME = 2.0  # s: before bias estimates are averaged
@@ -48,7 +48,7 @@ def mean_after(m: MeanBiases, p: PredictedReadings, wrong: Number, dt: Number) -
 
 
 @law
-def valid_imu(last: ImuReading, imu: ImuReading, h: PerSensor) -> ImuReading:
+def valid_imu(last: ImuReading, imu: ImuReading, h: PerSensor[SensorHealth]) -> ImuReading:
     """The IMU's sample with the last valid value in place of each that is invalid."""
     joints = is_valid(h.joints)
     return imu._replace(
@@ -80,7 +80,7 @@ def substituted_imu(
 
 @law
 def substituted_motion(
-    v: MotionReading, h: PerSensor, r: WatchdogReport, velocity: Vec3, p: PredictedReadings
+    v: MotionReading, h: PerSensor[SensorHealth], r: WatchdogReport, velocity: Vec3, p: PredictedReadings
 ) -> MotionReading:
     """A motion sample with the prediction in place of what is invalid or lost; `velocity`: from the position."""
     position = maximum(maximum(r.position, h.position.failure), r.motion)

@@ -12,7 +12,7 @@ one (`substitutes`). Redundant measurements are compared with each other (`consi
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 from pydantic import Field
 
@@ -31,6 +31,7 @@ from tandemlift.parts.sensors.health import (
     JointLimits,
     PerSensor,
     SensorHealth,
+    SensorLimits,
     VectorLimits,
     WatchdogReport,
     any_component,
@@ -104,7 +105,7 @@ class Watchdog(NamedTuple):
 
     stale_time: Number
     invalid_time: Number
-    sensors: PerSensor
+    sensors: PerSensor[SensorLimits]
     forgetting: Number
     attitude_gap: Number
     position_gap: Number
@@ -123,7 +124,7 @@ class WatchdogState(NamedTuple):
 
     last: Readings
     valid: Readings
-    health: PerSensor
+    health: PerSensor[SensorHealth]
     imu_age: Number
     motion_age: Number
     imu_seen: Number
@@ -135,14 +136,16 @@ class WatchdogState(NamedTuple):
 
 
 @law
-def lost(k: Watchdog, h: SensorHealth, limits: AttitudeLimits | JointLimits | VectorLimits) -> Number:
+def lost(k: Watchdog, h: SensorHealth, limits: SensorLimits) -> Number:
     """What is wrong with a sensor that is lost (`SYMPTOMS`, from 1), or 0."""
     invalid = where(h.invalid_time >= k.invalid_time, h.failure, 0.0)
     return where(h.failure > 0.0, invalid, where(h.identical >= limits.frozen_samples, FROZEN, 0.0))
 
 
 @law
-def report_of(k: Watchdog, h: PerSensor, imu_age: Any, motion_age: Any, seen: Any, d: Inconsistency) -> WatchdogReport:
+def report_of(
+    k: Watchdog, h: PerSensor[SensorHealth], imu_age: Number, motion_age: Number, seen: Number, d: Inconsistency
+) -> WatchdogReport:
     """What is wrong, with devices of these ages [s]; `seen` is 1 once both have sent a sample."""
     failures = PerSensor(*[lost(k, *sensor) for sensor in zip(h, k.sensors, strict=True)])
     return WatchdogReport(
@@ -172,7 +175,9 @@ def substitute_rates(
 
 
 @law
-def substitute_velocity(k: Watchdog, m: WatchdogState, v: MotionReading, h: PerSensor, r: WatchdogReport) -> Vec3:
+def substitute_velocity(
+    k: Watchdog, m: WatchdogState, v: MotionReading, h: PerSensor[SensorHealth], r: WatchdogReport
+) -> Vec3:
     """The velocity [m/s]: as measured while that is valid, else the derivative of the position."""
     measured = is_valid(h.velocity) * where(r.velocity > 0.0, 0.0, 1.0)
     position = chosen(is_valid(h.position), v.position, m.valid.motion.position)
@@ -182,7 +187,7 @@ def substitute_velocity(k: Watchdog, m: WatchdogState, v: MotionReading, h: PerS
 
 
 @law
-def any_invalid(h: PerSensor) -> Any:
+def any_invalid(h: PerSensor[SensorHealth]) -> Number:
     """1 if the last sample of any sensor that is compared was invalid, else 0."""
     motion = is_valid(h.attitude) * is_valid(h.position) * is_valid(h.velocity)
     return 1.0 - is_valid(h.gyroscope) * is_valid(h.accelerometer) * motion
@@ -196,7 +201,9 @@ def any_lost(r: WatchdogReport) -> Number:
 
 
 @law
-def watchdog_step(k: Watchdog, m: WatchdogState, readings: Readings, p: PredictedReadings, dt: Any) -> Any:
+def watchdog_step(
+    k: Watchdog, m: WatchdogState, readings: Readings, p: PredictedReadings, dt: Number
+) -> tuple[Readings, WatchdogReport, WatchdogState]:
     """(usable readings, `WatchdogReport`, the new memory) after a step of dt [s] with the navigator's prediction."""
     v, health = readings.motion, judge(k.sensors, m.health, m.last, readings, dt)
     m = m._replace(

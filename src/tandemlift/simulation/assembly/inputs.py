@@ -14,7 +14,7 @@ from tandemlift.core.caching import cached
 from tandemlift.missions import Mission
 from tandemlift.parts.contact.wall_geometry import WALL, wall
 from tandemlift.parts.contact.walls import NearWalls, no_walls_near
-from tandemlift.parts.mechanics.push import CentralPush, GaussianPush, PointPush, PushSamples
+from tandemlift.parts.mechanics.push import CentralPush, GaussianPush, PointPush, Push, PushSamples
 from tandemlift.parts.mechanics.wind import gusts_from
 from tandemlift.parts.person.person import PATH_LEG, PathLeg
 from tandemlift.simulation.loop_code.external_inputs import GAUSSIAN, GUST, InputTables
@@ -24,7 +24,7 @@ AT_A_POINT = PushSamples(*[PointPush(ZERO, mat3([[0.0] * 3] * 3))] * 3)
 WIDTHS = tuple(map(leaves, (GAUSSIAN, GUST, WALL, PATH_LEG)))  # of the rows of tables
 
 
-def push_kind(mission: Mission) -> PushSamples:
+def push_kind(mission: Mission) -> PushSamples[Push]:
     """Zero pushes of the type that the mission needs: with a moment only if a push has one."""
     central = all(p.point == ZERO for p in mission.pushes) and mission.person.model == "none"
     return CENTRAL if central else AT_A_POINT

@@ -126,7 +126,7 @@ class StepInputs(NamedTuple):
     simulator applied; it is known once the body has moved, and is `Absent` where there is no such push.
     """
 
-    hand: PushSamples
+    hand: PushSamples[Push]
     gust: Any
     noise: Any
     person: Any
@@ -252,7 +252,7 @@ def finish_sample(
 
 @law
 def step_body(
-    plant: CompiledPlant, before: FlightState, acting: Actuation, hand: PushSamples, t: Number, dt: Number
+    plant: CompiledPlant, before: FlightState, acting: Actuation, hand: PushSamples[Push], t: Number, dt: Number
 ) -> BodyStep:
     """The body's part of a step."""
     loads = acting.wind.loads

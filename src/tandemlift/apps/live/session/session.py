@@ -13,6 +13,8 @@ from functools import singledispatchmethod
 from pathlib import Path
 from typing import Any
 
+from numpy.typing import ArrayLike
+
 from tandemlift.apps.live.session.checks import check_may_tare, check_takes_requests
 from tandemlift.apps.live.session.frame_builder import FrameBuilder
 from tandemlift.apps.live.session.hand_control import HandControl
@@ -145,7 +147,8 @@ class Session:
             return self._frames.first()
         with self._lock:
             moment, hand, seq, frames = self._flight.moment, self._flight.hand, self._hand.seq, self._frames
-        held = {"held": hand.held, "hand_point": hand.grip, "hand_target": hand.target, "push_point": hand.grip}
+        held: dict[str, ArrayLike] = {"held": hand.held, "hand_point": hand.grip, "hand_target": hand.target}
+        held["push_point"] = hand.grip
         return frames.frame({**frames.values(*moment), **held, "seq": seq % 2**24})
 
     def channels(self) -> dict[str, Any]:
