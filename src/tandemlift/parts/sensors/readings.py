@@ -206,11 +206,9 @@ def sense(
         sample_device(sensor, memory, true_additional(sensor, state, perfect), normals)
         for sensor, memory, normals in zip(k.additional, m.additional, noise.additional, strict=True)
     ]
-    after = SensorState(
-        sample_device(k.imu, m.imu, true_imu(state, perfect, believed), noise.imu),
-        sample_device(k.motion, m.motion, true_motion(state), noise.motion),
-        type(m.additional)(*more),
-    )
+    imu = sample_device(k.imu, m.imu, true_imu(state, perfect, believed), noise.imu)
+    motion = sample_device(k.motion, m.motion, true_motion(state), noise.motion)
+    after = SensorState(imu, motion, type(m.additional)(*more))
     return readings_of(after), after
 
 
@@ -264,20 +262,16 @@ def sensors(
         joint_torque=sensor_model(torque, interval, count),
         frame=NoError(),
     )
-    motion: MotionChannels[ChannelModel] = MotionChannels(
-        WhiteNoise(position_noise), WhiteNoise(velocity_noise), AttitudeNoise(attitude_noise)
-    )
+    noise = WhiteNoise(position_noise), WhiteNoise(velocity_noise), AttitudeNoise(attitude_noise)
+    motion: MotionChannels[ChannelModel] = MotionChannels(*noise)
     return Sensors(DeviceModel(imu, float(imu_period)), DeviceModel(motion, float(motion_period)), additional)
 
 
 def zero_noise(k: Sensors) -> SensorNoise:
     """Standard normals of 0 for one step of these sensors."""
-
-    return SensorNoise(
-        ImuChannels(*map(no_noise, k.imu.channels)),
-        MotionChannels(*map(no_noise, k.motion.channels)),
-        type(k.additional)(*[AdditionalChannels(*map(no_noise, sensor.channels)) for sensor in k.additional]),
-    )
+    imu, motion = ImuChannels(*map(no_noise, k.imu.channels)), MotionChannels(*map(no_noise, k.motion.channels))
+    more = [AdditionalChannels(*map(no_noise, sensor.channels)) for sensor in k.additional]
+    return SensorNoise(imu, motion, type(k.additional)(*more))
 
 
 def start_sensing(k: Sensors, state: State, perfect: PerfectReadings, believed: Quat) -> SensorState:
