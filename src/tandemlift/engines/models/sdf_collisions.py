@@ -27,7 +27,7 @@ from tandemlift.engines.models.sdf_elements import Element, add, fill, geometry,
 from tandemlift.engines.models.surroundings import feet_and_floor_from, wall_contact_from
 from tandemlift.engines.models.visuals import VisualShape, frame_along
 from tandemlift.parts.contact.feet import Floor
-from tandemlift.parts.contact.hull import Ellipsoids
+from tandemlift.parts.contact.hull import Ellipsoids, Hull
 from tandemlift.parts.contact.walls import Beam, Walls
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
@@ -75,6 +75,8 @@ class VehicleCollisions:
     def __init__(self, scene: Scene, vehicle: Vehicle) -> None:
         self._floor, self._walls = feet_and_floor_from(scene, vehicle), wall_contact_from(scene, vehicle)
         floor, hull, walls = self._floor, self._floor.hull, self._walls
+        assert isinstance(hull, Hull)
+        self._parts = hull
         self._foot = CollisionSurface(FLOOR_BIT, floor.friction, floor.stiffness, floor.damping)
         self._hull = CollisionSurface(FLOOR_BIT, floor.friction, hull.stiffness, hull.damping)
         self._wall = CollisionSurface(WALL_BIT, walls.friction, walls.stiffness, walls.damping)
@@ -83,12 +85,12 @@ class VehicleCollisions:
         """Add the shapes of the beam; none without a beam."""
         for shape in _beam(self._walls):
             add_collision(element, shape, self._wall)
-        for tip in _shapes(self._floor.hull.beam, "beam_tip", link.position):
+        for tip in _shapes(self._parts.beam, "beam_tip", link.position):
             add_collision(element, tip, self._hull)
 
     def add_to_quadrotor(self, element: Element, link: Link, i: int) -> None:
         """Add the shapes of quadrotor i, from 0."""
-        hull, four = self._floor.hull, slice(4 * i, 4 * i + 4)
+        hull, four = self._parts, slice(4 * i, 4 * i + 4)
         add_collision(element, VisualShape("guard", "sphere", (self._walls.guards[i],), np.zeros(3)), self._wall)
         for ball in _rotor_balls(self._walls, four, link.position):
             add_collision(element, ball, self._wall)

@@ -1,18 +1,33 @@
 """The axis of the beam, and where along it the beam is nearest to an edge or to the top of a wall."""
 
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from tandemlift.core.algebra.law import law
 from tandemlift.core.algebra.ops import clip, maximum, where
-from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra.types import Number, PerQuadrotor
 from tandemlift.core.algebra.vector import Vec3, apply, cross, dot
-from tandemlift.parts.contact.spheres import SMALL
+from tandemlift.parts.contact.spheres import SMALL, SpringyWall
 from tandemlift.parts.contact.wall_geometry import Wall
 from tandemlift.parts.mechanics.loads import scaled, translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 PARALLEL = 1e-12  # sin² of the angle between lines that have no one nearest point
+
+
+class Beam(NamedTuple):
+    """The payload as a capsule along body y: its radius [m], and its two ends, −½ and +½ of its axis [m], as a set."""
+
+    radius: Number
+    ends: PerQuadrotor
+
+
+class WallToBeam(SpringyWall, Protocol):
+    """Contact of walls with a vehicle whose payload has a shape."""
+
+    @property
+    def beam(self) -> Beam:
+        """Its shape."""
 
 
 class BeamAxis(NamedTuple):

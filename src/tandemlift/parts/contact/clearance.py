@@ -6,7 +6,7 @@ straight beam nearest to an upright wall is one of its ends, or lies at one of t
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeVar
 
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import least, minimum, sqrt
@@ -61,7 +61,7 @@ def sphere_distance(o: Vec3, radius: Number) -> Number:
 
 
 @choice(absent="rotors")
-def rotor_clearance(rotors: RotorSpheres | Absent, near: NearRotors | Absent, s: State) -> Any:
+def rotor_clearance(rotors: RotorSpheres | Absent, near: NearRotors | Absent, s: State) -> RotorClearance | Absent:
     """Clearance of the rotors from the walls near them."""
 
 
@@ -76,7 +76,9 @@ def _spheres(rotors: RotorSpheres, near: NearRotors, s: State) -> RotorClearance
 
 
 @choice(absent="beam")
-def beam_clearance(beam: Beam | Absent, w: Walls, near: NearBeam | Absent, frame: PartsLayout, s: State) -> Any:
+def beam_clearance(
+    beam: Beam | Absent, w: Walls, near: NearBeam | Absent, frame: PartsLayout, s: State
+) -> BeamClearance | Absent:
     """Clearance of the beam from the walls near it."""
 
 
@@ -94,7 +96,7 @@ def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State)
 
 
 @choice(absent="w")
-def clearance(w: Walls | Absent, near: NearWalls | Absent, frame: PartsLayout, s: State) -> Any:
+def clearance(w: Walls | Absent, near: NearWalls | Absent, frame: PartsLayout, s: State) -> Clearance | Absent:
     """Clearance of the vehicle from the walls near it."""
 
 
@@ -151,8 +153,11 @@ def may_touch_wall(w: Walls, c: Clearance, s: State, rate: State, dt: Number) ->
     return least_clearance(c) < 2.0 * dt * (fast + faster * dt)
 
 
+C = TypeVar("C", RotorClearance, BeamClearance, Clearance, Absent)
+
+
 @choice(absent="a")
-def smaller_clearance(a: Any, b: Any) -> Any:
+def smaller_clearance(a: C, b: C) -> C:
     """The smaller of two clearances, part by part."""
 
 

@@ -14,7 +14,7 @@ A step evaluates `feet_load` at every stage with the anchors held, then `grips_a
 by their own law (`hull`).
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -64,7 +64,7 @@ class Floor(NamedTuple):
     feet: Quarters
     extent: Vec3
     reach: Number
-    hull: Any
+    hull: Hull | Absent
 
 
 class FootGrip(NamedTuple):
@@ -201,7 +201,7 @@ def floor(
     radius: float = 0.01,
     sinkage: float = 5e-4,
     damping_ratio: float = 1.0,
-    hull: Any = NO_HULL,
+    hull: Hull | Absent = NO_HULL,
 ) -> Floor:
     """A floor for a vehicle: feet so stiff that it sinks by `sinkage` at rest, softer if the step demands it.
 

@@ -15,6 +15,7 @@ with v the sliding velocity. Thus k δ is a spring, the rest dissipates, and con
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,6 +38,7 @@ from tandemlift.core.algebra.vector import (
     quarters,
     spread,
 )
+from tandemlift.core.types import Array
 from tandemlift.parts.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
 from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each, sum_over_set
 from tandemlift.parts.mechanics.rigid_body import State
@@ -68,7 +70,7 @@ class Hull(NamedTuple):
     tangential_damping: Number
     rotors: Ellipsoids
     guards: Ellipsoids
-    beam: Any
+    beam: Ellipsoids | Absent
     middle: Vec3
     half: Vec3
     reach: Number
@@ -87,7 +89,7 @@ class HullContact(NamedTuple):
 
     rotors: FloorContact
     guards: FloorContact
-    beam: FloorContact
+    beam: FloorContact | Absent
 
 
 @elementwise
@@ -103,7 +105,9 @@ def sideways(radius: Number, half_thickness: Number, below: Number, along: Numbe
 
 
 @choice(absent="shapes")
-def floor_contact(shapes: Any, hull: Hull, friction: Number, height: Number, s: State, R: Mat3) -> Any:
+def floor_contact(
+    shapes: Ellipsoids | Absent, hull: Hull, friction: Number, height: Number, s: State, R: Mat3
+) -> FloorContact | Absent:
     """Contact of shapes, or of `Absent`, with a floor at a height z [m]; R of the state's attitude."""
 
 
@@ -144,7 +148,7 @@ def summed_load(contact: FloorContact, center: Vec3) -> PartLoad:
 
 
 @choice(absent=PartLoad(ZERO, ZERO))
-def beam_end_load(contact: FloorContact | Absent, center: Vec3) -> Any:
+def beam_end_load(contact: FloorContact | Absent, center: Vec3) -> PartLoad:
     """Load of the floor on the beam, world axes."""
 
 
@@ -250,13 +254,13 @@ def hull(
     )
 
 
-def _ellipsoids(centers: Any, radii: Any, half_thickness: Any) -> Ellipsoids:
+def _ellipsoids(centers: Array, radii: Iterable[float], half_thickness: Iterable[float]) -> Ellipsoids:
     cls = each(len(centers))
     return Ellipsoids(spread(centers), cls(*map(number, radii)), cls(*map(number, half_thickness)))
 
 
-def _discs(centers: Any, radii: Any) -> Ellipsoids:
-    return _ellipsoids(centers, radii, [HALF_THICKNESS] * len(centers))
+def _discs(centers: Array, radii: ArrayLike) -> Ellipsoids:
+    return _ellipsoids(centers, array(radii), [HALF_THICKNESS] * len(centers))
 
 
 class Box(NamedTuple):

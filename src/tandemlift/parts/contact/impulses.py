@@ -15,7 +15,8 @@ is that of speculative contacts. A touch that springs hold is not changed by a b
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple, TypeVar
 
 from tandemlift.core.algebra.law import choice, elementwise, law
 from tandemlift.core.algebra.ops import greatest, least, maximum, minimum, sqrt, where
@@ -32,9 +33,9 @@ from tandemlift.core.algebra.vector import (
     is_set,
     set_of,
 )
-from tandemlift.parts.contact.spheres import ContactPair, WallContact, inverse_root
+from tandemlift.parts.contact.spheres import ContactPair, RotorSpheres, WallContact, inverse_root
 from tandemlift.parts.contact.touches import if_number, number_at
-from tandemlift.parts.contact.walls import BeamContact, NearWallContact, Walls, loads_of_walls
+from tandemlift.parts.contact.walls import Beam, BeamContact, NearWallContact, Walls, loads_of_walls
 from tandemlift.parts.mechanics.inertia import apply_inertia
 from tandemlift.parts.mechanics.loads import (
     PartLoad,
@@ -88,7 +89,7 @@ def change_needed(rate: Number, bound: Number) -> Number:
 
 
 @law
-def rate_along(n: Vec3, lever: Vec3, velocity: Vec3, rates: Vec3) -> Any:
+def rate_along(n: Vec3, lever: Vec3, velocity: Vec3, rates: Vec3) -> Number:
     """The rate at which distances along n change [m/s]; its derivative but for turning, if of a motion."""
     return dot(n, velocity) + dot(lever, rates)
 
@@ -121,8 +122,11 @@ def after_worst(a: Approach, body: RigidBody, s: State) -> tuple[State, Any]:
     return State(s.position, velocity, s.attitude, rates), impulse
 
 
+T = TypeVar("T", bound=tuple[Any, ...])
+
+
 @law
-def in_one_set(several: Any, *others: Any) -> Any:
+def in_one_set(several: T, *others: T) -> T:
     """Nested values of a set and of single contacts, as values of one set."""
     if is_set(several):
         return set_of([*several, *others])
@@ -137,18 +141,18 @@ def struck(c: WallContact, force: Number, arm: Vec3) -> WallContact:
 
 
 @law
-def struck_spheres(pair: ContactPair | Absent, forces: list[Any]) -> Any:
+def struck_spheres(pair: ContactPair | Absent, forces: Sequence[Number]) -> Any:
     """Spheres that press on two walls by forces [N]; `Absent` of `Absent`."""
     return type(pair)(*[struck(c, force, -c.offset) for c, force in zip(pair, forces, strict=True)])
 
 
 @choice(absent="contact")
-def struck_beam(contact: BeamContact | Absent, forces: Any, center: Vec3) -> Any:
+def struck_beam(contact: BeamContact | Absent, forces: Sequence[Number], center: Vec3) -> BeamContact | Absent:
     """A beam, by its centre [m, world axes], that presses on walls by forces [N]: of its ends, and of its length."""
 
 
 @struck_beam.register(BeamContact)
-def _struck_beam(contact: BeamContact, forces: Any, center: Vec3) -> BeamContact:
+def _struck_beam(contact: BeamContact, forces: Sequence[Number], center: Vec3) -> BeamContact:
     ends, *single = contact
     return BeamContact(
         struck(ends, set_of(forces[:2]), translated(-center, ends.place)),
@@ -179,8 +183,10 @@ def impulses_of_walls(
         sprung: its motion with the springs of walls.
         dt: [s].
     """
-    shapes = [(c, w.guards) for c in contact.guards] + [(c, w.rotors.radius) for c in contact.rotors]
-    if len(contact.beam):
+    shapes: list[tuple[WallContact, Number]] = [(c, w.guards) for c in contact.guards]
+    if isinstance(w.rotors, RotorSpheres):
+        shapes += [(c, w.rotors.radius) for c in contact.rotors]
+    if isinstance(w.beam, Beam):
         shapes.append((in_one_set(*contact.beam), w.beam.radius))
     approaches = [approach(c, radius, body, s, free, sprung, dt) for c, radius in shapes]
     after, forces = s, [a.mobility * 0.0 for a in approaches]

@@ -6,7 +6,7 @@ own, and the guard's sphere stands for it.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -58,8 +58,28 @@ class ContactPair(NamedTuple):
     second: WallContact
 
 
+class SpringyWall(Protocol):
+    """Springs, dampers and friction of a contact with walls: k [N/m], c [N·s/m], μ and c_t [N·s/m]."""
+
+    @property
+    def stiffness(self) -> Number:
+        """k [N/m]."""
+
+    @property
+    def damping(self) -> Number:
+        """c [N·s/m]."""
+
+    @property
+    def friction(self) -> Number:
+        """μ."""
+
+    @property
+    def tangential_damping(self) -> Number:
+        """c_t [N·s/m]."""
+
+
 @law
-def sphere_contact(w: Any, p: Vec3, o: Vec3, radius: Number, velocity: Vec3, spin: Vec3) -> WallContact:
+def sphere_contact(w: SpringyWall, p: Vec3, o: Vec3, radius: Number, velocity: Vec3, spin: Vec3) -> WallContact:
     """Contact of a wall with a sphere that moves at a velocity [m/s] and turns at `spin` [rad/s], all in world axes.
 
     p is its centre, o the offset of p from the wall [m]; w: a `Walls`; the moment is about p [N·m].
@@ -93,12 +113,14 @@ class NearRotors(NamedTuple):
 
 
 @choice(absent="rotors")
-def rotor_wall_contact(rotors: Any, w: Any, near: Any, s: State, R: Mat3) -> Any:
+def rotor_wall_contact(
+    rotors: RotorSpheres | Absent, w: SpringyWall, near: NearRotors | Absent, s: State, R: Mat3
+) -> ContactPair | Absent:
     """Contact of the rotors with the walls nearest to each, about their hubs; `Absent` where all are in guards."""
 
 
 @rotor_wall_contact.register(RotorSpheres)
-def _spheres(rotors: RotorSpheres, w: Any, near: NearRotors, s: State, R: Mat3) -> ContactPair:
+def _spheres(rotors: RotorSpheres, w: SpringyWall, near: NearRotors, s: State, R: Mat3) -> ContactPair:
     spin, arm = apply(R, s.rates), apply(R, rotors.hub)
     p, v = translated(s.position, arm), translated(s.velocity, cross(spin, arm))
     return ContactPair(
@@ -108,7 +130,9 @@ def _spheres(rotors: RotorSpheres, w: Any, near: NearRotors, s: State, R: Mat3) 
 
 
 @choice(absent="load")
-def with_rotor_loads(contact: Any, rotors: Any, load: PartLoad, frame: PartsLayout, R: Mat3) -> Any:
+def with_rotor_loads(
+    contact: ContactPair | Absent, rotors: RotorSpheres | Absent, load: PartLoad, frame: PartsLayout, R: Mat3
+) -> PartLoad:
     """A load on the quadrotors about their centres, world axes, with that of the walls on their rotors."""
 
 
@@ -120,7 +144,9 @@ def _with_spheres(contact: ContactPair, rotors: RotorSpheres, load: PartLoad, fr
 
 
 @choice(absent="near")
-def nearest_to_rotors_with(rotors: Any, wall: Wall, near: Any, s: State) -> Any:
+def nearest_to_rotors_with(
+    rotors: RotorSpheres | Absent, wall: Wall, near: NearRotors | Absent, s: State
+) -> NearRotors | Absent:
     """The walls nearest to the rotors, with `wall` taken into account."""
 
 

@@ -43,14 +43,14 @@ class SurfaceTouches(NamedTuple):
 
     rotors: TouchRecord | Absent
     guards: TouchRecord
-    beam: Any
+    beam: TouchRecord | Absent
 
 
 class Touches(NamedTuple):
     """Which rotors still turn (1, or 0 from their first touch on), and the records on floor and walls, or `Absent`."""
 
     turning: PerRotor
-    floor: Any
+    floor: SurfaceTouches | Absent
     walls: SurfaceTouches | Absent
 
 
@@ -113,7 +113,9 @@ def record_after(r: TouchRecord, contacts: PartContacts, t: Number, dt: Number) 
 
 
 @choice(absent="record")
-def record_with(contacts: PartContacts | Absent, record: Any, t: Number, dt: Number) -> Any:
+def record_with(
+    contacts: PartContacts | Absent, record: TouchRecord | Absent, t: Number, dt: Number
+) -> TouchRecord | Absent:
     """The record after a step, unchanged without contacts."""
 
 
@@ -123,7 +125,9 @@ def _with_contacts(contacts: PartContacts, record: TouchRecord, t: Number, dt: N
 
 
 @choice(absent="records")
-def surface_records_with(contacts: SurfaceContacts | Absent, records: Any, t: Number, dt: Number) -> Any:
+def surface_records_with(
+    contacts: SurfaceContacts | Absent, records: SurfaceTouches | Absent, t: Number, dt: Number
+) -> SurfaceTouches | Absent:
     """The records of a surface after a step, unchanged while it is out of reach."""
 
 
@@ -137,7 +141,7 @@ def _with_surface(contacts: SurfaceContacts, records: SurfaceTouches, t: Number,
 
 
 @choice(absent="turning")
-def turning_after(contacts: Any, turning: PerRotor) -> PerRotor:
+def turning_after(contacts: SurfaceContacts | PartContacts | Absent, turning: PerRotor) -> PerRotor:
     """Which rotors still turn after a step with contacts: of a surface, of the rotors, or `Absent`."""
 
 
@@ -170,7 +174,7 @@ def thrust_if_turning(thrust: Number, turning: Number) -> Number:
 
 
 @choice(absent="thrusts")
-def of_turning_rotors(touches: Touches | Absent, thrusts: PerRotor) -> Any:
+def of_turning_rotors(touches: Touches | Absent, thrusts: PerRotor) -> PerRotor:
     """The thrust of each rotor [N], 0 of one that has touched anything."""
 
 
@@ -180,7 +184,7 @@ def _turning(touches: Touches, thrusts: PerRotor) -> PerRotor:
 
 
 @choice(absent="contact")
-def floor_parts(contact: FloorContact | Absent, s: State) -> Any:
+def floor_parts(contact: FloorContact | Absent, s: State) -> PartContacts | Absent:
     """Contacts of one kind of part with the floor."""
 
 
@@ -196,7 +200,7 @@ def floor_contacts(contact: HullContact, s: State) -> SurfaceContacts:
 
 
 @choice(absent="pair")
-def harder_of(pair: ContactPair | Absent) -> Any:
+def harder_of(pair: ContactPair | Absent) -> PartContacts | Absent:
     """Contacts with two walls as one: both normal forces, at the place of the greater."""
 
 
@@ -208,7 +212,7 @@ def _harder(pair: ContactPair) -> PartContacts:
 
 
 @choice(absent="contact")
-def beam_parts(contact: BeamContact | Absent) -> Any:
+def beam_parts(contact: BeamContact | Absent) -> PartContacts | Absent:
     """Contacts of the beam with walls, wherever along its length."""
 
 
@@ -226,11 +230,11 @@ def wall_contacts(contact: NearWallContact) -> SurfaceContacts:
     return SurfaceContacts(harder_of(contact.rotors), harder_of(contact.guards), beam_parts(contact.beam))
 
 
-def start_touches(floor: Any, walls: Any, rotors: int) -> Touches | Absent:
+def start_touches(floor: object, walls: object, rotors: int) -> Touches | Absent:
     """No touch yet, of `rotors` in all; `Absent` without a hull that meets the floor and without walls."""
     hull = getattr(floor, "hull", Absent())
     on_floor = SurfaceTouches(UNTOUCHED, UNTOUCHED, _unless_absent(hull.beam)) if isinstance(hull, Hull) else Absent()
-    on_walls: Any = Absent()
+    on_walls: SurfaceTouches | Absent = Absent()
     if isinstance(walls, Walls):
         on_walls = SurfaceTouches(_unless_absent(walls.rotors), UNTOUCHED, _unless_absent(walls.beam))
     if isinstance(on_floor, Absent) and isinstance(on_walls, Absent):

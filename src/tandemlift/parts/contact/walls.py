@@ -16,7 +16,7 @@ every state, so it stays exact in between. A blow that springs would not stop is
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,7 +27,9 @@ from tandemlift.core.algebra.ops import greatest, minimum, sqrt
 from tandemlift.core.algebra.types import Number, PerQuadrotor, number
 from tandemlift.core.algebra.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, dot, each
 from tandemlift.parts.contact.beam_axis import (
+    Beam,
     BeamAxis,
+    WallToBeam,
     beam_axis,
     beam_point,
     point_by_edge,
@@ -35,6 +37,7 @@ from tandemlift.parts.contact.beam_axis import (
 )
 from tandemlift.parts.contact.spheres import (
     ContactPair,
+    NearRotors,
     RotorSpheres,
     WallContact,
     nearest_to_rotors_with,
@@ -68,13 +71,6 @@ from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 IN_GUARDS = Absent()
 
 
-class Beam(NamedTuple):
-    """The payload as a capsule along body y: its radius [m], and its two ends, −½ and +½ of its axis [m], as a set."""
-
-    radius: Number
-    ends: PerQuadrotor
-
-
 class Walls(NamedTuple):
     """Contact with walls: k [N/m], c [N·s/m], μ and c_t [N·s/m]; `guards`: radius of every quadrotor's sphere [m].
 
@@ -87,8 +83,8 @@ class Walls(NamedTuple):
     friction: Number
     tangential_damping: Number
     guards: PerQuadrotor
-    rotors: Any
-    beam: Any
+    rotors: RotorSpheres | Absent
+    beam: Beam | Absent
     reach: Number
 
 
@@ -106,7 +102,7 @@ class NearWalls(NamedTuple):
 
     first: Wall
     second: Wall
-    rotors: Any
+    rotors: NearRotors | Absent
     beam: NearBeam | Absent
 
 
@@ -123,12 +119,12 @@ class NearWallContact(NamedTuple):
     """Contact of all parts with the walls near them: of guards (sets), rotors and beam, each or `Absent`."""
 
     guards: ContactPair
-    rotors: Any
-    beam: Any
+    rotors: ContactPair | Absent
+    beam: BeamContact | Absent
 
 
 @law
-def contact_at_beam_point(w: Walls, a: BeamAxis, along: Number, o: Vec3) -> WallContact:
+def contact_at_beam_point(w: WallToBeam, a: BeamAxis, along: Number, o: Vec3) -> WallContact:
     """Contact of the beam with a wall at a point `along` its axis [m], at the offset o [m]."""
     arm = scaled(a.direction, along)
     velocity = translated(a.velocity, cross(a.spin, arm))
@@ -137,12 +133,14 @@ def contact_at_beam_point(w: Walls, a: BeamAxis, along: Number, o: Vec3) -> Wall
 
 
 @choice(absent="beam")
-def beam_contact(beam: Beam | Absent, w: Walls, near: NearBeam | Absent, frame: PartsLayout, s: State) -> Any:
+def beam_contact(
+    beam: Beam | Absent, w: Walls, near: NearBeam | Absent, frame: PartsLayout, s: State
+) -> BeamContact | Absent:
     """Contact of the beam with the near walls."""
 
 
 @beam_contact.register(Beam)
-def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State) -> BeamContact:
+def _capsule(beam: Beam, w: WallToBeam, near: NearBeam, frame: PartsLayout, s: State) -> BeamContact:
     a, half = beam_axis(frame.payload, s), beam.ends[1]
     i, j = point_by_edge(a, half, near.edge), point_by_edge(a, half, near.other_edge)
     k = point_by_top(a, half, near.topped)
@@ -155,7 +153,7 @@ def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State)
 
 
 @choice(absent=PartLoad(ZERO, ZERO))
-def beam_load(contact: BeamContact | Absent, R: Mat3) -> Any:
+def beam_load(contact: BeamContact | Absent, R: Mat3) -> PartLoad:
     """Load of the near walls on the payload."""
 
 
@@ -196,7 +194,9 @@ def near_wall_loads(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> 
 
 
 @choice(absent="near")
-def nearest_to_beam_with(beam: Beam | Absent, wall: Wall, near: NearBeam | Absent, frame: PartsLayout, s: State) -> Any:
+def nearest_to_beam_with(
+    beam: Beam | Absent, wall: Wall, near: NearBeam | Absent, frame: PartsLayout, s: State
+) -> NearBeam | Absent:
     """The walls nearest to the beam, with `wall` taken into account."""
 
 

@@ -7,7 +7,7 @@ law tracks its output, whose derivatives are exact.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra.law import choice, law
 from tandemlift.core.algebra.ops import exp
@@ -50,7 +50,9 @@ class AttitudeReference(NamedTuple):
 
 
 @choice
-def shape_reference(kind: Unfiltered | CommandFilter, memory: Any, desired: Vec3) -> Any:
+def shape_reference(
+    kind: Unfiltered | CommandFilter, memory: NoMemory | CommandFilterState, desired: Vec3
+) -> tuple[AttitudeReference, NoMemory | CommandFilterState]:
     """(what the attitude law tracks, the new memory), from the desired orientation [rad]."""
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeVar
 
 from tandemlift.core.algebra.law import choice
 from tandemlift.core.algebra.vector import ZERO, Vec3
@@ -50,6 +50,9 @@ class NoMemory(NamedTuple):
     """The memory of a controller without memory."""
 
 
+M = TypeVar("M")
+
+
 @choice
-def control(gains: Any, memory: Any, measured: Measured, reference: Reference) -> Any:
+def control(gains: object, memory: M, measured: Measured, reference: Reference) -> tuple[Command, M]:
     """One sample of the controller with this type of gains: (Command, the new memory)."""

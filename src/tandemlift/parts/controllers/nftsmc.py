@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field
 
@@ -146,7 +146,7 @@ class NFTSMC(NamedTuple):
 
 
 @choice
-def euler_rates(kind: ExactRates | BodyRates, e: Euler, rates: Vec3) -> Any:
+def euler_rates(kind: ExactRates | BodyRates, e: Euler, rates: Vec3) -> Vec3:
     """(φ̇, θ̇, ψ̇) as the attitude law takes them, from body rates [rad/s]."""
 
 

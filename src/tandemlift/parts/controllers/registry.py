@@ -15,7 +15,7 @@ from tandemlift.parts.controllers.interface import ControllerTable
 from tandemlift.parts.controllers.trial_run import check_started, error_text, form
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
-Start = Callable[[Any, Vehicle, float], tuple[Any, Any]]
+Start = Callable[[Any, Vehicle, float], tuple[object, object]]
 
 
 @dataclass(frozen=True)
@@ -79,11 +79,11 @@ def _checked(name: str, settings: type[ControllerTable], start: Start) -> Start:
     """`start`, with a clear message where what it gives cannot fly."""
 
     @functools.wraps(start)
-    def checked(s: Any, vehicle: Vehicle, step: float) -> tuple[Any, Any]:
+    def checked(s: ControllerTable, vehicle: Vehicle, step: float) -> tuple[object, object]:
         if not isinstance(s, settings):
             raise InputError(f"controller {name!r} has been loaded anew since the mission was; load the mission again")
         try:
-            started: Any = start(s, vehicle, step)
+            started = start(s, vehicle, step)
         except Exception as error:
             raise InputError(f"controller {name!r}: {error_text(error, start.__code__.co_filename)}") from error
         if type(started) is not tuple or len(started) != 2:

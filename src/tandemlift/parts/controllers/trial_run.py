@@ -29,7 +29,7 @@ SAMPLE = (  # something ordinary to try a law on
 _tried: set[Any] = set()
 
 
-def check_started(name: str, gains: Any, memory: Any) -> None:
+def check_started(name: str, gains: object, memory: object) -> None:
     """Refuse gains and a memory that cannot be compiled, or whose law fails or answers wrongly.
 
     Raises:
@@ -44,15 +44,15 @@ def check_started(name: str, gains: Any, memory: Any) -> None:
         _try(name, gains, memory, layout(memory))
 
 
-def form(value: Any) -> str:
+def form(value: object) -> str:
     """What a value is made of, such as Command(Wrench(number, Vec3), Vec3)."""
     kind = "number" if isinstance(value, numbers.Real) else type(value).__name__
     parts = value if isinstance(value, tuple) and not isinstance(value, (Vec3, Quat)) else ()
     return f"{kind}({', '.join(map(form, parts))})" if parts else kind
 
 
-def _check_numbers(name: str, path: str, value: Any) -> None:
-    if hasattr(value, "_fields"):
+def _check_numbers(name: str, path: str, value: object) -> None:
+    if isinstance(value, tuple) and hasattr(value, "_fields"):
         for field, part in zip(value._fields, value, strict=True):
             _check_numbers(name, f"{path}.{field}", part)
     elif path in ("gains", "memory") or not (isinstance(value, numbers.Real) or is_symbol(value)):
@@ -60,13 +60,13 @@ def _check_numbers(name: str, path: str, value: Any) -> None:
         raise InputError(f"controller {name!r}: {path} is {form(value)}; it must be {allowed} to be compiled")
 
 
-def _try(name: str, gains: Any, memory: Any, like: Any) -> None:
+def _try(name: str, gains: object, memory: object, like: object) -> None:
     """Run a law once in plain Python, where errors are clearer than those of the compiler."""
     law = control.table[type(gains)]
     if (law, like) in _tried:
         return
     try:
-        answer: Any = law(gains, memory, *SAMPLE)
+        answer: object = law(gains, memory, *SAMPLE)
     except ArithmeticError:  # compiled, it gives inf or nan, which the law may well handle
         return
     except Exception as error:
@@ -87,7 +87,7 @@ def error_text(error: BaseException, file: str) -> str:
     """An error in one line, with the line of the file that it comes from."""
     name, kind = Path(file).name, "" if isinstance(error, InputError) else f"{type(error).__name__}: "
     lines: list[Any] = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == file]
-    said: Any = error
+    said: object = error
     if isinstance(error, SyntaxError) and error.filename == file:
         lines, said = [error.lineno], error.msg
     return f"{name}{f', line {lines[-1]}' if lines else ''}: {kind}{said}"
