@@ -49,7 +49,7 @@ class ShippedData(BuildHookInterface):  # type: ignore[type-arg]
         build_data["extra_metadata"][WORDS] = "words.json"
         if version == "editable":
             return
-        from tandemlift.apps.live.offline.page_modules import MISSIONS, build_modules
+        from tandemlift.apps.live.page_modules import MISSIONS, build_modules
 
         self.app.display_info("Compiling the flights of the page: about a minute on one core …")
         shutil.rmtree(root / FLIGHTS, ignore_errors=True)  # an older build may have had others

@@ -22,8 +22,8 @@ from tandemlift.compiler.jit.functions import compiled
 from tandemlift.compiler.jit.machine import BEST, Loaded
 from tandemlift.compiler.jit.machine import compiled as machine_code
 from tandemlift.compiler.tracer import Function, Module, double
-from tandemlift.core.algebra.layout import flat, leaves
-from tandemlift.core.algebra.vector import Vec3, each
+from tandemlift.core.types import flat, leaves
+from tandemlift.core.vector import Vec3, each
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of

@@ -18,8 +18,8 @@ import tandemlift as tl
 from tandemlift.analysis.studies.engine_comparison import angles_between, differences, fly_in
 from tandemlift.compiler.jit.functions import compiled
 from tandemlift.compiler.tracer import traced
-from tandemlift.core.algebra.layout import flat, unflat
-from tandemlift.core.algebra.vector import ZERO, Absent, each
+from tandemlift.core.types import flat, unflat
+from tandemlift.core.vector import ZERO, Absent, each
 from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.engines.registry import engine_named
 from tandemlift.parts.mechanics.push import CentralPush, PushSamples

@@ -24,9 +24,9 @@ from pathlib import Path
 from machine import describe, heading, table
 from playwright.sync_api import Browser, Page, sync_playwright
 
-from tandemlift.apps.live.offline import pages
-from tandemlift.apps.live.offline.page_modules import packed_flights
+from tandemlift.apps.live import pages
 from tandemlift.apps.live.page_files import page_files
+from tandemlift.apps.live.page_modules import packed_flights
 
 CHROMIUM = "/usr/bin/chromium"
 FLAGS = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking")

@@ -16,7 +16,7 @@ import tandemlift as tl
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.checked_file import write_checked
 from tandemlift.analysis.studies.execution.store import open_folder
-from tandemlift.analysis.studies.reading.table import Study
+from tandemlift.analysis.studies.table import Study
 from tandemlift.pictures.report.study.study_report import write_study_report
 
 KEYS = ("plant.mass_scale", "admittance.damping", "admittance.mass", "admittance.threshold", "wind.turbulence")

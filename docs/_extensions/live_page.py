@@ -7,9 +7,9 @@ from typing import Any
 
 from sphinx.util import logging
 
-from tandemlift.apps.live.offline.page_modules import packed_flights
-from tandemlift.apps.live.offline.pages import offline_html
 from tandemlift.apps.live.page_files import page_files
+from tandemlift.apps.live.page_modules import packed_flights
+from tandemlift.apps.live.pages import offline_html
 
 MISSIONS = ("hover", "zigzag", "iris")
 log = logging.getLogger(__name__)

@@ -17,7 +17,7 @@ from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.missions import Mission, load_mission, tables_of
 from tandemlift.missions.bounds import plain
 from tandemlift.missions.files import built_in
-from tandemlift.missions.key_reference.sections import Key, is_of_the_package, sections
+from tandemlift.missions.sections import Key, is_of_the_package, sections
 from tandemlift.parts.controllers import CONTROLLERS
 
 Changes = dict[str, Any]

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from tandemlift.core.findings import FINDING_NAMES
-from tandemlift.core.outcomes import OUTCOMES
+from tandemlift.core.phases import OUTCOMES
 
 
 class Census:

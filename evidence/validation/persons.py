@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.types import GRAVITY
 from tandemlift.missions import Mission, load_mission
 from validation.rows import Row
 from validation.scenarios import Bench, Changes

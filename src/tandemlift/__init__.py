@@ -11,25 +11,25 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from tandemlift.core.version import __version__ as __version__
+from tandemlift.core.files import __version__ as __version__
 
 if TYPE_CHECKING:
     from tandemlift.analysis.linearization.linear_model import LinearModel
     from tandemlift.analysis.linearization.linearize import linearize
     from tandemlift.analysis.linearization.mission_check import check
-    from tandemlift.analysis.studies.reading.table import Study, load_study
     from tandemlift.analysis.studies.study import study
+    from tandemlift.analysis.studies.table import Study, load_study
     from tandemlift.analysis.studies.tuning.tune import tune
-    from tandemlift.codegen.compiling import compile_mission
+    from tandemlift.codegen.mission_module import compile_mission
     from tandemlift.core.errors import FlightWarning, InputError
     from tandemlift.flight.record import Flight
     from tandemlift.missions import Mission, load_mission
     from tandemlift.parts.controllers.user_controller import load_controller
     from tandemlift.parts.mechanics.vehicle import Vehicle
-    from tandemlift.pictures.report.tuning.feel_report import feel
+    from tandemlift.pictures.report.study.feel_report import feel
     from tandemlift.simulation.fly import fly, fly_many
     from tandemlift.simulation.pilot_api import Pilot
-    from tandemlift.simulation.stepwise.simulation import Simulation
+    from tandemlift.simulation.simulation import Simulation
 
 _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Flight": "flight.record",
@@ -38,18 +38,18 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "LinearModel": "analysis.linearization.linear_model",
     "Mission": "missions",
     "Pilot": "simulation.pilot_api",
-    "Simulation": "simulation.stepwise.simulation",
-    "Study": "analysis.studies.reading.table",
+    "Simulation": "simulation.simulation",
+    "Study": "analysis.studies.table",
     "Vehicle": "parts.mechanics.vehicle",
     "check": "analysis.linearization.mission_check",
-    "compile_mission": "codegen.compiling",
-    "feel": "pictures.report.tuning.feel_report",
+    "compile_mission": "codegen.mission_module",
+    "feel": "pictures.report.study.feel_report",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
     "linearize": "analysis.linearization.linearize",
     "load_controller": "parts.controllers.user_controller",
     "load_mission": "missions",
-    "load_study": "analysis.studies.reading.table",
+    "load_study": "analysis.studies.table",
     "study": "analysis.studies.study",
     "tune": "analysis.studies.tuning.tune",
 }

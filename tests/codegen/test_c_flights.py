@@ -9,8 +9,8 @@ from c_flights import STRICT, CFlight, differences, same, unfused
 from passing import thrown, upright
 
 import tandemlift as tl
-from tandemlift.codegen.c.write import code_texts, written
-from tandemlift.core.algebra.layout import leaves
+from tandemlift.codegen.c_package import code_texts, written
+from tandemlift.core.types import leaves
 from tandemlift.missions import built_in, changed
 from tandemlift.simulation.assembly.traced_assembly import trace_assembly
 from tandemlift.simulation.plan import FlightPlan

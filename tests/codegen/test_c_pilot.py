@@ -10,8 +10,8 @@ from c_flights import STRICT, same, unfused
 from listings import LAW
 
 import tandemlift as tl
-from tandemlift.codegen.c.write import code_texts, write_c, written
-from tandemlift.core.algebra.layout import leaves
+from tandemlift.codegen.c_package import code_texts, write_c, written
+from tandemlift.core.types import leaves
 from tandemlift.parts.controllers import load_controller
 from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
 from tools import need

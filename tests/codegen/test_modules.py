@@ -15,8 +15,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.codegen import machines
-from tandemlift.codegen.compiling import TARGETS, compile_mission
-from tandemlift.codegen.mission_module import module_of
+from tandemlift.codegen.mission_module import TARGETS, compile_mission, module_of
 from tandemlift.codegen.module_text import write_flight_loop, write_ramp
 from tandemlift.codegen.wasm_linker import LinkError, linked
 from tandemlift.codegen.wasm_sections import Reader, signed, unsigned

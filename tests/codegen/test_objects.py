@@ -11,7 +11,7 @@ from draws import drawn_missions, drawn_numbers
 from object_flights import fly_object, link_object
 
 import tandemlift as tl
-from tandemlift.codegen.compiling import compile_mission
+from tandemlift.codegen.mission_module import compile_mission
 from tandemlift.missions import built_in, changed
 
 CORTEX = Path(__file__).parent / "cortex_m7"

@@ -13,7 +13,7 @@ from draws import drawn_missions, drawn_numbers
 from wasm_flights import Jobs, WasmFlight, flights_in_page, wasm_flights
 
 import tandemlift as tl
-from tandemlift.codegen.compiling import compile_mission
+from tandemlift.codegen.mission_module import compile_mission
 from tandemlift.missions import built_in, changed
 
 Fly = Callable[[Path, str, Jobs], list[WasmFlight]]

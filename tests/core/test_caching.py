@@ -2,8 +2,8 @@
 
 import math
 
-from tandemlift.core.algebra.vector import Absent, vec3
 from tandemlift.core.caching import KEPT, cached
+from tandemlift.core.vector import Absent, vec3
 from tandemlift.missions import load_mission
 
 POSITION = "initial.position"

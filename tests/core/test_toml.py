@@ -4,9 +4,8 @@ import tomllib
 
 import pytest
 
-from tandemlift.core import toml
 from tandemlift.core.errors import InputError
-from tandemlift.core.toml import MAX_PARTS, toml_tables
+from tandemlift.core.files import MAX_PARTS, toml_tables
 from tandemlift.missions import Mission
 from tandemlift.missions.refusals import keys_of
 
@@ -30,7 +29,7 @@ PARTS = {
 def test_a_key_of_too_many_parts_is_refused_before_it_is_parsed(place, key, monkeypatch):
     text = place.format(key)
     assert tomllib.loads(text)  # which would grow with the square of the parts
-    monkeypatch.setattr(toml, "tomllib", None)
+    monkeypatch.setattr("tandemlift.core.files.tomllib", None)
     with pytest.raises(InputError, match=f"a key has at most {MAX_PARTS} parts"):
         toml_tables(text)
 

@@ -18,7 +18,7 @@ from tandemlift.apps.live.wire.page_messages import ResetMessage
 from tandemlift.engines import gazebo
 from tandemlift.engines.registry import EngineLost
 from tandemlift.simulation.many import fly_each
-from tandemlift.simulation.stepwise.recorded_flight import RecordedFlight
+from tandemlift.simulation.recorded_flight import RecordedFlight
 
 DT, LAST = 1e-3, 150  # s; the last step that the plugin takes
 SHORT = {"mission.duration": 0.4, "mission.log_interval": DT, "initial.euler": [0.1, -0.1, 0.3]}
@@ -207,7 +207,7 @@ class Server:
 def test_the_command_gazebo_writes_what_was_flown_and_names_the_end_of_its_server(
     options, command, tmp_path, monkeypatch
 ):
-    monkeypatch.setattr("tandemlift.apps.gazebo_app.flying.GazeboServer", Server)
+    monkeypatch.setattr("tandemlift.apps.ros.gazebo_flight.GazeboServer", Server)
     monkeypatch.setattr("tandemlift.engines.gazebo_server.root", lambda: None)
     words = ["--no-window", "--no-figures", "--out", "out", "--set=mission.log_interval=0.001"]
     code, errors = command("gazebo", "hover", *options, *words)
@@ -220,7 +220,7 @@ def test_the_command_gazebo_writes_what_was_flown_and_names_the_end_of_its_serve
 def middleware(monkeypatch):
     """What `tandemlift ros` connects to."""
     one = Middleware()
-    monkeypatch.setattr("tandemlift.apps.ros.selection.middleware_for", lambda *_, **__: one)
+    monkeypatch.setattr("tandemlift.apps.ros.node.middleware_for", lambda *_, **__: one)
     return one
 
 

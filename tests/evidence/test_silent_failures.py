@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from random_missions.generate import shortened
 
 import tandemlift as tl
-from tandemlift.core.outcomes import FAILURES
+from tandemlift.core.phases import FAILURES
 from tandemlift.simulation.many import fly_each
 
 AXES = st.integers(0, 2)

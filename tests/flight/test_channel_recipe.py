@@ -38,5 +38,5 @@ def test_a_channel_is_added_by_its_record_and_the_law_that_logs_it(tmp_path):
     package.insert("flight/channels.py", 'Channel("N", "world", "force of the air on all parts together"),', RECORD)
     package.insert("simulation/loop/log_sample.py", "    wind_force: Vec3", FIELD)
     package.insert("simulation/loop/log_sample.py", "wind_velocity=velocity,", VALUE)
-    package.insert("simulation/loop/log_sample.py", "from tandemlift.core.algebra.ops import clip", ", sqrt")
+    package.insert("simulation/loop/log_sample.py", "from tandemlift.core.algebra import clip", ", sqrt")
     assert package.run(PROGRAM) == "followed\n"

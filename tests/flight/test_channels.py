@@ -5,8 +5,8 @@ import pytest
 from reference_tables.channels import channel_tables
 
 import tandemlift as tl
-from tandemlift.core.algebra.layout import leaves
-from tandemlift.core.algebra.vector import Absent
+from tandemlift.core.types import leaves
+from tandemlift.core.vector import Absent
 from tandemlift.flight.channels import CHANNELS, DERIVED
 from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from patience import ended, said
 
-from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.types import GRAVITY
 from tandemlift.engines.gazebo import GazeboBody
 from tandemlift.engines.gazebo_wire import HEADER, MAGIC, VERSION, Wire
 from tandemlift.engines.models.sdf import rotors_of

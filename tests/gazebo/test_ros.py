@@ -15,8 +15,8 @@ import pytest
 from patience import ended, said, until
 from repository import ROOT as REPOSITORY
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import Quat
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import Quat
 from tandemlift.engines.gazebo_ros import ROOT
 from tandemlift.engines.ros_master import node
 from tandemlift.engines.rospy import message_type

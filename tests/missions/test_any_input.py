@@ -14,7 +14,7 @@ from mission_schema import EVERYTHING, SCHEMA
 
 import tandemlift as tl
 from tandemlift.apps.cli.terminal.mission_options import parse_setting
-from tandemlift.core.algebra.layout import flat
+from tandemlift.core.types import flat
 from tandemlift.missions import check, load_mission, to_toml
 from tandemlift.missions.bounds import allowed
 from tandemlift.simulation.assembly.assemble import assemble

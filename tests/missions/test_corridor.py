@@ -8,7 +8,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import tandemlift as tl
-from tandemlift.core.algebra.layout import unflat
+from tandemlift.core.types import unflat
 from tandemlift.missions import check, tables_of
 from tandemlift.parts.contact.corridor import CorridorTable, wall_tables
 from tandemlift.parts.person.person import PATH_LEG

@@ -7,7 +7,7 @@ import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.missions import changed, check, tables_of
 from tandemlift.parts.compliance.admittance import FEELS
-from tandemlift.simulation.portable_mission import portable_mission
+from tandemlift.simulation.caller_values import portable_mission
 
 
 def admittance(changes, name="iris"):

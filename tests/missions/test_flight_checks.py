@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, vec3
-from tandemlift.core.checks import CLOSE, FAILS, OK, judged
+from tandemlift.core.errors import CLOSE, FAILS, OK, judged
+from tandemlift.core.vector import ZERO, vec3
 from tandemlift.missions import built_in, load_mission, tables_of
 from tandemlift.missions.flight_checks.authority import CONTROL, authority_of
 from tandemlift.missions.flight_checks.loads import SIGMAS, WindOnParts, loads_of, turbulence_of

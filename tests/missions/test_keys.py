@@ -18,12 +18,12 @@ import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.missions import Mission, check, load_mission, merge, tables_of
 from tandemlift.missions.bounds import plain
-from tandemlift.missions.key_reference.explaining import explained, index, plain_name
-from tandemlift.missions.key_reference.markdown import key_tables
-from tandemlift.missions.key_reference.sections import is_of_the_package, sections
-from tandemlift.missions.key_reference.template import template_text
+from tandemlift.missions.changes import value_at
+from tandemlift.missions.explaining import explained, index, plain_name
+from tandemlift.missions.markdown import key_tables
+from tandemlift.missions.sections import is_of_the_package, sections
 from tandemlift.missions.tables.setting_checks import standing_of
-from tandemlift.missions.values import value_at
+from tandemlift.missions.template import template_text
 
 LEVEL = {"initial.euler": 0.0, "ground.model": "floor"}
 KEYS = [key for s in sections() if is_of_the_package(s.controller) for key in s.keys]

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
-from tandemlift.core.toml import MAX_PARTS
+from tandemlift.core.files import MAX_PARTS
 from tandemlift.missions.recording import MAX_UNPACKED, WIDTH, Recording, read_recording, write_recording
 
 LONG = ".".join("a" * 5_000)

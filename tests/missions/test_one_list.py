@@ -5,7 +5,7 @@ import warnings
 import pytest
 
 import tandemlift as tl
-from tandemlift.core.checks import FAILS, REFUSED
+from tandemlift.core.errors import FAILS, REFUSED
 from tandemlift.missions import load_mission
 from tandemlift.missions.checks import mission_checks
 

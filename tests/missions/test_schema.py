@@ -14,9 +14,9 @@ from pydantic import ValidationError
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.missions import DATA, Mission, built_in, load_mission, merge, tables_of
-from tandemlift.missions.key_reference.schema import mission_schema
-from tandemlift.missions.key_reference.template import template_text
-from tandemlift.missions.values import MISSING, value_at
+from tandemlift.missions.changes import MISSING, value_at
+from tandemlift.missions.schema import mission_schema
+from tandemlift.missions.template import template_text
 
 SAID = mission_schema()
 VALIDATOR = Draft7Validator(SAID)

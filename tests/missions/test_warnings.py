@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import tandemlift as tl
-from tandemlift.core.algebra.layout import leaves
+from tandemlift.core.types import leaves
 from tandemlift.missions import built_in, load_mission
 from tandemlift.missions.checks import sample_size
 from tandemlift.missions.tables.setting_checks import standing_of

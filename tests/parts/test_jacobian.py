@@ -9,7 +9,7 @@ import pytest
 from law_values import flat, rebuilt
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import Quat, Vec3
+from tandemlift.core.vector import Quat, Vec3
 from tandemlift.simulation.assembly.assemble import assemble
 from tandemlift.simulation.loop.step import step_flight
 

@@ -11,7 +11,7 @@ from law_values import flat, rebuilt
 from machine_code import answers
 
 import tandemlift as tl
-from tandemlift.core.algebra.layout import leaves
+from tandemlift.core.types import leaves
 from tandemlift.simulation.assembly.assemble import assemble
 from tandemlift.simulation.loop.step import FlightModel, StepInputs, step_flight
 

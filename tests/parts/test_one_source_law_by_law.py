@@ -10,8 +10,8 @@ import pytest
 from law_values import flat, rebuilt, record
 from machine_code import answers
 
-from tandemlift.core.algebra.ops import power
-from tandemlift.core.algebra.vector import (
+from tandemlift.core.algebra import power
+from tandemlift.core.vector import (
     Absent,
     Mat3,
     Quarters,
@@ -24,7 +24,6 @@ from tandemlift.core.algebra.vector import (
     hamilton,
     outer,
 )
-from tandemlift.parts import low_pass, trajectories
 from tandemlift.parts.compliance import admittance
 from tandemlift.parts.contact import feet as contact
 from tandemlift.parts.contact import hull, impulses, spheres, touches, walls
@@ -32,13 +31,12 @@ from tandemlift.parts.contact.wall_geometry import Wall
 from tandemlift.parts.controllers import equations_of_motion, sliding_surface
 from tandemlift.parts.estimation import wind_compensation
 from tandemlift.parts.guidance import guidance
-from tandemlift.parts.mechanics import loads, parts, rotation, tilt
-from tandemlift.parts.mechanics.inertia import gyroscopic
+from tandemlift.parts.mechanics import loads, low_pass, parts, rotation, trajectories
 from tandemlift.parts.mechanics.push import PointPush
-from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench, motion
-from tandemlift.parts.rotor_loss import decision as rotor_loss_decision
-from tandemlift.parts.rotor_loss import detection as rotor_loss_detection
+from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench, gyroscopic, motion
 from tandemlift.parts.rotors import allocation, ground_effect, rotor_faults, rotor_lag, rotors
+from tandemlift.parts.rotors import decision as rotor_loss_decision
+from tandemlift.parts.rotors import detection as rotor_loss_detection
 
 V = Vec3(0.0, 0.0, 0.0)
 M = Mat3(V, V, V)
@@ -115,10 +113,10 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "joint wrench, full": (parts.joint_wrench, (0.0, M, V, 0.0, V, V, parts.Acceleration(V, V))),
     "joint on payload": (parts.joint_on_payload, (M, V, JOINT)),
     "payload acceleration": (parts.payload_acceleration, (0.0, V, V, JOINT)),
-    "virtual inputs": (tilt.virtual_inputs, (EULER, 0.0)),
-    "total thrust": (tilt.total_thrust, (EULER, V)),
-    "tilt, exact": (tilt.desired_orientation, (tilt.TiltZXY(), V, EULER, 0.0)),
-    "tilt, printed": (tilt.desired_orientation, (tilt.TiltPrinted(), V, EULER, 0.0)),
+    "virtual inputs": (rotation.virtual_inputs, (EULER, 0.0)),
+    "total thrust": (rotation.total_thrust, (EULER, V)),
+    "tilt, exact": (rotation.desired_orientation, (rotation.TiltZXY(), V, EULER, 0.0)),
+    "tilt, printed": (rotation.desired_orientation, (rotation.TiltPrinted(), V, EULER, 0.0)),
     "smooth step": (trajectories.smoothstep, (0.0, 0.0, 0.0)),
     "soft gate": (admittance.gate, (admittance.SoftGate(V), V)),
     "sliding surface": (sliding_surface.sliding_surface, (SURFACE, V, V)),

@@ -14,7 +14,7 @@ from mission_schema import SCHEMA
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli, main
 from tandemlift.missions import tables_of
-from tandemlift.missions.values import MISSING, value_at
+from tandemlift.missions.changes import MISSING, value_at
 
 COMMANDS = {  # each with its arguments and options
     "run": {"MISSION", "--engine", "--out", "--set", "--no-figures"},

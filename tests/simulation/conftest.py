@@ -7,7 +7,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.compiler.jit.functions import compiled
-from tandemlift.core.algebra.layout import flat, leaves, unflat
+from tandemlift.core.types import flat, leaves, unflat
 from tandemlift.parts.controllers import CONTROLLERS, Measured, Reference, control, nftsmc, register
 from tandemlift.simulation.loop_code import COMMAND
 

@@ -10,10 +10,10 @@ from scipy import stats
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.vector import Absent, Vec3
 from tandemlift.core.errors import InputError
+from tandemlift.core.law import law
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import Absent, Vec3
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State

@@ -15,7 +15,7 @@ from patience import completed
 import tandemlift as tl
 from tandemlift.compiler.jit import machine, store
 from tandemlift.compiler.jit.store import key_of, sources
-from tandemlift.core.algebra.law import LAWS
+from tandemlift.core.law import LAWS
 from tandemlift.missions import built_in
 from tandemlift.simulation.loop_code import LANES
 from tandemlift.simulation.plan import FlightPlan

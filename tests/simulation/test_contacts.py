@@ -21,11 +21,11 @@ from validation.contacts import (
 from validation.persons import random_persons
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, Vec3
 from tandemlift.core.phases import CONTACT
+from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.estimation.contact_detection import ContactEstimate
 from tandemlift.parts.guidance.contact_hold import code_of
-from tandemlift.simulation.contact_texts import contact_codes, describe_contact
+from tandemlift.simulation.touches import contact_codes, describe_contact
 
 pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.core.errors.FlightWarning")
 

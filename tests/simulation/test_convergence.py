@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, hamilton
+from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, hamilton
 from tandemlift.parts.mechanics.push import CentralPush
 from tandemlift.parts.mechanics.rigid_body import State, motion
 from tandemlift.parts.pilot.pilot import PilotInput, decide

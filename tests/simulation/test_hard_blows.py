@@ -10,7 +10,7 @@ from passing import nearest_of, random_throws, thrown, upright
 from thrown import arena, random_throw
 
 import tandemlift as tl
-from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.types import GRAVITY
 from tandemlift.parts.contact.impulses import CORE
 from tandemlift.parts.mechanics.vehicle import Vehicle
 

@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 from storm import DT, UNIT, calm
 
 import tandemlift as tl
-from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.types import GRAVITY
 
 EVERY = {"mission.log_interval": DT}
 SIGMA_F, SIGMA_A = 0.05, 0.03  # N, m/s²

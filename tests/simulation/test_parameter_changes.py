@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.core.algebra.layout import flat
+from tandemlift.core.types import flat
 from tandemlift.missions.recording import WIDTH, Recording, read_recording, write_recording
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 

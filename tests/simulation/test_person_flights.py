@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import vec3
+from tandemlift.core.vector import vec3
 from tandemlift.missions import built_in
 from tandemlift.parts.person.person import PersonView
 from tandemlift.pictures.figures.drawing.clearances import clearances

@@ -7,17 +7,17 @@ import pytest
 from storm import COMMAND, DT, MOTION, UNIT, storm, storms
 
 import tandemlift as tl
-from tandemlift.core.algebra.layout import leaves, unflat
-from tandemlift.core.algebra.vector import ZERO
+from tandemlift.core.types import leaves, unflat
+from tandemlift.core.vector import ZERO
 from tandemlift.parts.contact.wall_geometry import WALL
 from tandemlift.parts.contact.walls import nearest_with
 from tandemlift.parts.mechanics.push import PushSamples, push_at
 from tandemlift.parts.mechanics.wind import gust_velocity
 from tandemlift.parts.pilot.pilot import with_allocation
-from tandemlift.parts.random_numbers import normals
 from tandemlift.parts.rotors.allocation import AllocationState
 from tandemlift.parts.sensors.readings import Readings
 from tandemlift.simulation.assembly.assemble import assemble
+from tandemlift.simulation.loop.random_numbers import normals
 from tandemlift.simulation.loop.step import StepInputs, finish_step, run_pilot, with_person
 from tandemlift.simulation.loop_code import GAUSSIAN, GUST, SPAN
 

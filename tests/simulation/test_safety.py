@@ -8,13 +8,13 @@ from reference_tables.faults import fault_rows
 from repository import ROOT
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, Absent
 from tandemlift.core.faults import ALARM_TEXTS
 from tandemlift.core.phases import PHASE_NAMES
-from tandemlift.missions.key_reference.sections import sections
+from tandemlift.core.vector import ZERO, Absent
+from tandemlift.missions.sections import sections
 from tandemlift.parts.estimation.disturbance_observer import NONE
 from tandemlift.parts.guidance.guidance import PilotInput, checked_input, guide
-from tandemlift.parts.requests import NO_REQUEST, UNKNOWN_STATUS
+from tandemlift.parts.person.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.simulation.assembly.assemble import assemble
 
 AT, STANDS = 8.5, 0.03  # s, when sensors fail; m, height of the standing vehicle

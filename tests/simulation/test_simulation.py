@@ -10,8 +10,8 @@ from scipy.integrate import quad, solve_ivp
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import ZERO
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import ZERO
 from tandemlift.parts.controllers import CONTROLLERS, Command, ControllerTable, control, register
 from tandemlift.parts.mechanics.rigid_body import Wrench
 

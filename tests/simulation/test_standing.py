@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.types import GRAVITY
 from tandemlift.simulation.assembly.assemble import assemble
 
 DT = 0.001

@@ -9,7 +9,7 @@ from patience import COMPILING
 
 import tandemlift as tl
 from tandemlift.compiler.jit import code, store
-from tandemlift.core.algebra.layout import leaves
+from tandemlift.core.types import leaves
 from tandemlift.simulation import fly, plan
 from tandemlift.simulation.loop_code import LANES, FlightMemory
 from tandemlift.simulation.plan import FlightPlan

@@ -9,7 +9,7 @@ import pytest
 from ten_crashes import HELD, THROWN, crash_mission, crashed_in
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import Absent, Vec3, each
+from tandemlift.core.vector import Absent, Vec3, each
 from tandemlift.parts.contact.touches import (
     UNTOUCHED,
     PartContacts,

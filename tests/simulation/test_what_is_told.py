@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, Vec3
 from tandemlift.core.faults import CHECKS
 from tandemlift.core.phases import GUIDED, IDLE, LIFT, REASONS
+from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.controllers import CONTROLLERS, Command, ControllerTable, control, register
 from tandemlift.parts.guidance.supervision import PHASE
 from tandemlift.parts.mechanics.rigid_body import Wrench

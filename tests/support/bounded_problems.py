@@ -16,8 +16,8 @@ from scipy.optimize import lsq_linear
 from tandemlift.compiler.jit.machine import BEST, QUICK, Loaded
 from tandemlift.compiler.jit.machine import compiled as object_code
 from tandemlift.compiler.tracer import Function, Module, Place
-from tandemlift.core.algebra.layout import flat
-from tandemlift.core.algebra.vector import each, vec3
+from tandemlift.core.types import flat
+from tandemlift.core.vector import each, vec3
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of

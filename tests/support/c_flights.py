@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from tandemlift.codegen.c.write import code_texts, written
-from tandemlift.core.algebra.layout import leaves
+from tandemlift.codegen.c_package import code_texts, written
+from tandemlift.core.types import leaves
 from tandemlift.missions import changed
 from tandemlift.simulation.loop_code import FlightMemory, leaf_offset
 from tandemlift.simulation.plan import FlightPlan

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 import tandemlift as tl
-from tandemlift.codegen.c.language.literals import number
-from tandemlift.codegen.c.write import code_texts, written
-from tandemlift.core.algebra.layout import leaves
+from tandemlift.codegen.c.literals import number
+from tandemlift.codegen.c_package import code_texts, written
+from tandemlift.core.types import leaves
 from tandemlift.simulation.pilot_api import INPUT
 
 HERE = Path(__file__).parents[1] / "codegen" / "cortex_m7"

@@ -15,7 +15,7 @@ from tandemlift.compiler.jit.machine import BEST, Level, Loaded
 from tandemlift.compiler.jit.machine import compiled as object_code
 from tandemlift.compiler.tracer import Function, Graph, Module, symbols
 from tandemlift.compiler.tracer.fused import fused
-from tandemlift.core.algebra.layout import flat, leaves, rebuilt
+from tandemlift.core.types import flat, leaves, rebuilt
 
 STEPS = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_void_p] * 4, ctypes.c_int64)
 

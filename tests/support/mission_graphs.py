@@ -12,7 +12,7 @@ import numpy as np
 
 from tandemlift.compiler.jit.machine import QUICK, Loaded, compiled
 from tandemlift.compiler.tracer import Function, Module, Place, Symbol
-from tandemlift.core.algebra.layout import numbers_of
+from tandemlift.core.types import numbers_of
 from tandemlift.simulation.assembly.traced_assembly import TracedAssembly
 from tandemlift.simulation.loop_code.context import aligned
 

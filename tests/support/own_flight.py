@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tandemlift.apps.live.offline.page_modules import FORMAT, PackedFlight
 from tandemlift.apps.live.page_files import PAGE_FOLDER
+from tandemlift.apps.live.page_modules import FORMAT, PackedFlight
 from tandemlift.apps.live.wire.frames import read_frames
-from tandemlift.core.version import __version__
+from tandemlift.core.files import __version__
 
 HERE = Path(__file__).parent
 INDEX = {"format": FORMAT, "version": __version__, "broken": "broken", "other_version": "other"}

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation, Slerp
 from ten_crashes import THROWN
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import vec3
+from tandemlift.core.vector import vec3
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission
 from tandemlift.parts.contact.corridor import WallTable

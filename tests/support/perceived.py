@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from machine_code import Loop
 
-from tandemlift.core.algebra.layout import leaves, unflat
-from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, each
+from tandemlift.core.types import leaves, unflat
+from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.parts.estimation.navigation import NavigationState, Navigator, navigate, navigator, start_navigation
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, estimate, push_estimator, start_push
 from tandemlift.parts.mechanics.loads import PerfectReadings

@@ -8,7 +8,7 @@ from tandemlift.analysis.studies.design.plan import SEED
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.anywhere import fly_study
 from tandemlift.analysis.studies.execution.store import open_folder
-from tandemlift.analysis.studies.reading.table import load_study
+from tandemlift.analysis.studies.table import load_study
 
 WHO = ("mission", "controller", "engine")
 DRAWN = {"distribution": "uniform", "low": 0.9, "high": 1.2}

@@ -11,9 +11,9 @@ from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.compiler.jit.machine import QUICK
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.vector import ZERO, Absent, Quat, each, total, vec3
+from tandemlift.core.law import law
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import ZERO, Absent, Quat, each, total, vec3
 from tandemlift.engines.compiled import advance, plant_from
 from tandemlift.engines.compiled_contact import CompiledPlant, hull_contact_with
 from tandemlift.engines.compiled_touches import wall_contact_with

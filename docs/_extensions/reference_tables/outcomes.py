@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from reference_tables.markdown import codes, linked, table
 from tandemlift.core.findings import KINDS
-from tandemlift.core.outcomes import ENDINGS, OUTCOMES
+from tandemlift.core.phases import ENDINGS, OUTCOMES
 
 
 def outcomes() -> str:

@@ -9,7 +9,7 @@ from pydantic import BaseModel
 
 from reference_tables.markdown import table
 from tandemlift.core import keys
-from tandemlift.core.toml import shown
+from tandemlift.core.errors import shown
 from tandemlift.missions import Mission
 from tandemlift.missions.bounds import allowed
 from tandemlift.parts.controllers import CascadeTable

@@ -10,7 +10,7 @@ from tandemlift.apps.export.recipes import Recipe
 from tandemlift.apps.export.topics import NOT_SAMPLES, ROOT, OtherTopic, all_recipes
 from tandemlift.apps.live.session.tunable_parameters import CHOICES, TUNABLE
 from tandemlift.apps.ros.parameters import RATIO, SPRING
-from tandemlift.apps.ros.requests import REQUESTS
+from tandemlift.apps.ros.pushes import REQUESTS
 from tandemlift.apps.ros.ros2 import ONLY_ROS2
 from tandemlift.apps.ros.topics import ONLY_LIVE
 from tandemlift.flight.channels import CHANNELS

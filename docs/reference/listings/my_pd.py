@@ -5,10 +5,14 @@ from typing import NamedTuple
 from tandemlift.core.algebra import GRAVITY, ZERO, Mat3, Number, Vec3, clip, law, vec3
 from tandemlift.core.keys import NonNegative3, Positive3, key
 from tandemlift.parts.controllers import Command, ControllerTable, control, register
-from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
-from tandemlift.parts.mechanics.rigid_body import UP, Wrench
-from tandemlift.parts.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates
-from tandemlift.parts.mechanics.tilt import TiltZXY, desired_orientation, total_thrust
+from tandemlift.parts.mechanics.rigid_body import UP, Wrench, apply_inertia, gyroscopic, inertia_value
+from tandemlift.parts.mechanics.rotation import (
+    TiltZXY,
+    desired_orientation,
+    euler_from_quaternion,
+    euler_rates_from_rates,
+    total_thrust,
+)
 
 
 class Settings(ControllerTable):

@@ -8,8 +8,13 @@ from tandemlift.core.algebra import GRAVITY, Vec3
 from tandemlift.core.keys import NonNegative3, Positive3, key
 from tandemlift.parts.controllers import Command, ControllerTable, control, register
 from tandemlift.parts.mechanics.rigid_body import Wrench
-from tandemlift.parts.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates
-from tandemlift.parts.mechanics.tilt import TiltZXY, desired_orientation, total_thrust
+from tandemlift.parts.mechanics.rotation import (
+    TiltZXY,
+    desired_orientation,
+    euler_from_quaternion,
+    euler_rates_from_rates,
+    total_thrust,
+)
 
 
 class Settings(ControllerTable):

@@ -5,10 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from pydantic import BaseModel
 
-from tandemlift.codegen.number_facts import number_facts
-from tandemlift.core.algebra.layout import leaves
+from tandemlift.core.keys import description_of
+from tandemlift.core.types import leaves
 from tandemlift.flight.channels import channel_of
+from tandemlift.missions import Mission
+from tandemlift.missions.schema import schema_of
 from tandemlift.simulation.assembly.traced_assembly import TracedAssembly
 from tandemlift.simulation.loop_code.context import POINTERS, WORDS
 from tandemlift.simulation.parameter_changes import hand_place
@@ -72,3 +75,31 @@ def _channels(plan: FlightPlan) -> list[dict[str, Any]]:
         facts = {"unit": channel.unit, "frame": channel.frame, "meaning": channel.meaning}
         found.append({"name": name, "columns": places, **facts})
     return found
+
+
+BOUNDS = ("minimum", "exclusiveMinimum", "maximum", "exclusiveMaximum")
+
+
+def number_facts(mission: Mission, key: str) -> dict[str, Any]:
+    """What is said of a number of a mission: `unit`, `meaning` and bounds by their names in JSON Schema.
+
+    Args:
+        mission: whose number it is; it says which controller's keys there are.
+        key: dotted, with the number of a list's entry where there is one.
+    """
+    value: Any = mission
+    for part in key.split("."):
+        if isinstance(value, BaseModel):
+            field, value = type(value).model_fields[part], getattr(value, part)
+        else:
+            value = value[int(part)]
+    description = description_of(field)
+    unit = "" if description.unit in (None, "1") else description.unit
+    return {"unit": unit, "meaning": description.meaning, **_bounds(schema_of(field))}
+
+
+def _bounds(schema: dict[str, Any]) -> dict[str, float]:
+    """The bounds of the innermost number of a schema."""
+    while "type" not in schema or schema["type"] == "array":
+        schema = schema["items"] if schema.get("type") == "array" else schema["anyOf"][0]
+    return {name: schema[name] for name in BOUNDS if name in schema}

@@ -5,21 +5,29 @@ from __future__ import annotations
 import hashlib
 import inspect
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tandemlift.codegen.machines import Machine, machine_named, object_code
+from tandemlift.codegen.c_package import write_c
+from tandemlift.codegen.machines import MACHINES, Machine, machine_named, object_code
 from tandemlift.codegen.manifest import manifest_of
-from tandemlift.codegen.module_text import ValuesFunction, write_flight_loop, write_ramp, write_values_function
-from tandemlift.codegen.prepare_text import PreparedLayout, write_prepare
+from tandemlift.codegen.module_text import (
+    PreparedLayout,
+    ValuesFunction,
+    write_flight_loop,
+    write_prepare,
+    write_ramp,
+    write_values_function,
+)
 from tandemlift.codegen.wasm_linker import linked
 from tandemlift.compiler.jit import store
-from tandemlift.core.version import __version__
+from tandemlift.core.errors import InputError
+from tandemlift.core.files import __version__, atomic_write
 from tandemlift.missions import Mission
 from tandemlift.simulation.assembly.traced_assembly import TracedAssembly, trace_assembly
+from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.portable_mission import portable_mission
 
 FUNCTIONS = ("prepare", "fly", "ramp")
 Functions = Callable[[FlightPlan], Sequence[ValuesFunction]]
@@ -103,3 +111,44 @@ def _written(
     sizes = {f.name: (f.width, write_values_function(loop.module, f)) for f in functions}
     prepared = write_prepare(loop.module, traced)
     return WrittenModule(loop.module.text, prepared, loop.scratch.size, sizes)
+
+
+TARGETS = {"c": "C99 sources, for any compiler", **{name: machine.meaning for name, machine in MACHINES.items()}}
+ENDINGS = {"wasm32": "wasm"}
+
+
+def compile_mission(mission: Mission, target: str, folder: Path | str, *, single: bool = False) -> list[Path]:
+    """Compile a mission for another machine: its numbers, its loop over steps, its pilot.
+
+    Args:
+        mission: from `load_mission`. The code is that of `mission.fma = false`.
+        target: a name in `TARGETS`.
+        folder: where the files go; made if it does not exist.
+        single: whether C computes in single precision.
+
+    Returns:
+        The files, which are a module or object and its manifest, or the sources of a C project.
+
+    Raises:
+        InputError: the target is unknown, this LLVM lacks it, or no other machine can fly the mission.
+    """
+    if target not in TARGETS:
+        raise InputError(f"target = {target!r}: must be one of {', '.join(TARGETS)}")
+    if single and target != "c":
+        raise InputError(f"single = true: only for target 'c'; {target} computes in double precision")
+    if target == "c":
+        return write_c(mission, folder, single)
+    return list(_write_module(mission, target, Path(folder)))
+
+
+def _write_module(mission: Mission, target: str, folder: Path) -> Iterator[Path]:
+    module = module_of(mission, target)
+    folder.mkdir(parents=True, exist_ok=True)
+    name = mission.mission.name
+    for ending, content in (
+        (ENDINGS.get(target, "o"), module.code),
+        ("json", json.dumps(module.manifest, indent=1, ensure_ascii=False).encode()),
+    ):
+        with atomic_write(folder / f"{name}.{ending}") as partial:
+            partial.write_bytes(content)
+        yield folder / f"{name}.{ending}"

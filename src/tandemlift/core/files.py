@@ -1,14 +1,32 @@
-"""Files of the package, atomic writing of files, and the unpacked size of an archive."""
+"""The package's version and files, atomic writing of files, and reading of untrusted TOML.
+
+The memory for reading TOML grows with the square of the number of a key's parts, so that number is bounded.
+"""
 
 from __future__ import annotations
 
+import re
 import secrets
+import tomllib
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from functools import cache
+from importlib import metadata
 from pathlib import Path
+from typing import Any
 
+from tandemlift.core.errors import InputError
+
+__version__ = "0.2.0"
 DATA = Path(__file__).resolve().parents[1] / "data"  # missions, pages, templates: everything but Python
+
+
+@cache
+def versions(engine: str) -> Mapping[str, str]:
+    """Versions of the packages that a flight in an engine uses."""
+    packages = ("llvmlite", "numpy", *(["mujoco"] if engine == "mujoco" else []))
+    return {"tandemlift": __version__, **{name: metadata.version(name) for name in packages}}
 
 
 @contextmanager
@@ -29,3 +47,37 @@ def atomic_write(path: Path) -> Iterator[Path]:
 def unpacked_size(archive: zipfile.ZipFile) -> int:
     """Unpacked size of all files of an archive [bytes], by its directory; no more than that is ever read."""
     return sum(file.file_size for file in archive.infolist())
+
+
+MAX_PARTS = 16  # of a dotted key; no key of a mission or of a study has half as many
+
+_PART = r"""(?:[\w-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')"""
+_TOO_DEEP = re.compile(rf"(?<![\w\\-]){_PART}(?:[ \t]*+\.[ \t]*+{_PART}){{{MAX_PARTS}}}")
+
+
+def toml_tables(text: str) -> dict[str, Any]:
+    """The tables of a TOML text.
+
+    Raises:
+        InputError: a key has more than `MAX_PARTS` parts; nothing is parsed.
+        ValueError: the text is not valid TOML.
+        RecursionError: its lists or tables are nested too deeply.
+    """
+    if deep := _TOO_DEEP.search(text):
+        raise _too_deep(deep[0])
+    return tomllib.loads(text)
+
+
+def parts_of(key: str) -> list[str]:
+    """Split a dotted key of plain words into its parts.
+
+    Raises:
+        InputError: there are more than `MAX_PARTS`.
+    """
+    if key.count(".") >= MAX_PARTS:
+        raise _too_deep(key)
+    return key.split(".")
+
+
+def _too_deep(key: str) -> InputError:
+    return InputError(f"{key[:40]}…: unknown key, nested too deeply: a key has at most {MAX_PARTS} parts")

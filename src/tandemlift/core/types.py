@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,3 +11,89 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 """Called with (units of work done, units in all)."""
+
+
+Number: TypeAlias = float
+"""A number: a float, an array, a symbol, or a set of numbers where one law serves many of them."""
+
+PerRotor: TypeAlias = Any
+"""A set with a number for each rotor, `vector.each(4 N)`: number j of quadrotor i, both from 0, is field 4 i + j."""
+
+PerQuadrotor: TypeAlias = Any
+"""A set with a number for each quadrotor, `vector.each(N)`."""
+
+Condition: TypeAlias = bool
+"""Whether something holds: a truth value, an array or a symbol of such."""
+
+
+def is_symbol(value: Any) -> bool:
+    """Whether a value is a symbol of `tracer`: a number that is not known yet."""
+    return hasattr(type(value), "functions")
+
+
+def number(value: Any) -> Number:
+    """A value as a float; a symbol unchanged."""
+    return cast(Number, value) if is_symbol(value) else float(value)
+
+
+GRAVITY = 9.81  # m/s², paper Table II
+
+
+NEVER = 1e18  # s
+
+
+def is_value(x: Any) -> bool:
+    """Whether x is a nested value rather than a number."""
+    return hasattr(x, "_fields")
+
+
+def flat(value: Any) -> list[float]:
+    """The numbers of a nested value, depth first."""
+    return [number for part in value for number in flat(part)] if is_value(value) else [float(value)]
+
+
+def numbers_of(value: Any) -> list[Any]:
+    """The numbers of a nested value, depth first, as they are: symbols, too."""
+    return layout_and_numbers(value)[1]
+
+
+def layout_and_numbers(value: Any) -> tuple[Any, list[Any]]:
+    """The classes of a nested value, and its numbers, depth first, as they are."""
+    numbers = list[Any]()
+    return _classes(value, numbers), numbers
+
+
+def _classes(value: Any, numbers: list[Any]) -> Any:
+    if not is_value(value):
+        numbers.append(value)
+        return None
+    classes: list[Any] = [type(value)]
+    for part in value:
+        if type(part) is float:  # by far most are
+            numbers.append(part)
+            classes.append(None)
+        else:
+            classes.append(_classes(part, numbers))
+    return tuple(classes)
+
+
+def leaves(value: Any) -> int:
+    """Number of leaves of a nested value."""
+    return sum(map(leaves, value)) if is_value(value) else 1
+
+
+def zeroed(value: Any) -> Any:
+    """The same nested value with every number 0.0: the layout alone."""
+    return type(value)(*map(zeroed, value)) if is_value(value) else 0.0
+
+
+def unflat(numbers: Any, like: Any) -> Any:
+    """A nested value laid out like `like` with these numbers, as Python floats."""
+    return rebuilt(iter(np.asarray(numbers, dtype=float).tolist()), like)
+
+
+def rebuilt(leaves: Any, like: Any) -> Any:
+    """A nested value laid out like `like`, made of the next leaves of an iterator."""
+    if not is_value(like):
+        return next(leaves)
+    return type(like)._make([next(leaves) if type(part) is float else rebuilt(leaves, part) for part in like])

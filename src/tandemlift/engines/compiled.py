@@ -10,11 +10,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.arrays import array, inverse, square_roots
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import Absent, Quarters, vec3
+from tandemlift.core.arrays import array, inverse, square_roots
 from tandemlift.core.caching import cached
+from tandemlift.core.law import law
+from tandemlift.core.types import Number, PerRotor
+from tandemlift.core.vector import Absent, Quarters, vec3
 from tandemlift.engines.compiled_contact import (
     BodySurroundings,
     CompiledPlant,
@@ -34,14 +34,23 @@ from tandemlift.engines.models.surroundings import floor_from, walls_from
 from tandemlift.parts.contact.feet import Floor
 from tandemlift.parts.contact.touches import Touches
 from tandemlift.parts.contact.walls import NearWalls, Walls
-from tandemlift.parts.mechanics.inertia import Inertia, inertia_value
 from tandemlift.parts.mechanics.loads import PartLoads, PerfectReadings, perfect_readings, readings_with_load
 from tandemlift.parts.mechanics.parts import Acceleration
-from tandemlift.parts.mechanics.plant_table import DisturbanceTable, PlantTable
 from tandemlift.parts.mechanics.push import CentralPush, PointPush, Push, PushSamples
-from tandemlift.parts.mechanics.rigid_body import InitialTable, RigidBody, State, Wrench, motion, rigid_body_motion, rk4
+from tandemlift.parts.mechanics.rigid_body import (
+    Inertia,
+    InitialTable,
+    RigidBody,
+    State,
+    Wrench,
+    inertia_value,
+    motion,
+    rigid_body_motion,
+    rk4,
+)
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTable
 from tandemlift.parts.rotors.allocation import mixer_of, wrench
 
 

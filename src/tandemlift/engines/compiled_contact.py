@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.vector import ZERO, Absent
+from tandemlift.core.law import choice, law
+from tandemlift.core.vector import ZERO, Absent
 from tandemlift.parts.contact.feet import Floor, feet_load, grips_after_step
 from tandemlift.parts.contact.hull import Hull, HullContact, hull_contact, hull_loads
 from tandemlift.parts.contact.impulses import WallImpulses, impulses_of_walls
 from tandemlift.parts.contact.walls import Walls, near_wall_contact, near_wall_loads
-from tandemlift.parts.mechanics.inertia import apply_inertia
 from tandemlift.parts.mechanics.loads import (
     PartLoad,
     PartLoads,
@@ -25,7 +24,7 @@ from tandemlift.parts.mechanics.loads import (
     resultant_of_quadrotors,
     without_negative_zero,
 )
-from tandemlift.parts.mechanics.rigid_body import RigidBody, State, motion
+from tandemlift.parts.mechanics.rigid_body import RigidBody, State, apply_inertia, motion
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.rotors.allocation import Mixer
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from tandemlift.core.algebra.law import choice
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Absent
+from tandemlift.core.law import choice
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Absent
 from tandemlift.engines.compiled_contact import CompiledPlant, DistantWalls, hull_contact_with
 from tandemlift.parts.contact.hull import HullContact
 from tandemlift.parts.contact.touches import (

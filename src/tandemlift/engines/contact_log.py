@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.core.algebra.layout import flat
-from tandemlift.core.algebra.vector import Absent, Vec3, set_of
-from tandemlift.core.types import Array
+from tandemlift.core.types import Array, flat
+from tandemlift.core.vector import Absent, Vec3, set_of
 from tandemlift.parts.contact.touches import PartContacts, SurfaceContacts, start_touches, touches_after
 
 SURFACES, KINDS = ("floor", "wall"), ("rotor", "guard", "beam")

@@ -21,9 +21,9 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from tandemlift.core.algebra.vector import Absent, vec3
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
+from tandemlift.core.vector import Absent, vec3
 from tandemlift.engines.contact_log import KINDS, SURFACES, ContactLog
 from tandemlift.engines.gazebo_server import GazeboServer, free_port
 from tandemlift.engines.gazebo_wire import STATE, PluginAnswer, Wire

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.core.algebra.vector import Absent, vec3
 from tandemlift.core.types import Array
+from tandemlift.core.vector import Absent, vec3
 from tandemlift.engines.contact_log import ContactLog
 from tandemlift.engines.models.mujoco_bodies import model_of
 from tandemlift.engines.models.mujoco_contact import touching_parts

@@ -16,7 +16,7 @@ import numpy as np
 from tandemlift.core.errors import InputError, suggestion, unknown
 from tandemlift.core.files import atomic_write, unpacked_size
 from tandemlift.core.findings import Finding, finding_from
-from tandemlift.core.outcomes import FAILURES, INTERRUPTED
+from tandemlift.core.phases import FAILURES, INTERRUPTED
 from tandemlift.core.types import Array
 from tandemlift.flight.channels import CHANNELS, DERIVED, OTHER, Channel, channel_of
 from tandemlift.flight.data_frames import to_pandas, to_xarray

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel
 
-from tandemlift.core.toml import shown
+from tandemlift.core.errors import shown
 
 Model = type[BaseModel]
 WORDS = {float: "a number", int: "a whole number", bool: "true or false", str: "text in quotes"}

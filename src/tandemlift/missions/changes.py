@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import copy
 import re
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from tandemlift.core.errors import InputError
+from tandemlift.core.errors import InputError, shown
+from tandemlift.core.files import parts_of
 from tandemlift.core.keys import PerAxis, is_number
-from tandemlift.core.toml import parts_of, shown
 from tandemlift.missions.bounds import table_in
 from tandemlift.missions.tables.mission import Mission
-from tandemlift.missions.values import Tables, merge, value_at
 from tandemlift.parts.compliance.admittance import with_feel
 from tandemlift.parts.controllers import CONTROLLERS
 
@@ -91,3 +91,27 @@ def changed_tables(tables: Tables, key: Any, value: Any, source: str) -> Tables:
     if names[0] != names[1] and key in ("controller", "controller.name"):
         after["controller"] = value if isinstance(value, dict) else {"name": value}
     return after
+
+
+Place = tuple[str | int, ...]
+Tables = dict[str, Any]
+MISSING = object()
+
+
+def value_at(tables: Any, place: Place) -> Any:
+    """The value at a place in nested tables, or MISSING."""
+    for part in place:
+        listed = isinstance(tables, (list, tuple)) and isinstance(part, int) and part < len(tables)
+        if not listed and not (isinstance(tables, Mapping) and part in tables):
+            return MISSING
+        tables = tables[part]
+    return tables
+
+
+def merge(base: Tables, changes: Tables) -> Tables:
+    """Merge `changes` into `base`: tables merge, everything else is replaced."""
+    merged = dict(base)
+    for key, value in changes.items():
+        both = isinstance(value, dict) and isinstance(merged.get(key), dict)
+        merged[key] = merge(merged[key], value) if both else value
+    return merged

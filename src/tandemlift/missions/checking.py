@@ -8,17 +8,13 @@ from typing import Any, NamedTuple
 
 from pydantic import BaseModel, ValidationError
 
-from tandemlift.core.checks import accepted
-from tandemlift.core.errors import FlightWarning, InputError, suggestion
-from tandemlift.core.toml import shown
-from tandemlift.missions.changes import changed_tables
+from tandemlift.core.errors import FlightWarning, InputError, accepted, shown, suggestion
+from tandemlift.missions.changes import MISSING, Place, Tables, changed_tables, value_at
 from tandemlift.missions.checks import mission_checks, refusals
-from tandemlift.missions.files import Layer
+from tandemlift.missions.files import Layer, tables_of
 from tandemlift.missions.flight_checks.table import worst_failures
 from tandemlift.missions.refusals import Problem, problems_in
 from tandemlift.missions.tables.mission import Mission
-from tandemlift.missions.values import MISSING, Place, Tables, value_at
-from tandemlift.missions.writing import tables_of
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
 
 MAX_PROBLEMS = 8  # reported at once

@@ -9,16 +9,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tandemlift.core.checks import CheckResult, refused
-from tandemlift.core.errors import InputError
+from tandemlift.core.errors import CheckResult, InputError, refused
 from tandemlift.missions.flight_checks.table import flight_checks
 from tandemlift.missions.recording import read_recording
 from tandemlift.missions.tables.mission import Mission, MissionTable
 from tandemlift.missions.tables.setting_checks import outcome_refusals, part_refusals, setting_warnings
 from tandemlift.parts.mechanics.push import point_checks
+from tandemlift.parts.mechanics.trajectories import phase_checks
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.sensors.sensor_list import ADDITIONAL
-from tandemlift.parts.trajectories import phase_checks
 
 MAX_STEPS = 1_000_000_000
 MAX_LOG = 4_000_000_000  # bytes

@@ -7,13 +7,15 @@ import os
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from tandemlift.core.errors import InputError, suggestion, unknown
-from tandemlift.core.files import DATA
-from tandemlift.core.toml import shown, toml_tables
+import tomli_w
+
+from tandemlift.core.errors import InputError, shown, suggestion, unknown
+from tandemlift.core.files import DATA, toml_tables
+from tandemlift.missions.changes import MISSING, Tables, merge, value_at
 from tandemlift.missions.recording import unpacked_recording
-from tandemlift.missions.values import MISSING, Tables, merge, value_at
+from tandemlift.missions.tables.mission import Mission
 
 MAX_FILE = 1_000_000  # bytes
 _parsed = functools.lru_cache(maxsize=32)(toml_tables)  # cached for sweeps of one mission; must not be modified
@@ -102,3 +104,19 @@ def _anchored(tables: Tables, folder: Path) -> Tables:
     if not isinstance(recording, str):
         return tables
     return merge(tables, {"person": {"recording": str((folder / recording).resolve())}})
+
+
+def tables_of(mission: Mission) -> Tables:
+    """The mission as nested tables of plain values, all keys resolved; keys that are not set are left out."""
+    return mission.model_dump(mode="json", exclude_none=True)
+
+
+def format_toml(tables: Mapping[str, Any]) -> str:
+    """Nested tables as TOML without loss, with lists of numbers on one line."""
+    text = re.sub(r"\[\n\s*([-+.\w\s,]*),\n\s*\]", lambda m: f"[{' '.join(m[1].split())}]", tomli_w.dumps(tables))
+    return re.sub(r"\[\n\s*(\[[^\[\]\n]*\]),\n\s*\]", r"[\1]", text)  # a list of one such list
+
+
+def to_toml(mission: Mission) -> str:
+    """The resolved mission as TOML; loading it gives the same mission."""
+    return format_toml(tables_of(mission))

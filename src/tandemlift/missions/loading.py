@@ -10,11 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.core.errors import InputError
-from tandemlift.missions.changes import changed_tables
+from tandemlift.missions.changes import Tables, changed_tables, value_at
 from tandemlift.missions.checking import as_checked, check
 from tandemlift.missions.files import Layer, layers_of, overlay, path_of
 from tandemlift.missions.tables.mission import Mission
-from tandemlift.missions.values import Tables, value_at
 from tandemlift.parts.controllers import CONTROLLERS, Controller
 
 

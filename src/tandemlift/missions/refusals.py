@@ -8,10 +8,9 @@ from typing import Any, NamedTuple, get_args, get_origin
 
 from pydantic import ValidationError
 
-from tandemlift.core.errors import nearest
-from tandemlift.core.toml import dotted, shown
+from tandemlift.core.errors import dotted, nearest, shown
 from tandemlift.missions.bounds import Model, allowed, plain, table_in
-from tandemlift.missions.values import MISSING, Place, value_at
+from tandemlift.missions.changes import MISSING, Place, value_at
 
 BY_ANNOTATION = (  # prefixes of the kinds of error for which the annotation has the allowed values
     *("missing", "axes", "float_", "int_", "bool_", "string_type", "finite_", "greater_", "less_"),

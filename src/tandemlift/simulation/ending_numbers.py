@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import atan2, maximum, sqrt, where
-from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Vec3, dot
-from tandemlift.core.outcomes import LEFT_FENCE, STRUCK, TURNED_OVER
+from tandemlift.core.algebra import atan2, chosen, maximum, sqrt, where
+from tandemlift.core.law import choice, law
+from tandemlift.core.phases import LEFT_FENCE, STRUCK, TURNED_OVER
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Vec3, dot
 from tandemlift.parts.guidance.fault_detection import distance_outside
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import body_z_axis

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from tandemlift.core.algebra.vector import Absent, dot, total
 from tandemlift.core.faults import ALARM_TEXTS, CHECKS
 from tandemlift.core.findings import Finding, FindingName, finding
 from tandemlift.core.phases import IDLE, LAND, LIFT, REASONS, STOPPED
+from tandemlift.core.vector import Absent, dot, total
 from tandemlift.missions import Mission
 from tandemlift.missions.tables.outcomes import Promise, promise_of
 from tandemlift.parts.compliance.following import FollowingState

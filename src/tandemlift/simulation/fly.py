@@ -13,10 +13,9 @@ from weakref import WeakKeyDictionary
 
 from tandemlift.compiler.jit.code import Code
 from tandemlift.compiler.jit.compile_events import Stopped, always
-from tandemlift.core.algebra.layout import leaves, unflat
 from tandemlift.core.errors import InputError
 from tandemlift.core.progress import progress_or_own
-from tandemlift.core.types import Progress
+from tandemlift.core.types import Progress, leaves, unflat
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission
 from tandemlift.missions.recording import engine_of

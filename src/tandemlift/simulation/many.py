@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any, Literal
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.outcomes import INTERRUPTED
+from tandemlift.core.phases import INTERRUPTED
 from tandemlift.core.types import Progress
 from tandemlift.engines.registry import EngineLost, engine_named
 from tandemlift.missions import Mission

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3
-from tandemlift.core.outcomes import ENDING_OF, FAR, LEFT_FENCE, STRUCK, TURNED_OVER
+from tandemlift.core.phases import ENDING_OF, FAR, LEFT_FENCE, STRUCK, TURNED_OVER
+from tandemlift.core.vector import ZERO, Absent, Vec3
 from tandemlift.flight.record import Ending
 from tandemlift.missions import Mission
 from tandemlift.parts.mechanics.rigid_body import State

@@ -13,10 +13,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.core.algebra.layout import flat, leaves
-from tandemlift.core.algebra.vector import Absent, layout
 from tandemlift.core.errors import InputError
-from tandemlift.core.types import Array
+from tandemlift.core.types import Array, flat, leaves
+from tandemlift.core.vector import Absent, layout
 from tandemlift.missions import Mission, in_turn
 from tandemlift.missions.recording import read_recording
 from tandemlift.simulation.loop_code import leaf_offset

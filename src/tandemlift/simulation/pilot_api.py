@@ -10,18 +10,17 @@ import numpy as np
 
 from tandemlift.compiler.jit.code import Code
 from tandemlift.compiler.jit.store import key_of
-from tandemlift.core.algebra.layout import flat, leaves, unflat
-from tandemlift.core.algebra.vector import ZERO, Absent, Quat
 from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import Refusals
-from tandemlift.core.types import Array
+from tandemlift.core.types import Array, flat, leaves, unflat
+from tandemlift.core.vector import ZERO, Absent, Quat
 from tandemlift.missions import Mission
 from tandemlift.parts.controllers import control
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.person.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.parts.pilot.pilot import PilotInput
 from tandemlift.parts.pilot.refusals import refusals_of
-from tandemlift.parts.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.simulation.assembly.pilot import start_pilot
 from tandemlift.simulation.assembly.traced_assembly import assembled_by_graph
 from tandemlift.simulation.loop_code.context import aligned

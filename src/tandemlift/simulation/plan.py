@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.core.algebra.layout import layout_and_numbers
-from tandemlift.core.algebra.vector import ZERO, each, layout
+from tandemlift.core.types import layout_and_numbers
+from tandemlift.core.vector import ZERO, each, layout
 from tandemlift.engines.registry import engine_named
 from tandemlift.flight.record import LATE
 from tandemlift.missions import Mission

@@ -9,25 +9,23 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.core.algebra.layout import flat, leaves, unflat
-from tandemlift.core.algebra.vector import Absent, Vec3, dot
 from tandemlift.core.faults import ALARM_TEXTS, CHECKS
-from tandemlift.core.outcomes import FAILURES
+from tandemlift.core.files import versions
 from tandemlift.core.phases import CONTACT as PHASE_CONTACT
-from tandemlift.core.phases import IDLE, PHASE_NAMES
-from tandemlift.core.types import Array
-from tandemlift.core.version import versions
+from tandemlift.core.phases import FAILURES, IDLE, PHASE_NAMES
+from tandemlift.core.types import Array, flat, leaves, unflat
+from tandemlift.core.vector import Absent, Vec3, dot
 from tandemlift.flight.record import Ending, Flight
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
 from tandemlift.parts.guidance.supervision import ALARM, CONTACT, PHASE, SupervisionState
-from tandemlift.simulation.contact_texts import describe_contact
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.loop.running_metrics import EMPTY, RunningMetrics, summary
 from tandemlift.simulation.loop.step import FlightModel, FlightState
 from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.outcome import ending_of, outcome_of
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.touches import describe_contact
 
 DETECTION = ("rotor_failure_detections", "rotor_failure_detection_delay_s")  # metrics with detection of a lost rotor
 OF_ANY_FLIGHT = (  # metrics besides those of `summary`

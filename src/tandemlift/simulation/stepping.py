@@ -13,10 +13,9 @@ from typing import Any
 import numpy as np
 
 from tandemlift.compiler.jit.compile_events import Stopped, always
-from tandemlift.core.algebra.layout import flat, leaves, unflat
-from tandemlift.core.algebra.vector import layout
 from tandemlift.core.refusals import Refusals
-from tandemlift.core.types import Array, Progress
+from tandemlift.core.types import Array, Progress, flat, leaves, unflat
+from tandemlift.core.vector import layout
 from tandemlift.engines.registry import EngineBody, EngineLost, PushedBody, TouchingBody, WaitingBody, engine_named
 from tandemlift.flight.record import interruption
 from tandemlift.parts.controllers import control

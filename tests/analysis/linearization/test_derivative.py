@@ -11,7 +11,7 @@ from for_all import for_all
 
 from tandemlift.analysis.linearization.derivative import Derivative, once_rounded
 from tandemlift.compiler.tracer import Graph, traced
-from tandemlift.core.algebra.ops import absolute, atan2, clip, cos, exp, log, power, sin, sqrt, tanh, where
+from tandemlift.core.algebra import absolute, atan2, clip, cos, exp, log, power, sin, sqrt, tanh, where
 from tandemlift.parts.sensors.noise_bias_drift import displayed
 
 ELEMENTARY = {

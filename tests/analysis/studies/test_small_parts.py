@@ -9,13 +9,12 @@ from study_runs import TWELVE, fly
 
 import tandemlift as tl
 from tandemlift.analysis.studies import controller_comparison
+from tandemlift.analysis.studies.closed_form import _free
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution import estimate
-from tandemlift.analysis.studies.feel.closed_form import _free
-from tandemlift.analysis.studies.feel.feel_checks import drift_checks
-from tandemlift.analysis.studies.feel.feel_study import _both
-from tandemlift.analysis.studies.feel.standard_push import answer_of
-from tandemlift.analysis.studies.reading.html import MOST_NAMES, study_html
+from tandemlift.analysis.studies.feel_study import _both, drift_checks
+from tandemlift.analysis.studies.html import MOST_NAMES, study_html
+from tandemlift.analysis.studies.standard_push import answer_of
 from tandemlift.analysis.studies.study import mission_of_row
 from tandemlift.analysis.studies.tuning.candidates import _trial
 from tandemlift.analysis.studies.tuning.front import front_of

@@ -9,7 +9,7 @@ from ros_trial import GUIDED, UP, Middleware, Trial
 
 import tandemlift as tl
 from tandemlift.apps.ros.parameters import DAMPING, RATIO
-from tandemlift.apps.ros.requests import REQUESTS, RequestServices
+from tandemlift.apps.ros.pushes import REQUESTS, RequestServices
 from tandemlift.missions import tables_of
 
 

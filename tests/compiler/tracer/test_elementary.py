@@ -11,14 +11,14 @@ import numpy as np
 import pytest
 
 from tandemlift.compiler.jit.functions import compiled as machine_code
-from tandemlift.core.algebra import ops
+from tandemlift.core import algebra
 
 COUNT = 4000
 
 
 def check_compiled(name: str, arguments: int = 1) -> Callable[..., np.ndarray]:
     """Machine code of an operation, over arrays; eight numbers at once give the bits of each alone."""
-    alone, block = (machine_code(getattr(ops, name), *[0.0] * arguments, lanes=lanes) for lanes in (1, 8))
+    alone, block = (machine_code(getattr(algebra, name), *[0.0] * arguments, lanes=lanes) for lanes in (1, 8))
 
     def evaluate(*arrays: Any) -> np.ndarray:
         rows = np.transpose([np.array(a, dtype=float) for a in arrays])

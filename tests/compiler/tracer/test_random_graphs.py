@@ -17,8 +17,8 @@ from tandemlift.compiler.jit.machine import BEST, QUICK, Loaded, compiled
 from tandemlift.compiler.tracer import Function, Graph, Module, Place, Symbol
 from tandemlift.compiler.tracer.elementary import floor
 from tandemlift.compiler.tracer.symbol import fma
-from tandemlift.core.algebra.ops import absolute, maximum, minimum, sqrt, where
-from tandemlift.core.algebra.vector import each
+from tandemlift.core.algebra import absolute, maximum, minimum, sqrt, where
+from tandemlift.core.vector import each
 from tandemlift.simulation.loop_code.context import aligned
 
 LANES, INPUTS, SHARED, OPERATIONS, ROWS = 8, 5, 2, 60, 24

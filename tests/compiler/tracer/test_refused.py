@@ -12,8 +12,8 @@ from patience import completed
 import tandemlift as tl
 from tandemlift.compiler.jit.functions import compiled, written
 from tandemlift.compiler.tracer import TraceError, graph
-from tandemlift.core.algebra.law import LAWS, law
-from tandemlift.core.algebra.vector import Vec3
+from tandemlift.core.law import LAWS, law
+from tandemlift.core.vector import Vec3
 from tandemlift.parts.controllers import load_controller
 
 HERE = "    attitude = euler_from_quaternion(state.attitude)\n"
@@ -35,7 +35,7 @@ WRONG = {  # what stands in the law, and why it is refused
     "a plain number": ("e = e * float(e.x)", NO_NUMBER),
     "a function of math": ("import math; e = e * math.sin(e.x)", NO_NUMBER),
     "a helper that makes plain numbers": (
-        "import tandemlift.core.algebra.layout as o; e = e * o.flat(e)[0]",
+        "import tandemlift.core.types as o; e = e * o.flat(e)[0]",
         NO_NUMBER,
     ),
     "a power": ("e = e * e.x**2", "takes a power by **: write a product, or power(x, p) of tandemlift.core.algebra"),

@@ -8,9 +8,9 @@ import pytest
 import tandemlift as tl
 from tandemlift.compiler.jit.functions import compiled
 from tandemlift.compiler.jit.machine import BEST, QUICK
-from tandemlift.core.algebra.law import elementwise, law
-from tandemlift.core.algebra.ops import absolute, clip, exp, greatest, maximum, sqrt, tanh, where
-from tandemlift.core.algebra.vector import Vec3, cross, dot, each, quarters, set_of, total
+from tandemlift.core.algebra import absolute, clip, exp, greatest, maximum, sqrt, tanh, where
+from tandemlift.core.law import elementwise, law
+from tandemlift.core.vector import Vec3, cross, dot, each, quarters, set_of, total
 from tandemlift.simulation.loop_code import traced_step
 from tandemlift.simulation.plan import LOOP_CODE
 

@@ -17,9 +17,9 @@ from tandemlift.compiler.jit.machine import BEST, QUICK
 from tandemlift.compiler.tracer import Graph, Symbol, elementary, symbols, traced
 from tandemlift.compiler.tracer.fused import fused
 from tandemlift.compiler.tracer.symbol import once_rounded
-from tandemlift.core.algebra.law import Absent, Elementwise, choice, elementwise, law
-from tandemlift.core.algebra.ops import clip, maximum, minimum, where
-from tandemlift.core.algebra.vector import Vec3, dot
+from tandemlift.core.algebra import clip, maximum, minimum, where
+from tandemlift.core.law import Absent, Elementwise, choice, elementwise, law
+from tandemlift.core.vector import Vec3, dot
 
 FUSED = "llvm.fma"
 ANY = st.floats(allow_nan=True, allow_infinity=True)

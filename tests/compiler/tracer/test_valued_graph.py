@@ -11,22 +11,22 @@ from tandemlift.compiler.tracer import Graph, TraceError, symbols
 from tandemlift.compiler.tracer.elementary import floor, to_integer
 from tandemlift.compiler.tracer.fused import FUSES, rounded_twice
 from tandemlift.compiler.tracer.valued_graph import OPERATIONS, ValuedGraph, evaluated
-from tandemlift.core.algebra import ops
-from tandemlift.core.algebra.vector import Vec3
-from tandemlift.parts.random_numbers import normals
+from tandemlift.core import algebra
+from tandemlift.core.vector import Vec3
+from tandemlift.simulation.loop.random_numbers import normals
 
 ROWS = 200
 
 
 def arithmetic(x, y, z):
     """Products and sums that would be fused, quotients by anything, roots and whole parts of anything."""
-    return x * y + z, x / y, floor(x), ops.sqrt(y), -z, abs(x), ops.minimum(x, y) - ops.maximum(y, z)
+    return x * y + z, x / y, floor(x), algebra.sqrt(y), -z, abs(x), algebra.minimum(x, y) - algebra.maximum(y, z)
 
 
 def choices(x, y, z):
     """Every comparison, and truths joined bit by bit."""
     truths = [x < y, x <= y, x > y, x >= y, x == y, x != y, (x < y) & (y < z), (x < y) | (y < z), (x < y) ^ (y < z)]
-    return tuple(ops.where(truth, x, z) for truth in (*truths, ~truths[0]))
+    return tuple(algebra.where(truth, x, z) for truth in (*truths, ~truths[0]))
 
 
 def whole(x, y, z):
@@ -34,17 +34,17 @@ def whole(x, y, z):
     i, j, k = to_integer(x), to_integer(y * 1e12), to_integer(z)
     made = [i + j, i - j, i * j * j, (i << 3) ^ (j >> 5), i & j | k]
     truths = [i < j, i <= j, i > j, i >= j, i == j, i != j]
-    return (*[m * 1.0 for m in made], *[ops.where(truth, x, y) for truth in truths])
+    return (*[m * 1.0 for m in made], *[algebra.where(truth, x, y) for truth in truths])
 
 
 def elementary(x, y, z):
     """Polynomials, and the bits of numbers."""
-    small = ops.clip(z, -1e4, 1e4)
+    small = algebra.clip(z, -1e4, 1e4)
     return (
-        *[f(small) for f in (ops.sin, ops.cos, ops.tan, ops.tanh, ops.exp, ops.expm1)],
-        ops.log(ops.maximum(abs(x), 1e-300)),
-        ops.atan2(x, y),
-        ops.power(abs(x), 0.4),
+        *[f(small) for f in (algebra.sin, algebra.cos, algebra.tan, algebra.tanh, algebra.exp, algebra.expm1)],
+        algebra.log(algebra.maximum(abs(x), 1e-300)),
+        algebra.atan2(x, y),
+        algebra.power(abs(x), 0.4),
     )
 
 

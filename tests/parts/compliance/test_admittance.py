@@ -11,7 +11,7 @@ from law_values import array, numbers, order_of, vectors
 from scipy.integrate import solve_ivp
 from scipy.signal import lsim
 
-from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.compliance.admittance import (
     Admittance,
     AdmittanceState,
@@ -22,7 +22,7 @@ from tandemlift.parts.compliance.admittance import (
     gate,
 )
 from tandemlift.parts.mechanics.push import GaussianPush, gaussian_force
-from tandemlift.parts.trajectories import Trajectory
+from tandemlift.parts.mechanics.trajectories import Trajectory
 
 MASS, DAMPING, STIFFNESS = Vec3(1.0, 2.0, 0.5), Vec3(1.6, 0.7, 3.0), Vec3(0.0, 4.0, 2.0)
 THRESHOLD = Vec3(0.3, 0.1, 0.2)

@@ -5,8 +5,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.core.phases import GUIDED
+from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.parts.compliance.admittance import admittance_from
 from tandemlift.parts.compliance.compliance import (
     BIAS_CLIP,
@@ -19,9 +19,9 @@ from tandemlift.parts.compliance.compliance import (
 from tandemlift.parts.compliance.energy_tank import EnergyTank, EnergyTankState, passivity_damping
 from tandemlift.parts.guidance.phases import PhaseOutput
 from tandemlift.parts.guidance.yaw_compliance import yaw_step
+from tandemlift.parts.mechanics.trajectories import SmoothStep
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import NoFaults
-from tandemlift.parts.trajectories import SmoothStep
 from tandemlift.simulation.assembly.hand_guidance import start_hand_guidance
 
 H = 1e-3

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, each, vec3
 from tandemlift.core.phases import REASONS
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import ZERO, Absent, Vec3, each, vec3
 from tandemlift.parts.compliance.above_ground import GroundClearance, above_ground
 from tandemlift.parts.compliance.admittance import admittance_from
 from tandemlift.parts.compliance.available import (

@@ -6,7 +6,7 @@ from law_values import array, paper_vehicle, random_state, seeds
 from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import Absent
+from tandemlift.core.vector import Absent
 from tandemlift.engines.models.parts_layout import parts_layout_from
 from tandemlift.parts.contact.clearance import clearance, smaller_clearance
 from tandemlift.parts.contact.wall_geometry import wall

@@ -12,11 +12,10 @@ from machine_code import Loop, answers
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.layout import flat, unflat
-from tandemlift.core.algebra.ops import sqrt
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, dot, vec3
+from tandemlift.core.algebra import sqrt
+from tandemlift.core.law import law
+from tandemlift.core.types import GRAVITY, flat, unflat
+from tandemlift.core.vector import ZERO, Quat, Vec3, dot, vec3
 from tandemlift.engines.models.parts_layout import parts_layout_from
 from tandemlift.parts.contact.feet import (
     Floor,

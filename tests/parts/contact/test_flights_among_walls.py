@@ -12,9 +12,9 @@ from law_values import flat, free_body, rebuilt, record
 from machine_code import Loop
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import sqrt, where
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, dot, vec3
+from tandemlift.core.algebra import sqrt, where
+from tandemlift.core.law import law
+from tandemlift.core.vector import ZERO, Quat, Vec3, dot, vec3
 from tandemlift.engines.models.parts_layout import parts_layout_from
 from tandemlift.parts.contact.clearance import clearance, may_touch_wall
 from tandemlift.parts.contact.wall_geometry import WALL, wall

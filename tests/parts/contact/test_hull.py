@@ -13,8 +13,8 @@ from scipy.spatial.transform import Rotation
 from thrown import arena, random_throw
 
 import tandemlift as tl
-from tandemlift.core.algebra.layout import flat
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.core.types import flat
+from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.engines.models.parts_layout import parts_layout_from
 from tandemlift.engines.models.surroundings import feet_and_floor_from
 from tandemlift.missions import Mission

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import Absent, mat3
+from tandemlift.core.vector import Absent, mat3
 from tandemlift.parts.contact.hull import hull, lowest_of_hull
 
 PLACES = np.array([[0.1, 1.0, 0.2], [-0.1, -1.0, 0.3]])

@@ -8,7 +8,7 @@ from among_walls import FLAT, GUARD, RADIUS, STEP, at, found, random_wall, walls
 from law_values import flat, free_body
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Quat, vec3
+from tandemlift.core.vector import ZERO, Quat, vec3
 from tandemlift.engines.models.parts_layout import parts_layout_from
 from tandemlift.parts.contact.impulses import CORE, impulses_of_walls
 from tandemlift.parts.contact.wall_geometry import wall

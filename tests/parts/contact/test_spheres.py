@@ -8,7 +8,7 @@ from law_values import BEAM, quadrotor
 from thrown import arena, random_throw
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, Absent, Quat, vec3
+from tandemlift.core.vector import ZERO, Absent, Quat, vec3
 from tandemlift.engines.models.parts_layout import parts_layout_from
 from tandemlift.engines.models.surroundings import wall_contact_from
 from tandemlift.parts.contact.clearance import clearance

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tandemlift.core.algebra.vector import Vec3, each
+from tandemlift.core.vector import Vec3, each
 from tandemlift.parts.contact.spheres import ContactPair, WallContact
 from tandemlift.parts.contact.touches import UNTOUCHED, PartContacts, harder_of, record_after
 

@@ -10,7 +10,7 @@ from scipy import signal
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Mat3, Quat, vec3
+from tandemlift.core.vector import ZERO, Mat3, Quat, vec3
 from tandemlift.parts.controllers.geometric import (
     Derivatives,
     attitude_error,
@@ -21,7 +21,7 @@ from tandemlift.parts.controllers.geometric import (
 from tandemlift.parts.controllers.pid import PIDGains, PIDStageState, back_calculated, pid_step
 from tandemlift.parts.controllers.smc import layer_reaching_time, linear_surface, switched_acceleration
 from tandemlift.parts.controllers.super_twisting import super_twisting_step, twisting_gains
-from tandemlift.parts.low_pass import LowPassState, low_pass
+from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 STEP = 0.001

@@ -48,7 +48,7 @@ print(len(made))
 
 
 HELPER = """
-from tandemlift.core.algebra.law import law
+from tandemlift.core.law import law
 
 @law
 def scaled(v):

@@ -8,8 +8,8 @@ import pytest
 from listings import GUIDE, LISTINGS
 
 import tandemlift as tl
-from tandemlift.core.algebra.layout import flat
-from tandemlift.missions.key_reference.markdown import key_tables
+from tandemlift.core.types import flat
+from tandemlift.missions.markdown import key_tables
 from tandemlift.parts.controllers import CONTROLLERS, controller, load_controller
 from tandemlift.parts.controllers import control as control_law
 

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from law_values import array, attitudes, free_body, order_of, random_vec3, seeds, vectors
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import ZERO, Vec3, vec3
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import ZERO, Vec3, vec3
 from tandemlift.parts.controllers.equations_of_motion import (
     GeneralizedVector,
     drift,

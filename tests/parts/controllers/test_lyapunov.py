@@ -11,7 +11,7 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import Quat, Vec3
+from tandemlift.core.vector import Quat, Vec3
 from tandemlift.parts.controllers.sliding_surface import (
     Cubic,
     Power,

@@ -9,8 +9,8 @@ from law_values import IRIS, array, free_body, random_state, random_vec3, seeds
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import ZERO, Quat, Vec3
 from tandemlift.parts.controllers import Measured, Reference, control
 from tandemlift.parts.controllers.attitude_reference import (
     AttitudeReference,
@@ -37,7 +37,7 @@ from tandemlift.parts.mechanics.rotation import (
     quaternion_from_euler,
     wrap_angle,
 )
-from tandemlift.parts.trajectories import Trajectory
+from tandemlift.parts.mechanics.trajectories import Trajectory
 from tandemlift.simulation.assembly.assemble import assemble
 
 DRAG = Vec3(0.1, 0.2, 0.3)

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from law_values import array, free_body, numbers, random_vec3, seeds, vectors
 
-from tandemlift.core.algebra.vector import Vec3, vec3
+from tandemlift.core.vector import Vec3, vec3
 from tandemlift.parts.controllers.equations_of_motion import GeneralizedVector, drift, expanded_dynamics, response
 from tandemlift.parts.controllers.sliding_surface import (
     Cubic,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, each
+from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.parts.contact.wall_geometry import Wall
 from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.estimation.contact_detection import (
@@ -41,7 +41,7 @@ from tandemlift.parts.estimation.contact_map import (
 )
 from tandemlift.parts.estimation.push_estimate import PushEstimator
 from tandemlift.parts.estimation.tare import SideForces
-from tandemlift.parts.low_pass import LowPassState, low_pass
+from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass
 from tandemlift.parts.mechanics.rigid_body import State
 
 PAIR, DT = each(2), 1e-3

@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import StateSpace, lsim
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, each, vec3
+from tandemlift.core.vector import ZERO, Quat, Vec3, each, vec3
 from tandemlift.parts.estimation.disturbance_observer import correction, growth, observer_step, start_observer
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle

@@ -11,7 +11,7 @@ from law_values import array
 from perceived import STEP, happening, onboard, perceived, rows
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import Vec3, vec3
+from tandemlift.core.vector import Vec3, vec3
 from tandemlift.parts.estimation.navigation import Navigator, navigator
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotated_by

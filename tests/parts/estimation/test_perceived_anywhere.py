@@ -10,8 +10,8 @@ from law_values import flat, random_state, random_vec3, rebuilt
 from newton_euler import paper_parts
 from perceived import HISS, STEP, Happening, Onboard, onboard, perceived, step
 
-from tandemlift.core.algebra.layout import flat as floats
-from tandemlift.core.algebra.vector import ZERO, spread
+from tandemlift.core.types import flat as floats
+from tandemlift.core.vector import ZERO, spread
 from tandemlift.parts.estimation.navigation import navigator
 from tandemlift.parts.estimation.push_estimate import push_estimator
 from tandemlift.parts.mechanics.loads import PerfectReadings

@@ -15,7 +15,7 @@ from perceived import STEP, happening, onboard, perceived, rows
 from scipy import stats
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import Vec3, vec3
+from tandemlift.core.vector import Vec3, vec3
 from tandemlift.parts.estimation.push_estimate import (
     PushEstimator,
     estimate,

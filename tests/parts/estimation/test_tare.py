@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tandemlift.core.algebra.vector import ZERO, each, vec3
+from tandemlift.core.vector import ZERO, each, vec3
 from tandemlift.parts.estimation.tare import SideForces, TareSums, summed, tare_of
 
 PAIR = each(2)

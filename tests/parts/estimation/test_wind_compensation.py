@@ -8,7 +8,7 @@ from law_values import array
 from newton_euler import Given, paper_parts, solved, unit
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Absent, each
+from tandemlift.core.vector import ZERO, Absent, each
 from tandemlift.missions import load_mission
 from tandemlift.parts.estimation.push_estimate import estimate, push_estimator, start_push
 from tandemlift.parts.estimation.wind_compensation import (

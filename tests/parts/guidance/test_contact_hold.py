@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.parts.compliance.compliance import ComplianceState
 from tandemlift.parts.estimation.contact_detection import NO_CONTACT
 from tandemlift.parts.guidance.contact_hold import (

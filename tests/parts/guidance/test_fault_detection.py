@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3
 from tandemlift.core.faults import CHECKS
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, STOPPED
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import ZERO, Quat, Vec3
 from tandemlift.parts.guidance.fault_detection import (
     NO_TIME,
     Fence,
@@ -23,7 +23,7 @@ from tandemlift.parts.guidance.preflight_checks import (
     failed_lift_check,
 )
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.requests import VehicleStatus
+from tandemlift.parts.person.requests import VehicleStatus
 from tandemlift.parts.sensors.health import WELL
 
 DT, MASS, AVAILABLE = 0.01, 3.0, 60.0

@@ -5,19 +5,19 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, vec3
 from tandemlift.core.phases import GUIDED, IDLE, LAND, LIFT
+from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, vec3
 from tandemlift.parts.compliance.admittance import admittance_from
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.guidance import PilotInput, guide
 from tandemlift.parts.guidance.hand_guidance import grounded_at, presses_on_ground, with_lift_and_landing
 from tandemlift.parts.guidance.phases import PhaseOutput
 from tandemlift.parts.guidance.supervised_reference import fenced, usable_input, with_blind_descent
-from tandemlift.parts.low_pass import LowPassState, low_pass_step
+from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.trajectories import SmoothStep, Trajectory
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import NoFaults
-from tandemlift.parts.trajectories import SmoothStep, Trajectory
 from tandemlift.simulation.assembly.hand_guidance import start_hand_guidance
 
 MISSION = tl.load_mission("iris", {"supervision.model": "on"})

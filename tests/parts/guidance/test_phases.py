@@ -2,8 +2,8 @@
 
 import pytest
 
-from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, PHASE_NAMES, STOPPED
+from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.parts.guidance.phases import (
     SETTLING_TIME,
     PhaseBounds,
@@ -16,7 +16,7 @@ from tandemlift.parts.guidance.phases import (
     update_phase,
 )
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.requests import (
+from tandemlift.parts.person.requests import (
     NO_REQUEST,
     OperatorRequest,
     RequestCounts,

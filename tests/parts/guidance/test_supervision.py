@@ -3,9 +3,9 @@
 import pytest
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO
 from tandemlift.core.faults import REACTIONS
 from tandemlift.core.phases import GUIDED, HOLD, IDLE
+from tandemlift.core.vector import ZERO
 from tandemlift.parts.compliance.admittance import admittance_from
 from tandemlift.parts.guidance.fault_detection import FaultReaction
 from tandemlift.parts.guidance.preflight_checks import SensorStatus

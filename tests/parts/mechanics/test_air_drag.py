@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.engines.models.parts_layout import parts_layout_from
 from tandemlift.parts.mechanics.air_drag import AirDrag, air_drag_from, air_loads
 from tandemlift.parts.mechanics.loads import resultant

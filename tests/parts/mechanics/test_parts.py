@@ -10,8 +10,8 @@ from law_values import array, free_body, quadrotor, random_state, random_vehicle
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import ZERO, Vec3, vec3
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import ZERO, Vec3, vec3
 from tandemlift.parts.mechanics.parts import (
     Acceleration,
     Joint,

@@ -13,7 +13,7 @@ from law_values import array, free_body, numbers, random_attitude, random_vec3, 
 from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Vec3, mat3
+from tandemlift.core.vector import ZERO, Vec3, mat3
 from tandemlift.parts.mechanics.push import (
     SUPPORT,
     CentralPush,

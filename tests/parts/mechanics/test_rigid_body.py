@@ -9,11 +9,19 @@ from law_values import array, free_body, order_of, random_state, random_vec3, se
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import ZERO, Mat3, Quat, Vec3, mat3, vec3
-from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import ZERO, Mat3, Quat, Vec3, mat3, vec3
 from tandemlift.parts.mechanics.push import CentralPush, GaussianPush, PointPush, PushSamples, push_at
-from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench, motion, rk4
+from tandemlift.parts.mechanics.rigid_body import (
+    RigidBody,
+    State,
+    Wrench,
+    apply_inertia,
+    gyroscopic,
+    inertia_value,
+    motion,
+    rk4,
+)
 
 STILL = PushSamples(*[CentralPush(ZERO)] * 3)
 FREE = Wrench(0.0, ZERO)

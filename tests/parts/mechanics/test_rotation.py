@@ -8,7 +8,7 @@ from hypothesis import given
 from law_values import array, attitudes, numbers, random_attitude, seeds, vectors
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import Quat, Vec3, apply, apply_transposed, cross, dot, hamilton, mat3, outer
+from tandemlift.core.vector import Quat, Vec3, apply, apply_transposed, cross, dot, hamilton, mat3, outer
 from tandemlift.parts.mechanics.rotation import (
     body_z_axis,
     euler_from_quaternion,

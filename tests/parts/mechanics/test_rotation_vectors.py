@@ -8,7 +8,7 @@ from hypothesis import given
 from law_values import array, random_attitude, seeds
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.parts.mechanics.rotation import (
     normalised,
     quaternion_from_rotation_vector,

@@ -8,9 +8,17 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from law_values import PI, array, attitudes, numbers
 
-from tandemlift.core.algebra.vector import Vec3
-from tandemlift.parts.mechanics.rotation import euler_from_quaternion, quaternion_from_euler, rotation_from_euler
-from tandemlift.parts.mechanics.tilt import TiltPrinted, TiltZXY, desired_orientation, total_thrust, virtual_inputs
+from tandemlift.core.vector import Vec3
+from tandemlift.parts.mechanics.rotation import (
+    TiltPrinted,
+    TiltZXY,
+    desired_orientation,
+    euler_from_quaternion,
+    quaternion_from_euler,
+    rotation_from_euler,
+    total_thrust,
+    virtual_inputs,
+)
 
 
 def at(angles: Vec3):

@@ -20,7 +20,7 @@ from scipy.linalg import expm, solve_continuous_lyapunov
 from scipy.signal import welch
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3
+from tandemlift.core.vector import ZERO, Absent, Vec3
 from tandemlift.engines.models.parts_layout import parts_layout_from
 from tandemlift.parts.mechanics.air_drag import AirDrag, air_loads
 from tandemlift.parts.mechanics.rigid_body import State
@@ -34,7 +34,7 @@ from tandemlift.parts.mechanics.turbulence import (
     turbulence_velocity,
 )
 from tandemlift.parts.mechanics.wind import Gust, Wind, gust_velocity, wind_step
-from tandemlift.parts.random_numbers import key_from_seed, normals
+from tandemlift.simulation.loop.random_numbers import key_from_seed, normals
 
 FOOT = 0.3048
 NO_EDDIES, NO_WHIFFS = TurbulenceState(*[0.0] * 5), WindNoise(*[0.0] * 5)

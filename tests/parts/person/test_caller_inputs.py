@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.core.algebra.layout import flat
-from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, each, mat3, vec3
+from tandemlift.core.types import flat
+from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each, mat3, vec3
 from tandemlift.parts.mechanics.push import CentralPush, PointPush, PushSamples, push_moment
 from tandemlift.parts.person.caller_inputs import CallerInput, commanded_thrusts, with_caller_push
 from tandemlift.simulation.loop.step import step_flight

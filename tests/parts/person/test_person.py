@@ -12,9 +12,9 @@ from scipy.signal import lsim, lti, welch
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, mat3, vec3
+from tandemlift.core.vector import ZERO, Quat, Vec3, mat3, vec3
 from tandemlift.engines.compiled import start_state
-from tandemlift.parts.low_pass import LowPassState
+from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_moment
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.core.algebra.vector import ZERO, Quat, mat3, vec3
+from tandemlift.core.vector import ZERO, Quat, mat3, vec3
 from tandemlift.engines.compiled import start_state
 from tandemlift.parts.mechanics.push import PointPush, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State

@@ -5,9 +5,9 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.compiler.jit.functions import compiled
-from tandemlift.core.algebra.layout import flat, unflat
 from tandemlift.core.faults import CHECKS, FAULTS
 from tandemlift.core.refusals import REASONS, REQUESTS, refusal_of
+from tandemlift.core.types import flat, unflat
 from tandemlift.parts.pilot.refusals import refusal_numbers
 from tandemlift.simulation.loop_code.pilot_sampling import PilotData
 

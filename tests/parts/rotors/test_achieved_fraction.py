@@ -10,7 +10,7 @@ from bounded_problems import EVERY, Craft, craft, outside, problems, solve
 from law_values import flat, rebuilt
 from machine_code import answers
 
-from tandemlift.core.algebra.vector import each, vec3
+from tandemlift.core.vector import each, vec3
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.rotors.allocation import Mixer, achieved_fraction, wrench_scale
 

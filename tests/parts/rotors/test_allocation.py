@@ -10,8 +10,8 @@ from law_values import paper_vehicle, random_vehicle, seeds
 from scipy.linalg import null_space
 from scipy.optimize import minimize
 
-from tandemlift.core.algebra.vector import each, vec3
 from tandemlift.core.errors import InputError
+from tandemlift.core.vector import each, vec3
 from tandemlift.missions import load_mission
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, each
+from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.missions import load_mission
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import ZERO, Quat, vec3
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import ZERO, Quat, vec3
 from tandemlift.parts.sensors.consistency import Inconsistency, exceeds, inconsistency_after
 from tandemlift.parts.sensors.readings import ImuReading, MotionReading
 

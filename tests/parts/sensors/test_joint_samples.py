@@ -2,7 +2,7 @@
 
 import pytest
 
-from tandemlift.core.algebra.vector import Vec3, each
+from tandemlift.core.vector import Vec3, each
 from tandemlift.parts.sensors.health import JointLimits, check_sample
 
 TWO = each(2)

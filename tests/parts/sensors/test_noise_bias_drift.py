@@ -12,7 +12,7 @@ from law_values import array, numbers, random_vec3, seeds, vectors
 from scipy import stats
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Vec3, spread, vec3
+from tandemlift.core.vector import ZERO, Vec3, spread, vec3
 from tandemlift.parts.sensors.noise_bias_drift import SensorGrade, displayed, no_drift, read, sensor_model
 
 

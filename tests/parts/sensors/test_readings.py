@@ -11,7 +11,7 @@ from law_values import array, flat, random_attitude, random_state, random_vec3, 
 from scipy import stats
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, each, spread, vec3
+from tandemlift.core.vector import ZERO, Quat, Vec3, each, spread, vec3
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.noise_bias_drift import SensorGrade

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tandemlift.core.algebra.vector import Vec3
+from tandemlift.core.vector import Vec3
 from tandemlift.parts.sensors.health import NO_NUMBER, WELL, PerSensor, SensorHealth
 from tandemlift.parts.sensors.watchdog import substitute_velocity
 

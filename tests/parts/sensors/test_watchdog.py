@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, each, vec3
+from tandemlift.core.vector import ZERO, Quat, Vec3, each, vec3
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotated_by
 from tandemlift.parts.sensors.health import (

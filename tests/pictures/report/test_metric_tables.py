@@ -13,7 +13,7 @@ from patience import completed
 from small_studies import made_up
 
 import tandemlift as tl
-from tandemlift.analysis.studies.reading.study_rows import StudyRows
+from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.flight.metric_descriptions import metric_of
 from tandemlift.pictures.report.latex import latex_number, latex_text
 from tandemlift.pictures.report.metric_tables import LISTS, metrics_as_csv, metrics_as_latex, write_metric_tables

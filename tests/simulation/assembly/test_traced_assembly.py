@@ -15,8 +15,8 @@ from odd_numbers import bits
 import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.compiler.tracer.valued_graph import evaluated
-from tandemlift.core.algebra.layout import flat, numbers_of
-from tandemlift.core.algebra.vector import layout
+from tandemlift.core.types import flat, numbers_of
+from tandemlift.core.vector import layout
 from tandemlift.missions import built_in, changed
 from tandemlift.simulation.assembly.assemble import assemble
 from tandemlift.simulation.assembly.mission_numbers import counts_of_mission, numbers_of_mission, with_numbers

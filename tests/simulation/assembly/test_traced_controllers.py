@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.core.algebra.layout import flat
-from tandemlift.core.algebra.vector import layout
+from tandemlift.core.types import flat
+from tandemlift.core.vector import layout
 from tandemlift.parts.controllers import load_controller
 from tandemlift.simulation.assembly.assemble import assemble
 from tandemlift.simulation.assembly.mission_numbers import numbers_of_mission

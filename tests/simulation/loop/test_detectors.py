@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, each
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.parts.guidance.guidance import ThrustFraction
 from tandemlift.parts.rotors.allocation import mixer_from
 from tandemlift.parts.rotors.rotors import IdealRotors

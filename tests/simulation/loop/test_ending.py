@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3
-from tandemlift.core.outcomes import DIVERGED, FLIES, STRUCK
+from tandemlift.core.phases import DIVERGED, FLIES, STRUCK
+from tandemlift.core.vector import ZERO, Quat, Vec3
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.simulation.loop.ending import (
     FADING,

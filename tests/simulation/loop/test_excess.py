@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from tandemlift.core.algebra.vector import Vec3
+from tandemlift.core.vector import Vec3
 from tandemlift.simulation.loop.excess import NO_EXCESS, exceed
 
 STEP = 0.01  # s

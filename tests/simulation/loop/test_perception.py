@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, vec3
+from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, vec3
 from tandemlift.parts.estimation.push_estimate import PushEstimate
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.simulation.loop.estimate_channels import estimated_channels

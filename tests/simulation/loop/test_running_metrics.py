@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tandemlift.core.algebra.vector import Absent, Vec3, vec3
+from tandemlift.core.vector import Absent, Vec3, vec3
 from tandemlift.simulation.loop.running_metrics import (
     EMPTY,
     NO_EFFORT,

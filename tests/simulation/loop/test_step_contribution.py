@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from tandemlift.core.algebra.vector import Absent, each, vec3
+from tandemlift.core.vector import Absent, each, vec3
 from tandemlift.parts.guidance.guidance import ThrustFraction
 from tandemlift.parts.rotors.rotors import Rotors
 from tandemlift.simulation.loop.running_metrics import at_limit, contribution_of

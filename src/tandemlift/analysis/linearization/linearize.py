@@ -23,15 +23,13 @@ from tandemlift.analysis.linearization.operating_point import (
 from tandemlift.analysis.linearization.period import LinearizationPlan, PeriodDerivative, differentiate
 from tandemlift.analysis.linearization.step_graph import step_graph
 from tandemlift.analysis.linearization.variables import Outputs, outputs_from, state_variable
-from tandemlift.core.algebra.layout import flat, unflat
-from tandemlift.core.algebra.vector import Absent
-from tandemlift.core.errors import InputError, unknown
-from tandemlift.core.toml import shown
-from tandemlift.core.types import Array
+from tandemlift.core.errors import InputError, shown, unknown
+from tandemlift.core.types import Array, flat, unflat
+from tandemlift.core.vector import Absent
 from tandemlift.missions import Mission
 from tandemlift.parts.mechanics.push import push_moment
 from tandemlift.parts.rotors.rotor_lag import by_direction
-from tandemlift.simulation.stepwise.simulation import Simulation
+from tandemlift.simulation.simulation import Simulation
 
 PARTS = ("loop", "body")
 LOOP_OUTPUTS = (

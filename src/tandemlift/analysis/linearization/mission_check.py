@@ -14,8 +14,7 @@ from tandemlift.analysis.linearization.loop_margins import (
     rotors_response,
     slowest_modes,
 )
-from tandemlift.core.checks import CLOSE, FAILS, REFUSED, CheckResult, judged, noted
-from tandemlift.core.errors import InputError
+from tandemlift.core.errors import CLOSE, FAILS, REFUSED, CheckResult, InputError, judged, noted
 from tandemlift.missions import Mission
 from tandemlift.missions.checks import mission_checks
 from tandemlift.missions.flight_checks.loops import lag_of

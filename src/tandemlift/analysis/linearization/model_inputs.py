@@ -9,9 +9,9 @@ import numpy as np
 
 from tandemlift.analysis.linearization.step_graph import NO_PUSH
 from tandemlift.analysis.linearization.variables import Variable
-from tandemlift.core.algebra.layout import flat, unflat
-from tandemlift.core.algebra.vector import Absent, Quat, Vec3
 from tandemlift.core.errors import InputError, unknown
+from tandemlift.core.types import flat, unflat
+from tandemlift.core.vector import Absent, Quat, Vec3
 from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_at
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.wind import gust_velocity

@@ -7,17 +7,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.layout import flat
-from tandemlift.core.errors import InputError
-from tandemlift.core.toml import shown
-from tandemlift.core.types import Array
+from tandemlift.core.errors import InputError, shown
+from tandemlift.core.types import Array, flat
 from tandemlift.missions import Mission
 from tandemlift.parts.mechanics.push import SUPPORT
 from tandemlift.parts.rotors.rotor_lag import lag
 from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.simulation import Simulation
 from tandemlift.simulation.stepping import GUIDANCE_MEMORY, Stepper
-from tandemlift.simulation.stepwise.simulation import Simulation
 
 AFTER_TARE = 0.5  # s, in which estimates settle
 

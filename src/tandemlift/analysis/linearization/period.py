@@ -12,8 +12,7 @@ from tandemlift.analysis.linearization.model_inputs import InputColumn, given_at
 from tandemlift.analysis.linearization.operating_point import OperatingPoint
 from tandemlift.analysis.linearization.step_derivative import StepDerivative, StepSeeds
 from tandemlift.analysis.linearization.step_graph import StateChoice, StepGraph
-from tandemlift.core.algebra.layout import leaves
-from tandemlift.core.types import Array
+from tandemlift.core.types import Array, leaves
 
 
 class LinearizationPlan(NamedTuple):

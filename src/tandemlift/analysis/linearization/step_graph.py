@@ -12,8 +12,8 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from tandemlift.analysis.linearization.derivative import smooth_arguments
-from tandemlift.core.algebra.layout import is_value, leaves
-from tandemlift.core.algebra.vector import ZERO, Absent, Mat3
+from tandemlift.core.types import is_value, leaves
+from tandemlift.core.vector import ZERO, Absent, Mat3
 from tandemlift.parts.mechanics.push import PointPush, PushSamples
 from tandemlift.simulation.loop_code.offsets import leaf_offset
 from tandemlift.simulation.loop_code.templates import templates_from

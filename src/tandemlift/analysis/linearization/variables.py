@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.layout import leaves
 from tandemlift.core.errors import unknown
+from tandemlift.core.types import leaves
 from tandemlift.flight.channels import channel_of
 from tandemlift.flight.data_frames import column_names
 from tandemlift.simulation.results import channels_of

@@ -22,7 +22,7 @@ from tandemlift.apps.cli.terminal.results import copy_recording, results_folder,
 from tandemlift.core.errors import InputError
 
 if TYPE_CHECKING:
-    from tandemlift.apps.gazebo_app.flying import GazeboSession
+    from tandemlift.apps.ros.gazebo_flight import GazeboSession
     from tandemlift.flight.record import Flight
     from tandemlift.missions import Mission
 
@@ -100,7 +100,7 @@ def gazebo(
 
 
 def _has_display() -> bool:
-    from tandemlift.apps.gazebo_app.flying import has_display
+    from tandemlift.apps.ros.gazebo_flight import has_display
 
     if not has_display():
         click.echo("No window: DISPLAY is not set", err=True)
@@ -109,8 +109,8 @@ def _has_display() -> bool:
 
 def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool) -> tuple[Flight, Photographs]:
     """Fly a mission to its end; the flight, and its photographs if requested, each with its title."""
-    from tandemlift.apps.gazebo_app.camera_views import views_from
-    from tandemlift.apps.gazebo_app.flying import running_gazebo
+    from tandemlift.apps.ros.gazebo_cameras import views_from
+    from tandemlift.apps.ros.gazebo_flight import running_gazebo
     from tandemlift.simulation.fly import fly
 
     views, step = views_from(fly(mission)) if pictures else [], mission.mission.step
@@ -129,9 +129,9 @@ def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool)
 
 def _fly_by_hand(mission: Mission, window: bool) -> tuple[Flight, Photographs]:
     """Fly a mission without its own pushes until Ctrl-C; pushes come by Gazebo's topic."""
-    from tandemlift.apps.gazebo_app.flying import running_gazebo
     from tandemlift.apps.live.session.interactive_mission import interactive_mission
-    from tandemlift.simulation.stepwise.recorded_flight import RecordedFlight
+    from tandemlift.apps.ros.gazebo_flight import running_gazebo
+    from tandemlift.simulation.recorded_flight import RecordedFlight
 
     mission = interactive_mission(mission)
     with running_gazebo(mission, window=window, real_time=True) as gazebo, _stop_signals() as stopped:

@@ -9,6 +9,7 @@ import click
 from tandemlift.apps.cli.terminal.completion import keys
 from tandemlift.apps.cli.terminal.console import echo
 from tandemlift.apps.cli.terminal.mission_options import chosen_controller
+from tandemlift.apps.cli.terminal.shell_scripts import SCRIPTS
 
 controller_option = click.option(
     "--controller", metavar="FILE", help="Your own controller (.py file): its keys are included."
@@ -24,7 +25,7 @@ def template() -> None:
       tandemlift template > mine.toml
       tandemlift run mine.toml
     """
-    from tandemlift.missions.key_reference.template import template_text
+    from tandemlift.missions.template import template_text
 
     echo(template_text(), nl=False)
 
@@ -46,8 +47,8 @@ def explain(key: str | None, controller: str | None, markdown: bool) -> None:
       tandemlift explain controller.stiffness --controller my_pd.py
       tandemlift explain controller --controller my_pd.py
     """
-    from tandemlift.missions.key_reference.explaining import explained, index
-    from tandemlift.missions.key_reference.markdown import key_tables
+    from tandemlift.missions.explaining import explained, index
+    from tandemlift.missions.markdown import key_tables
 
     own = "" if controller is None else chosen_controller(controller).name
     if markdown:
@@ -68,8 +69,22 @@ def schema(controller: str | None) -> None:
       tandemlift schema > mission.schema.json
       #:schema ./mission.schema.json
     """
-    from tandemlift.missions.key_reference.schema import mission_schema
+    from tandemlift.missions.schema import mission_schema
 
     if controller is not None:
         chosen_controller(controller)
     echo(json.dumps(mission_schema(), indent=2, ensure_ascii=False))
+
+
+@click.command()
+@click.argument("shell", type=click.Choice(list(SCRIPTS)))
+def completion(shell: str) -> None:
+    """Print the script that completes commands, options, missions, keys and other names in a SHELL.
+
+    \b
+    In the start file of the shell, where `tandemlift` is on the path:
+      bash, ~/.bashrc:                    eval "$(tandemlift completion bash)"
+      zsh, ~/.zshrc, after compinit:      eval "$(tandemlift completion zsh)"
+      fish, ~/.config/fish/config.fish:   tandemlift completion fish | source
+    """
+    echo(SCRIPTS[shell], nl=False)

@@ -10,27 +10,23 @@ from typing import Any
 
 import click
 
-from tandemlift.apps.cli.compile import compile
-from tandemlift.apps.cli.completion import completion
-from tandemlift.apps.cli.export import export
+from tandemlift.apps.cli.compare import compare
+from tandemlift.apps.cli.export import compile, export
 from tandemlift.apps.cli.gazebo import gazebo
-from tandemlift.apps.cli.keys import explain, schema, template
+from tandemlift.apps.cli.keys import completion, explain, schema, template
 from tandemlift.apps.cli.linearize import check, linearize
 from tandemlift.apps.cli.live import live
 from tandemlift.apps.cli.pages import page, replay
-from tandemlift.apps.cli.paper import paper
 from tandemlift.apps.cli.render import render
-from tandemlift.apps.cli.report import report
+from tandemlift.apps.cli.report import paper, report
 from tandemlift.apps.cli.ros import ros
 from tandemlift.apps.cli.run import run
-from tandemlift.apps.cli.studies.compare import compare
-from tandemlift.apps.cli.studies.feel import feel
-from tandemlift.apps.cli.studies.study import study
-from tandemlift.apps.cli.studies.tune import tune
+from tandemlift.apps.cli.study import study
 from tandemlift.apps.cli.terminal.console import compile_notices, echo, exit_now, handle_interrupts
+from tandemlift.apps.cli.tune import feel, tune
 from tandemlift.compiler.jit.compile_events import watching
 from tandemlift.core.errors import FlightWarning, InputError, suggestion
-from tandemlift.core.version import __version__
+from tandemlift.core.files import __version__
 
 BAD_INPUT = 2
 INTERRUPTED = 130  # as shells report it

@@ -15,7 +15,7 @@ from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.files import atomic_write
 
 if TYPE_CHECKING:
-    from tandemlift.apps.live.offline.page_modules import PackedFlight
+    from tandemlift.apps.live.page_modules import PackedFlight
     from tandemlift.flight.record import Flight
 
 
@@ -98,7 +98,7 @@ def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:
         raise InputError("say where the page goes: --html FILE for one file, --out DIR for a web server")
     one_file = html_path("--html", html) if html else None
     folder = _folder(out) if out else None
-    from tandemlift.apps.live.offline import pages
+    from tandemlift.apps.live import pages
     from tandemlift.apps.live.page_files import page_files
 
     files = page_files()
@@ -117,7 +117,7 @@ def _flights(names: tuple[str, ...]) -> list[PackedFlight]:
     Raises:
         InputError: a page has no such mission.
     """
-    from tandemlift.apps.live.offline.page_modules import MISSIONS, packed_flights
+    from tandemlift.apps.live.page_modules import MISSIONS, packed_flights
 
     for name in names:
         if name not in MISSIONS:

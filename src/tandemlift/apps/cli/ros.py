@@ -62,10 +62,10 @@ def ros(
       2   bad input: one message, nothing is flown
       3   crashed, diverged or interrupted, or ROS 1's master is gone: what was flown is saved, if --save asks for it
     """
+    from tandemlift.apps.ros.node import middleware_for, version_for
     from tandemlift.apps.ros.ros1 import folder as package
     from tandemlift.apps.ros.ros2 import KILTED
     from tandemlift.apps.ros.sample_queue import steps_between_samples
-    from tandemlift.apps.ros.selection import middleware_for, version_for
     from tandemlift.engines.registry import engine_named
 
     if folder:

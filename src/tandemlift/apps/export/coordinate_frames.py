@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.vector import Mat3, Quat, Vec3, apply, apply_transposed
 from tandemlift.core.types import Array
+from tandemlift.core.vector import Mat3, Quat, Vec3, apply, apply_transposed
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, quaternion_from_euler, rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
 

@@ -29,7 +29,7 @@ from tandemlift.apps.export.topics import (
     topics_from,
 )
 from tandemlift.core.errors import InputError, extra
-from tandemlift.core.toml import toml_tables
+from tandemlift.core.files import toml_tables
 from tandemlift.core.types import Array
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.flight.record import LATE, Flight

@@ -13,8 +13,8 @@ from tandemlift.apps.export.topics import DIAGNOSTICS
 from tandemlift.apps.ros.middleware import Middleware
 from tandemlift.core.phases import CONTACT
 from tandemlift.flight.record import Flight
-from tandemlift.simulation.contact_texts import contact_codes
 from tandemlift.simulation.results import describe_event
+from tandemlift.simulation.touches import contact_codes
 
 AGAIN = 1.0  # s, before the same words are said again
 MOST = 100  # events that wait

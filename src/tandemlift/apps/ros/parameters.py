@@ -17,8 +17,7 @@ from tandemlift.apps.live.session.tunable_parameters import parameters_of
 from tandemlift.apps.live.wire.page_messages import SetMessage
 from tandemlift.apps.ros.diagnostics import Notify
 from tandemlift.apps.ros.middleware import Middleware
-from tandemlift.core.errors import InputError, unknown
-from tandemlift.core.toml import shown
+from tandemlift.core.errors import InputError, shown, unknown
 from tandemlift.missions import Mission
 
 DAMPING, RATIO = "admittance.damping", "admittance.damping_ratio"

@@ -20,7 +20,7 @@ from tandemlift.apps.ros.dds_types import DdsTypes, check_installed
 from tandemlift.apps.ros.middleware import Answer, TopicPublisher
 from tandemlift.apps.ros.ros1 import FOLDER
 from tandemlift.core.errors import InputError, unknown
-from tandemlift.core.toml import toml_tables
+from tandemlift.core.files import toml_tables
 
 TEXT = "std_msgs/String"
 REQUEST = OtherTopic(f"{ROOT}/request", TEXT, "name of a request")

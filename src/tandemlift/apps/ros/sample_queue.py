@@ -16,8 +16,8 @@ from tandemlift.apps.live.session.session import Session
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
+from tandemlift.simulation.recorded_flight import RecordedFlight
 from tandemlift.simulation.results import channels_of
-from tandemlift.simulation.stepwise.recorded_flight import RecordedFlight
 
 MOST = 1000  # samples that may wait; more are forgotten, the oldest first
 

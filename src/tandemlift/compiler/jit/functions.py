@@ -14,8 +14,7 @@ from tandemlift.compiler.tracer.graph import Graph, symbols
 from tandemlift.compiler.tracer.llvm import Function
 from tandemlift.compiler.tracer.rolled import Place
 from tandemlift.compiler.tracer.text import Module
-from tandemlift.core.algebra.layout import leaves
-from tandemlift.core.types import Array
+from tandemlift.core.types import Array, leaves
 
 
 def written(function: Callable[..., Any], *likes: Any, lanes: int = 1, rolls_from: int = 0) -> tuple[str, int]:

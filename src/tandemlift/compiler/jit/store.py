@@ -26,15 +26,15 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tandemlift.compiler.tracer.refusal import is_ours
-from tandemlift.core.algebra.law import LAWS
-from tandemlift.core.algebra.layout import is_value
+from tandemlift.core.law import LAWS
+from tandemlift.core.types import is_value
 
 MAGIC = b"tandemlift machine code 1\n"
 MOST_BYTES = 256 * 2**20
 CHECKSUM = 32  # bytes
 
 PACKAGE = Path(__file__).resolve().parents[2]
-FOLDERS = ("core/algebra", "parts", "compiler", "engines", "simulation/loop_code", "simulation/loop")
+FOLDERS = ("core", "parts", "compiler", "engines", "simulation/loop_code", "simulation/loop")
 FILES = ("simulation/pilot_api",)
 
 

@@ -25,14 +25,14 @@ from typing import Any, Protocol, TypeGuard
 from tandemlift.compiler.tracer.graph import LAW
 from tandemlift.compiler.tracer.refusal import is_ours, refused
 from tandemlift.compiler.tracer.symbol import Symbol, fma
-from tandemlift.core.algebra import ops, vector
-from tandemlift.core.algebra.law import LAWS, Choice, Elementwise
-from tandemlift.core.algebra.ops import PRIMITIVES
+from tandemlift.core import algebra, vector
+from tandemlift.core.algebra import PRIMITIVES
 from tandemlift.core.errors import InputError
+from tandemlift.core.law import LAWS, Choice, Elementwise
 
 FMA = "_fma_"
 LEAVES = "_leaves_"
-ALGEBRA = (ops.__name__, vector.__name__)  # what they compare, the law that calls them compares
+ALGEBRA = (algebra.__name__, vector.__name__)  # what they compare, the law that calls them compares
 ONE_AT_A_TIME = threading.RLock()
 FUSES: ContextVar[bool] = ContextVar("fuses", default=True)  # whether a·b + c is rounded once
 # who is told of every law that is entered

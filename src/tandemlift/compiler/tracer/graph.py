@@ -3,7 +3,7 @@
 A node is (operation, arguments, type). Equal nodes are one node, so nothing is computed twice. Types: `f` a double, `b`
 a truth, `i` a 64-bit integer. A large set of numbers is one node with a count.
 
-Leaf i of lane l of `lanes` interleaved values (`core.algebra.layout`) is a[i * lanes + l].
+Leaf i of lane l of `lanes` interleaved values (`core.types`) is a[i * lanes + l].
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from typing import Any
 
 from tandemlift.compiler.tracer.refusal import refused_here
 from tandemlift.compiler.tracer.symbol import Symbol
-from tandemlift.core.algebra.layout import is_value, leaves
-from tandemlift.core.algebra.vector import each, is_set
+from tandemlift.core.types import is_value, leaves
+from tandemlift.core.vector import each, is_set
 
 MOST_NODES = 1_000_000
 LEAVES = ("const", "in")

@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 
 from tandemlift.compiler.tracer.nodes import Nodes
 from tandemlift.compiler.tracer.refusal import refused_here
-from tandemlift.core.algebra.vector import is_set
+from tandemlift.core.vector import is_set
 
 NAMES = {"f": "a number", "b": "a truth", "i": "an integer"}
 
@@ -24,7 +24,7 @@ class Symbol:
     __slots__ = ("graph", "node", "type")
     functions: ClassVar[
         ModuleType
-    ]  # elementary functions of symbols, for `core.algebra.ops`; set by `compiler.tracer.elementary`
+    ]  # elementary functions of symbols, for `core.algebra`; set by `compiler.tracer.elementary`
     __array_ufunc__ = None  # a NumPy scalar on the left defers to our operators
     __hash__ = object.__hash__
 

@@ -13,9 +13,9 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from tandemlift.core.algebra.vector import vec3
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
+from tandemlift.core.vector import vec3
 from tandemlift.engines.models.links import Link, links_of
 from tandemlift.engines.models.mujoco_bodies import specification
 from tandemlift.engines.models.mujoco_contact import set_contact_stiffness

@@ -15,8 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.types import Array
+from tandemlift.core.types import GRAVITY, Array
 from tandemlift.engines.models.mujoco_contact import add_floor, add_vehicle_shapes, add_walls, set_contact_stiffness
 from tandemlift.engines.models.mujoco_import import mujoco
 from tandemlift.engines.models.scene import Scene

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from tandemlift.core.algebra.types import number
-from tandemlift.core.algebra.vector import each, quarters, spread, vec3
 from tandemlift.core.caching import cached
+from tandemlift.core.types import number
+from tandemlift.core.vector import each, quarters, spread, vec3
 from tandemlift.parts.mechanics.loads import PartsLayout
 from tandemlift.parts.mechanics.vehicle import Vehicle
 

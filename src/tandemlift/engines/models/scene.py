@@ -6,9 +6,8 @@ from typing import Protocol
 
 from tandemlift.parts.contact.corridor import WallTable
 from tandemlift.parts.contact.ground_table import GroundTable
-from tandemlift.parts.mechanics.plant_table import DisturbanceTable, PlantTable
 from tandemlift.parts.mechanics.rigid_body import InitialTable
-from tandemlift.parts.mechanics.vehicle_table import VehicleTable
+from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTable, VehicleTable
 
 
 class Timing(Protocol):

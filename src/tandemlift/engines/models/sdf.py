@@ -16,9 +16,8 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import vec3
-from tandemlift.core.types import Array
+from tandemlift.core.types import GRAVITY, Array
+from tandemlift.core.vector import vec3
 from tandemlift.engines.models.camera import CAMERAS
 from tandemlift.engines.models.links import Link, links_of
 from tandemlift.engines.models.scene import Scene

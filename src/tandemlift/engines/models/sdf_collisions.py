@@ -19,8 +19,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.vector import Absent
 from tandemlift.core.types import Array
+from tandemlift.core.vector import Absent
 from tandemlift.engines.models.links import Link
 from tandemlift.engines.models.scene import Scene
 from tandemlift.engines.models.sdf_elements import Element, add, fill, geometry, pose

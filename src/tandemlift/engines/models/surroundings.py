@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import Absent
 from tandemlift.core.caching import cached
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import Absent
 from tandemlift.engines.models.scene import Scene
 from tandemlift.parts.contact.feet import Floor, floor, sole_positions, standing_height
 from tandemlift.parts.contact.ground_table import GroundTable

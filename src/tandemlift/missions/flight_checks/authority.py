@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tandemlift.core.checks import CheckResult, judged
+from tandemlift.core.errors import CheckResult, judged
 from tandemlift.core.types import Array
 from tandemlift.missions.flight_checks.loads import ALWAYS, VehicleLoads, loads_of
 from tandemlift.missions.tables.mission import Mission

@@ -10,18 +10,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.layout import flat, unflat
-from tandemlift.core.algebra.vector import ZERO, vec3
 from tandemlift.core.caching import cached
-from tandemlift.core.types import Array
+from tandemlift.core.types import Array, flat, unflat
+from tandemlift.core.vector import ZERO, vec3
 from tandemlift.missions.tables.mission import Mission
 from tandemlift.parts.controllers import CONTROLLERS, control
 from tandemlift.parts.controllers.interface import NO_DISTURBANCE, ControllerTable, Measured
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
+from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
-from tandemlift.parts.trajectories import Reference, Trajectory
 
 INPUTS = 5  # position, velocity, angles, rates, push: vectors
 CHANGE = 1e-6  # of an input or a memory, in its unit

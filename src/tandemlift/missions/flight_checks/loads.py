@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.vector import vec3
 from tandemlift.core.types import Array
+from tandemlift.core.vector import vec3
 from tandemlift.missions.tables.mission import Mission
 from tandemlift.parts.mechanics.turbulence import dryden
 from tandemlift.parts.mechanics.vehicle import Vehicle

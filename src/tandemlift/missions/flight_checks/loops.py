@@ -28,9 +28,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.checks import CheckResult, judged
-from tandemlift.core.types import Array
+from tandemlift.core.errors import CheckResult, judged
+from tandemlift.core.types import GRAVITY, Array
 from tandemlift.missions.flight_checks.controller_response import INPUTS, controller_response
 from tandemlift.missions.tables.mission import Mission
 from tandemlift.parts.mechanics.vehicle import Vehicle

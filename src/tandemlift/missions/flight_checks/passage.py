@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.checks import CheckResult, judged
+from tandemlift.core.errors import CheckResult, judged
 from tandemlift.core.types import Array
 from tandemlift.missions.tables.mission import Mission
 from tandemlift.parts.mechanics.vehicle import Vehicle

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from tandemlift.core.checks import FAILS, CheckResult, judged
+from tandemlift.core.errors import FAILS, CheckResult, judged
 from tandemlift.missions.tables.mission import Mission
 from tandemlift.parts.mechanics.vehicle import Vehicle
 

@@ -6,8 +6,8 @@ import itertools
 import math
 from collections.abc import Iterator
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.checks import CLOSE, FAILS, CheckResult, judged, noted
+from tandemlift.core.errors import CLOSE, FAILS, CheckResult, judged, noted
+from tandemlift.core.types import GRAVITY
 from tandemlift.missions.tables.mission import Mission
 from tandemlift.missions.tables.weight import lift_of, weight_of
 from tandemlift.parts.mechanics.push import PushTable

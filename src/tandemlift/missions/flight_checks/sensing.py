@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tandemlift.core.checks import CheckResult, judged
+from tandemlift.core.errors import CheckResult, judged
 from tandemlift.core.types import Array
 from tandemlift.missions.flight_checks.loads import SIGMAS, gust_times, payload_gusting, wind_on_payload
 from tandemlift.missions.tables.mission import Mission

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tandemlift.core.checks import CheckResult, judged
+from tandemlift.core.errors import CheckResult, judged
 from tandemlift.missions.flight_checks.authority import AXES, authority_of
 from tandemlift.missions.flight_checks.controller_response import controller_response
 from tandemlift.missions.tables.mission import Mission

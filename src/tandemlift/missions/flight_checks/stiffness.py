@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tandemlift.core.checks import FAILS, CheckResult, judged, noted
+from tandemlift.core.errors import FAILS, CheckResult, judged, noted
 from tandemlift.core.types import Array
 from tandemlift.missions.flight_checks.controller_response import controller_response
 from tandemlift.missions.flight_checks.loads import WindOnParts

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.checks import CLOSE, FAILS, SETTINGS, CheckResult, noted
+from tandemlift.core.errors import CLOSE, FAILS, SETTINGS, CheckResult, noted
 from tandemlift.missions.flight_checks.authority import authority_checks
 from tandemlift.missions.flight_checks.loops import loop_checks
 from tandemlift.missions.flight_checks.passage import passage_checks

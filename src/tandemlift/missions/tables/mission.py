@@ -22,19 +22,18 @@ from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.guidance.compliance_table import ComplianceTable
 from tandemlift.parts.guidance.guidance import PilotTable
 from tandemlift.parts.guidance.supervision_table import SupervisionTable
-from tandemlift.parts.mechanics.plant_table import DisturbanceTable, PlantTable
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.rigid_body import InitialTable
-from tandemlift.parts.mechanics.vehicle_table import VehicleTable
+from tandemlift.parts.mechanics.trajectories import PhasesTable
+from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTable, VehicleTable
 from tandemlift.parts.mechanics.wind import WindTable
 from tandemlift.parts.person.person_table import PersonTable
-from tandemlift.parts.requests import RequestTable
-from tandemlift.parts.rotor_loss.detection_table import DetectionTable
+from tandemlift.parts.person.requests import RequestTable
 from tandemlift.parts.rotors.allocation import AllocationTable
+from tandemlift.parts.rotors.detection_table import DetectionTable
 from tandemlift.parts.rotors.rotor_faults import FaultTable
 from tandemlift.parts.rotors.rotors import ActuatorsTable
 from tandemlift.parts.sensors.sensors_table import SensorFaultTable, SensorsTable
-from tandemlift.parts.trajectories import PhasesTable
 
 
 def _name(name: str) -> str:

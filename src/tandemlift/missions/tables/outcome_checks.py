@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from tandemlift.core.checks import CheckResult, refused, warned
-from tandemlift.core.toml import shown
+from tandemlift.core.errors import CheckResult, refused, shown, warned
 from tandemlift.missions.tables.outcomes import CrashTable, FindingsTable, PromiseTable, promise_of
 from tandemlift.parts.guidance.supervision_table import SupervisionTable
 from tandemlift.parts.mechanics.rigid_body import InitialTable

@@ -9,9 +9,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tandemlift.core.algebra.vector import vec3
-from tandemlift.core.checks import CheckResult, warned
-from tandemlift.core.outcomes import HARD
+from tandemlift.core.errors import CheckResult, warned
+from tandemlift.core.phases import HARD
+from tandemlift.core.vector import vec3
 from tandemlift.missions.tables import outcome_checks as outcomes
 from tandemlift.missions.tables.mission import Mission
 from tandemlift.missions.tables.weight import lift_of, weight_of
@@ -26,16 +26,16 @@ from tandemlift.parts.guidance import supervision_table as supervision
 from tandemlift.parts.guidance.guidance import reading_checks
 from tandemlift.parts.mechanics.push import point_checks
 from tandemlift.parts.mechanics.rotation import rotation_from_euler
+from tandemlift.parts.mechanics.trajectories import phase_warnings
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_checks import vehicle_checks
 from tandemlift.parts.mechanics.wind import wind_warnings
 from tandemlift.parts.person.person_table import person_checks, person_warnings
-from tandemlift.parts.requests import request_checks
-from tandemlift.parts.rotor_loss.detection_table import detection_checks
+from tandemlift.parts.person.requests import request_checks
 from tandemlift.parts.rotors import lift_checks as lifts
+from tandemlift.parts.rotors.detection_table import detection_checks
 from tandemlift.parts.rotors.rotor_faults import fault_checks, fault_warnings
 from tandemlift.parts.sensors import sensor_checks as sensors
-from tandemlift.parts.trajectories import phase_warnings
 
 
 def standing_of(m: Mission) -> standing.Standing:

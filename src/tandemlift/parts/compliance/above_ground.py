@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import Absent, choice
-from tandemlift.core.algebra.ops import clip, where
-from tandemlift.core.algebra.types import Number
+from tandemlift.core.algebra import clip, where
+from tandemlift.core.law import Absent, choice
+from tandemlift.core.types import Number
 from tandemlift.parts.compliance.compliance import Compliance, ComplianceState, with_speed
 
 APPROACH_GAIN = 2.0  # 1/s: largest speed downwards over the height that is left

@@ -13,14 +13,14 @@ from typing import Any, Literal, NamedTuple
 from pydantic import ValidationError
 from pydantic_core import PydanticCustomError
 
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import absolute, clip, where
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Vec3, vec3
+from tandemlift.core.algebra import absolute, clip, where
 from tandemlift.core.caching import cached
-from tandemlift.core.checks import CheckResult, refused
+from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import NonNegative3, Positive3, Table, is_number, key
-from tandemlift.parts.trajectories import Trajectory
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Vec3, vec3
+from tandemlift.parts.mechanics.trajectories import Trajectory
 
 LN_20 = 2.995732273553991  # time constants until 95 %
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import maximum, sqrt, tan, where
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import Vec3, each, total
+from tandemlift.core.algebra import maximum, sqrt, tan, where
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import GRAVITY, Number, PerRotor
+from tandemlift.core.vector import Vec3, each, total
 from tandemlift.parts.mechanics.rigid_body import UP
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at

@@ -14,12 +14,12 @@ from __future__ import annotations
 
 from typing import Generic, NamedTuple
 
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import absolute, clip, maximum, minimum, sqrt, where
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.core.algebra import absolute, clip, maximum, minimum, sqrt, where
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.compliance.admittance import Admittance, anchored, soft_threshold
-from tandemlift.parts.low_pass import LowPass, LowPassState, V, low_pass_step
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, V, low_pass_step
 
 QUIET_TIME = 2.0  # s without a push, after which the bias is estimated
 BIAS_CLIP = 0.3  # of the threshold: the largest deviation from the mean that counts for the bias

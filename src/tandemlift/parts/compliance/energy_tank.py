@@ -13,11 +13,11 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
-from tandemlift.core.algebra.law import choice
-from tandemlift.core.algebra.ops import clip, maximum
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Absent, Vec3, dot
+from tandemlift.core.algebra import clip, maximum
 from tandemlift.core.keys import NonNegative, Positive, Table, key
+from tandemlift.core.law import choice
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Absent, Vec3, dot
 
 
 class TankTable(Table):

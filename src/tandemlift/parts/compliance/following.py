@@ -11,12 +11,12 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import absolute, maximum, minimum, tan, where
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Vec3, dot
+from tandemlift.core.algebra import absolute, maximum, minimum, tan, where
 from tandemlift.core.keys import NonNegative, Positive, Table, key
+from tandemlift.core.law import law
 from tandemlift.core.phases import REASONS
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Vec3, dot
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 

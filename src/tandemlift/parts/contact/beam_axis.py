@@ -2,10 +2,10 @@
 
 from typing import NamedTuple, Protocol
 
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import clip, maximum, where
-from tandemlift.core.algebra.types import Number, PerQuadrotor
-from tandemlift.core.algebra.vector import Vec3, apply, cross, dot
+from tandemlift.core.algebra import clip, maximum, where
+from tandemlift.core.law import law
+from tandemlift.core.types import Number, PerQuadrotor
+from tandemlift.core.vector import Vec3, apply, cross, dot
 from tandemlift.parts.contact.spheres import SMALL, SpringyWall
 from tandemlift.parts.contact.wall_geometry import Wall
 from tandemlift.parts.mechanics.loads import scaled, translated

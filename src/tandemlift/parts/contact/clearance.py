@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from typing import NamedTuple, TypeVar
 
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import least, minimum, sqrt
-from tandemlift.core.algebra.types import Condition, Number, PerQuadrotor, PerRotor
-from tandemlift.core.algebra.vector import Absent, Vec3, apply, dot
+from tandemlift.core.algebra import least, minimum, sqrt
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import Condition, Number, PerQuadrotor, PerRotor
+from tandemlift.core.vector import Absent, Vec3, apply, dot
 from tandemlift.parts.contact.beam_axis import beam_axis, beam_point, point_by_edge, point_by_top
 from tandemlift.parts.contact.spheres import NearRotors, RotorSpheres
 from tandemlift.parts.contact.wall_geometry import offset, offset_from_top

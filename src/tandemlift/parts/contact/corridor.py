@@ -15,12 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from tandemlift.core.algebra.arrays import array, lengths
-from tandemlift.core.algebra.vector import vec3
+from tandemlift.core.arrays import array, lengths
 from tandemlift.core.caching import cached
-from tandemlift.core.checks import CheckResult, refused, warned
+from tandemlift.core.errors import CheckResult, refused, shown, warned
 from tandemlift.core.keys import PerAxis, Table, key, must
-from tandemlift.core.toml import shown
+from tandemlift.core.vector import vec3
 from tandemlift.parts.contact.wall_geometry import offset, wall
 
 Point2 = Annotated[tuple[float, float], PerAxis(2, single=False)]

@@ -19,12 +19,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tandemlift.core.algebra.arrays import array, largest, lengths
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import elementwise, law
-from tandemlift.core.algebra.ops import absolute, greatest, maximum, minimum, sqrt, where
-from tandemlift.core.algebra.types import Condition, Number, PerQuadrotor, number
-from tandemlift.core.algebra.vector import (
+from tandemlift.core.algebra import absolute, greatest, maximum, minimum, sqrt, where
+from tandemlift.core.arrays import array, largest, lengths
+from tandemlift.core.law import elementwise, law
+from tandemlift.core.types import GRAVITY, Condition, Number, PerQuadrotor, number
+from tandemlift.core.vector import (
     Absent,
     Mat3,
     Quarters,

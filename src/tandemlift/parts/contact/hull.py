@@ -21,11 +21,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.core.algebra.arrays import array
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import absolute, greatest, least, minimum, sqrt
-from tandemlift.core.algebra.types import Condition, Number, number
-from tandemlift.core.algebra.vector import (
+from tandemlift.core.algebra import absolute, greatest, least, minimum, sqrt
+from tandemlift.core.arrays import array
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import Array, Condition, Number, number
+from tandemlift.core.vector import (
     ZERO,
     Absent,
     Mat3,
@@ -38,7 +38,6 @@ from tandemlift.core.algebra.vector import (
     quarters,
     spread,
 )
-from tandemlift.core.types import Array
 from tandemlift.parts.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
 from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each, sum_over_set
 from tandemlift.parts.mechanics.rigid_body import State

@@ -18,11 +18,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeVar
 
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import greatest, least, maximum, minimum, sqrt, where
-from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import (
+from tandemlift.core.algebra import chosen, greatest, least, maximum, minimum, sqrt, where
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import (
     Absent,
     Vec3,
     apply,
@@ -36,7 +35,6 @@ from tandemlift.core.algebra.vector import (
 from tandemlift.parts.contact.spheres import ContactPair, RotorSpheres, WallContact, inverse_root
 from tandemlift.parts.contact.touches import if_number, number_at
 from tandemlift.parts.contact.walls import Beam, BeamContact, NearWallContact, Walls, loads_of_walls
-from tandemlift.parts.mechanics.inertia import apply_inertia
 from tandemlift.parts.mechanics.loads import (
     PartLoad,
     PartLoads,
@@ -46,7 +44,7 @@ from tandemlift.parts.mechanics.loads import (
     sum_over_set,
     translated,
 )
-from tandemlift.parts.mechanics.rigid_body import RigidBody, State
+from tandemlift.parts.mechanics.rigid_body import RigidBody, State, apply_inertia
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 CORE = 0.25  # of the radius; the rest is left to the springs

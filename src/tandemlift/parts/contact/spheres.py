@@ -11,11 +11,11 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.core.algebra.arrays import array
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import greatest, maximum, sqrt, where
-from tandemlift.core.algebra.types import Number, PerRotor, number
-from tandemlift.core.algebra.vector import Absent, Mat3, Vec3, apply, cross, dot, each, spread
+from tandemlift.core.algebra import greatest, maximum, sqrt, where
+from tandemlift.core.arrays import array
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import Number, PerRotor, number
+from tandemlift.core.vector import Absent, Mat3, Vec3, apply, cross, dot, each, spread
 from tandemlift.parts.contact.hull import rotor_sums
 from tandemlift.parts.contact.springs import friction_factor, spring_damper
 from tandemlift.parts.contact.wall_geometry import WALL, Wall, nearer, offset, second_nearest

@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.core.algebra.arrays import array, eigenvectors, has_symbols, inverse, largest_eigenvalue
-from tandemlift.core.algebra.law import elementwise
-from tandemlift.core.algebra.ops import greatest, maximum, sqrt, where
-from tandemlift.core.algebra.types import Number, number
+from tandemlift.core.algebra import greatest, maximum, sqrt, where
+from tandemlift.core.arrays import array, eigenvectors, has_symbols, inverse, largest_eigenvalue
+from tandemlift.core.law import elementwise
+from tandemlift.core.types import Number, number
 
 TINY = 1e-300  # N²: keeps 0/0 out of the friction of what is in the air
 OSCILLATION = 0.5  # rad a step: the fastest oscillation on springs that a Runge-Kutta step resolves well

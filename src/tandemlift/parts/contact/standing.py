@@ -8,19 +8,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.vector import vec3
 from tandemlift.core.caching import cached
-from tandemlift.core.checks import CheckResult, refused, warned
-from tandemlift.core.toml import shown
+from tandemlift.core.errors import CheckResult, refused, shown, warned
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import vec3
 from tandemlift.parts.contact.feet import Floor, floor, sinkage_of, sole_positions, standing_height
 from tandemlift.parts.contact.ground_table import GroundTable
 from tandemlift.parts.contact.hull import hull, lowest_of_hull
 from tandemlift.parts.mechanics.rigid_body import InitialTable
 from tandemlift.parts.mechanics.rotation import rotation_from_euler
+from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
-from tandemlift.parts.trajectories import PhasesTable
 
 DEEP = 0.02  # m, of feet in the floor at the start
 FAR_DOWN, FAR_UP = 0.02, 0.3  # m, of the landed reference above and below where the vehicle stands

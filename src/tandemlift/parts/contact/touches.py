@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.constants import NEVER
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import absolute, greatest, least, maximum, where
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, each, set_of, total
+from tandemlift.core.algebra import absolute, greatest, least, maximum, where
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import NEVER, Number, PerRotor
+from tandemlift.core.vector import ZERO, Absent, Vec3, each, set_of, total
 from tandemlift.parts.contact.hull import Ellipsoids, FloorContact, Hull, HullContact
 from tandemlift.parts.contact.spheres import ContactPair, RotorSpheres
 from tandemlift.parts.contact.walls import Beam, BeamContact, NearWallContact, Walls

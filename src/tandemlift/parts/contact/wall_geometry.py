@@ -5,10 +5,10 @@ World axes. A rectangle of numbers serves one point, one of sets serves a set of
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import elementwise, law
-from tandemlift.core.algebra.ops import clip, maximum, where
-from tandemlift.core.algebra.types import Number, number
-from tandemlift.core.algebra.vector import Vec3, dot
+from tandemlift.core.algebra import clip, maximum, where
+from tandemlift.core.law import elementwise, law
+from tandemlift.core.types import Number, number
+from tandemlift.core.vector import Vec3, dot
 
 SEAM = 1e-8  # m²: rectangles nearer to each other than this are joined there
 AWAY = 1e6  # m, where a rectangle stands that does not exist

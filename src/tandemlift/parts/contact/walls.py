@@ -21,11 +21,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.core.algebra.arrays import array, lengths
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import greatest, minimum, sqrt
-from tandemlift.core.algebra.types import Number, PerQuadrotor, number
-from tandemlift.core.algebra.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, dot, each
+from tandemlift.core.algebra import greatest, minimum, sqrt
+from tandemlift.core.arrays import array, lengths
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import Number, PerQuadrotor, number
+from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, dot, each
 from tandemlift.parts.contact.beam_axis import (
     Beam,
     BeamAxis,

@@ -34,19 +34,22 @@ from tandemlift.parts.controllers.interface import (
 from tandemlift.parts.controllers.registry import CONTROLLERS, Controller, controller, file_of, register
 from tandemlift.parts.controllers.trial_run import error_text
 from tandemlift.parts.controllers.user_controller import load_controller
-from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
-from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench
+from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rotation import (
     Euler,
+    TiltLimit,
+    TiltZXY,
+    desired_orientation,
     euler_from_quaternion,
     euler_rates_from_rates,
+    limit_tilt,
     quaternion_from_euler,
     rates_from_euler_rates,
     rotation_from_euler,
+    total_thrust,
     wrap_angle,
 )
-from tandemlift.parts.mechanics.tilt import TiltLimit, TiltZXY, desired_orientation, limit_tilt, total_thrust
-from tandemlift.parts.trajectories import Reference, Trajectory
+from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
 
 # isort: split
 from tandemlift.parts.controllers import geometric, lqr, nftsmc, pid, smc, super_twisting  # register themselves

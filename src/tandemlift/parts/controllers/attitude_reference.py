@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import exp
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.core.algebra import exp
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.controllers.interface import NoMemory
-from tandemlift.parts.trajectories import Reference
+from tandemlift.parts.mechanics.trajectories import Reference
 
 
 class Unfiltered(NamedTuple):

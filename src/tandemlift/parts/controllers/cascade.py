@@ -11,11 +11,10 @@ from typing import Annotated, NamedTuple
 
 from pydantic import Field
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.core.keys import Tilt, key
+from tandemlift.core.law import law
+from tandemlift.core.types import GRAVITY, Number
+from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.parts.controllers.attitude_reference import (
     AttitudeReference,
     CommandFilter,
@@ -25,12 +24,10 @@ from tandemlift.parts.controllers.attitude_reference import (
     with_heading,
 )
 from tandemlift.parts.controllers.interface import Command, ControllerTable, Measured
-from tandemlift.parts.mechanics.inertia import Inertia, apply_inertia, gyroscopic, inertia_value
-from tandemlift.parts.mechanics.rigid_body import UP, Wrench
-from tandemlift.parts.mechanics.rotation import Euler
-from tandemlift.parts.mechanics.tilt import TiltLimit, TiltZXY, desired_orientation, tilt_limit, total_thrust
+from tandemlift.parts.mechanics.rigid_body import UP, Inertia, Wrench, apply_inertia, gyroscopic, inertia_value
+from tandemlift.parts.mechanics.rotation import Euler, TiltLimit, TiltZXY, desired_orientation, tilt_limit, total_thrust
+from tandemlift.parts.mechanics.trajectories import Reference
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.trajectories import Reference
 
 Bandwidth = Annotated[float, Field(gt=0.0, le=1e4)]  # rad/s
 TUNED = "found by benchmarks/tune.py"

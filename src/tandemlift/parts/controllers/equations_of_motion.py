@@ -7,13 +7,11 @@ level attitude φ̈ = ṗ + q r, θ̈ = q̇ − p r, ψ̈ = ṙ − p q.
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.vector import Vec3, linear, plus
-from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic
-from tandemlift.parts.mechanics.rigid_body import UP, RigidBody, Wrench
-from tandemlift.parts.mechanics.rotation import Euler
-from tandemlift.parts.mechanics.tilt import virtual_inputs
+from tandemlift.core.law import law
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import Vec3, linear, plus
+from tandemlift.parts.mechanics.rigid_body import UP, RigidBody, Wrench, apply_inertia, gyroscopic
+from tandemlift.parts.mechanics.rotation import Euler, virtual_inputs
 
 
 @linear

@@ -20,12 +20,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import atan2, atan_ratio, cos, maximum, sin, sqrt
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Mat3, Vec3, apply_transposed, cross, dot, vec3
+from tandemlift.core.algebra import atan2, atan_ratio, cos, maximum, sin, sqrt
 from tandemlift.core.keys import Positive3, key
+from tandemlift.core.law import law
+from tandemlift.core.types import GRAVITY, Number
+from tandemlift.core.vector import ZERO, Mat3, Vec3, apply_transposed, cross, dot, vec3
 from tandemlift.parts.controllers.cascade import (
     TUNED,
     Bandwidth,
@@ -37,12 +36,11 @@ from tandemlift.parts.controllers.cascade import (
 )
 from tandemlift.parts.controllers.interface import Command, Measured, control
 from tandemlift.parts.controllers.registry import register
-from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import Wrench
-from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.tilt import limit_tilt
+from tandemlift.parts.mechanics.rotation import limit_tilt, rotation_from_quaternion
+from tandemlift.parts.mechanics.trajectories import Reference
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.trajectories import Reference
 
 MIN_UPWARD = 0.1  # of the weight: smallest upward component of the force that R_d points along
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import NamedTuple, TypeVar
 
-from tandemlift.core.algebra.law import choice
-from tandemlift.core.algebra.vector import ZERO, Vec3
 from tandemlift.core.keys import Table, key
+from tandemlift.core.law import choice
+from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
-from tandemlift.parts.trajectories import Reference
+from tandemlift.parts.mechanics.trajectories import Reference
 
 
 class ControllerTable(Table):

@@ -24,13 +24,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import clip, expm1
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.core.algebra import clip, expm1
 from tandemlift.core.keys import NonNegative3, Positive, Positive3, key
-from tandemlift.core.types import Array
+from tandemlift.core.law import law
+from tandemlift.core.types import GRAVITY, Array, Number
+from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.controllers.attitude_reference import CommandFilterState
 from tandemlift.parts.controllers.cascade import (
     LEVEL,
@@ -45,10 +43,15 @@ from tandemlift.parts.controllers.cascade import (
 from tandemlift.parts.controllers.interface import Command, Measured, control
 from tandemlift.parts.controllers.registry import register
 from tandemlift.parts.mechanics.rigid_body import UP
-from tandemlift.parts.mechanics.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, wrap_angle
-from tandemlift.parts.mechanics.tilt import limit_tilt
+from tandemlift.parts.mechanics.rotation import (
+    Euler,
+    euler_from_quaternion,
+    euler_rates_from_rates,
+    limit_tilt,
+    wrap_angle,
+)
+from tandemlift.parts.mechanics.trajectories import Reference
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.trajectories import Reference
 
 
 class LQRSettings(CascadeTable):

@@ -17,12 +17,11 @@ from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.types import Number, is_symbol
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.core.errors import FlightWarning
 from tandemlift.core.keys import AtLeastOne6, NonNegative6, Positive6, Table, Tilt, key
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import GRAVITY, Number, is_symbol
+from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.parts.controllers.attitude_reference import (
     AttitudeReference,
     CommandFilter,
@@ -43,20 +42,22 @@ from tandemlift.parts.controllers.sliding_surface import (
     Tanh,
     wanted_acceleration,
 )
-from tandemlift.parts.mechanics.inertia import Inertia, apply_inertia, gyroscopic, inertia_value
-from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench
-from tandemlift.parts.mechanics.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, wrap_angle
-from tandemlift.parts.mechanics.tilt import (
+from tandemlift.parts.mechanics.rigid_body import UP, Inertia, State, Wrench, apply_inertia, gyroscopic, inertia_value
+from tandemlift.parts.mechanics.rotation import (
+    Euler,
     TiltLimit,
     TiltPrinted,
     TiltZXY,
     desired_orientation,
+    euler_from_quaternion,
+    euler_rates_from_rates,
     limit_tilt,
     tilt_limit,
     total_thrust,
+    wrap_angle,
 )
+from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.trajectories import Reference, Trajectory
 
 
 class Gains(Table):

@@ -15,11 +15,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import clip
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Vec3, vec3
+from tandemlift.core.algebra import clip
 from tandemlift.core.keys import Axes3, NonNegative3, Positive3, key
+from tandemlift.core.law import law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Vec3, vec3
 from tandemlift.parts.controllers.attitude_reference import CommandFilterState
 from tandemlift.parts.controllers.cascade import (
     ATTITUDE_FILTER,
@@ -35,11 +35,10 @@ from tandemlift.parts.controllers.cascade import (
 )
 from tandemlift.parts.controllers.interface import Command, Measured, control
 from tandemlift.parts.controllers.registry import register
-from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass, low_pass_step
-from tandemlift.parts.mechanics.rotation import euler_from_quaternion, rates_from_euler_rates, wrap_angle
-from tandemlift.parts.mechanics.tilt import limit_tilt
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.parts.mechanics.rotation import euler_from_quaternion, limit_tilt, rates_from_euler_rates, wrap_angle
+from tandemlift.parts.mechanics.trajectories import Reference
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.trajectories import Reference
 
 
 class PIDSettings(CascadeTable):

@@ -6,10 +6,10 @@ numbers. With the exponent a ≥ 1 of the paper the approach on S = 0 is exponen
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import absolute, clip, log, power, tanh, where
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Vec3
+from tandemlift.core.algebra import absolute, clip, log, power, tanh, where
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Vec3
 
 
 class Sign(NamedTuple):

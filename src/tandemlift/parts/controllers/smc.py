@@ -12,11 +12,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import elementwise, law
-from tandemlift.core.algebra.ops import absolute, maximum
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Vec3, vec3
+from tandemlift.core.algebra import absolute, maximum
 from tandemlift.core.keys import Positive6, key
+from tandemlift.core.law import elementwise, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Vec3, vec3
 from tandemlift.parts.controllers.attitude_reference import CommandFilterState
 from tandemlift.parts.controllers.cascade import (
     ATTITUDE_FILTER,
@@ -34,10 +34,9 @@ from tandemlift.parts.controllers.cascade import (
 from tandemlift.parts.controllers.interface import Command, Measured, control
 from tandemlift.parts.controllers.registry import register
 from tandemlift.parts.controllers.sliding_surface import saturate
-from tandemlift.parts.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, wrap_angle
-from tandemlift.parts.mechanics.tilt import limit_tilt
+from tandemlift.parts.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, limit_tilt, wrap_angle
+from tandemlift.parts.mechanics.trajectories import Reference
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.trajectories import Reference
 
 
 class SMCSettings(CascadeTable):

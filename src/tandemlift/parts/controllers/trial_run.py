@@ -7,12 +7,12 @@ import traceback
 from pathlib import Path
 from typing import Any
 
-from tandemlift.core.algebra.types import is_symbol
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, layout
 from tandemlift.core.errors import InputError
+from tandemlift.core.types import is_symbol
+from tandemlift.core.vector import ZERO, Quat, Vec3, layout
 from tandemlift.parts.controllers.interface import Command, Disturbance, Measured, control
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
-from tandemlift.parts.trajectories import Reference, Trajectory
+from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
 
 COMMAND = Command(Wrench(0.0, ZERO), ZERO)
 SAMPLE = (  # something ordinary to try a law on

@@ -10,9 +10,9 @@ from importlib.util import decode_source
 from pathlib import Path
 from types import FunctionType, ModuleType
 
-from tandemlift.core.algebra.law import LAWS
-from tandemlift.core.algebra.vector import dot
 from tandemlift.core.errors import InputError
+from tandemlift.core.law import LAWS
+from tandemlift.core.vector import dot
 from tandemlift.parts.controllers.registry import CONTROLLERS, Controller, file_of
 from tandemlift.parts.controllers.trial_run import error_text
 

@@ -24,10 +24,10 @@ from __future__ import annotations
 
 from typing import Generic, NamedTuple
 
-from tandemlift.core.algebra.law import elementwise, law
-from tandemlift.core.algebra.ops import absolute, clip, maximum, minimum, sqrt, where
-from tandemlift.core.algebra.types import Number
-from tandemlift.parts.low_pass import LowPass, LowPassState, V, low_pass_step
+from tandemlift.core.algebra import absolute, clip, maximum, minimum, sqrt, where
+from tandemlift.core.law import elementwise, law
+from tandemlift.core.types import Number
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, V, low_pass_step
 
 REFUTED, CONFIRMED = 0.4, 0.6  # unexplained share of a push up to which none is confirmed, and from which on all is
 RELEARN_TIME = 2.0  # s, in which what is not confirmed becomes the new zero

@@ -9,11 +9,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import maximum, sqrt, where
-from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, apply, dot
+from tandemlift.core.algebra import chosen, maximum, sqrt, where
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Absent, Vec3, apply, dot
 from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.estimation.contact_evidence import (
     ContactDetector,
@@ -28,7 +27,7 @@ from tandemlift.parts.estimation.contact_evidence import (
 from tandemlift.parts.estimation.contact_map import BeamMatch, GuardMatch, beam_of, guards_matched, picked
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator
 from tandemlift.parts.estimation.tare import SideForces
-from tandemlift.parts.low_pass import LowPassState
+from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 

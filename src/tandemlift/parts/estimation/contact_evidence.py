@@ -25,14 +25,14 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import elementwise, law
-from tandemlift.core.algebra.ops import greatest, maximum, minimum, where
-from tandemlift.core.algebra.types import Number, PerQuadrotor
-from tandemlift.core.algebra.vector import Vec3, total
+from tandemlift.core.algebra import greatest, maximum, minimum, where
+from tandemlift.core.law import elementwise, law
+from tandemlift.core.types import Number, PerQuadrotor
+from tandemlift.core.vector import Vec3, total
 from tandemlift.parts.estimation.contact_map import BeamMatch, GuardMatch, TouchGeometry
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, external_forces
 from tandemlift.parts.estimation.tare import SideForces
-from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass_step
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.sensors.readings import ImuReading
 
 CONFIRMED = 0.7  # least share of a force that the momentum residual shows

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import maximum, where
-from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.types import Number, PerQuadrotor
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, apply, dot, total
+from tandemlift.core.algebra import chosen, maximum, where
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import Number, PerQuadrotor
+from tandemlift.core.vector import ZERO, Absent, Vec3, apply, dot, total
 from tandemlift.parts.contact.wall_geometry import Wall, offset
 from tandemlift.parts.contact.walls import BeamAxis, NearBeam, NearWalls, beam_axis, beam_point, point_by_edge
 from tandemlift.parts.mechanics.loads import translated

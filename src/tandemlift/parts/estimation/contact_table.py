@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, Literal
 
-from tandemlift.core.algebra.types import number
-from tandemlift.core.algebra.vector import Absent, each, spread, vec3
-from tandemlift.core.checks import CheckResult, refused
+from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import NonNegative, Positive, Table, key
+from tandemlift.core.types import number
+from tandemlift.core.vector import Absent, each, spread, vec3
 from tandemlift.parts.estimation.contact_detection import start_contact
 from tandemlift.parts.estimation.contact_evidence import ContactDetector
 from tandemlift.parts.estimation.contact_map import TouchGeometry
-from tandemlift.parts.low_pass import low_pass
+from tandemlift.parts.mechanics.low_pass import low_pass
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 

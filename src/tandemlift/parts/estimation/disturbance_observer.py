@@ -22,17 +22,23 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.arrays import array, inverse
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import absolute, clip, minimum, sqrt
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import ZERO, Absent, Mat3, Vec3, vec3
-from tandemlift.core.checks import CheckResult, refused
+from tandemlift.core.algebra import absolute, clip, minimum, sqrt
+from tandemlift.core.arrays import array, inverse
+from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import BELIEVED, TRIAL, NonNegative, Positive, Positive3, Table, key
-from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass, low_pass_step
-from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
-from tandemlift.parts.mechanics.rigid_body import UP, InitialTable, PushedState, Wrench
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import GRAVITY, Number, PerRotor
+from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, vec3
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.parts.mechanics.rigid_body import (
+    UP,
+    InitialTable,
+    PushedState,
+    Wrench,
+    apply_inertia,
+    gyroscopic,
+    inertia_value,
+)
 from tandemlift.parts.mechanics.rotation import body_z_axis
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import Mixer, wrench

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Literal
 
-from tandemlift.core.checks import CheckResult, refused, warned
+from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.keys import Bandwidth, NonNegative, Positive, Scale, Table, key
 from tandemlift.parts.mechanics.push import PushTable
-from tandemlift.parts.trajectories import PhasesTable
+from tandemlift.parts.mechanics.trajectories import PhasesTable
 
 
 class EstimatorTable(Table):

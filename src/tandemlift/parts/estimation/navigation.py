@@ -22,11 +22,10 @@ from typing import NamedTuple
 
 from numpy.typing import ArrayLike
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import exp, maximum, where
-from tandemlift.core.algebra.types import Number, number
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, apply, apply_transposed, cross, vec3
+from tandemlift.core.algebra import exp, maximum, where
+from tandemlift.core.law import law
+from tandemlift.core.types import GRAVITY, Number, number
+from tandemlift.core.vector import ZERO, Quat, Vec3, apply, apply_transposed, cross, vec3
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.mechanics.rigid_body import UP, State
 from tandemlift.parts.mechanics.rotation import normalised, rotated_by, rotation_between, rotation_from_quaternion

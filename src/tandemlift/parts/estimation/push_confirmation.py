@@ -13,19 +13,18 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.arrays import array
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import maximum, minimum, sqrt, where
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, each, vec3
+from tandemlift.core.algebra import maximum, minimum, sqrt, where
+from tandemlift.core.arrays import array
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import Number, PerRotor
+from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, each, vec3
 from tandemlift.parts.estimation.confirmed_part import Zero, compared
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState
 from tandemlift.parts.estimation.wind_compensation import subtracted_wind
-from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass, low_pass_step
-from tandemlift.parts.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.loads import scaled, sum_over_set, translated
-from tandemlift.parts.mechanics.rigid_body import UP
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.parts.mechanics.rigid_body import UP, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import Mixer, mixer_from, wrench

@@ -26,11 +26,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.core.algebra.arrays import array
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import clip, maximum, sqrt, where
-from tandemlift.core.algebra.types import Number, PerQuadrotor, number
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, apply, cross, each, spread, total, vec3
+from tandemlift.core.algebra import clip, maximum, sqrt, where
+from tandemlift.core.arrays import array
+from tandemlift.core.law import law
+from tandemlift.core.types import Number, PerQuadrotor, number
+from tandemlift.core.vector import ZERO, Absent, Vec3, apply, cross, each, spread, total, vec3
 from tandemlift.parts.estimation.tare import TINY, SideForces, TareSums, summed, tare_fields, tare_of
 from tandemlift.parts.estimation.wind_compensation import (
     PayloadDrag,
@@ -38,9 +38,9 @@ from tandemlift.parts.estimation.wind_compensation import (
     start_payload_drag,
     wind_on_payload,
 )
-from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass, low_pass_step
-from tandemlift.parts.mechanics.inertia import Inertia, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.loads import add_to_each, sum_over_set
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.parts.mechanics.rigid_body import Inertia, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.sensors.readings import ImuReading
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import maximum, where
-from tandemlift.core.algebra.types import Number, number
-from tandemlift.core.algebra.vector import Vec3, dot
+from tandemlift.core.algebra import maximum, where
+from tandemlift.core.law import law
+from tandemlift.core.types import Number, number
+from tandemlift.core.vector import Vec3, dot
 
 TINY = 1e-24
 """N² or (m/s²)²: far below what any sensor shows; guards roots and divisions."""

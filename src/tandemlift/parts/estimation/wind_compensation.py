@@ -14,13 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.arrays import array
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import maximum
-from tandemlift.core.algebra.types import Number, PerQuadrotor, number
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, total
-from tandemlift.core.checks import CheckResult, refused
-from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.core.algebra import maximum
+from tandemlift.core.arrays import array
+from tandemlift.core.errors import CheckResult, refused
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import Number, PerQuadrotor, number
+from tandemlift.core.vector import ZERO, Absent, Vec3, total
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 

@@ -12,11 +12,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import maximum, minimum, sqrt, where
-from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, apply_transposed, cross, dot
+from tandemlift.core.algebra import chosen, maximum, minimum, sqrt, where
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Absent, Vec3, apply_transposed, cross, dot
 from tandemlift.parts.compliance.compliance import ComplianceState, moved_towards, within
 from tandemlift.parts.estimation.contact_detection import NO_CONTACT, ContactEstimate
 from tandemlift.parts.estimation.contact_table import ContactTable
@@ -109,7 +108,7 @@ def side_of(x: Number) -> Number:
 
 @law
 def code_of(c: ContactEstimate) -> Number:
-    """Part, direction of the wall and place on the beam [cm] in a whole number; `simulation.contact_texts` reads it."""
+    """Part, direction of the wall and place on the beam [cm] in a whole number; `simulation.touches` reads it."""
     part = where(c.part < 0.0, BEAM, c.part)
     direction = side_of(-c.normal.x) * 3.0 + side_of(-c.normal.y)
     place = maximum(minimum(c.along * 100.0, 4000.0), -4000.0) + HALF_PLACES

@@ -11,17 +11,17 @@ from typing import Annotated, Any, NamedTuple, cast
 
 from pydantic import Field
 
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import maximum, where
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Vec3, dot
+from tandemlift.core.algebra import maximum, where
 from tandemlift.core.faults import FAULTS, REACTIONS
 from tandemlift.core.keys import Fraction, NonNegative, PerAxis, Positive, Table, Tilt, key
+from tandemlift.core.law import law
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIMITED, STOPPED
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Vec3, dot
 from tandemlift.parts.guidance.preflight_checks import SensorStatus
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import body_z_axis
-from tandemlift.parts.requests import VehicleStatus
+from tandemlift.parts.person.requests import VehicleStatus
 
 Corner = Annotated[float, Field(ge=-1e3, le=1e3)]  # m
 Corners = Annotated[tuple[Corner, Corner, Corner], PerAxis(3)]

@@ -8,22 +8,21 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Literal, NamedTuple, TypeVar
 
-from tandemlift.core.algebra.constants import NEVER
-from tandemlift.core.algebra.law import Absent, choice
-from tandemlift.core.algebra.ops import where
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import Vec3
-from tandemlift.core.checks import CheckResult, refused
+from tandemlift.core.algebra import where
+from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import Table, key
+from tandemlift.core.law import Absent, choice
+from tandemlift.core.types import NEVER, Number, PerRotor
+from tandemlift.core.vector import Vec3
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.requests import (
+from tandemlift.parts.mechanics.trajectories import PhasesTable, Reference, Trajectory
+from tandemlift.parts.person.requests import (
     NO_REQUEST,
     UNKNOWN_STATUS,
     OperatorRequest,
     VehicleStatus,
 )
-from tandemlift.parts.trajectories import PhasesTable, Reference, Trajectory
 
 M = TypeVar("M")
 Reading = Literal["truth", "measurement", "estimate"]

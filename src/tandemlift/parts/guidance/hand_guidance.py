@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import maximum, where
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Absent, Vec3, apply, dot
+from tandemlift.core.algebra import maximum, where
+from tandemlift.core.law import law
 from tandemlift.core.phases import CONTACT, IDLE, LAND, LIFT
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Absent, Vec3, apply, dot
 from tandemlift.parts.compliance.above_ground import GroundClearance, above_ground, has_floor
 from tandemlift.parts.compliance.available import (
     AvailableForce,
@@ -67,14 +67,14 @@ from tandemlift.parts.guidance.supervision import (
     supervise,
 )
 from tandemlift.parts.guidance.yaw_compliance import FixedHeading, HeadingReference, YawCompliance, YawState, yaw_step
-from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass_step
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, wrap_angle
-from tandemlift.parts.requests import (
+from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
+from tandemlift.parts.person.requests import (
     requests_until,
     with_operator,
 )
-from tandemlift.parts.trajectories import Reference, Trajectory
 
 
 class HandGuidance(NamedTuple):

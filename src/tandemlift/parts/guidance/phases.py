@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import Absent, law
-from tandemlift.core.algebra.ops import absolute, maximum, minimum, where
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import dot
+from tandemlift.core.algebra import absolute, maximum, minimum, where
+from tandemlift.core.law import Absent, law
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, STOPPED
+from tandemlift.core.types import Number
+from tandemlift.core.vector import dot
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.requests import RequestCounts, RequestSchedule
-from tandemlift.parts.trajectories import SmoothStep, smoothstep
+from tandemlift.parts.mechanics.trajectories import SmoothStep, smoothstep
+from tandemlift.parts.person.requests import RequestCounts, RequestSchedule
 
 SETTLING_TIME = 1.0  # s, of steady hover before a tare
 STEADY_SPEED = 0.1  # m/s and rad/s

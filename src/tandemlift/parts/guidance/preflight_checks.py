@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import Absent, choice, law
-from tandemlift.core.algebra.ops import maximum, where
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import dot
+from tandemlift.core.algebra import maximum, where
 from tandemlift.core.faults import CHECKS
 from tandemlift.core.keys import Fraction, Positive, Scale, Table, Tilt, key
+from tandemlift.core.law import Absent, choice, law
+from tandemlift.core.types import GRAVITY, Number
+from tandemlift.core.vector import dot
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import body_z_axis
-from tandemlift.parts.requests import VehicleStatus
+from tandemlift.parts.person.requests import VehicleStatus
 from tandemlift.parts.sensors.health import WELL, WatchdogReport
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import Absent
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO
+from tandemlift.core.law import Absent
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO
 from tandemlift.parts.compliance.admittance import (
     Admittance,
     AdmittanceState,
@@ -24,7 +24,7 @@ from tandemlift.parts.guidance.guidance import (
     guide,
     run,
 )
-from tandemlift.parts.trajectories import Reference, ScheduledPhases, reference
+from tandemlift.parts.mechanics.trajectories import Reference, ScheduledPhases, reference
 
 
 class ScheduledGuidance(NamedTuple):

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import Absent, choice, elementwise
-from tandemlift.core.algebra.ops import clip, maximum, where
-from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.core.algebra import chosen, clip, maximum, where
+from tandemlift.core.law import Absent, choice, elementwise
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.compliance.compliance import Compliance, ComplianceState, with_speed
 from tandemlift.parts.guidance.guidance import PilotInput
 from tandemlift.parts.guidance.supervision import Supervision, SupervisionState
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.requests import VehicleStatus
+from tandemlift.parts.mechanics.trajectories import Trajectory
+from tandemlift.parts.person.requests import VehicleStatus
 from tandemlift.parts.sensors.health import any_component, not_finite
 from tandemlift.parts.sensors.watchdog import state_not_finite
-from tandemlift.parts.trajectories import Trajectory
 
 TOUCHDOWN_FACTOR = 8.0  # by which a blind descent accelerates at its end, so that the feet press on the ground
 

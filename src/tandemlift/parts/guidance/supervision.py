@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import Absent, choice, elementwise, law
-from tandemlift.core.algebra.ops import maximum, where
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import Vec3, total
+from tandemlift.core.algebra import maximum, where
+from tandemlift.core.law import Absent, choice, elementwise, law
 from tandemlift.core.phases import HOLD, IDLE, STOPPED
+from tandemlift.core.types import Number, PerRotor
+from tandemlift.core.vector import Vec3, total
 from tandemlift.parts.guidance.fault_detection import (
     HOLDS,
     LANDS,

@@ -7,12 +7,11 @@ from typing import Any, Literal
 
 from pydantic import create_model
 
-from tandemlift.core.algebra.ops import cos
-from tandemlift.core.algebra.vector import Absent, Vec3, each, vec3
-from tandemlift.core.checks import CheckResult, refused
+from tandemlift.core.algebra import cos
+from tandemlift.core.errors import CheckResult, refused, shown
 from tandemlift.core.faults import FAULTS, REACTION_MEANINGS, REACTIONS, Fault, Reaction
 from tandemlift.core.keys import NonNegative, Positive, Table, key
-from tandemlift.core.toml import shown
+from tandemlift.core.vector import Absent, Vec3, each, vec3
 from tandemlift.parts.guidance.fault_detection import (
     NO_TIME,
     ActiveFaults,

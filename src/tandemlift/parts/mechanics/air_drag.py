@@ -5,10 +5,10 @@ It acts with `wind.model = "air"`. The linear drag of the whole vehicle, `vehicl
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import elementwise, law
-from tandemlift.core.algebra.ops import maximum, sqrt
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Vec3, apply, apply_transposed, cross, dot, spread, vec3
+from tandemlift.core.algebra import maximum, sqrt
+from tandemlift.core.law import elementwise, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Vec3, apply, apply_transposed, cross, dot, spread, vec3
 from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion

@@ -5,10 +5,9 @@ A vector for every quadrotor is a `Vec3` of sets. A joint transmits the load of 
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.types import Number, PerQuadrotor, PerRotor
-from tandemlift.core.algebra.vector import (
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import GRAVITY, Number, PerQuadrotor, PerRotor
+from tandemlift.core.vector import (
     ZERO,
     Absent,
     Quarters,

@@ -6,12 +6,10 @@ world axes, τ_i, rates and lever arms d_i (payload centre to quadrotor) in body
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Mat3, Vec3, apply, apply_transposed, cross
-from tandemlift.parts.mechanics.inertia import Inertia, apply_inertia, gyroscopic
-from tandemlift.parts.mechanics.rigid_body import UP
+from tandemlift.core.law import law
+from tandemlift.core.types import GRAVITY, Number
+from tandemlift.core.vector import Mat3, Vec3, apply, apply_transposed, cross
+from tandemlift.parts.mechanics.rigid_body import UP, Inertia, apply_inertia, gyroscopic
 
 
 class Point(NamedTuple):

@@ -10,13 +10,12 @@ from typing import Generic, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import exp, where
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Mat3, Quat, Vec3, linear, outer, plus
-from tandemlift.core.checks import CheckResult, refused
+from tandemlift.core.algebra import exp, where
+from tandemlift.core.errors import CheckResult, refused, shown
 from tandemlift.core.keys import Exactly3, Positive, Table, key
-from tandemlift.core.toml import shown
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Mat3, Quat, Vec3, linear, outer, plus
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
 

@@ -1,23 +1,55 @@
 """The vehicle as one rigid body: state, wrench, equations of motion, one Runge-Kutta step.
 
 Position p and velocity v are the system centre of mass's, in world axes; rates ω = (p, q, r) and moments are in body
-axes, moments about the centre of mass.
+axes, moments about the centre of mass. An inertia tensor is a `Vec3` if it is diagonal, else a `Mat3`.
 """
 
 import math
-from typing import Annotated, NamedTuple, Protocol
+from typing import Annotated, NamedTuple, Protocol, TypeAlias
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import AfterValidator
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import sqrt
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Quat, Vec3, dot, linear, plus, times
+from tandemlift.core.algebra import sqrt
+from tandemlift.core.arrays import largest
 from tandemlift.core.keys import Axes3, Table, Triple, key, must
-from tandemlift.parts.mechanics.inertia import Inertia, apply_inertia, gyroscopic
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import GRAVITY, Number
+from tandemlift.core.vector import Mat3, Quat, Vec3, apply, cross, dot, linear, mat3, plus, times, vec3
 from tandemlift.parts.mechanics.push import Push, PushSamples, push_moment
 from tandemlift.parts.mechanics.rotation import body_z_axis, quaternion_rate
+
+Inertia: TypeAlias = Vec3 | Mat3
+OFF_DIAGONAL = ~np.eye(3, dtype=bool)
+
+
+@choice
+def apply_inertia(J: Inertia, v: Vec3) -> Vec3:
+    """J v for an inertia tensor J; J⁻¹ v for an inverse one."""
+
+
+@apply_inertia.register(Vec3)
+def _diagonal(J: Vec3, v: Vec3) -> Vec3:
+    return J * v
+
+
+@apply_inertia.register(Mat3)
+def _full(J: Mat3, v: Vec3) -> Vec3:
+    return apply(J, v)
+
+
+@law
+def gyroscopic(J: Inertia, rates: Vec3) -> Vec3:
+    """−ω × J ω: for a diagonal J the terms (J_y − J_z) q r, (J_z − J_x) p r, (J_x − J_y) p q."""
+    return -cross(rates, apply_inertia(J, rates))
+
+
+def inertia_value(J: NDArray[np.floating]) -> Inertia:
+    """A 3 × 3 tensor as a Vec3 if it is diagonal to rounding, else as a Mat3."""
+    sizes = np.abs(J)
+    off, whole = (largest(part.reshape(1, -1), axis=1)[0] for part in (sizes[OFF_DIAGONAL], sizes))
+    return vec3(np.diag(J)) if off <= 1e-12 * whole else mat3(J)
 
 
 def _upright(euler: Triple) -> Triple:

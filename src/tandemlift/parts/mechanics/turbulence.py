@@ -13,11 +13,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.core.algebra.arrays import mapped
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import atan2, cos, exp, expm1, maximum, minimum, sin, sqrt
-from tandemlift.core.algebra.types import Number, number
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, vec3
+from tandemlift.core.algebra import atan2, cos, exp, expm1, maximum, minimum, sin, sqrt
+from tandemlift.core.arrays import mapped
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import Number, number
+from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 
 FOOT = 0.3048  # m
 LOWEST, HIGHEST = 10.0, 1000.0  # ft, between which the standard's low-altitude model holds

@@ -15,11 +15,10 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.core.algebra.arrays import array, condition_number, has_symbols, inverse, square_roots
-from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.arrays import array, condition_number, has_symbols, inverse, square_roots
 from tandemlift.core.caching import cached
 from tandemlift.core.errors import InputError
-from tandemlift.core.types import Array
+from tandemlift.core.types import GRAVITY, Array
 from tandemlift.parts.mechanics.vehicle_table import Drag, Payload, Quadrotor, VehicleTable
 
 

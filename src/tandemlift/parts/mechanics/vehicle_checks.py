@@ -8,9 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from tandemlift.core.caching import cached
-from tandemlift.core.checks import CheckResult, refused
-from tandemlift.core.errors import InputError
-from tandemlift.core.toml import shown
+from tandemlift.core.errors import CheckResult, InputError, refused, shown
 from tandemlift.core.types import Array
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable

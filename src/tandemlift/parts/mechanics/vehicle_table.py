@@ -1,4 +1,4 @@
-"""The parts of the vehicle: payload, quadrotors, drag."""
+"""The parts of the vehicle: payload, quadrotors, drag; and how the real body differs from the modelled one."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field, model_validator
 
 from tandemlift.core.keys import (
+    Axes3,
     Exactly3,
     Length,
     NonNegative,
@@ -15,12 +16,33 @@ from tandemlift.core.keys import (
     PerAxis,
     Positive,
     Positive3,
+    Scale,
     Size,
     Table,
     Triple,
     key,
     must,
 )
+
+
+class DisturbanceTable(Table):
+    """`[disturbance]`: a constant force and moment that the pilot does not know of."""
+
+    force: Axes3 = key((0.0, 0.0, 0.0), "N", "force at the centre of mass, world axes")
+    moment: Axes3 = key((0.0, 0.0, 0.0), "N m", "moment, body axes")
+
+
+class PlantTable(Table):
+    """`[plant]`: how the real body differs from the pilot's model of it."""
+
+    mass_scale: Scale = key(1.0, "1", "real mass over the modelled mass", source="the model is right")
+    inertia_scale: Annotated[tuple[Scale, Scale, Scale], PerAxis(3)] = key(
+        (1.0, 1.0, 1.0),
+        "1",
+        "real inertia over the modelled inertia, about each body axis",
+        source="the model is right",
+    )
+
 
 COINCIDING = 1e-3  # m
 

@@ -13,13 +13,13 @@ from typing import Annotated, Literal, NamedTuple
 import numpy as np
 from pydantic import Field
 
-from tandemlift.core.algebra.arrays import distance
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import clip, cos, maximum
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, vec3
-from tandemlift.core.checks import CheckResult, warned
+from tandemlift.core.algebra import clip, cos, maximum
+from tandemlift.core.arrays import distance
+from tandemlift.core.errors import CheckResult, warned
 from tandemlift.core.keys import NonNegative, PerAxis, Positive, Table, key
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.parts.mechanics.air_drag import AirDrag, air_drag_from, air_loads
 from tandemlift.parts.mechanics.loads import PartLoads, PartsLayout
 from tandemlift.parts.mechanics.rigid_body import State

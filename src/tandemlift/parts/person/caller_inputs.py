@@ -5,10 +5,10 @@ Both are held over the step. A flight without a caller has `Absent`.
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import Absent, choice, elementwise
-from tandemlift.core.algebra.ops import where
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import ZERO, Mat3, Quat, Vec3, linear, outer, plus
+from tandemlift.core.algebra import where
+from tandemlift.core.law import Absent, choice, elementwise
+from tandemlift.core.types import Number, PerRotor
+from tandemlift.core.vector import ZERO, Mat3, Quat, Vec3, linear, outer, plus
 from tandemlift.parts.mechanics.push import CentralPush, PointPush, Push, PushSamples, push_moment
 
 

@@ -6,10 +6,10 @@ step; it is part of the flight's record and of what the person has done. A body 
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import Absent, choice
-from tandemlift.core.algebra.ops import where
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Vec3, dot
+from tandemlift.core.algebra import where
+from tandemlift.core.law import Absent, choice
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Vec3, dot
 
 
 class OutsidePush(NamedTuple):

@@ -7,13 +7,13 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import Field
 
-from tandemlift.core.algebra.ops import where
-from tandemlift.core.algebra.types import Number, number
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, vec3
-from tandemlift.core.checks import CheckResult, refused, warned
+from tandemlift.core.algebra import where
+from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.keys import Delay, NonNegative, Positive, Share, Table, key
+from tandemlift.core.types import Number, number
+from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.parts.contact.corridor import CorridorTable, Point2
-from tandemlift.parts.low_pass import LowPassState, low_pass
+from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.person.person import (

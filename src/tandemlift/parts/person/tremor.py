@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.types import Number, number
-from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.core.law import law
+from tandemlift.core.types import Number, number
+from tandemlift.core.vector import ZERO, Vec3
 
 MIDDLE, HALF = 10.0, 1.5  # Hz
 

@@ -18,15 +18,15 @@ Source: virtual coupling, Colgate, Stanley and Brown, Issues in the haptic displ
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import Absent, law
-from tandemlift.core.algebra.ops import where
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Vec3, outer
-from tandemlift.parts.low_pass import LowPass, LowPassState, low_pass_step
+from tandemlift.core.algebra import where
+from tandemlift.core.law import Absent, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Vec3, outer
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.push import PointPush, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.person.person import PersonOutput, bounded, landing_request, person_step, person_view
-from tandemlift.parts.requests import OperatorRequest, operator_request
+from tandemlift.parts.person.requests import OperatorRequest, operator_request
 
 
 class VirtualHandInput(NamedTuple):

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import Absent, total
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import Number, PerRotor
+from tandemlift.core.vector import Absent, total
 from tandemlift.parts.compliance.admittance import AdmittanceState
 from tandemlift.parts.controllers import Command, Disturbance, Measured, control
 from tandemlift.parts.estimation.disturbance_observer import (
@@ -32,8 +32,8 @@ from tandemlift.parts.guidance.guidance import (
 )
 from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
-from tandemlift.parts.rotor_loss.detection import DetectionState, RotorLossDetection, detection_step, failed_rotors
 from tandemlift.parts.rotors.allocation import AllocationState, ConstrainedAllocation, Mixer, allocate
+from tandemlift.parts.rotors.detection import DetectionState, RotorLossDetection, detection_step, failed_rotors
 
 __all__ = [
     "ControlInput",

@@ -8,15 +8,13 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import Absent, choice, law
-from tandemlift.core.algebra.ops import absolute, atan2, maximum, minimum, sqrt, where
-from tandemlift.core.algebra.selection import selected
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import dot, total
+from tandemlift.core.algebra import absolute, atan2, maximum, minimum, selected, sqrt, where
 from tandemlift.core.faults import FAULTS
+from tandemlift.core.law import Absent, choice, law
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, STOPPED
 from tandemlift.core.refusals import NUMBER_OF, REQUESTS, Refusals, refusal_of
+from tandemlift.core.types import GRAVITY, Number
+from tandemlift.core.vector import dot, total
 from tandemlift.parts.compliance.admittance import AdmittanceState
 from tandemlift.parts.compliance.compliance import Compliance, ComplianceState
 from tandemlift.parts.guidance.contact_hold import ContactReaction, ContactReactionState

@@ -7,13 +7,13 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import GetCoreSchemaHandler
 from pydantic_core import core_schema
 
-from tandemlift.core.algebra.arrays import array, square_roots
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import clip, maximum, sqrt, where
-from tandemlift.core.algebra.types import Number, PerRotor, number
-from tandemlift.core.algebra.vector import Absent, Vec3, dot, each
+from tandemlift.core.algebra import clip, maximum, sqrt, where
+from tandemlift.core.arrays import array, square_roots
 from tandemlift.core.caching import cached
 from tandemlift.core.keys import PerAxis, Positive, Scale, Table, is_number, key, must
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import Number, PerRotor, number
+from tandemlift.core.vector import Absent, Vec3, dot, each
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import choice, elementwise
-from tandemlift.core.algebra.ops import maximum
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import Vec3
+from tandemlift.core.algebra import maximum
+from tandemlift.core.law import choice, elementwise
+from tandemlift.core.types import Number, PerRotor
+from tandemlift.core.vector import Vec3
 from tandemlift.parts.mechanics.rigid_body import State
 
 MIN_HEIGHT = 0.5  # rotor radii: the theory of ground effect holds no nearer to the floor

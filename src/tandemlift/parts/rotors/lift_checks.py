@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from tandemlift.core.checks import CheckResult, refused, warned
+from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.types import Array
 from tandemlift.parts.mechanics.vehicle import Vehicle
 

@@ -10,9 +10,9 @@ import functools
 import operator
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import elementwise
-from tandemlift.core.algebra.ops import absolute, where
-from tandemlift.core.algebra.types import Number, PerRotor
+from tandemlift.core.algebra import absolute, where
+from tandemlift.core.law import elementwise
+from tandemlift.core.types import Number, PerRotor
 from tandemlift.parts.rotors.allocation import Mixer
 
 GAMMA = 1e-3  # weight γ of the distance from the pseudo-inverse's thrusts, against the weighted wrench

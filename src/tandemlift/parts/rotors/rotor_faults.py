@@ -8,13 +8,12 @@ from typing import Annotated, NamedTuple
 
 from pydantic import Field
 
-from tandemlift.core.algebra.constants import NEVER
-from tandemlift.core.algebra.law import choice, elementwise
-from tandemlift.core.algebra.ops import minimum, where
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import each
-from tandemlift.core.checks import CheckResult, refused, warned
+from tandemlift.core.algebra import minimum, where
+from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.keys import NonNegative, Share, Table, key
+from tandemlift.core.law import choice, elementwise
+from tandemlift.core.types import NEVER, Number, PerRotor
+from tandemlift.core.vector import each
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 

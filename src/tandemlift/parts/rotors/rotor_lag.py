@@ -10,11 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.arrays import array, mapped
-from tandemlift.core.algebra.law import elementwise, law
-from tandemlift.core.algebra.ops import exp, expm1, where
-from tandemlift.core.algebra.types import Number, PerRotor, number
-from tandemlift.core.algebra.vector import each
+from tandemlift.core.algebra import exp, expm1, where
+from tandemlift.core.arrays import array, mapped
+from tandemlift.core.law import elementwise, law
+from tandemlift.core.types import Number, PerRotor, number
+from tandemlift.core.vector import each
 
 REST = 1e-100  # rad/s, lost in any speed; one that dies ends near 1e-115, not in slow denormal numbers
 

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
-from tandemlift.core.algebra.law import choice
-from tandemlift.core.algebra.ops import clip, maximum, minimum, sqrt
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import Absent, each, spread
+from tandemlift.core.algebra import clip, maximum, minimum, sqrt
 from tandemlift.core.caching import cached
 from tandemlift.core.keys import Delay, Table, key
+from tandemlift.core.law import choice
+from tandemlift.core.types import Number, PerRotor
+from tandemlift.core.vector import Absent, each, spread
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import wrench_scale

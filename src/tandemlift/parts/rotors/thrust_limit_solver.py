@@ -25,10 +25,10 @@ import functools
 import operator
 from typing import NamedTuple
 
-from tandemlift.core.algebra.law import elementwise
-from tandemlift.core.algebra.ops import absolute, where
-from tandemlift.core.algebra.types import Condition, Number, PerRotor
-from tandemlift.core.algebra.vector import each
+from tandemlift.core.algebra import absolute, where
+from tandemlift.core.law import elementwise
+from tandemlift.core.types import Condition, Number, PerRotor
+from tandemlift.core.vector import each
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.rotors.allocation import AllocationState, Mixer
 from tandemlift.parts.rotors.normal_equations import (

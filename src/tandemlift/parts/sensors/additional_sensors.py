@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Vec3, apply_transposed
+from tandemlift.core.law import law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Vec3, apply_transposed
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion

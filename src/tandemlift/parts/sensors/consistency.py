@@ -9,12 +9,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import maximum, where
-from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Quat, Vec3, apply, dot
+from tandemlift.core.algebra import chosen, maximum, where
+from tandemlift.core.law import law
+from tandemlift.core.types import GRAVITY, Number
+from tandemlift.core.vector import Quat, Vec3, apply, dot
 from tandemlift.parts.mechanics.rigid_body import UP
 from tandemlift.parts.mechanics.rotation import rotated_by, rotation_between, rotation_from_quaternion
 from tandemlift.parts.sensors.readings import ImuReading, MotionReading

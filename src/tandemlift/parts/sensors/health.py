@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from typing import Generic, NamedTuple, TypeAlias, TypeVar
 
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import absolute, maximum, minimum, sqrt, where
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Quat, Vec3, dot, total
+from tandemlift.core.algebra import absolute, maximum, minimum, sqrt, where
 from tandemlift.core.faults import SYMPTOMS
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Quat, Vec3, dot, total
 from tandemlift.parts.sensors.readings import Readings
 from tandemlift.parts.sensors.sensor_list import SENSORS, Sensor
 

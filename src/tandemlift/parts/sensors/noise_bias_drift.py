@@ -19,12 +19,11 @@ from typing import NamedTuple, TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.core.algebra.arrays import array
-from tandemlift.core.algebra.law import choice, elementwise
-from tandemlift.core.algebra.ops import clip, maximum, sqrt, where
-from tandemlift.core.algebra.types import Number, number
-from tandemlift.core.algebra.vector import ZERO, Absent, Mat3, Quat, Vec3, apply, each, is_set, spread, vec3
-from tandemlift.core.types import Array
+from tandemlift.core.algebra import clip, maximum, sqrt, where
+from tandemlift.core.arrays import array
+from tandemlift.core.law import choice, elementwise
+from tandemlift.core.types import Array, Number, number
+from tandemlift.core.vector import ZERO, Absent, Mat3, Quat, Vec3, apply, each, is_set, spread, vec3
 from tandemlift.parts.mechanics.rotation import quaternion_from_rotation_vector, rotated_by, rotation_from_quaternion
 
 ROUNDING = 6755399441055744.0  # 1.5 · 2⁵²: a sum with it has no fraction left

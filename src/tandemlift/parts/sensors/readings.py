@@ -12,11 +12,10 @@ from __future__ import annotations
 from functools import cache
 from typing import Any, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import where
-from tandemlift.core.algebra.selection import selected
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Absent, Quat, Vec3
+from tandemlift.core.algebra import selected, where
+from tandemlift.core.law import law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Absent, Quat, Vec3
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.noise_bias_drift import (

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.checks import CheckResult, refused, warned
-from tandemlift.core.errors import suggestion
-from tandemlift.core.toml import shown
-from tandemlift.core.types import Array
+from tandemlift.core.errors import CheckResult, refused, shown, suggestion, warned
+from tandemlift.core.types import GRAVITY, Array
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.sensors.sensor_list import ADDITIONAL, DEVICES, SENSORS, sensors_named
 from tandemlift.parts.sensors.sensors_table import SensorFaultTable, SensorsTable

@@ -12,12 +12,10 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias
 
-from tandemlift.core.algebra.constants import NEVER
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import where
-from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Absent, Quat, Vec3, each, vec3
+from tandemlift.core.algebra import chosen, where
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import NEVER, Number
+from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each, vec3
 from tandemlift.parts.mechanics.rotation import rotated_by
 from tandemlift.parts.sensors.noise_bias_drift import S, Sample
 from tandemlift.parts.sensors.readings import (

@@ -8,10 +8,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
-from tandemlift.core.algebra.law import choice
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, spread
 from tandemlift.core.errors import InputError
+from tandemlift.core.law import choice
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Quat, Vec3, spread
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.sensor_list import ADDITIONAL, DEVICES, SENSORS, Sensor
@@ -35,7 +35,7 @@ def register_sensor(sensor: Sensor) -> Callable[[F], F]:
 
     The law is called with the sensor's parameters, the true `State` of the vehicle's centre of mass and the
     `PerfectReadings` of payload and joints. It gives a number or a `Vec3`, and keeps to what a law may do
-    (`core.algebra.law`). Registering a name again replaces the sensor if it comes from the same file.
+    (`core.law`). Registering a name again replaces the sensor if it comes from the same file.
 
     Args:
         sensor: its row, from `parts.sensors.sensor_list.additional`.

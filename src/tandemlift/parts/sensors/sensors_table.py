@@ -8,9 +8,9 @@ from typing import Annotated, Literal, TypeAlias
 import numpy as np
 from pydantic import AfterValidator, Field
 
-from tandemlift.core.algebra.vector import Absent
 from tandemlift.core.keys import Axes3, Delay, NonNegative, Positive, Size, Table, key, must
 from tandemlift.core.types import Array
+from tandemlift.core.vector import Absent
 from tandemlift.parts.sensors.noise_bias_drift import SensorGrade, scalar_sensor_model, sensor_model
 from tandemlift.parts.sensors.readings import (
     AdditionalChannels,

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import clip, maximum, where
-from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Vec3, apply_transposed
+from tandemlift.core.algebra import chosen, clip, maximum, where
+from tandemlift.core.law import law
+from tandemlift.core.types import GRAVITY, Number
+from tandemlift.core.vector import ZERO, Vec3, apply_transposed
 from tandemlift.parts.mechanics.rigid_body import UP, State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.sensors.health import PerSensor, SensorHealth, WatchdogReport, is_valid

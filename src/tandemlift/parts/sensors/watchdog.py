@@ -16,12 +16,11 @@ from typing import Annotated, NamedTuple
 
 from pydantic import Field
 
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import exp, maximum, minimum, where
-from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, dot
+from tandemlift.core.algebra import chosen, exp, maximum, minimum, where
 from tandemlift.core.keys import NonNegative, Positive, Table, key
+from tandemlift.core.law import law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Quat, Vec3, dot
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_between
 from tandemlift.parts.sensors.consistency import Inconsistency, exceeds, inconsistency_after

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.core.algebra.vector import Quat
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
+from tandemlift.core.vector import Quat
 from tandemlift.engines.models.visuals import vehicle_shapes
 from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion

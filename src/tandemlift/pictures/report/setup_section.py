@@ -7,8 +7,7 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from tandemlift.core.errors import InputError
-from tandemlift.core.toml import shown
+from tandemlift.core.errors import InputError, shown
 from tandemlift.flight import Flight
 from tandemlift.missions import Mission
 from tandemlift.pictures.figures.drawing.ground import floor_height

@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.core.algebra.vector import ZERO, Absent
 from tandemlift.core.caching import cached
-from tandemlift.core.outcomes import FLIES
+from tandemlift.core.phases import FLIES
+from tandemlift.core.vector import ZERO, Absent
 from tandemlift.engines.compiled import plant_from, readings_at_rest, start_state
 from tandemlift.missions import Mission
 from tandemlift.parts.contact.clearance import Clearance, clearance
@@ -25,7 +25,6 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.wind import start_wind, wind_noise_of
 from tandemlift.parts.person.person import PersonState
 from tandemlift.parts.person.person_table import Walk, path_legs_from, start_person, waypoints_from
-from tandemlift.parts.random_numbers import key_from_seed
 from tandemlift.parts.rotors.rotors import start_rotors
 from tandemlift.parts.sensors.readings import (
     Readings,
@@ -51,6 +50,7 @@ from tandemlift.simulation.loop.fault_tolerant_perception import (
     WatchedEstimatorsState,
 )
 from tandemlift.simulation.loop.perception import Estimators, EstimatorState
+from tandemlift.simulation.loop.random_numbers import key_from_seed
 from tandemlift.simulation.loop.running_metrics import EMPTY, NO_EFFORT, RunningMetrics
 from tandemlift.simulation.loop.sources import MAPS, READS, PilotSources
 from tandemlift.simulation.loop.step import FlightModel, FlightState, StepInputs, StepNoise

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.ops import cos
-from tandemlift.core.algebra.vector import Absent, vec3
-from tandemlift.core.outcomes import FLIES, HARD
+from tandemlift.core.algebra import cos
+from tandemlift.core.phases import FLIES, HARD
+from tandemlift.core.types import GRAVITY
+from tandemlift.core.vector import Absent, vec3
 from tandemlift.missions import Mission
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle

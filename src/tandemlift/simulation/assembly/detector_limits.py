@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from tandemlift.core.algebra.ops import cos, maximum, minimum, where
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Absent, Vec3
+from tandemlift.core.algebra import cos, maximum, minimum, where
 from tandemlift.core.caching import cached
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Absent, Vec3
 from tandemlift.missions import Mission
 from tandemlift.missions.tables.outcomes import FindingsTable, promise_of
 from tandemlift.parts.compliance.admittance import AdmittanceTable

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from tandemlift.core.algebra.vector import Absent, vec3
+from tandemlift.core.vector import Absent, vec3
 from tandemlift.missions import Mission
 from tandemlift.parts.estimation.contact_table import start_contact_detection
 from tandemlift.parts.estimation.navigation import navigator_from, start_navigation

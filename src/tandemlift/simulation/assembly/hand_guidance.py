@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from tandemlift.core.algebra.constants import NEVER
-from tandemlift.core.algebra.ops import minimum
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, vec3
+from tandemlift.core.algebra import minimum
+from tandemlift.core.types import NEVER
+from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.missions import Mission
 from tandemlift.parts.compliance.above_ground import GroundClearance
 from tandemlift.parts.compliance.admittance import Admittance
@@ -20,11 +20,11 @@ from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceSt
 from tandemlift.parts.guidance.phases import PhaseSettings, start_phases
 from tandemlift.parts.guidance.supervision_table import start_supervision
 from tandemlift.parts.guidance.yaw_compliance import start_heading
-from tandemlift.parts.low_pass import LowPassState
+from tandemlift.parts.mechanics.low_pass import LowPassState
+from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.requests import RequestTable, start_requests
+from tandemlift.parts.person.requests import RequestTable, start_requests
 from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults
-from tandemlift.parts.trajectories import PhasesTable
 
 NO_PUSH = LowPassState(ZERO, ZERO)
 

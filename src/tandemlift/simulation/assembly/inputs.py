@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.core.algebra.arrays import array
-from tandemlift.core.algebra.layout import leaves, numbers_of
-from tandemlift.core.algebra.vector import ZERO, Absent, mat3, vec3
+from tandemlift.core.arrays import array
 from tandemlift.core.caching import cached
+from tandemlift.core.types import leaves, numbers_of
+from tandemlift.core.vector import ZERO, Absent, mat3, vec3
 from tandemlift.missions import Mission
 from tandemlift.parts.contact.wall_geometry import WALL, wall
 from tandemlift.parts.contact.walls import NearWalls, no_walls_near

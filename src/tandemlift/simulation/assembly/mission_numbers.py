@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
-from tandemlift.core.toml import dotted
+from tandemlift.core.errors import dotted
 
 T = TypeVar("T")
 Place = tuple[str | int, ...]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tandemlift.core.algebra.vector import ZERO
+from tandemlift.core.vector import ZERO
 from tandemlift.missions import Mission
 from tandemlift.parts.compliance.admittance import (
     AdmittanceState,
@@ -13,15 +13,15 @@ from tandemlift.parts.estimation.disturbance_observer import start_observer
 from tandemlift.parts.guidance.guidance import running_from
 from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
+from tandemlift.parts.mechanics.trajectories import scheduled_phases
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters
-from tandemlift.parts.rotor_loss.detection_table import start_detection
 from tandemlift.parts.rotors.allocation import (
     mixer_of,
     start_allocation,
 )
+from tandemlift.parts.rotors.detection_table import start_detection
 from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults, known_faults
-from tandemlift.parts.trajectories import scheduled_phases
 from tandemlift.simulation.assembly.hand_guidance import start_hand_guidance
 
 

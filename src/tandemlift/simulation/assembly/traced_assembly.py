@@ -15,8 +15,8 @@ import numpy as np
 from tandemlift.compiler.tracer.fused import FUSES
 from tandemlift.compiler.tracer.symbol import Symbol
 from tandemlift.compiler.tracer.valued_graph import Guard, ValuedGraph
-from tandemlift.core.algebra.layout import is_value
 from tandemlift.core.caching import cached_for_a_trace
+from tandemlift.core.types import is_value
 from tandemlift.missions import Mission
 from tandemlift.simulation.assembly.assemble import AssembledFlight, assemble
 from tandemlift.simulation.assembly.mission_numbers import counts_of_mission, numbers_of_mission, with_numbers

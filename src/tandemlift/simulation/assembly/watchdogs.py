@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from tandemlift.core.algebra.vector import Absent
+from tandemlift.core.vector import Absent
 from tandemlift.missions import Mission
 from tandemlift.parts.sensors.readings import SensorState, readings_of
 from tandemlift.parts.sensors.sensor_faults import SensorFaultState, sensor_faults_from

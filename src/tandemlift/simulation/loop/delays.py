@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.vector import Absent
+from tandemlift.core.vector import Absent
 
 
 class Delayed(NamedTuple):

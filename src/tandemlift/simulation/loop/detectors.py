@@ -10,16 +10,15 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import absolute, maximum, where
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import Absent, Vec3, dot, total
+from tandemlift.core.algebra import absolute, maximum, where
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import GRAVITY, Number, PerRotor
+from tandemlift.core.vector import Absent, Vec3, dot, total
 from tandemlift.parts.estimation.push_confirmation import refuted_push
 from tandemlift.parts.guidance.guidance import thrust_fraction
 from tandemlift.parts.mechanics.rotation import body_z_axis, wrap_angle
-from tandemlift.parts.rotor_loss.detection import left_of
 from tandemlift.parts.rotors.allocation import ConstrainedAllocation, Mixer, limits_at
+from tandemlift.parts.rotors.detection import left_of
 from tandemlift.parts.rotors.rotors import IdealRotors, Rotors
 from tandemlift.simulation.loop.excess import NO_EXCESS, Excess, exceed
 from tandemlift.simulation.loop.log_sample import Sample

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import choice
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Absent, Quat, Vec3
+from tandemlift.core.law import choice
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Absent, Quat, Vec3
 from tandemlift.parts.estimation.contact_detection import ContactEstimate
 from tandemlift.parts.sensors.readings import Readings, by_name
 from tandemlift.simulation.loop.perception import Estimates

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import choice
-from tandemlift.core.algebra.ops import where
-from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Vec3
+from tandemlift.core.algebra import chosen, where
+from tandemlift.core.law import choice
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Vec3
 
 
 class Excess(NamedTuple):

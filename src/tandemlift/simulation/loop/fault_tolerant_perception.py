@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import maximum, where
-from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import Quat, Vec3
+from tandemlift.core.algebra import chosen, maximum, where
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import Number, PerRotor
+from tandemlift.core.vector import Quat, Vec3
 from tandemlift.parts.estimation.contact_detection import KnownSurroundings, shaken
 from tandemlift.parts.estimation.navigation import centre_of_mass
 from tandemlift.parts.estimation.push_confirmation import refuted_push

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import clip
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import Absent, Quat, Vec3, dot
+from tandemlift.core.algebra import clip
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import Number, PerRotor
+from tandemlift.core.vector import Absent, Quat, Vec3, dot
 from tandemlift.engines.compiled import BodyStep
 from tandemlift.engines.compiled_contact import DistantFloor
 from tandemlift.parts.contact.feet import Floor
@@ -22,8 +22,8 @@ from tandemlift.parts.mechanics.push import push_moment
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion
 from tandemlift.parts.person.outside_push import total_force, total_moment
-from tandemlift.parts.rotor_loss.detection import DetectionState, RotorLossDetection
 from tandemlift.parts.rotors.allocation import Mixer, achieved_fraction, wrench
+from tandemlift.parts.rotors.detection import DetectionState, RotorLossDetection
 from tandemlift.parts.rotors.rotors import IdealRotors, Rotors
 from tandemlift.simulation.loop.estimate_channels import (
     EstimatedChannels,

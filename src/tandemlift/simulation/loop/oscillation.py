@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import elementwise, law
-from tandemlift.core.algebra.ops import absolute, greatest, maximum, where
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import componentwise
+from tandemlift.core.algebra import absolute, greatest, maximum, where
+from tandemlift.core.law import elementwise, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import componentwise
 
 SIMILAR_PEAK = 0.6  # of the mean peak, which a peak must reach
 SIMILAR_TIME = 2.0  # times the half period before, and as much less, that a half period may last

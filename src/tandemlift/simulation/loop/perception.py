@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import choice
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import Absent, Quat, Vec3
+from tandemlift.core.law import choice
 from tandemlift.core.phases import LAND
+from tandemlift.core.types import Number, PerRotor
+from tandemlift.core.vector import Absent, Quat, Vec3
 from tandemlift.parts.compliance.admittance import AdmittanceState
 from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.estimation.contact_detection import (

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.ops import clip, maximum, sqrt, where
-from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, dot
+from tandemlift.core.algebra import chosen, clip, maximum, sqrt, where
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Absent, Vec3, dot
 from tandemlift.parts.compliance.admittance import soft_threshold
 from tandemlift.simulation.loop.excess import NO_EXCESS, Excess, exceed
 from tandemlift.simulation.loop.log_sample import Sample

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import choice, elementwise, law
-from tandemlift.core.algebra.ops import absolute, greatest, maximum, minimum, sqrt, where
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import ZERO, Absent, Vec3, dot, total
+from tandemlift.core.algebra import absolute, greatest, maximum, minimum, sqrt, where
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import Number, PerRotor
+from tandemlift.core.vector import ZERO, Absent, Vec3, dot, total
 from tandemlift.parts.contact.clearance import Clearance, clearance, smaller_clearance
 from tandemlift.parts.guidance.guidance import thrust_fraction
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import choice, law
-from tandemlift.core.algebra.types import Number
-from tandemlift.core.algebra.vector import Absent, Vec3, apply_transposed, cross
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Absent, Vec3, apply_transposed, cross
 from tandemlift.parts.mechanics.push import CentralPush, PointPush, push_moment
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion

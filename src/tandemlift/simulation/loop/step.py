@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.law import law
-from tandemlift.core.algebra.ops import where
-from tandemlift.core.algebra.types import Number, PerRotor
-from tandemlift.core.algebra.vector import Absent, Quarters, Quat
+from tandemlift.core.algebra import where
+from tandemlift.core.law import law
+from tandemlift.core.types import Number, PerRotor
+from tandemlift.core.vector import Absent, Quarters, Quat
 from tandemlift.engines.compiled import BodyStep, advance
 from tandemlift.engines.compiled_contact import CompiledPlant
 from tandemlift.engines.compiled_touches import touches_in
@@ -24,6 +24,7 @@ from tandemlift.parts.mechanics.turbulence import TurbulenceState, WindNoise
 from tandemlift.parts.mechanics.wind import WindModel, WindOutput, wind_loads
 from tandemlift.parts.person.caller_inputs import commanded_thrusts, with_caller_push
 from tandemlift.parts.person.person import Person, PersonState, landing_request, person_step
+from tandemlift.parts.person.requests import UNKNOWN_STATUS, operator_request
 from tandemlift.parts.person.tremor import TremorNoise
 from tandemlift.parts.pilot.pilot import (
     Decision,
@@ -34,7 +35,6 @@ from tandemlift.parts.pilot.pilot import (
     last_thrusts,
     with_thrusts,
 )
-from tandemlift.parts.requests import UNKNOWN_STATUS, operator_request
 from tandemlift.parts.rotors.rotors import IdealRotors, Rotors, RotorState, rotors_step
 from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState
 from tandemlift.simulation.loop.delays import DelayLines

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.layout import leaves
-from tandemlift.core.algebra.vector import ZERO
+from tandemlift.core.types import leaves
+from tandemlift.core.vector import ZERO
 from tandemlift.parts.mechanics.push import SUPPORT, GaussianPush
 from tandemlift.parts.mechanics.wind import Gust
 from tandemlift.simulation.loop.step import StepNoise

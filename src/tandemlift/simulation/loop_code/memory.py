@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.compiler.jit.code import Code
-from tandemlift.core.algebra.layout import flat
+from tandemlift.core.types import flat
 from tandemlift.parts.contact.wall_geometry import WALL, Wall
 from tandemlift.parts.mechanics.push import GaussianPush
 from tandemlift.parts.mechanics.wind import Gust

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra.layout import leaves
-from tandemlift.core.algebra.vector import Absent
+from tandemlift.core.types import leaves
+from tandemlift.core.vector import Absent
 
 
 class LeafSpan(NamedTuple):

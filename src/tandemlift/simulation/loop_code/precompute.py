@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tandemlift.compiler.tracer import Function, Place, double
-from tandemlift.core.algebra.layout import leaves
+from tandemlift.core.types import leaves
 from tandemlift.parts.contact.wall_geometry import WALL
 from tandemlift.parts.person.person import PATH_LEG
 from tandemlift.simulation.loop_code.context import MEMORY

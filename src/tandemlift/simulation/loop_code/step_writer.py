@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tandemlift.compiler.tracer import Function, Module, Place
-from tandemlift.core.algebra.layout import leaves
+from tandemlift.core.types import leaves
 from tandemlift.simulation.loop_code.context import AT, MEMORY, POINTERS, ScratchLayout
 from tandemlift.simulation.loop_code.external_inputs import HALVES, SPAN
 from tandemlift.simulation.loop_code.offsets import delayed_spans, leaf_offset

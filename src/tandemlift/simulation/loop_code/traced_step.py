@@ -12,10 +12,9 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from tandemlift.compiler.tracer import Graph, Symbol, TraceError, refused, symbols, tracer, written_out
-from tandemlift.core.algebra.layout import leaves
-from tandemlift.core.algebra.ops import where
-from tandemlift.core.algebra.selection import chosen
-from tandemlift.core.algebra.vector import ZERO, layout, total
+from tandemlift.core.algebra import chosen, where
+from tandemlift.core.types import leaves
+from tandemlift.core.vector import ZERO, layout, total
 from tandemlift.engines.compiled import BodyStep, first_motion
 from tandemlift.engines.compiled_contact import CompiledPlant, on_feet_only, without_contact
 from tandemlift.parts.contact.clearance import clearance, is_fast, may_touch_wall
@@ -27,10 +26,10 @@ from tandemlift.parts.controllers import control
 from tandemlift.parts.mechanics.push import push_at, push_moment
 from tandemlift.parts.mechanics.wind import gust_velocity
 from tandemlift.parts.pilot.pilot import control_input, with_allocation, with_command, with_thrusts
-from tandemlift.parts.random_numbers import normals
-from tandemlift.parts.rotor_loss.detection import left_of, with_trials
 from tandemlift.parts.rotors.allocation import AllocationState, limits_at, outside_limits, rotor_commands
+from tandemlift.parts.rotors.detection import left_of, with_trials
 from tandemlift.parts.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
+from tandemlift.simulation.loop.random_numbers import normals
 from tandemlift.simulation.loop.step import (
     PilotOutput,
     StepInputs,

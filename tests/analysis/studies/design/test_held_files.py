@@ -17,8 +17,8 @@ from small_studies import flown
 import tandemlift as tl
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.store import open_folder
-from tandemlift.analysis.studies.reading.table import load_study
 from tandemlift.analysis.studies.study import mission_of_row
+from tandemlift.analysis.studies.table import load_study
 from tandemlift.missions.recording import WIDTH, Recording, read_recording, write_recording
 from tandemlift.parts.controllers import CONTROLLERS, controller, file_of
 

@@ -11,7 +11,7 @@ from study_runs import TWELVE, assert_same_rows, files_of, fly
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.checked_file import DamagedFile
 from tandemlift.analysis.studies.execution.store import open_folder
-from tandemlift.analysis.studies.reading.table import load_study
+from tandemlift.analysis.studies.table import load_study
 from tandemlift.core.errors import InputError
 
 KEPT = TWELVE | {"keep": {"channels": ["position"], "rows": [0, 5, 20]}}

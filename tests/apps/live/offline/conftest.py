@@ -4,7 +4,7 @@ import pytest
 from own_flight import OwnFlight
 from sessions import GUIDED
 
-from tandemlift.apps.live.offline.page_modules import packed_flight, packed_mission, page_mission
+from tandemlift.apps.live.page_modules import packed_flight, packed_mission, page_mission
 from tandemlift.apps.live.session.session import Session
 
 BY_HAND = GUIDED | {"supervision.model": "on", "supervision.limits.tilt_time": 100.0}

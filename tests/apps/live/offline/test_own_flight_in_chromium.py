@@ -9,7 +9,7 @@ from chromium import MS, SIZE, launched, middle_of_the_beam, opened, panel
 from patience import until
 
 import tandemlift as tl
-from tandemlift.apps.live.offline import pages
+from tandemlift.apps.live import pages
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import fly_stepwise

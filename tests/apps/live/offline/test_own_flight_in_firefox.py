@@ -11,7 +11,7 @@ from patience import until
 from PIL import Image
 
 import tandemlift as tl
-from tandemlift.apps.live.offline import pages
+from tandemlift.apps.live import pages
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import fly_stepwise

@@ -9,7 +9,7 @@ from own_flight import OwnFlight
 from sessions import fly
 
 import tandemlift as tl
-from tandemlift.apps.live.offline.page_modules import MISSIONS, packed_flight, page_mission
+from tandemlift.apps.live.page_modules import MISSIONS, packed_flight, page_mission
 from tandemlift.apps.live.session.session import Session
 from tandemlift.apps.live.session.tunable_parameters import BY_KEY
 from tandemlift.apps.live.wire.reading import read_message

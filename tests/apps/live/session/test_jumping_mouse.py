@@ -7,10 +7,10 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
-from tandemlift.core.algebra.layout import unflat
-from tandemlift.core.algebra.vector import Vec3
+from tandemlift.core.types import unflat
+from tandemlift.core.vector import Vec3
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
-from tandemlift.simulation.stepwise.recorded_flight import RecordedFlight
+from tandemlift.simulation.recorded_flight import RecordedFlight
 
 RATE = 60  # targets a second
 GRABBED = {"hover": 7.0, "iris": 14.0, "zigzag": 14.0}  # s, when the vehicle hovers and its sensors are tared

@@ -8,9 +8,9 @@ import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.apps.live.session.saving import save_in_process
-from tandemlift.core.algebra.vector import Vec3
+from tandemlift.core.vector import Vec3
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
-from tandemlift.simulation.stepwise.recorded_flight import FLIGHT, HAND, MISSION, RecordedFlight
+from tandemlift.simulation.recorded_flight import FLIGHT, HAND, MISSION, RecordedFlight
 
 GUIDED = {
     "pilot.guidance": "interactive",

@@ -8,11 +8,10 @@ from pydantic import ValidationError
 
 from tandemlift.analysis.studies.design.distributions import DISTRIBUTIONS, Distribution
 from tandemlift.analysis.studies.design.keys import by_key, key_at, leaves_of
-from tandemlift.core.errors import InputError, suggestion
-from tandemlift.core.toml import shown
+from tandemlift.core.errors import InputError, shown, suggestion
 from tandemlift.core.types import Array
+from tandemlift.missions.changes import Place, Tables
 from tandemlift.missions.refusals import problems_in
-from tandemlift.missions.values import Place, Tables
 
 Drawn = dict[str, Distribution]
 

@@ -8,11 +8,10 @@ import numpy as np
 from pydantic import Field, ValidationError, model_validator
 
 from tandemlift.analysis.studies.design.keys import by_key, key_at, leaves_of
-from tandemlift.core.errors import InputError
+from tandemlift.core.errors import InputError, shown
 from tandemlift.core.keys import Table, key, must
-from tandemlift.core.toml import shown
+from tandemlift.missions.changes import Place, Tables
 from tandemlift.missions.refusals import problems_in
-from tandemlift.missions.values import Place, Tables
 
 MOST_VALUES = 1_000_000  # of one key
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
-from tandemlift.core.errors import InputError
-from tandemlift.core.toml import shown
-from tandemlift.missions.values import Place
+from tandemlift.core.errors import InputError, shown
+from tandemlift.missions.changes import Place
 
 
 def leaves_of(

@@ -17,8 +17,8 @@ from tandemlift.analysis.studies.design.settings import MAX_ROWS, CaseTable, Stu
 from tandemlift.analysis.studies.design.variants import Variant
 from tandemlift.core.errors import InputError
 from tandemlift.missions import Mission, tables_of
+from tandemlift.missions.changes import MISSING, Tables, value_at
 from tandemlift.missions.loading import MissionTemplate
-from tandemlift.missions.values import MISSING, Tables, value_at
 
 SEED = "mission.seed"
 TRIED = 8  # rows of each variant that are formed before anything flies

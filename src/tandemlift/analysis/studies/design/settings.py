@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import AfterValidator, BeforeValidator, Field
 
 from tandemlift.core.keys import Table, key, must
-from tandemlift.core.outcomes import OUTCOMES
+from tandemlift.core.phases import OUTCOMES
 
 MAX_ROWS = 10**9
 OUTCOME_NAMES = tuple(kind.name for kind in OUTCOMES)

@@ -10,7 +10,7 @@ from pathlib import Path
 from tandemlift.analysis.studies.execution.checked_file import CheckedFile, DamagedFile
 from tandemlift.analysis.studies.execution.columns import Columns, write_columns
 from tandemlift.core.errors import InputError
-from tandemlift.core.version import __version__
+from tandemlift.core.files import __version__
 
 LEFT_OVER = 3600.0  # s, after which a half-written file, or a claim, is nobody's
 

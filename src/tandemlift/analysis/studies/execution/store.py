@@ -13,9 +13,8 @@ from tandemlift.analysis.studies.design.variants import variant_from
 from tandemlift.analysis.studies.execution.chunk import chunk_names, sources_digest, study_digest
 from tandemlift.analysis.studies.execution.files import ChunkFiles
 from tandemlift.analysis.studies.execution.kept import check_kept
-from tandemlift.core.errors import InputError, extra
+from tandemlift.core.errors import InputError, extra, shown
 from tandemlift.core.files import atomic_write
-from tandemlift.core.toml import shown
 from tandemlift.missions import format_toml
 
 STUDY, PLAN, CHUNKS = "study.toml", "study.json", "chunks"

@@ -12,7 +12,7 @@ from tandemlift.analysis.studies.tuning.draws import Draw
 from tandemlift.analysis.studies.tuning.goals import Goal
 from tandemlift.analysis.studies.tuning.source import MissionSource
 from tandemlift.core.errors import InputError
-from tandemlift.core.outcomes import FAILURES
+from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
 from tandemlift.simulation.fly import fly_many

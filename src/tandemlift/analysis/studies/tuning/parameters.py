@@ -15,9 +15,8 @@ from typing import Any, Literal, NamedTuple, get_args, get_origin
 import numpy as np
 from pydantic import BaseModel
 
-from tandemlift.core.errors import InputError, suggestion
+from tandemlift.core.errors import InputError, shown, suggestion
 from tandemlift.core.keys import is_number
-from tandemlift.core.toml import shown
 from tandemlift.missions import Mission
 from tandemlift.missions.bounds import bounds, innermost, plain
 

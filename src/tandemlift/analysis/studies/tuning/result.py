@@ -16,7 +16,7 @@ from tandemlift.analysis.studies.tuning.task import Task, Values
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import atomic_write
 from tandemlift.missions import Mission, built_in, format_toml, tables_of
-from tandemlift.missions.values import MISSING, Place, Tables, value_at
+from tandemlift.missions.changes import MISSING, Place, Tables, value_at
 
 MISSION_FILE, EVIDENCE_FILE = "tuned.toml", "evidence.json"
 

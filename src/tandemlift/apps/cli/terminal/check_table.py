@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import click
 
 from tandemlift.apps.cli.terminal.console import echo
-from tandemlift.core.checks import CLOSE, FAILS, OK, REFUSED, CheckResult
+from tandemlift.core.errors import CLOSE, FAILS, OK, REFUSED, CheckResult
 
 COLOURS = {OK: None, CLOSE: "yellow", FAILS: "red", REFUSED: "red"}
 HEAD = ("check", "of", "value", "limit", "unit", "margin", "verdict")

@@ -9,7 +9,7 @@ import click
 
 from tandemlift.apps.cli.terminal.completion import CONTROLLERS, names, settings
 from tandemlift.core.errors import InputError
-from tandemlift.core.toml import toml_tables
+from tandemlift.core.files import toml_tables
 from tandemlift.pictures.figures.drawing.figure_style import STYLES, figure_style
 
 if TYPE_CHECKING:

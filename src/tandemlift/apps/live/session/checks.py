@@ -11,12 +11,12 @@ from typing import Any, NamedTuple
 
 from tandemlift.apps.live.session import refusal_texts as texts
 from tandemlift.apps.live.wire.scene import SceneVehicle
-from tandemlift.core.algebra.ops import sqrt, where
-from tandemlift.core.algebra.vector import ZERO, Vec3, dot
+from tandemlift.core.algebra import sqrt, where
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, PHASE_NAMES
+from tandemlift.core.vector import ZERO, Vec3, dot
 from tandemlift.missions import Mission
-from tandemlift.simulation.stepwise.recorded_flight import RecordedFlight
+from tandemlift.simulation.recorded_flight import RecordedFlight
 
 TARE = "estimator.tare_start"
 HOVER_TIME = ("memory", "guidance", "phase", "hover_time")  # of a flight's state

@@ -14,7 +14,7 @@ from tandemlift.apps.live.wire.frames import layout_for, pack_frames
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, tables_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.simulation.stepwise.recorded_flight import FlightSetup
+from tandemlift.simulation.recorded_flight import FlightSetup
 
 
 class FrameBuilder:

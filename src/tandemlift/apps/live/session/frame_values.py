@@ -12,11 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.core.algebra.layout import is_value, leaves
-from tandemlift.core.algebra.ops import absolute, maximum, where
-from tandemlift.core.algebra.vector import Quat, Vec3, cross, dot
+from tandemlift.core.algebra import absolute, maximum, where
 from tandemlift.core.phases import GUIDED, LAND, LIFT
-from tandemlift.core.types import Array
+from tandemlift.core.types import Array, is_value, leaves
+from tandemlift.core.vector import Quat, Vec3, cross, dot
 from tandemlift.simulation.results import channels_of
 
 AGES = 1e300  # s, the time of a landing that never comes

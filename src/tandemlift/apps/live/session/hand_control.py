@@ -8,9 +8,9 @@ from typing import Any
 from tandemlift.apps.live.session.checks import check_touch
 from tandemlift.apps.live.wire.page_messages import AskMessage, ForceMessage, GrabMessage, MoveMessage
 from tandemlift.apps.live.wire.scene import SceneVehicle
-from tandemlift.core.algebra.vector import ZERO, Quat, Vec3, apply
+from tandemlift.core.vector import ZERO, Quat, Vec3, apply
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.simulation.stepwise.recorded_flight import RecordedFlight
+from tandemlift.simulation.recorded_flight import RecordedFlight
 
 REQUEST_TIME = 0.2  # s, for which a request to lift or to land is held
 

@@ -13,11 +13,10 @@ from tandemlift.apps.live.session.checks import TARE, check_in_time, tare_start_
 from tandemlift.apps.live.session.interactive_mission import NEVER
 from tandemlift.apps.live.session.tunable_parameters import BY_KEY, CHOICES, CONTROLLER, bounds_of, keys_of, value_of
 from tandemlift.apps.live.wire.server_messages import Answer, ChangedMessage, RefusedMessage
-from tandemlift.core.errors import InputError
-from tandemlift.core.toml import shown
+from tandemlift.core.errors import InputError, shown
 from tandemlift.missions import Mission, tables_of
-from tandemlift.missions.values import MISSING
-from tandemlift.simulation.stepwise.recorded_flight import RecordedFlight
+from tandemlift.missions.changes import MISSING
+from tandemlift.simulation.recorded_flight import RecordedFlight
 
 RAMP = 0.5  # s, within which a parameter goes to its new value
 

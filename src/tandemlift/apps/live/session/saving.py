@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from tandemlift.core.errors import InputError
-from tandemlift.simulation.stepwise.recorded_flight import FlightSnapshot, save_flight
+from tandemlift.simulation.recorded_flight import FlightSnapshot, save_flight
 
 NICENESS = 10  # of the process: the flight has priority
 REST, LOG = "rest.pickle", "log"

@@ -21,11 +21,11 @@ from tandemlift.apps.live.wire.scene import (
     SceneVehicle,
     SceneWall,
 )
-from tandemlift.core.algebra.vector import Absent
 from tandemlift.core.faults import ALARM_TEXTS
+from tandemlift.core.files import __version__
 from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.core.types import Array
-from tandemlift.core.version import __version__
+from tandemlift.core.vector import Absent
 from tandemlift.engines.models.surroundings import floor_from
 from tandemlift.engines.models.visuals import BEAM_RADIUS, SHAPELESS, VisualShape, vehicle_shapes
 from tandemlift.missions import Mission, tables_of

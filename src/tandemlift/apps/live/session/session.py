@@ -28,13 +28,13 @@ from tandemlift.apps.live.session.tunable_parameters import CHOICES, parameters_
 from tandemlift.apps.live.wire import page_messages as page
 from tandemlift.apps.live.wire.scene import FlightScene, SceneSpring
 from tandemlift.apps.live.wire.server_messages import Answer, DoneMessage, FlightStatus, RefusedMessage, SceneMessage
-from tandemlift.core.algebra.vector import Quat
 from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import Refusals
+from tandemlift.core.vector import Quat
 from tandemlift.missions import Mission
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
+from tandemlift.simulation.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.simulation.results import channels_of
-from tandemlift.simulation.stepwise.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 
 log = logging.getLogger(__name__)
 

@@ -16,7 +16,7 @@ from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.core.refusals import Refusals, refusals_for
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Ending
-from tandemlift.simulation.stepwise.recorded_flight import RecordedFlight
+from tandemlift.simulation.recorded_flight import RecordedFlight
 
 FINDINGS_EVERY = 1.0  # s
 NO_REFUSALS = StatusRefusals(lift="", land="", push="")

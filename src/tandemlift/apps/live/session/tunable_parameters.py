@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from tandemlift.apps.live.wire.scene import SceneParameter
 from tandemlift.apps.live.wire.server_messages import MAX_FORCE, STIFFNESS, THRESHOLD
 from tandemlift.missions import Mission, tables_of
-from tandemlift.missions.values import MISSING, value_at
+from tandemlift.missions.changes import MISSING, value_at
 from tandemlift.parts.controllers import CONTROLLERS
 
 EVERY = "vehicle.quadrotors.each."  # begins the key of a parameter that all quadrotors share

@@ -13,8 +13,7 @@ from typing import Annotated, Any, NamedTuple
 from pydantic import AfterValidator, Field
 
 from tandemlift.core.keys import must
-from tandemlift.core.outcomes import ENDINGS
-from tandemlift.core.phases import PHASE_NAMES
+from tandemlift.core.phases import ENDINGS, PHASE_NAMES
 
 MAX_WORD = 100  # characters of a key or of a word
 NAME_PATTERN = "[A-Za-z0-9][A-Za-z0-9._-]{0,63}"  # of the name of a saved flight

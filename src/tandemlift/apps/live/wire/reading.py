@@ -8,8 +8,7 @@ from pydantic import Field, TypeAdapter, ValidationError
 from pydantic_core import from_json
 
 from tandemlift.apps.live.wire.page_messages import PAGE_MESSAGES, PageMessage
-from tandemlift.core.errors import InputError, suggestion
-from tandemlift.core.toml import shown
+from tandemlift.core.errors import InputError, shown, suggestion
 from tandemlift.missions.refusals import problems_in
 
 MAX_SIZE = 65_536  # bytes; a page that sends more is cut off

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from tandemlift.core.algebra.vector import Quat
 from tandemlift.core.types import Array
+from tandemlift.core.vector import Quat
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 

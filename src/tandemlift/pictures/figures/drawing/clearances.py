@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.vector import Quat, Vec3, vec3
 from tandemlift.core.types import Array
+from tandemlift.core.vector import Quat, Vec3, vec3
 from tandemlift.flight.record import Flight
 from tandemlift.parts.contact.beam_axis import beam_axis, beam_point, point_by_edge, point_by_top
 from tandemlift.parts.contact.wall_geometry import edges_of, offset, offset_from_top, wall

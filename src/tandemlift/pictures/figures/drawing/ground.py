@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from tandemlift.core.algebra.constants import GRAVITY
-from tandemlift.core.types import Array
+from tandemlift.core.types import GRAVITY, Array
 from tandemlift.flight.record import Flight
 from tandemlift.parts.contact.feet import floor, sole_positions, standing_height
 from tandemlift.parts.contact.ground_table import GroundTable

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.types import GRAVITY
 from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.vehicle import Vehicle
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra.constants import GRAVITY
+from tandemlift.core.types import GRAVITY
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.report.paper.errata import DATA, errata
 
@@ -120,7 +120,7 @@ def _row(row: Mapping[str, Any], mission: Mapping[str, Any]) -> TableRow:
     marks += ["unit"] if unit not in ("", right) else []
     source = f"`{row['key']}`" if "key" in row else "computed from the parts"
     if row.get("derived") == "gravity":
-        source = "`core.algebra.constants.GRAVITY`"
+        source = "`core.types.GRAVITY`"
     ours = printed if same else [f"{value:.6g}" for value in values]
     shown = [", ".join(map(_plain, numbers)) for numbers in (printed, ours)]
     return TableRow(row["symbol"], row["meaning"], shown[0], unit, shown[1], right, source, ", ".join(marks))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tandemlift.analysis.studies.reading.study_rows import RowGroup, StudyRows
+from tandemlift.analysis.studies.study_rows import RowGroup, StudyRows
 
 BY = ("controller", "case", "mission", "engine")  # what is compared where all groups are too many
 

@@ -8,9 +8,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from tandemlift.analysis.studies.reading.quantities import Quantity
-from tandemlift.analysis.studies.reading.statistics import finite
-from tandemlift.analysis.studies.reading.study_rows import StudyRows
+from tandemlift.analysis.studies.quantities import Quantity, finite
+from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.core.types import Array
 from tandemlift.pictures.figures.drawing.figure import Caption
 from tandemlift.pictures.figures.drawing.style import page_figure, styled

@@ -10,8 +10,8 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from tandemlift.analysis.studies.reading.statistics import share
-from tandemlift.analysis.studies.reading.study_rows import Places, RowGroup, StudyRows
+from tandemlift.analysis.studies.quantities import share
+from tandemlift.analysis.studies.study_rows import Places, RowGroup, StudyRows
 from tandemlift.core.types import Array
 from tandemlift.pictures.figures.drawing.figure import Caption
 from tandemlift.pictures.figures.drawing.style import BLUE, GREY, LIGHT_BLUE, VERMILLION, page_figure, points, styled

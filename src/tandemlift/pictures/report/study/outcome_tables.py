@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from tandemlift.analysis.studies.design.settings import REFUSED
-from tandemlift.analysis.studies.reading.statistics import Share, share
-from tandemlift.analysis.studies.reading.study_rows import RowGroup, StudyRows
+from tandemlift.analysis.studies.quantities import Share, share
+from tandemlift.analysis.studies.study_rows import RowGroup, StudyRows
 from tandemlift.core.files import atomic_write
-from tandemlift.core.outcomes import OUTCOMES
+from tandemlift.core.phases import OUTCOMES
 from tandemlift.pictures.report.latex import NUMBER, latex_number, latex_table, latex_text
 
 MOST_GROUPS = 24  # rows of a table to be read

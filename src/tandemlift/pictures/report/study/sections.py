@@ -12,17 +12,16 @@ import numpy as np
 
 from tandemlift.analysis.studies.design.keys import changes_in
 from tandemlift.analysis.studies.design.settings import REFUSED
-from tandemlift.analysis.studies.reading.statistics import IntervalEstimate, Share, finite, quantile, share, upper_bound
-from tandemlift.analysis.studies.reading.study_rows import StudyRows
-from tandemlift.analysis.studies.reading.table import Study
+from tandemlift.analysis.studies.quantities import IntervalEstimate, Share, finite, quantile, share, upper_bound
+from tandemlift.analysis.studies.study_rows import StudyRows
+from tandemlift.analysis.studies.table import Study
+from tandemlift.core.errors import shown
 from tandemlift.core.findings import KIND_OF
-from tandemlift.core.outcomes import FAILURES
-from tandemlift.core.toml import shown
+from tandemlift.core.phases import FAILURES
 from tandemlift.pictures.report.findings_section import with_keys
 from tandemlift.pictures.report.flight_report import DASH, html_table, number
-from tandemlift.pictures.report.study.commands import html_row_command
 from tandemlift.pictures.report.study.outcome_tables import MOST_GROUPS, outcome_counts, tabled_groups
-from tandemlift.pictures.report.study.words import QuantityDisplay, shown_column, shown_quantity
+from tandemlift.pictures.report.study.words import QuantityDisplay, html_row_command, shown_column, shown_quantity
 
 MOST_COLUMNS = 6  # of groups beside each other
 MOST_REASONS = 5

@@ -10,10 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from tandemlift.analysis.studies.reading.influence import influence
-from tandemlift.analysis.studies.reading.sensitivity import Sensitivity
-from tandemlift.analysis.studies.reading.statistics import IntervalEstimate
-from tandemlift.analysis.studies.reading.study_rows import StudyRows
+from tandemlift.analysis.studies.quantities import IntervalEstimate
+from tandemlift.analysis.studies.sensitivity import Sensitivity, influence
+from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.core.errors import InputError
 from tandemlift.pictures.figures.drawing.figure import Caption
 from tandemlift.pictures.figures.drawing.style import BLUE, INK, LIGHT_BLUE, page_figure, points, styled

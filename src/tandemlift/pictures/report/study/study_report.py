@@ -7,15 +7,15 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tandemlift.analysis.studies.reading.study_rows import StudyRows
-from tandemlift.analysis.studies.reading.table import Study
+from tandemlift.analysis.studies.study_rows import StudyRows
+from tandemlift.analysis.studies.table import Study
 from tandemlift.core.errors import InputError
 from tandemlift.missions import format_toml
 from tandemlift.pictures.report.controller_comparison import html_figures
 from tandemlift.pictures.report.page import html, write_page
 from tandemlift.pictures.report.study import distributions, maps, sections, sensitivity
-from tandemlift.pictures.report.study.commands import html_command
 from tandemlift.pictures.report.study.outcome_tables import write_outcomes
+from tandemlift.pictures.report.study.words import html_command
 from tandemlift.pictures.report.study.worst_table import html_worst
 
 if TYPE_CHECKING:

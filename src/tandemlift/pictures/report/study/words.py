@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import functools
+import shlex
+from html import escape
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.studies.reading.quantities import Quantity
+from tandemlift.analysis.studies.quantities import Quantity
 from tandemlift.core.types import Array
-from tandemlift.missions.key_reference.explaining import plain_name
-from tandemlift.missions.key_reference.sections import sections
+from tandemlift.missions.explaining import plain_name
+from tandemlift.missions.sections import sections
 from tandemlift.pictures.report.flight_report import split_unit
 
 FAR = 30.0  # times the median, from where on values are shown on a logarithmic scale
@@ -57,3 +60,14 @@ def shown_column(column: str) -> QuantityDisplay:
     """How a column that varies is shown: by its key, with the unit of the key."""
     unit = _units().get(plain_name(column.partition(" (")[0]), "")
     return QuantityDisplay(column, "" if unit == "1" or " (" in column else unit)
+
+
+def html_command(*words: object) -> str:
+    """A command of `tandemlift` that can be copied."""
+    text = escape(shlex.join(["tandemlift", *map(str, words)]))
+    return f'<div class="command"><code>{text}</code><button type="button" hidden>Copy</button></div>'
+
+
+def html_row_command(folder: Path, row: int) -> str:
+    """The command that flies a row of a study alone."""
+    return html_command("run", "--from", folder, "--row", row)

@@ -7,13 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.analysis.studies.reading.statistics import finite
-from tandemlift.analysis.studies.reading.study_rows import WHO, StudyRows
-from tandemlift.analysis.studies.reading.worst import WorstRow, reasons, worst_rows
+from tandemlift.analysis.studies.quantities import finite
+from tandemlift.analysis.studies.study_rows import WHO, StudyRows
+from tandemlift.analysis.studies.worst import WorstRow, reasons, worst_rows
 from tandemlift.pictures.report.findings_section import with_keys
 from tandemlift.pictures.report.flight_report import html_table, number
-from tandemlift.pictures.report.study.commands import html_row_command
-from tandemlift.pictures.report.study.words import shown_column, shown_quantity
+from tandemlift.pictures.report.study.words import html_row_command, shown_column, shown_quantity
 
 MOST_VALUES = 6  # of what varied
 

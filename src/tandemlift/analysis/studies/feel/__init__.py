@@ -1,1 +1,0 @@
-"""What a push feels like: the response of the admittance to a standard push, and its checks."""

@@ -1,0 +1,272 @@
+"""What the keys of a mission feel like: its axes under the standard push, and the checks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, NamedTuple
+
+from tandemlift.analysis.studies.closed_form import AXES, YAW, AxisFeel
+from tandemlift.analysis.studies.standard_push import Answer, PushedAxis, pushed_axes
+from tandemlift.core.errors import FAILS, CheckResult, judged, noted
+from tandemlift.core.progress import progress_or_own
+from tandemlift.core.types import GRAVITY, Progress
+from tandemlift.missions import Mission
+from tandemlift.missions.flight_checks.authority import CONTROL, authority_of, tilt_limit_of
+from tandemlift.missions.flight_checks.passage import least_room, passage_checks, places_of
+from tandemlift.missions.flight_checks.sensing import NOISE_SIGMAS, noise_of, sensing_checks
+from tandemlift.missions.tables.weight import lift_of, weight_of
+from tandemlift.parts.compliance.admittance import LN_20
+from tandemlift.parts.mechanics.vehicle import Vehicle
+
+DRIFT_SIGMAS = 2.0  # standard deviations of the sensors' drift
+SATURATED = 0.01  # of the time, at most, with a rotor at its limit
+APART = 0.25  # of the final speed, at most, between closed form and flight
+
+
+def feel_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
+    """The checks by closed forms."""
+    for k in axes:
+        yield from limit_checks(m, k)
+    yield from sensing_checks(m)
+    yield from drift_checks(m)
+    yield from rotor_checks(m, axes)
+    yield from passage_checks(m)
+    yield from stop_checks(m, axes)
+
+
+def limit_checks(m: Mission, k: AxisFeel) -> Iterator[CheckResult]:
+    """Final speed and first acceleration against the limits of guidance by hand."""
+    if m.pilot.guidance != "interactive" or k.axis == YAW:
+        return
+    i = AXES.index(k.axis)
+    speed, acceleration = m.compliance.max_speed[i], m.compliance.max_acceleration[i]
+    yield judged(
+        "speed",
+        k.final_speed,
+        speed,
+        "m/s",
+        f"{k.push:g} N along {k.axis} lead to {k.final_speed:.3g} m/s, and compliance.max_speed is {speed:g} m/s: the "
+        "push feels weaker than the numbers say; ask for less speed, or raise compliance.max_speed",
+        subject=k.axis,
+    )
+    yield judged(
+        "acceleration",
+        k.acceleration,
+        acceleration,
+        "m/s²",
+        f"the answer to {k.push:g} N along {k.axis} begins with {k.acceleration:.3g} m/s², and "
+        f"compliance.max_acceleration is {acceleration:g} m/s²: it comes late; {_slower(k, acceleration)}",
+        subject=k.axis,
+        near=0.0,
+    )
+
+
+def _slower(k: AxisFeel, most: float) -> str:
+    """The bound on the time for a speed, by the largest acceleration that there can be [m/s²]."""
+    if most <= 0.0 or not 0.0 < k.final_speed < math.inf:
+        return "ask for less"
+    speed, time = most * k.time / LN_20, LN_20 * k.final_speed / most
+    most_speed = f"at most {speed:.2g} m/s in {k.time:.2g} s"
+    return f"allow it at least {time:.2g} s for {k.final_speed:.3g} m/s, or ask for {most_speed}"
+
+
+def drift_checks(m: Mission) -> Iterator[CheckResult]:
+    """Noise and drift of the joints' sensors against the smallest threshold; in yaw, drift alone."""
+    if m.sensors.model == "none" or m.pilot.push == "truth":
+        return
+    joints, count = m.sensors.joints, len(m.vehicle.quadrotors)
+    tare = m.estimator.tare == "hover" or m.estimator.tare_start is not None
+    tared = (m.estimator.tare_start or 0.0) + m.estimator.tare_duration
+    lasting = min(max(m.mission.duration - tared, 0.0), m.compliance.bias_time_constant)
+    of_force, of_torque = (
+        math.hypot(drift * math.sqrt(lasting), 0.0 if tare else bias)
+        for drift, bias in ((joints.force_drift, joints.force_bias), (joints.torque_drift, joints.torque_bias))
+    )
+    value, threshold = (
+        NOISE_SIGMAS * noise_of(m) + DRIFT_SIGMAS * of_force * math.sqrt(count),
+        min(m.admittance.threshold),
+    )
+    why = f"of {lasting:.3g} s" if tare else "and bias, as there is no tare,"
+    remedy = "raise the threshold, tare (estimator.tare_start), or lower the drift and bias of sensors.joints"
+    text = (
+        f"noise and drift {why} make {value:.3g} N of the measured push, and admittance.threshold = {threshold:g} N: "
+        f"the vehicle creeps while nobody pushes; {remedy}"
+    )
+    yield judged("drift", value, threshold, "N", text)
+    yaw = m.compliance.yaw
+    if m.pilot.guidance == "interactive" and yaw.model == "compliant":
+        arms = Vehicle.from_settings(m.vehicle).lever_arms
+        moment = DRIFT_SIGMAS * math.sqrt(sum(of_force**2 * (x * x + y * y) + of_torque**2 for x, y, _ in arms))
+        text = (
+            f"drift {why} makes {moment:.3g} N m of the measured moment, and compliance.yaw.threshold = "
+            f"{yaw.threshold:g} N m: the vehicle turns while nobody pushes; {remedy}"
+        )
+        yield judged("drift", moment, yaw.threshold, "N m", text, subject=YAW)
+
+
+def rotor_checks(m: Mission, axes: Iterable[AxisFeel]) -> Iterator[CheckResult]:
+    """What real rotors must give beside the weight under the standard push, against thrust, tilt and yaw moment.
+
+    They add m a − F to the push F for the acceleration a of the answer, and hold against all of F at its final speed.
+    """
+    if m.actuators.model != "rotors":
+        return
+    weight, lift = weight_of(m), lift_of(m, faulty=True)
+    mass, by_hand = weight / GRAVITY, m.pilot.guidance == "interactive"
+    thrust = lift * (m.compliance.thrust_fraction if by_hand else 1.0)
+    tilts = [x for x in (tilt_limit_of(m), m.compliance.max_tilt if by_hand else None) if x is not None]
+    for k in axes:
+        if k.axis == YAW:
+            yield _yaw_check(m, k)
+            continue
+        needed = max(abs(k.acceleration - k.push / mass), k.push / mass)
+        across = math.sqrt(max(thrust * thrust - weight * weight, 0.0))
+        limit = (
+            (thrust - weight) / mass if k.axis == "z" else min([across, *(weight * math.tan(t) for t in tilts)]) / mass
+        )
+        angle = f", {math.atan2(needed, GRAVITY):.2g} rad of tilt," if k.axis != "z" else ""
+        text = (
+            f"under {k.push:g} N along {k.axis} the rotors must add {needed:.3g} m/s²{angle} to the push, and thrust "
+            f"and tilt give {limit:.3g} m/s²: the vehicle cannot answer so; {_slower(k, limit + k.push / mass)}"
+        )
+        yield judged("rotors", needed, limit, "m/s²", text, subject=k.axis)
+
+
+def _yaw_check(m: Mission, k: AxisFeel) -> CheckResult:
+    authority = float(authority_of(m)[2])
+    own = float(Vehicle.from_settings(m.vehicle).inertia[2, 2])
+    steady, limit = min(k.beyond, m.compliance.yaw.max_moment), (1.0 - CONTROL) * authority
+    needed = max(steady, abs(own * k.acceleration - k.beyond))
+    text = (
+        f"under {k.push:g} N m the rotors must give {needed:.3g} N m of yaw moment, and {1.0 - CONTROL:.0%} of what "
+        f"they have in hover is {limit:.3g} N m: lower compliance.yaw.max_moment, or leave out compliance.yaw.inertia"
+    )
+    return judged("rotors", needed, limit, "N m", text, subject=YAW)
+
+
+def stop_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
+    """The way until it stops after the hand lets go, against the room beside the person's way."""
+    places = places_of(m) if m.all_walls else None
+    if places is None:
+        return
+    room = least_room(m, places)[0] - max(q.guard_radius for q in m.vehicle.quadrotors)
+    slowest = max(axes[:2], key=lambda k: k.stop_distance)
+    text = (
+        f"let go at {slowest.final_speed:.3g} m/s along {slowest.axis} it stops within {slowest.stop_distance:.3g} m, "
+        f"and {max(room, 0.0):.3g} m are free beside the person's way: late hands touch; ask for less speed or time"
+    )
+    yield judged("stop", slowest.stop_distance, room, "m", text)
+
+
+def flown_checks(p: PushedAxis) -> Iterator[CheckResult]:
+    """What the flight of an axis under the standard push shows."""
+    axis, unit = p.feel.axis, "rad/s" if p.feel.axis == YAW else "m/s"
+    if p.difference is None:
+        text = f"under {p.feel.push:g} {'N m' if axis == YAW else 'N'} along {axis}: {p.flight.failure}"
+        yield noted("flown", text, verdict="fails", subject=axis)
+        return
+    share = p.saturated
+    text = f"rotors are at a limit for {share:.2%} of the time under the push along {axis}: allow it more time"
+    yield judged("saturation", share, SATURATED, "1", text, subject=axis)
+    if 0.0 < p.feel.final_speed < math.inf:
+        limit = APART * p.feel.final_speed
+        text = (
+            f"closed form and flight are {p.difference:.3g} {unit} apart along {axis}, and {APART:.0%} of the final "
+            f"speed is {limit:.3g} {unit}: filters, limits and rotors are too slow; allow it more time"
+        )
+        yield judged("flown", p.difference, limit, unit, text, subject=axis)
+
+
+HEADS = ("push", "moves from", "final speed", "95 % after", "overshoot", "lag", "stops within", "apart")
+
+
+class FeelStudy(NamedTuple):
+    """What a mission's admittance feels like.
+
+    Attributes:
+        mission: that was asked about.
+        pushed: each axis under the standard push, by closed form and flown.
+        checks: each with its number, its limit, and what to do.
+    """
+
+    mission: Mission
+    pushed: tuple[PushedAxis, ...]
+    checks: tuple[CheckResult, ...]
+
+    @property
+    def fails(self) -> bool:
+        """Whether a check fails."""
+        return any(check.verdict == FAILS for check in self.checks)
+
+    def summary(self) -> dict[str, Any]:
+        """All numbers in SI units; in yaw, those of lengths are angles, and those of forces are moments."""
+        a = self.mission.admittance
+        return {
+            "mission": self.mission.mission.name,
+            "feel": None if a.feel is None else [f._asdict() for f in a.feel.axes],
+            "axes": [_axis(p) for p in self.pushed],
+            "checks": [{**check._asdict(), "margin": check.margin} for check in self.checks],
+        }
+
+
+def study_feel(mission: Mission, progress: Progress | None = None) -> FeelStudy:
+    """Fly the standard push along each axis of a mission's admittance, and check it.
+
+    Args:
+        mission: from `load_mission`.
+        progress: called with (axes flown, axes in all); by default, a notebook shows a bar.
+
+    Raises:
+        InputError: the mission cannot be flown without its surroundings.
+    """
+    with progress_or_own("Feel", progress, "axes") as shown:
+        pushed = pushed_axes(mission, shown)
+    flown = (check for p in pushed for check in flown_checks(p))
+    return FeelStudy(mission, pushed, (*feel_checks(mission, [p.feel for p in pushed]), *flown))
+
+
+def _axis(p: PushedAxis) -> dict[str, Any]:
+    k = p.feel
+    return {
+        **k._asdict(),
+        "time_constant": k.time_constant if k.damping > 0.0 else None,
+        "acceleration": k.acceleration,
+        "closed_form": p.ideal._asdict(),
+        "flown": p.real._asdict(),
+        "difference": p.difference,
+        "findings": sorted({finding.kind for finding in p.flight.findings}),
+        "failure": p.flight.failure,
+    }
+
+
+def table_of(study: FeelStudy) -> list[tuple[str, ...]]:
+    """A row for each axis, with cells of `HEADS` after its name; where two values differ, "closed form → flown"."""
+    return [(p.feel.axis, *_cells(p)) for p in study.pushed]
+
+
+def _cells(p: PushedAxis) -> Iterator[str]:
+    k, length, force = p.feel, "rad" if p.feel.axis == YAW else "m", "N m" if p.feel.axis == YAW else "N"
+    yield f"{k.push:g} {force}"
+    yield f"{k.threshold:g} {force}"
+    units = (f"{length}/s", "s", "%", "s", length)
+    for name, unit in zip(Answer._fields, units, strict=True):
+        yield _both(getattr(p.ideal, name), getattr(p.real, name), unit)
+    yield "–" if p.difference is None else f"{p.difference:.2f} {length}/s"
+
+
+def _both(ideal: float | None, real: float | None, unit: str) -> str:
+    scale, digits = (100.0, 0) if unit == "%" else (1.0, 2)
+    texts = ["–" if value is None else f"{scale * value:.{digits}f}" for value in (ideal, real)]
+    return f"{' → '.join(dict.fromkeys(texts))} {unit}".removeprefix("– → ")
+
+
+def gate_text(study: FeelStudy) -> str:
+    """What the smallest force that moves the vehicle does, along x, in a sentence."""
+    k, m = study.pushed[0].feel, study.mission
+    acts = "only what exceeds it acts" if k.subtracts_threshold else "beyond it the whole force acts"
+    if m.pilot.guidance != "interactive":
+        return f"A push must exceed {k.threshold:g} N; {acts}."
+    release, dwell = k.threshold * m.compliance.release_fraction, 1e3 * m.compliance.dwell
+    lasting = f"for {dwell:g} ms; {acts}, until the push falls below {release:.2g} N"
+    return f"A push must exceed {k.threshold:g} N {lasting}."

@@ -1,0 +1,201 @@
+"""Quantities of a row that a report shows: one number each, formed from the columns of a metric."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.core.errors import InputError, extra, unknown
+from tandemlift.core.types import Array
+
+CONFIDENCE = 0.95
+
+
+class Share(NamedTuple):
+    """How many of some rows have a property, with the interval of its probability."""
+
+    number: int
+    total: int
+    low: float
+    high: float
+
+    @property
+    def value(self) -> float:
+        """The share; NaN of no rows."""
+        return self.number / self.total if self.total else math.nan
+
+
+class IntervalEstimate(NamedTuple):
+    """A number with its interval; NaN where there is too little to form it."""
+
+    value: float
+    low: float
+    high: float
+
+
+def _check_confidence(confidence: float) -> None:
+    if not 0.0 < confidence < 1.0:
+        raise InputError(f"confidence = {confidence!r}: must be between 0 and 1")
+
+
+def share(count: int, total: int, confidence: float = CONFIDENCE) -> Share:
+    """A share with the two-sided interval of Clopper and Pearson.
+
+    Args:
+        count: rows that have the property.
+        total: rows in all; of none, the interval is all of [0, 1].
+        confidence: of the interval.
+
+    Raises:
+        InputError: the numbers are no counts, or SciPy is not installed (extra: study).
+    """
+    _check_confidence(confidence)
+    high = upper_bound(count, total, (1.0 + confidence) / 2.0)
+    from scipy.special import betaincinv  # which the upper bound found installed
+
+    low = float(betaincinv(count, total - count + 1, (1.0 - confidence) / 2.0)) if count else 0.0
+    return Share(count, total, low, high)
+
+
+def upper_bound(count: int, total: int, confidence: float = CONFIDENCE) -> float:
+    """The probability that is not exceeded, with a confidence: the one-sided bound of Clopper and Pearson.
+
+    Without a single event in n rows it is 1 - (1 - confidence)^(1/n), nearly 3 / n at 95 %. Arguments and errors are
+    those of `share`.
+    """
+    _check_confidence(confidence)
+    if not 0 <= count <= total:
+        raise InputError(f"count = {count!r}: must be from 0 to the total of {total!r}")
+    with extra("study", "statistics"):
+        from scipy.special import betaincinv
+    return float(betaincinv(count + 1, total - count, confidence)) if count < total else 1.0
+
+
+def finite(values: Array) -> Array:
+    """The values that are numbers."""
+    return values[np.isfinite(values)]
+
+
+def quantile(values: Array, at: float = 0.5, confidence: float = CONFIDENCE) -> IntervalEstimate:
+    """A quantile of the finite values, with an interval between two of them.
+
+    Args:
+        values: (n,), in any order.
+        at: which quantile; 0.5 is the median.
+        confidence: at least that of the interval; where the values are too few for it, its bounds are NaN.
+
+    Raises:
+        InputError: a number is not between 0 and 1, or SciPy is not installed (extra: study).
+    """
+    _check_confidence(confidence)
+    if not 0.0 < at < 1.0:
+        raise InputError(f"at = {at!r}: must be between 0 and 1")
+    with extra("study", "statistics"):
+        from scipy.stats import binom
+    ordered = np.sort(finite(values))
+    count, beyond = len(ordered), (1.0 - confidence) / 2.0
+    if not count:
+        return IntervalEstimate(math.nan, math.nan, math.nan)
+    first, last = int(binom.ppf(beyond, count, at)), int(binom.ppf(1.0 - beyond, count, at)) + 1  # numbers from 1
+    low = float(ordered[first - 1]) if first >= 1 else math.nan
+    high = float(ordered[last - 1]) if last <= count else math.nan
+    return IntervalEstimate(float(np.quantile(ordered, at)), low, high)
+
+
+LOW_IS_BAD = ("clearance_min_m", "thrust_min_after_10s_n")  # of all others, high values are bad
+NO_METRICS = (
+    *("row", "mission", "controller", "engine", "case", "draw", "seed", "steps"),
+    *("outcome", "reason", "findings", "finding_kinds", "events"),
+)
+TRACKING = ("position_rmse_after_10s_m", "position_rmse_m")  # the first that there is
+CLEARANCE = "clearance_min_m"
+EFFORTS = ("human_work_per_path_j_m", "human_work_j")  # of a person who guides it; of any push
+
+
+class Quantity(NamedTuple):
+    """A number of each row.
+
+    Attributes:
+        name: of a metric as in metrics.json, or of one entry of it, such as `position_rmse_m.0`.
+        columns: that it is formed from: of a list of errors the root of the sum of squares, of another list the
+            entry farthest from zero.
+    """
+
+    name: str
+    columns: tuple[str, ...]
+
+    @property
+    def low_is_bad(self) -> bool:
+        """Whether the lowest values are the worst."""
+        return self.name in LOW_IS_BAD
+
+    @property
+    def combined(self) -> str:
+        """How entries become one number, in words; "" for a single one."""
+        if len(self.columns) == 1:
+            return ""
+        return "root of the sum of squares of its entries" if "rmse" in self.name else "its entry farthest from zero"
+
+    def of(self, columns: Mapping[str, Array]) -> Array:
+        """Values (rows,) from columns (rows,) by name; NaN where an entry is."""
+        entries = np.stack([columns[name] for name in self.columns])
+        if len(entries) == 1:
+            return entries[0]
+        if "rmse" in self.name:
+            return np.sqrt((entries**2).sum(axis=0))
+        return np.abs(entries).max(axis=0)
+
+
+def quantity_named(name: str, columns: Sequence[str]) -> Quantity:
+    """The quantity of that name.
+
+    Args:
+        name: of a metric, or of one entry of it.
+        columns: of the table.
+
+    Raises:
+        InputError: there is no such metric.
+    """
+    found = _metrics(columns)
+    if name in found:
+        return Quantity(name, found[name])
+    if any(name in entries for entries in found.values()):
+        return Quantity(name, (name,))
+    raise unknown("metric", name, found)
+
+
+def _metrics(columns: Sequence[str]) -> dict[str, tuple[str, ...]]:
+    """The metrics among the columns, with the columns of each; a mission key has a dot before any number."""
+    found = dict[str, tuple[str, ...]]()
+    for column in columns:
+        stem = re.sub(r"\.\d+$", "", column)
+        if "." not in stem and column not in NO_METRICS:
+            found[stem] = (*found.get(stem, ()), column)
+    return found
+
+
+def usual_quantities(columns: Sequence[str]) -> list[Quantity]:
+    """What a report shows if nobody says, as far as there are columns: tracking, clearance, effort of a person."""
+    found = _metrics(columns)
+    return [quantity_named(name, columns) for name in (*TRACKING, *EFFORTS, CLEARANCE) if name in found]
+
+
+def telling(quantities: Sequence[Quantity], is_known: Callable[[str], bool]) -> list[Quantity]:
+    """Of the usual quantities the ones that say something: one of tracking, the clearance, one of effort.
+
+    Args:
+        quantities: from `usual_quantities`.
+        is_known: whether a column has a number other than zero in some row.
+    """
+    known = {q.name: q for q in quantities if any(map(is_known, q.columns))}
+    first = [next((name for name in names if name in known), "") for names in (TRACKING, (CLEARANCE,), EFFORTS)]
+    return [known[name] for name in first if name]
+
+
+def needed(quantities: Iterable[Quantity]) -> list[str]:
+    """The columns of some quantities, each once."""
+    return list(dict.fromkeys(name for quantity in quantities for name in quantity.columns))

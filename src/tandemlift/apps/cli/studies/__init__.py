@@ -1,1 +1,0 @@
-"""Commands that fly many missions: comparisons, studies, tuning, feel."""

@@ -1,0 +1,163 @@
+"""`tandemlift study`: fly many missions into one table."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tandemlift.apps.cli.terminal.completion import names
+from tandemlift.apps.cli.terminal.console import compile_notices, echo, progress_bar
+from tandemlift.apps.cli.terminal.mission_options import parse_setting
+
+if TYPE_CHECKING:
+    from tandemlift.analysis.studies.design.plan import StudyPlan
+    from tandemlift.analysis.studies.execution.store import StudyFolder
+
+
+@click.command()
+@click.argument("file", required=False, shell_complete=names(files=[".toml"]))
+@click.option("--out", metavar="DIR", help="Folder of the study.  [default: out/NAME]")
+@click.option(
+    "--set",
+    "settings",
+    multiple=True,
+    metavar="KEY=VALUE",
+    help="Set one key of the study file, such as study.draws=1000. Can be repeated.",
+)
+@click.option("--threads", type=click.IntRange(min=1), help="Threads.  [default: one for each processor]")
+@click.option(
+    "--scheduler", metavar="ADDRESS", help="Fly on the workers of a Dask scheduler, such as tcp://127.0.0.1:8786."
+)
+@click.option("--cluster", metavar="local:N", help="Fly in N processes of this machine, with Dask's dashboard.")
+@click.option("--part", default="1/1", metavar="K/N", help="Fly part K of N only, as in a job array.")
+@click.option(
+    "--for",
+    "metrics",
+    metavar="METRIC",
+    multiple=True,
+    shell_complete=names("metric"),
+    help="Metric that the report shows. Can be repeated.",
+)
+@click.option("--no-report", is_flag=True, help="Write no report.")
+@click.option("--dry-run", is_flag=True, help="Fly a few rows only, and say what all would take.")
+@click.option("--template", is_flag=True, help="Print a commented study file.")
+def study(
+    file: str | None,
+    out: str | None,
+    settings: tuple[str, ...],
+    threads: int | None,
+    scheduler: str | None,
+    cluster: str | None,
+    part: str,
+    metrics: tuple[str, ...],
+    no_report: bool,
+    dry_run: bool,
+    template: bool,
+) -> None:
+    """Fly the study in FILE: many missions, in one table.
+
+    A study that was stopped goes on where it was when it is started again: what its folder already holds is not flown
+    again.
+
+    \b
+    Examples:
+      tandemlift study --template > gusts.toml
+      tandemlift study gusts.toml --dry-run
+      tandemlift study gusts.toml
+      tandemlift study gusts.toml --part 3/40
+      tandemlift run --from out/gusts --row 17
+
+    \b
+    Files in the folder of the study:
+      study.toml      what it flies
+      study.json      the same, with all missions and controllers
+      chunks/         the table: tl.load_study, or any reader of Parquet files
+      report.html     outcomes, distributions, maps, the worst rows; `tandemlift report DIR` writes it anew
+
+    \b
+    Exit code:
+      0    the study, or its part, is flown
+      2    bad input: one message; what is flown stays
+      130  stopped by Ctrl-C; what is flown stays
+    """
+    if template:
+        from tandemlift.analysis.studies.design.template import TEMPLATE
+
+        echo(TEMPLATE, nl=False)
+        return
+    if file is None:
+        raise click.UsageError("Missing argument 'FILE': a study file; `tandemlift study --template` prints one.")
+    from tandemlift.analysis.studies.design.study_files import load_plan
+
+    plan = load_plan(file, dict(map(parse_setting, settings)))
+    rows = f"{plan.count:,} rows = {plan.sizes}" if plan.count > 1 else plan.sizes
+    echo(f"{plan.settings.study.name}: {rows}")
+    if dry_run:
+        _print_estimate(plan, threads or os.cpu_count() or 1)
+        return
+    folder = _fly(plan, out, part, threads=threads, scheduler=scheduler, cluster=cluster)
+    _print_outcomes(folder.path, metrics, report=not no_report)
+
+
+def _fly(plan: StudyPlan, out: str | None, part: str, **where: Any) -> StudyFolder:
+    from tandemlift.analysis.studies.execution.anywhere import fly_study
+    from tandemlift.analysis.studies.execution.running import part_from
+    from tandemlift.analysis.studies.execution.store import open_folder
+
+    chosen = part_from(part)
+    folder = open_folder(plan, Path("out") / plan.settings.study.name if out is None else Path(out))
+    with progress_bar(plan.settings.study.name, "rows") as progress:
+        fly_study(plan, folder, part=chosen, progress=progress, say=lambda line: click.echo(line, err=True), **where)
+    return folder
+
+
+def _print_estimate(plan: StudyPlan, threads: int) -> None:
+    from tandemlift.analysis.studies.execution.estimate import estimate
+
+    with compile_notices.together():
+        found = estimate(plan)
+    echo(f"  files   {found.chunks:,} of {plan.rows_per_chunk} rows, some {_bytes(found.size)} in all")
+    echo(f"  time    some {_time(found.seconds / threads)} on {threads} threads; {_time(found.seconds)} on one")
+
+
+def _time(seconds: float) -> str:
+    for unit, length in (("days", 86400.0), ("h", 3600.0), ("min", 60.0)):
+        if seconds >= 2.0 * length:
+            return f"{seconds / length:.1f} {unit}"
+    return f"{seconds:.1f} s"
+
+
+def _bytes(size: float) -> str:
+    for unit, length in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6)):
+        if size >= length:
+            return f"{size / length:.1f} {unit}"
+    return f"{size / 1e3:.0f} kB"
+
+
+def _print_outcomes(folder: Path, metrics: tuple[str, ...], *, report: bool) -> None:
+    """Print how the flights ended, and where the table is; write the report of a whole study."""
+    from tandemlift.analysis.studies.design.settings import REFUSED
+    from tandemlift.analysis.studies.quantities import share
+    from tandemlift.analysis.studies.table import load_study
+    from tandemlift.pictures.report.study.study_report import write_study_report
+
+    study = load_study(folder)
+    read = study.read(["row", "outcome", "reason"])
+    outcomes = read["outcome"].to_pylist()
+    counts = Counter(outcomes)
+    echo(f"  {'outcome':12}{'rows':>10}   share, and its two-sided 95 % interval")
+    for outcome, count in counts.most_common():
+        s = share(count, len(study))
+        echo(f"  {outcome:12}{count:>10,}   {100 * s.value:.4g} % ({100 * s.low:.3g} to {100 * s.high:.3g} %)")
+    if REFUSED in counts:
+        first = outcomes.index(REFUSED)
+        echo(f"  row {read['row'][first]} is refused: {read['reason'][first]}")
+    if study.missing:
+        echo(f"  {study.missing:,} of {study.plan.count:,} rows are still to be flown")
+    elif report:
+        echo(f"  report: {write_study_report(study, folder / 'report.html', metrics)}")
+    echo(f"  table: tl.load_study({str(folder)!r})")

@@ -1,0 +1,279 @@
+"""`tandemlift tune`: search values of a mission that make metrics small, and compare them on holdout draws."""
+
+from __future__ import annotations
+
+import re
+import sys
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tandemlift.apps.cli.terminal.completion import CONTROLLERS, MISSIONS, keys, names
+from tandemlift.apps.cli.terminal.console import compile_notices, echo, progress_bar
+from tandemlift.apps.cli.terminal.mission_options import (
+    FAILED,
+    chosen_controller,
+    load,
+    parse_setting,
+    set_option,
+    style_option,
+)
+from tandemlift.apps.cli.terminal.results import results_folder
+from tandemlift.core.errors import FlightWarning, InputError
+from tandemlift.core.files import toml_tables
+
+if TYPE_CHECKING:
+    from tandemlift.analysis.studies.tuning.candidates import Cost
+    from tandemlift.analysis.studies.tuning.result import Tuning
+    from tandemlift.analysis.studies.tuning.tune import TuneProgress
+
+NOT_BETTER, INTERRUPTED = 1, 130
+FILES = ("tuned.toml", "evidence.json", "tune.html")
+
+
+@click.command()
+@click.argument("mission", shell_complete=MISSIONS)
+@click.option(
+    "--minimize",
+    "goals",
+    multiple=True,
+    required=True,
+    metavar="METRIC[=TARGET]",
+    shell_complete=names("metric"),
+    help="Metric to make small, by its name in metrics.json, or one component: position_rmse_m.2. Can be repeated.",
+)
+@click.option(
+    "--parameter",
+    "parameters",
+    multiple=True,
+    metavar="KEY[=RANGE]",
+    shell_complete=keys,
+    help="What to search: a dotted key, a table or a pattern, and [low, high] or a list of words. Can be repeated."
+    "  [default: the controller's gains]",
+)
+@click.option("--draws", default="8", show_default=True, metavar="N|FILE", help="Flights that compare candidates.")
+@click.option("--holdout", default=200, show_default=True, help="Flights that compare old and new in the end.")
+@click.option("--budget", type=int, metavar="N", help="Candidates to try.  [default: 60 populations]")
+@click.option("--optimiser", metavar="cma|optuna", help="[default: cma; optuna for choices and several goals]")
+@click.option("--aim", default="mean", show_default=True, metavar="mean|worst", help="What of all draws counts.")
+@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of search and draws.")
+@click.option("--threads", type=click.IntRange(min=1), help="Threads that fly.  [default: one for each processor]")
+@click.option(
+    "--controller",
+    metavar="NAME|FILE",
+    shell_complete=CONTROLLERS,
+    help="Tune this controller: a registered one, or your own .py file.",
+)
+@click.option("--strict", is_flag=True, help="A flight with findings counts as a bad outcome, too.")
+@set_option
+@click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-tuned]")
+def tune(
+    mission: str,
+    goals: tuple[str, ...],
+    parameters: tuple[str, ...],
+    draws: str,
+    controller: str | None,
+    settings: tuple[str, ...],
+    out: str | None,
+    **how: Any,
+) -> None:
+    """Search values of MISSION that make metrics small, then fly old and new on draws that the search never saw.
+
+    Every candidate flies the same draws. A bad outcome counts first; then the metrics, each over its target, or over
+    its present value. docs/how-to/tuning.md says how.
+
+    \b
+    Examples:
+      tandemlift tune flight-ready --minimize position_rmse_after_10s_m --set actuators.model=rotors
+      tandemlift tune iris --minimize position_rmse_after_10s_m --parameter controller.gains --draws 16
+      tandemlift tune one-push --minimize human_work_j --parameter 'admittance.damping=[0.5, 4.0]'
+      tandemlift tune iris --minimize position_rmse_m.0 --minimize moment_max_abs_after_10s_n_m.0
+
+    \b
+    Files in the results folder (other files there are left alone):
+      tuned.toml     the mission with the new values; `tandemlift run` flies it
+      evidence.json  what was searched, every cost, and old against new on every holdout draw
+      tune.html      all of it on one page that needs no network
+      figures/       cost over candidates; old and new on holdout draws; the front (PNG and PDF)
+
+    \b
+    Exit code:
+      0    the new values are better on holdout draws
+      1    they are not; everything is written
+      2    bad input: one message, nothing is written
+      130  Ctrl-C: the best so far is written, marked as unfinished
+    """
+    from tandemlift.missions import load_mission
+
+    changes, chosen = dict(map(parse_setting, settings)), controller and chosen_controller(controller).name
+    name = load_mission(mission, changes, controller=chosen).mission.name
+    how |= {
+        "parameters": dict(map(_range_of, parameters)),
+        "draws": _draws_of(draws),
+        "changes": changes,
+        "controller": chosen,
+    }
+    with results_folder(out, Path("out") / f"{name}-tuned", FILES) as folder:
+        found = _search(mission, dict(map(_goal_of, goals)), how)
+        _write(found, folder)
+    _print(found, folder)
+    if not found.is_finished:
+        click.echo("stopped; the best so far is written, and was not flown on holdout draws", err=True)
+        sys.exit(INTERRUPTED)
+    if not found.is_better:
+        sys.exit(NOT_BETTER)
+
+
+def _search(mission: str, goals: dict[str, Any], how: dict[str, Any]) -> Tuning:
+    from tandemlift.analysis.studies.tuning.tune import tune
+
+    with compile_notices.together(), _progress() as progress:
+        return tune(mission, goals, **how, progress=progress)
+
+
+def _goal_of(text: str) -> tuple[str, Any]:
+    """The metric of METRIC[=TARGET], and its target or None."""
+    name, equals, literal = (part.strip() for part in text.partition("="))
+    return name, _literal(f"--minimize {text}", literal) if equals else None
+
+
+def _range_of(text: str) -> tuple[str, Any]:
+    """The key of KEY[=RANGE], and its range or None."""
+    key, equals, literal = (part.strip() for part in text.partition("="))
+    if not re.fullmatch(r"[A-Za-z0-9_*?\[\]]+(\.[A-Za-z0-9_*?\[\]]+)*", key):
+        raise InputError(
+            f"--parameter {text}: must be KEY or KEY=[low, high] with a dotted key, such as controller.gains.xi"
+        )
+    value = _literal(f"--parameter {text}", literal) if equals else None
+    if equals and not isinstance(value, list):
+        raise InputError(f"--parameter {text}: the range must be [low, high], or a list of words in quotes")
+    return key, value
+
+
+def _literal(where: str, literal: str) -> Any:
+    try:
+        return toml_tables(f"value = {literal}")["value"]
+    except (ValueError, KeyError, RecursionError):
+        raise InputError(f"{where}: must be a TOML value, such as 0.01 or [0.01, 0.01, 0.005]") from None
+
+
+def _draws_of(text: str) -> int | str:
+    """A number of draws, or the path of a study file."""
+    return int(text) if re.fullmatch("[0-9]{1,9}", text) else text
+
+
+@contextmanager
+def _progress() -> Iterator[TuneProgress | None]:
+    """A progress bar with the lowest cost so far, on a terminal."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    with click.progressbar(length=1, label="Tuning", file=sys.stderr, item_show_func=lambda words: words) as bar:
+
+        def update(done: int, total: int, lowest: Cost) -> None:
+            bar.length = max(total, 1)
+            bar.update(done - bar.pos, f"cost {lowest.ratio:.4g}" + (f", {lowest.bad} bad" if lowest.bad else ""))
+
+        yield update
+
+
+def _write(found: Tuning, folder: Path) -> None:
+    from tandemlift.pictures.figures.drawing.style import save
+    from tandemlift.pictures.report.study.tuning_figures import drawn_figures
+    from tandemlift.pictures.report.study.tuning_report import write_tuning
+
+    found.save(folder)
+    for name, figure in drawn_figures(found).items():
+        for kind in ("png", "pdf"):
+            save(figure, folder / "figures" / f"{name}.{kind}")
+    write_tuning(found, folder / "tune.html")
+
+
+def _print(found: Tuning, folder: Path) -> None:
+    """Print what was done, old against new, and where the files are."""
+    from tandemlift.pictures.report.study.tuning_report import cost_words, what_was_done
+
+    echo(f"{found.name}: {what_was_done(found)}")
+    if not found.is_finished:
+        old, new = (cost_words(cost, len(found.draws)) for cost in found.costs)
+        echo(f"  cost on the draws of the search: {old}; now {new}")
+    if found.evidence is not None:
+        words = "better" if found.is_better else "not better"
+        echo(f"  {words} on {len(found.holdout)} holdout draws: {found.evidence.words}")
+        _print_table(found)
+    for place, point in enumerate(found.front, 1):
+        costs = "  ".join(cost_words(cost, len(found.holdout)) for cost in point.holdout or point.costs)
+        echo(f"  front {place}: {costs}")
+    echo(f"  mission: {folder / 'tuned.toml'}")
+    echo(f"  page: {folder / 'tune.html'}")
+
+
+HEADS = ("old median", "worst", "new median", "worst", "difference", "95 % from", "to")
+
+
+def _print_table(found: Tuning) -> None:
+    assert found.evidence is not None
+    rows: list[tuple[str, Sequence[float]]] = [
+        (c.label, (*c.old, *c.new, c.difference, *(c.interval or ()))) for c in found.evidence.comparisons
+    ]
+    width = max((len(label) for label, _ in rows), default=0) + 2
+    if rows:
+        echo("  " + " " * width + "  ".join(head.rjust(10) for head in HEADS))
+    for label, values in rows:
+        echo(f"  {label.ljust(width)}" + "  ".join(f"{value:10.4g}" for value in values))
+
+
+FEEL_FILES = ("feel.json", "feel.html", "feel.png", "feel.pdf")
+
+
+@click.command()
+@click.argument("mission", shell_complete=MISSIONS)
+@set_option
+@click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
+@style_option
+@click.option("--strict", is_flag=True, help="Exit with code 3 if a check fails.")
+def feel(mission: str, settings: tuple[str, ...], out: str | None, strict: bool) -> None:
+    """Show what a push does with the keys of MISSION, and check whether the vehicle can respond so.
+
+    A standard push along each axis, by the closed form of the admittance and flown. `tandemlift tune` searches for
+    better keys.
+
+    \b
+    Examples:
+      tandemlift feel iris
+      tandemlift feel iris --set admittance.feel.preset=firm
+      tandemlift feel iris --set 'admittance.feel={force=1.0, speed=0.6, time=2.0}'
+
+    \b
+    Files in the results folder (other files there are left alone):
+      feel.html  table, figure and checks on one page that needs no network
+      feel.json  all numbers in SI units; feel.png, feel.pdf: the figure
+
+    \b
+    Exit code:
+      0   the keys were studied
+      2   bad input: one message, nothing is written
+      3   with --strict: a check fails
+    """
+    from tandemlift.apps.cli.terminal.check_table import print_checks
+    from tandemlift.pictures.report.study.feel_report import feel as studied
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FlightWarning)  # of pushes that are not flown here
+        loaded = load(mission, settings)
+    name = loaded.mission.name
+    with results_folder(out, Path("out") / name, FEEL_FILES) as folder:
+        with progress_bar("Flying", "rows", shown=sys.stderr.isatty()) as progress:
+            report = studied(loaded, progress=progress)
+        echo(f"{name}: the response to a standard push, closed form → flown")
+        for line in report.lines():
+            echo(f"  {line}")
+        print_checks(report.checks)
+        report.save(folder)
+        echo(f"  page: {folder / 'feel.html'}")
+    if strict and report.study.fails:
+        sys.exit(FAILED)

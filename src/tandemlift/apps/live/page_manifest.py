@@ -1,0 +1,169 @@
+"""What a page must know of a flight beside its module: the scene, the mission, parameters with bounds, and texts.
+
+`web/src/flight/manifest.ts` says the same in TypeScript.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tandemlift.apps.live.message_rules import message_rules, name_rule
+from tandemlift.apps.live.page_functions import ENDING_PARTS, frame_fields
+from tandemlift.apps.live.session import checks, pacing
+from tandemlift.apps.live.session import refusal_texts as texts
+from tandemlift.apps.live.session.frame_values import phase_times
+from tandemlift.apps.live.session.hand_control import REQUEST_TIME
+from tandemlift.apps.live.session.interactive_mission import NEVER
+from tandemlift.apps.live.session.parameter_control import RAMP
+from tandemlift.apps.live.session.scene_builder import scene_of
+from tandemlift.apps.live.session.status import in_sentences
+from tandemlift.apps.live.session.tunable_parameters import (
+    BY_KEY,
+    CHOICES,
+    bounds_of,
+    keys_of,
+    parameters_of,
+)
+from tandemlift.apps.live.wire.frames import ECHO, FRESH, RATE
+from tandemlift.apps.live.wire.page_messages import SILENT
+from tandemlift.apps.live.wire.scene import SceneParameter
+from tandemlift.core.errors import InputError
+from tandemlift.core.phases import DIVERGED, ENDING_OF, ENDINGS
+from tandemlift.core.refusals import REQUESTS, refusals_for, sentences_for
+from tandemlift.core.types import flat
+from tandemlift.flight.record import ENDING_TEXT
+from tandemlift.missions import changed, tables_of
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.person.virtual_hand import HAND_RELEASED
+from tandemlift.simulation.loop_code import leaf_offset
+from tandemlift.simulation.outcome import NOT_FINITE, limit_of
+from tandemlift.simulation.parameter_changes import LATER, NO_EFFECT, scheduled_change
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND, MISSION
+from tandemlift.simulation.stepping import GUIDANCE_MEMORY
+
+ENGINE = "compiled"
+ONLY_SERVER = "{what}: only a flight of `tandemlift live` has it"
+OTHER_LAWS = "{key}: the module of this page cannot take it in flight; `tandemlift live` can"
+MOST_NUMBERS = 6  # of a list that a key takes
+STATUS_EVERY = RATE // 4  # frames
+
+
+def page_manifest(plan: FlightPlan) -> dict[str, Any]:
+    """What a page is told of a mission that was made interactive."""
+    mission = plan.mission
+    scene = scene_of(mission, ENGINE)
+    rule = checks.touch_rule(mission, scene["vehicle"])
+    tables = tables_of(mission)
+    tables.pop("changes", None)
+    return {
+        "scene": scene,
+        "tables": tables,
+        "parameters": [_tunable(plan, shown) for shown in parameters_of(mission, mission) if "choices" not in shown],
+        "absent": _absent(plan),
+        "rotors": [
+            {"rotor": 4 * (f.quadrotor - 1) + f.rotor - 1, "key": f"faults.{i}.time"}
+            for i, f in enumerate(mission.faults)
+        ],
+        "never": NEVER,
+        "hand": {name: leaf_offset(HAND_RELEASED, name) for name in HAND_RELEASED._fields},
+        "released": flat(HAND_RELEASED),
+        "engine": ENGINE,
+        "plant": leaf_offset(plan.model, "plant"),
+        "lost": leaf_offset(plan.model, "flight_state", "ended").at,
+        "hover_time": leaf_offset(plan.model, "flight_state", *checks.HOVER_TIME).at if rule.tare_duration else -1,
+        "guidance": [leaf_offset(plan.model, *path) for path in (("pilot", "guidance"), GUIDANCE_MEMORY)],
+        "ending": [leaf_offset(plan.model, *path) for path in ENDING_PARTS],
+        "frame": frame_fields(plan),
+        "phase_times": list(phase_times(tables["phases"])),
+        "touch_rule": list(rule),
+        "ramp": RAMP,
+        "request_time": REQUEST_TIME,
+        "pacing": _pacing(),
+        "texts": _texts(plan, rule),
+        "rules": message_rules(),
+        "save_name": name_rule()[0],
+        "files": {"mission": MISSION, "hand": HAND},
+    }
+
+
+def _tunable(plan: FlightPlan, shown: SceneParameter) -> dict[str, Any]:
+    """A parameter as the page has it, with the refusals of values out of bounds and of lists of another length."""
+    keys, value = keys_of(plan.mission, shown["key"]), shown["value"]
+    rule = _refusal(plan, keys[0], [1.0] * (MOST_NUMBERS + 1)).rpartition(": ")[2]
+    return {
+        "shown": shown,
+        "keys": keys,
+        "count": len(value) if isinstance(value, list) else 0,
+        "out_of_bounds": texts.OUT_OF_BOUNDS.format(key="{key}", value="{value}", low=shown["min"], high=shown["max"]),
+        "wrong_shape": f"mission: {keys[0]} = {{value}}: {rule}",
+    }
+
+
+def _absent(plan: FlightPlan) -> dict[str, str]:
+    """The parameters that a mission does not have, and why they are refused."""
+    present = {shown["key"] for shown in parameters_of(plan.mission, plan.mission)}
+    lost = {
+        key: _refusal(plan, keys_of(plan.mission, key)[0], bounds_of(parameter, plan.mission)[1])
+        for key, parameter in BY_KEY.items()
+        if key not in present
+    }
+    return {key: ONLY_SERVER.format(what=key) for key in CHOICES} | lost
+
+
+def _refusal(plan: FlightPlan, key: str, value: Any) -> str:
+    """Why a value of a key is refused in flight."""
+    try:
+        scheduled_change(plan, changed(plan.mission, key, value), key, 0, RAMP)
+    except InputError as error:
+        return str(error)
+    raise AssertionError(f"{key} = {value} is not refused")
+
+
+def _pacing() -> dict[str, float]:
+    return {
+        "most_behind": pacing.MOST_BEHIND,
+        "window": pacing.WINDOW,
+        "batch": pacing.BATCH,
+        "pause": pacing.PAUSE,
+        "echo": ECHO,
+        "fresh": FRESH,
+        "silent": SILENT,
+        "status_every": STATUS_EVERY,
+    }
+
+
+def _endings(plan: FlightPlan) -> dict[str, Any]:
+    """By number the outcome of an ending and its text; by the place in the state what is said if that is not finite."""
+    known = {str(int(k.number)): _ending(k.outcome, k.quantity, limit_of(plan, k.number)) for k in ENDINGS}
+    parts = [_ending(ENDING_OF[DIVERGED].outcome, part, NOT_FINITE) for part in State._fields]
+    return {"by_number": known, "not_finite": parts}
+
+
+def _ending(outcome: str, quantity: str, limit: str) -> dict[str, str]:
+    """An ending's outcome, and its text with the places of its numbers in braces."""
+    named = {"outcome": outcome, "quantity": quantity, "limit": limit, "time": "{time}", "value": "{value}"}
+    return {"outcome": outcome, "text": ENDING_TEXT.replace(":.6g", "").format(**named)}
+
+
+def _texts(plan: FlightPlan, rule: checks.TouchRule) -> dict[str, Any]:
+    mission = plan.mission
+    by_clock = mission.pilot.guidance == "scheduled"
+    return {
+        "unknown": texts.UNKNOWN.format(key="{key}", known=", ".join([*CHOICES, *BY_KEY])),
+        "no_number": texts.NO_NUMBER,
+        "over": texts.OVER,
+        "later": f"{{key}} {LATER}",
+        "no_effect": f"{{key}} {NO_EFFECT}",
+        "other_laws": OTHER_LAWS,
+        "whole_rotors": texts.WHOLE_ROTORS,
+        "failed_already": texts.FAILED_ALREADY.replace("{time:g}", "{time}"),
+        "no_requests": texts.NO_REQUESTS.format(what="{what}", mission=mission.mission.name) if by_clock else "",
+        "touch": {str(int(number)): text for number, text in checks.touch_texts(rule).items()},
+        "refusals": {request: sentences_for(request) for request in REQUESTS},
+        "refused_at_end": {key: in_sentences(refusals_for(key)) for key in ("over", "stopped_early", "error")},
+        "endings": _endings(plan),
+        "empty": EMPTY_FLIGHT,
+        "name": name_rule()[1],
+        "only_server": ONLY_SERVER,
+    }

@@ -1,0 +1,85 @@
+"""The page that flies without a server, as files for any web server, or as one file that works from disk."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping, Sequence
+from functools import cache
+from typing import Any
+
+from tandemlift.apps.live.page_modules import ENDING, FORMAT, PackedFlight
+from tandemlift.apps.live.replay import replay_element
+from tandemlift.apps.live.self_contained import (
+    data_element,
+    in_one_file,
+    page_text,
+    text_element,
+    with_data,
+    with_policy,
+)
+from tandemlift.core.files import __version__
+
+FOLDER = "flights"  # beside the page's other files
+SHOWN_INSTEAD = "one-push"  # mission of the flight that a browser without WebAssembly plays
+EVERY = 6  # frames of that flight, of which one is kept
+ONLY_SERVER = (
+    "another controller or gate, chosen in flight",
+    "sensors tared anew",
+    "every other mission, your own among them, and the engines MuJoCo and Gazebo",
+    "several people at one flight",
+    "findings while the flight goes on: what went badly, when and where",
+    "saving into a folder, with the log of the flight; from here, `tandemlift run` makes that log of a saved file",
+)
+NO_MODULE = (
+    "This browser runs no WebAssembly, which the flight needs, so a recorded flight is shown. "
+    "Allow WebAssembly for this page, or take another browser, to fly and to push."
+)
+BROKEN = "the flight in this page is damaged: its checksum is wrong. Get the page again."
+OTHER_VERSION = "the flight in this page was made by another version than the page. Get the page again."
+_COMMON = "style-src 'self' 'unsafe-inline'; img-src data: blob:; media-src blob:; base-uri 'none'; form-action 'none'"
+IN_FILES = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; " + _COMMON
+IN_ONE_FILE = "default-src 'none'; script-src 'sha256-{script}' 'wasm-unsafe-eval'; worker-src blob:; " + _COMMON
+
+
+def offline_files(flights: Sequence[PackedFlight], files: Mapping[str, bytes]) -> dict[str, bytes]:
+    """The files of a page for a web server, by their paths: those of `page_files` and the flights."""
+    places = {flight.name: f"{FOLDER}/{flight.name}{ENDING}" for flight in flights}
+    entries = [{**_entry(flight), "file": places[flight.name]} for flight in flights]
+    html = with_policy(_with_flights(page_text(files, "/index.html"), entries), IN_FILES)
+    content = {path.lstrip("/"): data for path, data in files.items() if path != "/"}
+    packed = {places[flight.name]: flight.data for flight in flights}
+    return {**content, "index.html": html.encode(), **packed}
+
+
+def offline_html(flights: Sequence[PackedFlight], files: Mapping[str, bytes]) -> str:
+    """The page as one file; its policy allows it no network."""
+    worker = page_text(files, "/worker.js")
+    entries = [{**_entry(flight), "data": base64.b64encode(flight.data).decode()} for flight in flights]
+    html = with_data(_with_flights(page_text(files, "/index.html"), entries), text_element("worker", worker))
+    return in_one_file(html, files, IN_ONE_FILE)
+
+
+def _entry(flight: PackedFlight) -> dict[str, Any]:
+    return {"name": flight.name, "title": flight.title, "sha256": flight.sha256}
+
+
+def _with_flights(html: str, entries: list[dict[str, Any]]) -> str:
+    index = {
+        "format": FORMAT,
+        "version": __version__,
+        "missions": entries,
+        "only_server": ONLY_SERVER,
+        "no_module": NO_MODULE,
+        "broken": BROKEN,
+        "other_version": OTHER_VERSION,
+    }
+    return with_data(html, data_element("flights", index) + _replay())
+
+
+@cache
+def _replay() -> str:
+    """The flight that is shown where none can be flown."""
+    from tandemlift.missions import load_mission
+    from tandemlift.simulation.fly import fly
+
+    return replay_element(fly(load_mission(SHOWN_INSTEAD)), EVERY)

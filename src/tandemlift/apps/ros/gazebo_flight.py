@@ -1,0 +1,149 @@
+"""Gazebo started for one flight, with a window to watch and push it, and with cameras that photograph it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import socket
+import subprocess
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import NamedTuple
+
+from tandemlift.apps.ros.gazebo_cameras import ViewRequest
+from tandemlift.core.errors import InputError
+from tandemlift.engines.gazebo import CHECKS, PORT, REAL_TIME, world_from
+from tandemlift.engines.gazebo_server import GazeboServer, free_port, root, shell_command, with_gazebo_environment
+from tandemlift.engines.models.sdf_cameras import PICTURES, add_cameras
+from tandemlift.missions import Mission
+
+EVERY = 0.5  # s, from one picture of a camera to the next
+PATIENCE = 60.0  # s, in which every camera must save its first picture
+CHECK_EVERY = 0.1  # s, between checks whether it has
+WAITING = "<wait>true</wait>", "<wait>false</wait>"  # a world that waits for its pilot draws nothing
+
+
+class Photo(NamedTuple):
+    """A photograph: the view, the time [s] of the flight just after it, and its JPEG."""
+
+    view: ViewRequest
+    time: float
+    jpeg: bytes
+
+
+class GazeboSession:
+    """A Gazebo server for one flight.
+
+    Args:
+        mission: the mission that will be flown.
+        views: photographs to be taken.
+        window: whether to open Gazebo's window.
+
+    Attributes:
+        master: address of Gazebo's own transport.
+        port: of the plugin, UDP.
+        photos: photographs taken so far.
+        check: raises a `ConnectionError` if the server has ended.
+
+    Raises:
+        InputError: there is no Gazebo, no display for the window, or the cameras save no picture.
+    """
+
+    def __init__(self, mission: Mission, views: Sequence[ViewRequest] = (), *, window: bool = False) -> None:
+        self.photos: list[Photo] = []
+        self._due, self.port = list(views), free_port(socket.SOCK_DGRAM)
+        text = world_from(mission, self.port)
+        if views:
+            text = add_cameras(text.replace(*WAITING), [v.camera for v in views], EVERY)
+        with ExitStack() as closing:
+            self._server = GazeboServer(text, draws=bool(views))
+            closing.callback(self._server.close)
+            self.master, self.check = self._server.master, self._server.check
+            if window:
+                closing.enter_context(_window(self.master))
+            self._await_cameras()
+            self._closing = closing.pop_all()
+
+    def _await_cameras(self) -> None:
+        until = time.monotonic() + PATIENCE
+        while not all(self._pictures_of(view) for view in self._due):
+            self._server.check()
+            if time.monotonic() > until:
+                raise InputError(
+                    f"Gazebo's cameras save no pictures; is Xvfb installed where Gazebo is?{self._server.last_output()}"
+                )
+            time.sleep(CHECK_EVERY)
+
+    def _pictures_of(self, view: ViewRequest) -> list[Path]:
+        """The picture files of a camera in the order of time; the last may be incomplete."""
+        files = (self._server.folder / PICTURES / view.camera.name).glob("*.jpg")
+        return sorted(files, key=lambda path: int(path.stem.rpartition("-")[2]))
+
+    def take_due_photographs(self, at: float) -> None:
+        """Take the photographs that are due at a time [s] of the flight; to be called about every second of it."""
+        for view in [v for v in self._due if v.time <= at]:
+            files = self._pictures_of(view)
+            if len(files) > 1:
+                self._due.remove(view)
+                self.photos.append(Photo(view, at, files[-2].read_bytes()))
+
+    def close(self) -> None:
+        """End the server and its window."""
+        self._closing.close()
+
+
+@contextmanager
+def running_gazebo(
+    mission: Mission, views: Sequence[ViewRequest] = (), *, window: bool = False, real_time: bool = False
+) -> Iterator[GazeboSession]:
+    """A Gazebo that engine `gazebo` joins while the context is open; arguments and errors as of `GazeboSession`."""
+    gazebo, before = (
+        GazeboSession(mission, views, window=window),
+        {name: os.environ.get(name) for name in (PORT, REAL_TIME)},
+    )
+    CHECKS[gazebo.port] = gazebo.check
+    os.environ |= {PORT: str(gazebo.port), REAL_TIME: str(int(real_time))}
+    try:
+        yield gazebo
+    finally:
+        del CHECKS[gazebo.port]
+        gazebo.close()
+        for name, value in before.items():
+            os.environ.pop(name)
+            if value is not None:
+                os.environ[name] = value
+
+
+def has_display() -> bool:
+    """Whether there is a screen for a window."""
+    return bool(os.environ.get("DISPLAY"))
+
+
+@contextmanager
+def _window(master: str) -> Iterator[None]:
+    """Gazebo's window on a server, while the context is open."""
+    if not has_display():
+        raise InputError("Gazebo's window needs a display: DISPLAY is not set")
+    inside, allowed = root(), Path(os.environ.get("XAUTHORITY", Path.home() / ".Xauthority"))
+    with ExitStack() as closing:
+        if inside and allowed.is_file():  # the display's cookie must be inside the root
+            cookie = inside / "tmp" / f"tandemlift-{os.getpid()}.cookie"
+            shutil.copy(allowed, cookie)
+            closing.callback(cookie.unlink)
+            allowed = Path("/tmp") / cookie.name
+        show = f"export DISPLAY={os.environ['DISPLAY']} XAUTHORITY={allowed}; exec gzclient"
+        quiet = subprocess.DEVNULL
+        client = subprocess.Popen(
+            shell_command(inside, with_gazebo_environment(master, show)),
+            stdin=quiet,
+            stdout=quiet,
+            stderr=quiet,
+            start_new_session=True,
+        )
+        try:
+            yield
+        finally:
+            client.kill()
+            client.wait()

@@ -1,0 +1,130 @@
+"""A source of C from a text in `data/c`: the mission's names filled in, and what it does not need left out."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from importlib.resources import files
+from typing import Any
+
+from tandemlift.codegen.c.function_text import wrapped
+from tandemlift.codegen.c.identifiers import identifier
+from tandemlift.codegen.c.literals import number
+from tandemlift.codegen.c.structs import Struct, Structs, parts_of
+from tandemlift.codegen.c.unit import Unit
+from tandemlift.compiler.tracer.structured import is_nested
+
+TEXTS = files("tandemlift") / "data" / "c"
+BLOCK = re.compile(r"^ *//if (\w+)\n(.*?)^ *//end \1\n", re.MULTILINE | re.DOTALL)
+
+
+class SourceFile:
+    """What the files of a mission share: names, precision, and a unit of its own.
+
+    Args:
+        mission: its name.
+        single: whether it computes in single precision.
+        step: of the mission [s].
+    """
+
+    def __init__(self, mission: str, single: bool, step: float) -> None:
+        self.mission = mission
+        self.name = identifier(mission).lower()
+        self.prefix = self.name + "_"
+        self.unit = Unit("float" if single else "double")
+        self.step = step
+
+    @property
+    def real(self) -> str:
+        """The type of its numbers."""
+        return self.unit.real
+
+    def filled(self, name: str, has: Iterable[str] = (), **words: str) -> str:
+        """A text of `data/c` with this mission's names.
+
+        Args:
+            name: of the text.
+            has: blocks that are kept.
+            words: texts for the marks `/*@WORD@*/`.
+        """
+        text, kept = (TEXTS / name).read_text(), set(has) | {"single" if self.real == "float" else "double"}
+        while BLOCK.search(text):
+            text = BLOCK.sub(lambda m: m[2] if m[1] in kept else "", text)
+        words = {"STEP": number(self.step, self.real), "NAME": self.mission} | words
+        text = re.sub(r"\bmission_", self.prefix, text)
+        text = re.sub(r"\bMISSION_", self.prefix.upper(), text)
+        text = re.sub(r"\breal\b", self.real, text)
+        return re.sub(r"/\*@(\w+)@\*/", lambda m: words[m[1]], text)
+
+    def public(self, roots: list[Struct]) -> list[Struct]:
+        """The structs that others contain, and these."""
+        found, stack = set[Struct](), list(roots)
+        while stack:
+            struct = stack.pop()
+            if isinstance(struct, Struct) and struct not in found:
+                found.add(struct)
+                stack += [m.kind for m in struct.members]
+        return [s for s in self.unit.structs.all.values() if s in found]
+
+    def typedefs(self, roots: list[Struct]) -> str:
+        """The definitions of public structs, with the mission's name before theirs."""
+        return "\n".join(s.definition(self.prefix, self.real) for s in self.public(roots))
+
+    def source(
+        self, name: str, roots: list[Struct], functions: str, has: Iterable[str] = (), used: str = "", **words: str
+    ) -> str:
+        """A source: short names for public structs, the other structs, the functions of laws, and a text behind them.
+
+        Args:
+            name: of the text in `data/c`.
+            roots: the structs of its header.
+            functions: of the laws.
+            has: blocks of the text that are kept.
+            used: a text that names further structs.
+            words: texts for its marks.
+        """
+        public = self.public(roots)
+        short = [f"typedef {self.prefix}{s.name} {s.name};" for s in public]
+        named = set(re.findall(r"\w+", functions + used))
+        own = [s for s in self._needed(named) if s not in public]
+        types = "\n".join([*short, "", *[s.definition("", self.real) for s in own]])
+        given = ["helpers.c", "single.c"] if self.real == "float" else ["helpers.c"]
+        texts = [t.strip() for name in given for t in (TEXTS / name).read_text().split("\n\n")]
+        helpers = [t for t in texts if _defines(t) in named]
+        laws = "\n".join(["\n\n".join(helpers) + "\n" if helpers else "", functions])
+        return self.filled(name, has, TYPES=types, LAWS=laws, **words)
+
+    def _needed(self, words: set[str]) -> list[Struct]:
+        """The structs that a text names, and those inside them."""
+        return self.public([s for s in self.unit.structs.all.values() if s.name in words])
+
+    def constant(self, value: Any, name: str) -> str:
+        """A constant of a nested value, with the names of its members."""
+        kind = self.unit.structs.of(value).name
+        return "\n".join([f"static const {kind} {name} = {{", *self._members(value, "    "), "};", ""])
+
+    def initialiser(self, value: Any) -> str:
+        """A nested value in braces, without names."""
+        if not is_nested(value):
+            return number(float(value), self.real)
+        inner = ", ".join(self.initialiser(part) for _, part in parts_of(value))
+        return f"{{{{{inner}}}}}" if self._struct(value).is_set else f"{{{inner}}}"
+
+    def _struct(self, value: Any) -> Struct:
+        structs: Structs = self.unit.structs
+        return structs.of(value)
+
+    def _members(self, value: Any, indent: str) -> list[str]:
+        lines = list[str]()
+        for name, part in parts_of(value):
+            if is_nested(part) and not self._struct(part).is_set and self._struct(part).size > 4:
+                lines += [f"{indent}.{name} = {{", *self._members(part, indent + "    "), f"{indent}}},"]
+            else:
+                lines += wrapped(f".{name} = {self.initialiser(part)},", indent).split("\n")
+        return lines
+
+
+def _defines(text: str) -> str:
+    """The function that a helper defines."""
+    found = re.search(r"^static \w+ (\w+)\(", text, re.MULTILINE)
+    return found[1] if found else ""

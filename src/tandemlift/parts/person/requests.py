@@ -1,0 +1,156 @@
+"""Requests of an operator, at set times or now; and the status of the vehicle beside its state.
+
+A request to lift or to land counts once, and lapses once it is done or refused. A stop is final. Enabled or disabled
+holds until the next request about it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, Literal, NamedTuple
+
+from tandemlift.core.algebra import maximum, minimum, where
+from tandemlift.core.errors import CheckResult, refused
+from tandemlift.core.keys import NonNegative, Table, key
+from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.types import NEVER, Number
+from tandemlift.core.vector import Absent, each, total
+
+
+class RequestTable(Table):
+    """`[[requests]]`: requests of an operator, one table each; they need `pilot.guidance = "interactive"`.
+
+    If the first request of "enable" and "disable" is "enable", the vehicle starts disabled.
+    """
+
+    time: NonNegative = key(..., "s", "time of the request", example=60.0)
+    action: Literal["enable", "disable", "lift", "land", "stop"] = key(
+        ...,
+        None,
+        "what is requested",
+        example="land",
+        choices={
+            "enable": "respond to pushes",
+            "disable": "hold the position and ignore pushes",
+            "lift": "lift off",
+            "land": "land",
+            "stop": "turn the rotors off for good",
+        },
+    )
+
+
+class OperatorRequest(NamedTuple):
+    """Requests of now, 1 or 0: to lift, to stop the rotors at once; and whether pushes may be followed."""
+
+    lift: Number
+    stop: Number
+    enabled: Number
+
+
+class VehicleStatus(NamedTuple):
+    """The status of the vehicle at a sample, as the pilot knows it.
+
+    `rotor_failed` is 1 once a rotor has failed, else 0; `thrust` [N] of all rotors as allocated at the last sample, 0
+    if unknown; `state_invalid` is 1 if the pilot's state has values that are not numbers, else 0; `limited`: the number
+    of the reason why it cannot follow its reference, or 0.
+    """
+
+    rotor_failed: Number
+    thrust: Number
+    state_invalid: Number
+    limited: Number = 0.0
+
+
+NO_REQUEST = OperatorRequest(0.0, 0.0, 1.0)
+UNKNOWN_STATUS = VehicleStatus(0.0, 0.0, 0.0)
+
+
+class RequestSchedule(NamedTuple):
+    """Requests at times [s], sets: 1 where one is to lift, to land, to stop; the change of `enabled` by each."""
+
+    time: Any
+    lift: Any
+    land: Any
+    stop: Any
+    change: Any
+    enabled: Number
+
+
+class RequestCounts(NamedTuple):
+    """All requests until a time: the number of those to lift and to land; 1 or 0 for stop, and for enabled."""
+
+    lifts: Number
+    lands: Number
+    stop: Number
+    enabled: Number
+
+
+@elementwise
+def due(time: Number, request: Number, t: Number) -> Number:
+    """A request from its time on, before 0."""
+    return where(t >= time, request, 0.0)
+
+
+@choice(absent=NO_REQUEST)
+def operator_request(person: object) -> OperatorRequest:
+    """`OperatorRequest` of a person at the vehicle, from their memory."""
+
+
+@choice(absent=RequestCounts(0.0, 0.0, 0.0, 1.0))
+def requests_until(requests: RequestSchedule | Absent, t: Number) -> RequestCounts:
+    """`RequestCounts` of a schedule until time t [s]."""
+
+
+@requests_until.register(RequestSchedule)
+def _until(requests: RequestSchedule, t: Number) -> RequestCounts:
+    r = requests
+    return RequestCounts(
+        total(due(r.time, r.lift, t)),
+        total(due(r.time, r.land, t)),
+        minimum(total(due(r.time, r.stop, t)), 1.0),
+        r.enabled + total(due(r.time, r.change, t)),
+    )
+
+
+@law
+def with_operator(requests: RequestCounts, operator: OperatorRequest, lifts: Number, lands: Number) -> RequestCounts:
+    """The requests, with those of an operator of now, and so many more to lift and to land."""
+    return RequestCounts(
+        requests.lifts + lifts,
+        requests.lands + lands,
+        maximum(requests.stop, operator.stop),
+        minimum(requests.enabled, operator.enabled),
+    )
+
+
+PADDED = 4  # the number of requests is rounded up to a multiple: it is a part of the compiled variant
+
+
+def start_requests(tables: Sequence[RequestTable]) -> RequestSchedule | Absent:
+    """The requests in the order of time, or `Absent`."""
+    requests = sorted(tables, key=lambda r: r.time)
+    if not requests:
+        return Absent()
+    enabling = [r.action == "enable" for r in requests if r.action in ("enable", "disable")]
+    first = before = 0.0 if enabling[:1] == [True] else 1.0
+    changes = []
+    for r in requests:
+        after = {"enable": 1.0, "disable": 0.0}.get(r.action, before)
+        changes.append(after - before)
+        before = after
+    spare = -len(requests) % PADDED
+    cls = each(len(requests) + spare)
+
+    def column(values: list[float], rest: float = 0.0) -> Any:
+        return cls(*values, *[rest] * spare)
+
+    lift, land, stop = ([float(r.action == what) for r in requests] for what in ("lift", "land", "stop"))
+    times = column([r.time for r in requests], NEVER)
+    return RequestSchedule(times, column(lift), column(land), column(stop), column(changes), first)
+
+
+def request_checks(tables: Sequence[RequestTable], guidance: str) -> Iterator[CheckResult]:
+    """Requests that nobody answers; `guidance`: `pilot.guidance`."""
+    if tables and guidance != "interactive":
+        action = tables[0].action
+        yield refused(f'requests.0.action = "{action}": must be left out where pilot.guidance is "scheduled"')

@@ -1,0 +1,166 @@
+"""What a push feels like, to look at and to keep: `tl.feel(mission)`, its numbers, its figure and its page."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tandemlift.analysis.studies.feel_study import HEADS, FeelStudy, gate_text, study_feel, table_of
+from tandemlift.core.errors import FAILS, CheckResult
+from tandemlift.core.files import atomic_write
+from tandemlift.core.types import Progress
+from tandemlift.missions import Mission, format_toml, tables_of
+from tandemlift.pictures.report.controller_comparison import html_figures, versions_of
+from tandemlift.pictures.report.flight_report import DASH, NO_BREAK, html_table
+from tandemlift.pictures.report.page import html, write_page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+NOTE = """Closed form → flown: a push that begins at once, lasts, and ends at once, in calm air from hover. The lag is
+the mean delay of the speed against the push; apart is the largest difference between both speeds."""
+FIGURE = "feel"
+
+
+class FeelReport:
+    """What the keys of a mission feel like.
+
+    Args:
+        study: from `study_feel`.
+
+    Attributes:
+        study: axes under the standard push and checks, as numbers.
+    """
+
+    def __init__(self, study: FeelStudy) -> None:
+        self.study = study
+
+    @property
+    def checks(self) -> tuple[CheckResult, ...]:
+        """Each check with its number, its limit, and what to do."""
+        return self.study.checks
+
+    def summary(self) -> dict[str, Any]:
+        """All numbers in SI units, as in feel.json."""
+        return self.study.summary()
+
+    def lines(self) -> list[str]:
+        """The table, and a sentence about the gate."""
+        rows = [("", *HEADS), *table_of(self.study)]
+        widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+        table = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
+        return [*table, gate_text(self.study)]
+
+    def __str__(self) -> str:
+        """The table, a sentence about the gate, and what fails."""
+        failed = [f"{check.verdict}: {check.text}" for check in self.checks if check.verdict == FAILS]
+        return "\n".join([*self.lines(), *failed])
+
+    def figure(self) -> Figure:
+        """The speed over time along each axis, by closed form and flown."""
+        from tandemlift.pictures.report.study.feel_figure import draw
+
+        return draw(self.study)
+
+    def save(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Write feel.json, feel.html, feel.png and feel.pdf into a folder, which is made; each appears whole or not.
+
+        Returns:
+            The files.
+        """
+        from tandemlift.pictures.figures.registry import save_figure
+        from tandemlift.pictures.report.study.feel_figure import CAPTION
+
+        folder, figure = Path(folder), self.figure()
+        folder.mkdir(parents=True, exist_ok=True)
+        files = [folder / f"{FIGURE}.json", folder / f"{FIGURE}.html"]
+        _write(files[0], json.dumps(_plain(self.summary()), indent=1, ensure_ascii=False, allow_nan=False))
+        self._write_page(files[1], html_figures({FIGURE: figure}, {FIGURE: CAPTION}))
+        return [*files, *(save_figure(figure, folder / f"{FIGURE}.{kind}") for kind in ("png", "pdf"))]
+
+    def _write_page(self, path: Path, figures: str) -> None:
+        tables = {"admittance": tables_of(self.study.mission)["admittance"]}
+        write_page(
+            path,
+            "feel",
+            name=self.study.mission.mission.name,
+            verdict=html(_verdict(self.checks)),
+            note=html(NOTE),
+            table=html(_axes(table_of(self.study))),
+            gate=gate_text(self.study),
+            figures=html(figures),
+            checks=html(_checks(self.checks)),
+            admittance=format_toml(tables),
+            versions=f"Flown with {versions_of(self.study.pushed[0].flight)}.",
+        )
+
+
+def feel(mission: Mission, *, progress: Progress | None = None) -> FeelReport:
+    """What a mission's admittance feels like: flown, checked, and ready to be shown.
+
+    Args:
+        mission: from `load_mission`.
+        progress: called with (axes flown, axes in all).
+
+    Raises:
+        InputError: the mission cannot be flown without its surroundings.
+    """
+    return FeelReport(study_feel(mission, progress))
+
+
+def _write(path: Path, text: str) -> None:
+    with atomic_write(path) as partial:
+        partial.write_text(f"{text}\n", "utf-8")
+
+
+def _plain(value: Any) -> Any:
+    """A value for JSON, which has no infinity."""
+    if isinstance(value, dict):
+        return {key: _plain(inner) for key, inner in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(inner) for inner in value]
+    return None if isinstance(value, float) and abs(value) == float("inf") else value
+
+
+def _verdict(checks: Iterable[CheckResult]) -> str:
+    failed = [check for check in checks if check.verdict == FAILS]
+    if not failed:
+        return '<p class="verdict"><strong>No check fails</strong>.</p>'
+    named = ", ".join(dict.fromkeys(f"{check.check} {check.subject}".strip() for check in failed))
+    return f'<p class="verdict missed"><strong>{len(failed)} checks fail</strong>: {escape(named)}.</p>'.replace(
+        "<strong>1 checks fail", "<strong>1 check fails"
+    )
+
+
+def _axes(rows: Iterable[tuple[str, ...]]) -> str:
+    heads = "".join(f'<th scope="col">{head}</th>' for head in ("Axis", *HEADS))
+    cells = (
+        f'<tr><th scope="row">{name}</th>{"".join(f"<td>{escape(cell)}</td>" for cell in row)}</tr>'
+        for name, *row in rows
+    )
+    return html_table(f"<tr>{heads}</tr>", cells, "axes")
+
+
+def _checks(checks: Iterable[CheckResult]) -> str:
+    heads = "".join(f'<th scope="col">{head}</th>' for head in ("Check", "Value", "Limit", "Margin", "What to do"))
+    rows = []
+    for c in checks:
+        shown = [_with_unit(x, c.unit) for x in (c.value, c.limit)]
+        margin = DASH if c.margin is None else f"{100.0 * c.margin:.0f} %"
+        cells = "".join(f"<td>{cell}</td>" for cell in (*shown, margin.replace("-", "−")))
+        said = f"<strong>{c.verdict}</strong>: {escape(c.text)}" if c.text else c.verdict
+        name = escape(f"{c.check} {c.subject}").replace(" ", NO_BREAK)
+        rows.append(f'<tr><th scope="row">{name}</th>{cells}<td>{said}</td></tr>')
+    return html_table(f"<tr>{heads}</tr>", rows, "compared")
+
+
+def _with_unit(value: float | None, unit: str) -> str:
+    """A number with its unit, a fraction in percent."""
+    if value is None:
+        return DASH
+    scale, shown = (100.0, "%") if unit == "1" else (1.0, unit)
+    return f"{scale * value:.3g} {shown}".replace("-", "−").replace(" ", NO_BREAK)

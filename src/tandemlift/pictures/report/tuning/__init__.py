@@ -1,1 +1,0 @@
-"""Pages about gains: a tuning, and the feel of an admittance."""

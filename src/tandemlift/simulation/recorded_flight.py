@@ -1,0 +1,292 @@
+"""A flight that takes commands from step to step and records them.
+
+Saved, it is a mission: a TOML file, with the hand in an archive beside it, that flies the same flight again to the last
+bit. It depends on no clock and no page.
+"""
+
+from __future__ import annotations
+
+import time
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.core.errors import FlightWarning, InputError
+from tandemlift.core.files import atomic_write
+from tandemlift.core.findings import Finding
+from tandemlift.core.refusals import Refusals
+from tandemlift.core.types import Array, flat, leaves, unflat
+from tandemlift.core.vector import Vec3
+from tandemlift.engines.registry import EngineBody, EngineLost
+from tandemlift.flight.record import Ending, Flight, interruption
+from tandemlift.missions import Mission, changed, format_toml, load_mission, tables_of
+from tandemlift.missions.recording import HAND_FILE, MISSION_FILE, WIDTH, Recording, write_recording
+from tandemlift.parts.person.virtual_hand import HAND_RELEASED, VirtualHandInput
+from tandemlift.simulation.findings import findings_of
+from tandemlift.simulation.loop.running_metrics import EMPTY
+from tandemlift.simulation.loop.step import FlightState
+from tandemlift.simulation.loop_code import leaf_offset
+from tandemlift.simulation.outcome import ending_of, place_of
+from tandemlift.simulation.parameter_changes import ScheduledChange, scheduled_change
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import RawResult, flight_of, take_metrics
+from tandemlift.simulation.stepping import Stepper, body_of
+
+FLYING = "flying"  # the outcome of a flight that goes on
+MISSION, HAND, FLIGHT = MISSION_FILE, HAND_FILE, "flight.npz"
+EMPTY_FLIGHT = "nothing was flown yet: there is nothing to save"
+
+
+@dataclass(frozen=True)
+class FlightSnapshot:
+    """A flight as far as it had come, and what made it: enough to fly it again to the last bit.
+
+    Attributes:
+        start: the mission that it began as.
+        engine: name of the body's engine.
+        flown: its raw outcome.
+        hand: positions of the hand, each with the step from which on it holds.
+        changes: what was changed in flight, as a mission's `[[changes]]`.
+    """
+
+    start: Mission
+    engine: str
+    flown: RawResult
+    hand: list[tuple[int, Array]]
+    changes: list[dict[str, Any]]
+
+    def save(self, folder: Path) -> Flight:
+        """Write mission, hand and flight into a folder; the flight that the mission flies again."""
+        self.save_mission(folder)
+        return save_flight(folder, self.flown, self.engine)
+
+    def save_mission(self, folder: Path) -> None:
+        """Write mission and hand into a folder."""
+        steps = np.array([k for k, _ in self.hand], dtype=np.int64)
+        hands = np.reshape([hand for _, hand in self.hand], (len(steps), WIDTH))
+        write_recording(folder / HAND, Recording(steps, hands, self.engine))
+        with atomic_write(folder / MISSION) as partial:
+            comment = f"# Flies again, in the engine {self.engine}: tandemlift run {MISSION}\n\n"
+            partial.write_text(comment + self._toml(folder.name), "utf-8")
+
+    def alone(self) -> Flight:
+        """The flight by itself, with a mission of the same length that has neither hand nor changes."""
+        duration = self.flown.step * self.start.mission.step
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", FlightWarning)
+            p = FlightPlan(changed(self.start, "mission.duration", duration))
+        return flight_of(p, self.flown, self.engine)
+
+    def _toml(self, name: str) -> str:
+        tables, step = tables_of(self.start), self.start.mission.step
+        tables["mission"] |= {"name": name, "duration": self.flown.step * step}
+        tables["person"]["recording"] = HAND
+        tables["changes"] = [c for c in self.changes if round(c["time"] / step) <= self.flown.step]
+        return format_toml(tables)
+
+
+def save_flight(folder: Path, flown: RawResult, engine: str) -> Flight:
+    """Write the flight that was flown into the folder of its recorded mission."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FlightWarning)
+        p = FlightPlan(load_mission(folder / MISSION))
+    flight = flight_of(p, flown, engine)
+    flight.save(folder / FLIGHT)
+    return flight
+
+
+class FlightSetup(NamedTuple):
+    """A mission put together, and its body if that is in another engine; nothing is compiled yet."""
+
+    plan: FlightPlan
+    body: EngineBody | None
+
+
+def setup_flight(mission: Mission, engine: str = "compiled") -> FlightSetup:
+    """Put a flight together, as far as needs no compiling.
+
+    Raises:
+        InputError: the engine is not known, or the mission cannot be built.
+    """
+    plan = FlightPlan(mission, engine)
+    return FlightSetup(plan, body_of(plan))
+
+
+class RecordedFlight:
+    """One flight of a mission whose `person.model` is "virtual-hand"; it is compiled on construction.
+
+    Args:
+        mission: how it begins; at the end of its duration it can only be saved.
+        engine: name of the body's engine.
+        setup: the same, put together before.
+
+    Attributes:
+        layout: of a sample.
+        now: the mission with the changes made so far.
+        step: steps flown.
+        interruption: why its engine took no further step, or None; then it is over.
+
+    Raises:
+        InputError: the engine is not known, or the mission cannot be built.
+    """
+
+    def __init__(self, mission: Mission, engine: str = "compiled", setup: FlightSetup | None = None) -> None:
+        p, body = setup or setup_flight(mission, engine)
+        self.start, self.now, self.engine, self.step = mission, mission, engine, 0
+        self._p, self._early, self._wall = p, EMPTY, 0.0
+        self.interruption: Ending | None = None
+        self.layout = p.sample
+        self._stepper = Stepper(p, body)
+        self._log = np.zeros((p.steps // p.every + 1, leaves(p.sample)))
+        self._before, self._like = self._stepper.a.copy(), p.model.flight_state
+        self._hand: list[tuple[int, Array]] = []
+        self._changes: list[dict[str, Any]] = []
+
+    def optimise(self) -> None:
+        """Have optimised code compiled beside the flight; its tracing is done when this returns."""
+        self._stepper.code.optimise(trace_first=True)
+
+    @property
+    def dt(self) -> float:
+        """Duration of a step [s]."""
+        return self._p.dt
+
+    @property
+    def sample(self) -> Array:
+        """The last sample (columns,), laid out as a row of the log."""
+        return self._stepper.row
+
+    @property
+    def moment(self) -> tuple[Array, float]:
+        """A copy of the last sample, and its time [s]."""
+        return self._stepper.row.copy(), (self.step - 1) * self._p.dt
+
+    @property
+    def over(self) -> bool:
+        """Whether it has reached its mission's duration, or was stopped before."""
+        return self.step >= self._p.steps or self.lost
+
+    @property
+    def lost(self) -> bool:
+        """Whether it has crashed or diverged, or was interrupted."""
+        return self._stepper.lost or self.interruption is not None
+
+    @property
+    def ending(self) -> Ending | None:
+        """Why it was stopped as crashed, diverged or interrupted, or None."""
+        return ending_of(self._p, self._flight_state(), self.step, self.interruption) if self.lost else None
+
+    def numbers(self) -> Array:
+        """A copy of the numbers of its state."""
+        return self._stepper.a[: leaves(self._like)].copy()
+
+    def findings(self, numbers: Array) -> tuple[Finding, ...]:
+        """What went badly until it had these numbers, which may be formed while the flight goes on."""
+        return findings_of(self._p, unflat(numbers, self._like), self.step, FLYING)
+
+    @property
+    def ending_place(self) -> Vec3:
+        """Where it was stopped [m, world]."""
+        return place_of(self._p, self._flight_state())
+
+    def _flight_state(self) -> FlightState:
+        return unflat(self._stepper.a[: leaves(self._like)], self._like)
+
+    def number(self, *path: str) -> float:
+        """A number of the flight's memory, by its path from `FlightState`."""
+        return float(self._stepper.a[leaf_offset(self._stepper.p.model, "flight_state", *path).at])
+
+    @property
+    def refusals(self) -> Refusals:
+        """What the pilot would refuse right now, and why."""
+        return self._stepper.refusals(self.step * self.dt)
+
+    @property
+    def hand(self) -> VirtualHandInput:
+        """The hand as it was last moved."""
+        return unflat(self._stepper.a[self._stepper.hand], HAND_RELEASED)
+
+    def advance(self) -> None:
+        """Take a step; if the engine is lost, the flight is over.
+
+        Raises:
+            EngineLost: the engine took no step at all.
+        """
+        k, p, stepper, began = self.step, self._p, self._stepper, time.perf_counter()
+        if self._like is not stepper.p.model.flight_state:
+            self._before, self._like = stepper.a.copy(), stepper.p.model.flight_state
+        self._before[:] = stepper.a
+        if k == p.late_step:
+            (self._early,) = take_metrics(stepper.a, stepper.p.model, 1)
+        try:
+            stepper.step(k)
+        except EngineLost as error:
+            if k == 0:
+                raise
+            self.interruption = interruption(k * p.dt, error)
+            return
+        if k % p.every == 0:
+            self._log[k // p.every] = stepper.row
+        self.step += 1
+        self._wall += time.perf_counter() - began
+
+    def rest(self) -> None:
+        """Take no step for now; to be called repeatedly during a pause."""
+        if not self.over:
+            self._stepper.rest()
+
+    def hold(self, hand: VirtualHandInput) -> None:
+        """Move the hand, from the next step on."""
+        numbers = np.array(flat(hand))
+        self._stepper.move_hand(numbers)
+        if self._hand and self._hand[-1][0] == self.step:
+            self._hand.pop()
+        self._hand.append((self.step, numbers))
+
+    def prepare(self, key: str, value: Any, duration: float = 0.0) -> ScheduledChange:
+        """Prepare a change, which may take long; the flight may go on meanwhile.
+
+        Raises:
+            InputError: it cannot be made in flight.
+        """
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", FlightWarning)
+            due = scheduled_change(self._stepper.p, changed(self.now, key, value), key, 0, duration)
+        if due.prepared.variant != self._stepper.p.variant:
+            Stepper(due.prepared, self._stepper.body)  # its code is compiled
+        return due
+
+    def change(self, due: ScheduledChange, key: str, value: Any, duration: float = 0.0) -> None:
+        """Begin a prepared change with the next step; no other change may have come between."""
+        entry = {"time": self.step * self.dt, "key": key, "value": value, "duration": duration}
+        self._stepper.change(due._replace(first=self.step))
+        self._changes.append(entry)
+        self.now = due.prepared.mission
+
+    def snapshot(self) -> FlightSnapshot:
+        """The flight up to its last sample, taken at the beginning of its last step; it may go on meanwhile.
+
+        Raises:
+            InputError: nothing was flown yet.
+        """
+        steps = self.step if self.lost else self.step - 1
+        if steps < 1:
+            raise InputError(EMPTY_FLIGHT)
+        hand = [(k, numbers) for k, numbers in self._hand if k <= steps]
+        return FlightSnapshot(self.start, self.engine, self._flown(steps), hand, list(self._changes))
+
+    def _flown(self, steps: int) -> RawResult:
+        """The raw outcome of so many steps."""
+        p, state = self._p, self._stepper.a if self.lost else self._before
+        return RawResult(
+            unflat(state[: leaves(self._like)], self._like),
+            self._early if steps > p.late_step else EMPTY,
+            steps,
+            self._log[: steps // p.every + 1],  # rows that are written are never written again
+            np.full(leaves(p.sample), np.nan) if self.lost else self.sample.copy(),
+            self._wall,
+            self.interruption,
+        )

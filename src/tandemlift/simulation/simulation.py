@@ -1,0 +1,284 @@
+"""Pilot and body together, a step at a time: `Simulation`."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tandemlift.core.errors import InputError, accepted, shown, suggestion
+from tandemlift.core.refusals import Refusals
+from tandemlift.core.types import Array, leaves, unflat
+from tandemlift.engines.registry import EngineLost
+from tandemlift.flight.channels import DERIVED, Channel, channel_of
+from tandemlift.flight.record import Ending, Flight, interruption
+from tandemlift.missions import Mission
+from tandemlift.missions.recording import engine_of
+from tandemlift.parts.mechanics.push import point_checks
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.simulation.caller_values import numbers, with_seed
+from tandemlift.simulation.loop.running_metrics import EMPTY
+from tandemlift.simulation.loop_code import leaf_offset
+from tandemlift.simulation.outcome import ending_of
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import RawResult, channels_of, flight_of, take_metrics
+from tandemlift.simulation.stepping import Stepper, body_of
+
+FORCE, POINT, THRUSTS = (
+    slice(0, 3),
+    slice(3, 6),
+    slice(6, -1),
+)  # of the numbers of a `parts.person.caller_inputs.CallerInput`
+REPORT_EVERY = 1000  # steps between reports of computing time, which decides when optimised code is made
+
+
+class Simulation:
+    """A mission's flight, a step at a time: the pilot, sensors, rotors, wind and body that `tl.fly` flies.
+
+    A step goes from `time` to `time` + `dt`. The pilot is sampled at its start; its decision and the inputs of the
+    caller act until its end. Then `state` is the state at the new `time`, and `sim["rotor_thrusts"]` and the other
+    channels are the sample of the step just taken: what the pilot read and decided at its start, `sample_time`, and
+    what acted over it. A `Flight` holds the same samples.
+
+    Args:
+        mission: from `load_mission`.
+        engine: name of the engine; if None, that of the mission's recording, or "compiled".
+
+    Attributes:
+        mission: the mission that is flown.
+        engine: name of the engine.
+        k: steps taken since the start.
+        dt: length of a step [s].
+        channels: names of the channels, the same as the flight's.
+
+    Raises:
+        InputError: the engine is unknown, or the mission cannot be built.
+    """
+
+    def __init__(self, mission: Mission, engine: str | None = None) -> None:
+        self.mission, self.engine = mission, engine_of(mission) if engine is None else engine
+        self._prepare()
+        self._begin()
+
+    def _prepare(self) -> None:
+        p = self._p = FlightPlan(self.mission, self.engine, interactive=True)
+        self.dt = p.dt
+        row = np.arange(leaves(p.sample), dtype=np.float64)[None, :]
+        self._places: dict[str, Any] = {name: at[0].astype(np.intp) for name, at in channels_of(p.sample, row)}
+        self.channels = tuple(self._places)
+        self._external = np.zeros(leaves(p.given.external))
+        self._state = leaf_offset(p.model, "flight_state", "state")
+
+    def _begin(self) -> None:
+        vars(self).pop("_stepper", None)  # first release an engine that only one pilot can drive
+        self._stepper = Stepper(self._p, body_of(self._p))
+        self.k, self._early, self._rows, self._end = 0, EMPTY, list[Array](), None
+        self._wall = self._reported = 0.0
+        self._interruption: Ending | None = None
+
+    def reset(self, seed: int | None = None) -> Array:
+        """Begin anew at t = 0.
+
+        Args:
+            seed: of all random numbers, instead of `mission.seed`, from now on; if None, the seed stays and the same
+                flight begins again.
+
+        Returns:
+            The state (13,) at t = 0.
+
+        Raises:
+            InputError: the seed is not a whole number from 0 to 10¹⁸.
+        """
+        if seed is not None:
+            self.mission = with_seed(self.mission, seed)
+            self._prepare()
+        self._begin()
+        return self.state
+
+    def step(
+        self, push: ArrayLike | None = None, thrusts: ArrayLike | None = None, *, point: ArrayLike | None = None
+    ) -> Array:
+        """Take one step of `dt`; the inputs act for this step only.
+
+        Args:
+            push: force (3,) [N] on the vehicle in world axes, in addition to the mission's pushes.
+            thrusts: of every rotor (4N,) [N], quadrotor by quadrotor, commanded instead of the pilot's decision.
+                Delay, lag, limits and faults of real rotors apply to them; ideal rotors produce them exactly. The pilot
+                continues to decide and does not know of them.
+            point: point of application of the push (3,) [m], body axes, from the centre of mass; that centre if None.
+
+        Returns:
+            The state (13,) at the new `time`.
+
+        Raises:
+            InputError: the flight is over, an input is not an array of that many finite numbers, or the point is not
+                on the vehicle.
+            OSError: the engine in another process is lost; the flight is over.
+        """
+        if self.over:
+            raise InputError(f"{self._why_over()}; reset() begins anew")
+        self._set_inputs(push, thrusts, point)
+        began = time.perf_counter()
+        try:
+            self._stepper.step(self.k, external=self._external)
+        except EngineLost as error:
+            self._interruption = interruption(self.time, error)
+            raise
+        self._log_and_advance()
+        self._wall += time.perf_counter() - began
+        return self.state
+
+    def _set_inputs(self, push: Any, thrusts: Any, point: Any) -> None:
+        """Write the caller's inputs of a step."""
+        x = self._external
+        x.fill(0.0)
+        if push is not None:
+            x[FORCE] = numbers("push", push, 3, "N, in world axes")
+        if point is not None:
+            if push is None:
+                raise InputError(f"point = {shown(point)}: must come with a push")
+            x[POINT] = numbers("point", point, 3, "m, in body axes")
+            accepted(point_checks("point", x[POINT].tolist(), Vehicle.from_settings(self.mission.vehicle)))
+        if thrusts is not None:
+            x[THRUSTS] = numbers("thrusts", thrusts, x.size - 7, "N, one for each rotor")
+            x[-1] = 1.0
+
+    def _log_and_advance(self) -> None:
+        """Log the sample of the step just taken, if it is due, and count the step."""
+        p, stepper = self._p, self._stepper
+        if self.k % p.every == 0:
+            self._rows.append(stepper.row.copy())
+        self.k, self._end = self.k + 1, None
+        if self.k == p.late_step < p.steps:
+            (self._early,) = take_metrics(stepper.a, stepper.p.model, 1)
+        if self.k % REPORT_EVERY == 0:
+            stepper.code.add_time(self._wall - self._reported)
+            self._reported = self._wall
+
+    # state and channels
+
+    @property
+    def time(self) -> float:
+        """Time that the flight has reached [s]: that of `state`, and of the start of the next step."""
+        return self.k * self.dt
+
+    @property
+    def sample_time(self) -> float:
+        """Time of the channels' sample [s]: the start of the step taken last; nan before the first."""
+        return (self.k - 1) * self.dt if self.k else math.nan
+
+    @property
+    def state(self) -> Array:
+        """The true state (13,) at `time`.
+
+        Position [m] and velocity [m/s] of the centre of mass in world axes, attitude quaternion w, x, y, z (body to
+        world), rates [rad/s] in body axes: the first 13 numbers that `Pilot.step` takes.
+        """
+        at, size = self._state
+        return self._stepper.a[at : at + size].copy()
+
+    @property
+    def lost(self) -> bool:
+        """Whether the flight has crashed or diverged, or its engine is lost."""
+        return self._stepper.lost or self._interruption is not None
+
+    @property
+    def over(self) -> bool:
+        """Whether no further step can be taken: the duration is over, or the flight is lost."""
+        return self.k >= self._p.steps or self.lost
+
+    @property
+    def ending(self) -> Ending | None:
+        """Why the flight is lost: quantity, time, value and limit, or a reason; None if it is not."""
+        flown = self._result(np.empty((0, 0)), np.empty(0))
+        return ending_of(self._p, flown.flight_state, self.k, flown.interruption)
+
+    @property
+    def refusals(self) -> Refusals:
+        """What the pilot would refuse right now: to lift, to land, to follow a push; and why, and what to do."""
+        return self._stepper.refusals(self.time)
+
+    def _why_over(self) -> str:
+        return str(self.ending or f"the flight is over: mission.duration = {self.mission.mission.duration:g} s")
+
+    def __getitem__(self, name: str) -> Any:
+        """A channel of the last sample: an array (n,), or a number where the channel has one column.
+
+        Raises:
+            InputError: no step has been taken yet.
+            KeyError: there is no such channel.
+        """
+        if name in DERIVED:
+            desired, actual, _ = DERIVED[name]
+            return self[desired] - self[actual]
+        if name == "time":
+            return self.sample_time
+        if name not in self._places:
+            known = [*self.channels, *DERIVED]
+            raise KeyError(f"no channel {name!r}; there are {', '.join(known)}.{suggestion(name, known)}")
+        if self.k == 0:
+            raise InputError(f"channel {name!r}: no step has been taken yet, and a sample is of a step; see `state`")
+        return self._stepper.row[self._places[name]]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._places or name in DERIVED
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.channels)
+
+    def __repr__(self) -> str:
+        return f"<Simulation {self.mission.mission.name} in {self.engine}: {self.time:g} s, {self.k} steps>"
+
+    def info(self, name: str) -> Channel:
+        """Unit, frame and meaning of a channel."""
+        if name not in self and name != "time":
+            self[name]
+        return DERIVED[name][2] if name in DERIVED else channel_of(name)
+
+    # the record
+
+    def flight(self) -> Flight:
+        """The record of what was flown so far, logged every `mission.log_interval`; the simulation can go on.
+
+        It equals that of a flight whose mission ends at `time`: its last sample is that of the pilot at `time`, if one
+        is due, without inputs. With a body in another engine, or a controller in plain Python, this sample exists only
+        at the mission's end, because taking it would advance the flight. The caller's inputs are in the channels, but
+        not in the record's mission.
+
+        Raises:
+            InputError: nothing is logged yet, with such a body or controller.
+        """
+        end = self._sample_here()
+        rows = [*self._rows, end] if end is not None and self.k % self._p.every == 0 else self._rows
+        if not rows:
+            raise InputError("nothing is logged yet: take a step first")
+        last = np.full(leaves(self._p.sample), math.nan) if self.lost else self._stepper.row if end is None else end
+        return flight_of(self._p, self._result(np.array(rows), last), self.engine)
+
+    def _result(self, log: Array, last: Array) -> RawResult:
+        like = self._stepper.p.model.flight_state
+        return RawResult(
+            flight_state=unflat(self._stepper.a[: leaves(like)], like),
+            early=self._early,
+            step=self.k,
+            log=log,
+            last=last,
+            wall=self._wall,
+            interruption=self._interruption,
+        )
+
+    def _sample_here(self) -> Array | None:
+        """The sample at `time`, taken without advancing; None if that is impossible."""
+        stepper = self._stepper
+        returns = stepper.body is None and stepper.interpreted is None
+        if self._end is None and not self.lost and (returns or self.k == self._p.steps):
+            row = stepper.row.copy()
+            self._external.fill(0.0)
+            stepper.step(self.k, final=True, external=self._external)
+            self._end = stepper.row.copy()
+            stepper.row[:] = row
+        return self._end

@@ -1,1 +1,0 @@
-"""Flights that a caller steps: a simulation, and a flight that records its commands."""
