@@ -106,8 +106,8 @@ class Touched:
         def asked(loop_code: Any, *more: Any, **options: Any) -> Any:
             with self._collected(id(loop_code)):
                 code = ask(loop_code, *more, **options)
-            self._remember(code._key, self.sets[id(loop_code)])  # its parts share one trace
-            self.sets[id(loop_code)] |= self.sets[code._key]
+            self._remember(code._sources, self.sets[id(loop_code)])  # its parts share one trace
+            self.sets[id(loop_code)] |= self.sets[code._sources]
             self._count(self.sets[id(loop_code)])
             return code
 

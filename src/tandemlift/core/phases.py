@@ -1,7 +1,7 @@
 """The phases of interactive guidance, the reasons for phase "limited", and the outcomes and endings of a flight.
 
-`parts.guidance.phases` has the transitions, `simulation.outcome` forms the outcome. Recorded flights contain the numbers
-of phases, so a new phase is added at the end.
+`parts.guidance.phases` has the transitions, `simulation.outcome` forms the outcome. Recorded flights contain the
+numbers of phases, so a new phase is added at the end.
 """
 
 from __future__ import annotations
