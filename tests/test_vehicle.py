@@ -164,7 +164,7 @@ CANNOT = {
 @pytest.mark.parametrize(("positions", "spins"), CANNOT.values(), ids=CANNOT)
 def test_rotors_that_cannot_make_every_moment_are_refused(positions, spins):
     q = placed(positions, spins)
-    with pytest.raises(InputError, match="cannot make every thrust and moment"):
+    with pytest.raises(InputError, match="cannot produce every thrust and moment"):
         mixer_inverse(q)
 
 

@@ -113,4 +113,4 @@ def test_a_person_who_pushes_during_the_tare_or_asks_in_vain_is_warned_of():
         tl.load_mission("iris", {**person, "pilot.guidance": "scheduled"})
     said = " ".join(str(w.message) for w in told)
     assert "person.start_time = 2.0 is before the tare ends at 12 s" in said
-    assert "asks to land in vain" in said
+    assert "landing request of [person] has no effect" in said

@@ -55,7 +55,7 @@ def sample_size(m: Mission) -> int:
         "readings and estimates": (45 + 6 * count) * (m.sensors.model == "simulated"),
         "additional sensors": sum(ADDITIONAL[s.name].width for s in m.sensors.additional if s.name in ADDITIONAL),
         "observer": 12 * (m.observer.model != "none"),
-        "guidance by hand": 10 * (m.pilot.guidance == "interactive"),
+        "interactive guidance": 10 * (m.pilot.guidance == "interactive"),
         "contact": 13 * (m.contact.model == "on"),
         "supervision": 2 * (m.supervision.model == "on"),
         "rotor-failure detection": 1 * (m.detection.model != "none"),

@@ -82,7 +82,7 @@ class AxisFeel(NamedTuple):
 
 
 def axes_of(m: Mission) -> tuple[AxisFeel, ...]:
-    """The axes of a mission's admittance; with yaw where guidance by hand yields in yaw.
+    """The axes of a mission's admittance; with yaw where interactive guidance yields in yaw.
 
     The standard push is the force of `[admittance.feel]`, else 1 N (0.5 N m in yaw), and at least twice the threshold.
     """

@@ -36,7 +36,7 @@ def feel_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
 
 
 def limit_checks(m: Mission, k: AxisFeel) -> Iterator[CheckResult]:
-    """Final speed and first acceleration against the limits of guidance by hand."""
+    """Final speed and first acceleration against the limits of interactive guidance."""
     if m.pilot.guidance != "interactive" or k.axis == YAW:
         return
     i = AXES.index(k.axis)

@@ -87,7 +87,7 @@ SOMETIMES = (
         "after the low-pass filter; its moment, as that of `push/true`, about the vehicle's centre of mass"
     ),
     force("push/filtered", "push_filtered").described(
-        "after the low-pass filter of guidance by hand, less its bias; a force alone"
+        "after the low-pass filter of interactive guidance, less its bias; a force alone"
     ),
     point_on_beam("push/point", "push_point_estimate").described("where on the beam the push acts"),
     wrench("disturbance", "disturbance_force", "disturbance_moment").described("estimate of the disturbance observer"),

@@ -1,1 +1,1 @@
-"""How a reference answers a push: admittance, limits, passivity, and what the vehicle can follow."""
+"""The response of the reference to a push: admittance, limits, passivity, and whether the vehicle can follow."""

@@ -1,7 +1,7 @@
-"""The reference of a guidance by hand stays above the ground from which it was lifted.
+"""The reference of interactive guidance stays above the ground from which it was lifted.
 
-A push downwards, or wind on the beam that looks like one, would else carry the reference into the floor. The feet then
-press, what presses back is taken for a disturbance, and the vehicle may turn over.
+Otherwise a push downwards, or wind on the beam that looks like one, would move the reference into the floor. The feet
+then press, the floor's force is misclassified as a disturbance, and the vehicle may overturn.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ APPROACH_GAIN = 2.0  # 1/s: largest speed downwards over the height that is left
 
 
 class GroundClearance(NamedTuple):
-    """Where there is a floor: height above it [m] below which a push does not move the reference further down."""
+    """Height above a floor [m] below which a push does not move the reference further down."""
 
     height: Number
 

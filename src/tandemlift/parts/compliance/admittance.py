@@ -26,7 +26,7 @@ LN_20 = 2.995732273553991  # time constants until 95 %
 
 
 class Feel(NamedTuple):
-    """The response to a push of `force` [N]: `speed` [m/s] that it leads to, `time` [s] until 95 % of it."""
+    """The response to a push of `force` [N]: its final `speed` [m/s], and the `time` [s] until 95 % of it."""
 
     force: float
     speed: float
@@ -34,7 +34,7 @@ class Feel(NamedTuple):
 
 
 FEELS = {  # their damping keeps mean forces near 2 N; less mass than about 1 kg oscillates with a person who sees late
-    "light": Feel(1.0, 0.5, 2.5),  # its acceleration begins with ln 20 · speed/time, 0.6 m/s²
+    "light": Feel(1.0, 0.5, 2.5),  # the initial acceleration is ln 20 · speed/time, 0.6 m/s²
     "firm": Feel(2.0, 0.6, 1.5),  # 1.2 m/s²
     "slow": Feel(1.0, 0.2, 1.5),  # 0.4 m/s²
 }
@@ -48,20 +48,20 @@ class FeelTable(Table):
     """`[admittance.feel]`: the response to a push, in place of mass and damping: a force, a speed and a time.
 
     M v' + C v = F beyond the threshold: mass M and damping C follow, along each axis. A soft gate passes what exceeds
-    the threshold; guidance by hand always has one.
+    the threshold; interactive guidance always has one.
     """
 
     preset: Literal["light", "firm", "slow"] = key(
         "light",
         None,
-        "numbers by name; those that are given beside it count instead",
+        "preset of the numbers; numbers that are given beside it take precedence",
         choices={name: f"{f.force:g} N gives {f.speed:g} m/s in {f.time:g} s" for name, f in FEELS.items()},
         source=TRIED,
     )
     force: Positive3 | None = key(
         None, "N", "a push of this force", rule="above the threshold", unset="that of the preset", example=1.0
     )
-    speed: Positive3 | None = key(None, "m/s", "speed that the push leads to", unset="that of the preset", example=0.6)
+    speed: Positive3 | None = key(None, "m/s", "final speed of the push", unset="that of the preset", example=0.6)
     time: Positive3 | None = key(
         None, "s", "time in which 95 % of that speed is reached", unset="that of the preset", example=1.5
     )
@@ -75,7 +75,7 @@ class FeelTable(Table):
 
 
 class AdmittanceTable(Table):
-    """`[admittance]`: virtual mass, damping and stiffness that a push moves, along each world axis."""
+    """`[admittance]`: virtual mass, damping and stiffness on which a push acts, along each world axis."""
 
     feel: FeelTable | None = None
 
@@ -94,22 +94,22 @@ class AdmittanceTable(Table):
     gate: Literal["hard", "soft"] | None = key(
         None,
         None,
-        "how much of a force beyond the threshold acts",
+        "part of a force above the threshold that acts",
         rule='not "hard" where pilot.guidance is "interactive"',
         unset="hard scheduled, soft interactive",
         example="soft",
-        choices={"hard": "the whole force", "soft": "only what exceeds the threshold"},
+        choices={"hard": "the whole force", "soft": "only the excess over the threshold"},
     )
     hold_after_release: bool = key(
-        False, None, "with stiffness: true makes the vehicle stay where its motion has died, instead of springing back"
+        False, None, "with stiffness: true makes the vehicle stay where its motion ends, instead of springing back"
     )
 
 
 def with_feel(tables: dict[str, Any]) -> dict[str, Any]:
     """A mission's tables with mass and damping by `[admittance.feel]`: v(t) = v (1 − exp(−C t/M)).
 
-    They are unchanged without a feel, and where something is wrong that the keys' own rules explain. The dead band of
-    guidance by hand is a soft gate.
+    They are unchanged without a feel, and with an error that the keys' own rules explain. The dead band of
+    interactive guidance is a soft gate.
 
     Raises:
         PydanticCustomError: a force is not above the threshold.
@@ -234,13 +234,13 @@ def admittance_from(a: AdmittanceTable) -> Admittance:
 
 
 def gate_checks(a: AdmittanceTable, guidance: str) -> Iterator[CheckResult]:
-    """A hard gate with guidance by hand, whose dead band is a soft one; `guidance`: `pilot.guidance`."""
+    """A hard gate with interactive guidance, whose dead band is a soft one; `guidance`: `pilot.guidance`."""
     if a.gate == "hard" and guidance == "interactive":
         yield refused('admittance.gate = "hard": must be "soft" or left out where pilot.guidance is "interactive"')
 
 
 def admittance_checks(a: AdmittanceTable, step: float) -> Iterator[CheckResult]:
-    """An admittance that grows without a push when sampled: an eigenvalue beyond the unit circle."""
+    """Check for a sampled admittance that is unstable: an eigenvalue outside the unit circle."""
     for axis, M, C, K in zip("xyz", a.mass, a.damping, a.stiffness, strict=True):
         # z² − (2 − c − k/2) z + 1 − c + k/2 with c = Ch/M, k = Kh²/M; Jury's conditions come to k/2 ≤ c ≤ 2
         least, most = K * step / 2.0, 2.0 * M / step
@@ -248,5 +248,5 @@ def admittance_checks(a: AdmittanceTable, step: float) -> Iterator[CheckResult]:
             yield refused(
                 f"admittance.damping = {C} along {axis}: must be from stiffness*step/2 = {least:.6g} to "
                 f"2*mass/step = {most:.6g} N s/m with mass {M:g} kg, stiffness {K:g} N/m and step {step:g} s, "
-                "or the admittance swings up by itself"
+                "or the admittance is unstable"
             )

@@ -1,4 +1,4 @@
-"""What rotors and tilt can give beside weight, disturbance and push."""
+"""Force left for acceleration once weight, disturbance and push are compensated."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def available_acceleration(k: AvailableForce, disturbance: Vec3, max_thrust: Num
 def start_available(
     vehicle: Vehicle, thrust_fraction: Number, max_tilt: Number, known: NoFaults | RotorFaults
 ) -> AvailableForce:
-    """What a vehicle has with a fraction of its thrust and a largest tilt [rad]; `known`: the known rotor faults."""
+    """The available thrust and tilt, by a fraction of the thrust and a largest tilt [rad]; `known`: rotor faults."""
     rotors = each(vehicle.rotor_count)
     return AvailableForce(
         mass=vehicle.mass,

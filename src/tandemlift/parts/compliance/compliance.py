@@ -23,7 +23,7 @@ from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, V, low_pa
 
 QUIET_TIME = 2.0  # s without a push, after which the bias is estimated
 BIAS_CLIP = 0.3  # of the threshold: the largest deviation from the mean that counts for the bias
-BIAS_RATE = 0.5  # 1/s, at which the bias follows the mean: two seconds late
+BIAS_RATE = 0.5  # 1/s, at which the bias follows the mean, with a lag of two seconds
 
 
 class DeadBand(NamedTuple, Generic[V]):
@@ -39,7 +39,7 @@ class DeadBand(NamedTuple, Generic[V]):
 
 
 class PushFilters(NamedTuple):
-    """What a push passes before it counts: filters before and after a dead band."""
+    """The filters of a push before and after its dead band."""
 
     input: LowPass
     output: LowPass
@@ -53,9 +53,9 @@ class PushFilters(NamedTuple):
 
 
 class DeadBandState(NamedTuple, Generic[V]):
-    """Memory: 1 while a push is active, else 0; for how long it has been above the threshold, and not active [s]; bias.
+    """Memory: 1 while a push is active, else 0; times [s] above the threshold, and without an active push; bias.
 
-    The bias follows the `mean` late, and the mean returns to it if it was the beginning of a push.
+    The bias follows the `mean` with a lag, and the mean returns to it if a push begins.
     """
 
     active: V
@@ -114,19 +114,19 @@ def is_active(
 
 @elementwise
 def time_above(above_time: Number, force: Number, threshold: Number, dt: Number) -> Number:
-    """For how long a push has been above the threshold [s]."""
+    """The time for which a push has been above the threshold [s]."""
     return where(absolute(force) > threshold, above_time + dt, 0.0)
 
 
 @elementwise
 def time_inactive(inactive_time: Number, active: Number, dt: Number) -> Number:
-    """For how long no push has been active [s]."""
+    """The time without an active push [s]."""
     return (inactive_time + dt) * (1.0 - active)
 
 
 @elementwise
 def bias_input(force: Number, bound: Number, inactive_time: Number) -> Number:
-    """What the mean follows: the force within a bound, once no push was active for `QUIET_TIME`."""
+    """The input of the mean: the force within a bound, once no push was active for `QUIET_TIME`."""
     return where(inactive_time < QUIET_TIME, 0.0, clip(force, -bound, bound))
 
 
@@ -151,7 +151,7 @@ def dead_band(k: DeadBand[V], m: DeadBandState[V], force: V, enabled: Number, dt
 
 @elementwise
 def speed_limited(acceleration: Number, velocity: Number, max_speed: Number, gain: Number) -> Number:
-    """An acceleration that does not carry the speed beyond a limit: it brakes towards the limit."""
+    """An acceleration that keeps the speed within a limit, by braking towards it."""
     return clip(acceleration, -gain * (max_speed + velocity), gain * (max_speed - velocity))
 
 
@@ -182,7 +182,7 @@ def admittance_acceleration(
 
 @choice(absent="acceleration")
 def within(boundary: object, acceleration: Vec3) -> Vec3:
-    """An acceleration of the reference [m/s²] that does not carry it across a boundary."""
+    """An acceleration of the reference [m/s²] that keeps it within a boundary."""
 
 
 @law

@@ -1,8 +1,8 @@
-"""Passivity of the compliance: an observer of the energy that a person puts in, and damping where it runs out.
+"""Passivity of the compliance: an observer of the energy from the person, and damping when it is used up.
 
 A vehicle that responds late can give a stiff arm more energy than it received, so that their oscillation grows. The
-tank holds the work of the person's force on the vehicle and a fraction of the energy that the virtual damping
-dissipates; the emptier it is, the more damping is added. An oscillation empties it only near its turning points, so the
+tank stores the work of the person's force on the vehicle and a fraction of the energy that the virtual damping
+dissipates; the emptier it is, the more damping is added. An oscillation empties it only near its extremes, so the
 added damping decays slowly.
 
 Sources: Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002;
@@ -21,7 +21,7 @@ from tandemlift.core.vector import Absent, Vec3, dot
 
 
 class TankTable(Table):
-    """`[compliance.tank]`: an energy tank that keeps guidance by hand passive.
+    """`[compliance.tank]`: an energy tank that keeps interactive guidance passive.
 
     Damping is added where the person has put in too little energy.
     """
@@ -29,7 +29,7 @@ class TankTable(Table):
     model: Literal["none", "tank"] = key(
         "none", None, "passivity by an energy tank", choices={"none": "no tank", "tank": "an energy tank"}
     )
-    capacity: Positive = key(2.0, "J", "energy that the tank holds at most", source="chosen")
+    capacity: Positive = key(2.0, "J", "largest energy that the tank stores", source="chosen")
     low_energy: Positive = key(1.0, "J", "energy below which damping is added", source="chosen: half of the capacity")
     max_damping: Positive = key(20.0, "N s/m", "largest added damping", source="chosen")
     refill_fraction: NonNegative = key(

@@ -1,10 +1,10 @@
-"""Whether the vehicle can follow its reference: if not, for which reason (`core.phases.REASONS`).
+"""Detection of a vehicle that cannot follow its reference, with the reason (`core.phases.REASONS`).
 
 The force that the rotors must give is n = m g e_z − d − p, with the observed disturbance d and the push p that is
-compensated. The vehicle cannot follow where |n| is above the thrust that may be used, where the horizontal part of n
-takes more tilt than allowed, where the heading cannot be held, or where it stays too far from its reference. Each must
-last for a time; and all must be over for a longer time before pushes are followed again. Until then the reason only
-changes to one of higher priority. A vehicle that has lost its heading turns faster and faster, so it lands in the end.
+compensated. The vehicle cannot follow if |n| exceeds the usable thrust, if the horizontal part of n needs too much
+tilt, if the heading cannot be held, or if the vehicle stays too far from its reference. A reason must last for a time,
+and all must be absent for a longer time before pushes are followed again. Until then the reason only changes to one of
+higher priority. A vehicle that has lost its heading rotates faster and faster, so it eventually lands.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
 class FollowingTable(Table):
-    """`[compliance.following]`: from when on the vehicle counts as unable to follow, phase "limited".
+    """`[compliance.following]`: when the vehicle counts as unable to follow, phase "limited".
 
     It then holds and ignores pushes, until it can follow again. docs/reference/faults.md lists all reasons.
     """
@@ -34,15 +34,15 @@ class FollowingTable(Table):
     heading_timeout: NonNegative = key(
         5.0,
         "s",
-        "time after which a vehicle that has lost its heading lands, before it turns too fast for that",
+        "time after which a vehicle that has lost its heading lands, before it rotates too fast for a landing",
         source="chosen",
     )
 
 
 class FollowingLimits(NamedTuple):
-    """Limits, the time [s] for which one must be exceeded, and that without any [s] after which all is well again.
+    """Limits, the time [s] for which one must be exceeded, and the time [s] without excess that ends the state.
 
-    `side_force` [N]: what the largest tilt gives under the nominal weight; `heading_error` [rad]; `position_error` [m].
+    `side_force` [N]: force of the largest tilt under the nominal weight; `heading_error` [rad]; `position_error` [m].
     `heading_timeout` [s]: for which the heading may be lost before a landing.
     """
 
@@ -55,7 +55,7 @@ class FollowingLimits(NamedTuple):
 
 
 class Following(NamedTuple):
-    """What is compared with the limits.
+    """The quantities that are compared with the limits.
 
     The force that the rotors must give [N, world axes], the largest that may be used [N], the reference less the
     position [m] and heading [rad]; `active` is 1 in the phases that have such limits, else 0.
@@ -69,10 +69,10 @@ class Following(NamedTuple):
 
 
 class FollowingState(NamedTuple):
-    """Memory: for how long each limit has been exceeded, and none of them [s]; the number of the reason, or 0.
+    """Memory: times [s] for which each limit, and none of them, has been exceeded; the number of the reason, or 0.
 
-    For findings: the time `first` of a reason [s]; for how long there was one in all [s], `lasted`; the most urgent
-    one; and for how long the heading was lost at a stretch [s].
+    For findings: the time `first` of a reason [s]; the total time with a reason, `lasted` [s]; the most urgent one;
+    and the uninterrupted time with a lost heading [s].
     """
 
     thrust: Number
@@ -92,7 +92,7 @@ AT_REST = FollowingState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 @law
 def exceeded_for(time: Number, value: Number, limit: Number, active: Number, dt: Number) -> Number:
-    """For how long a value has been above its limit [s]."""
+    """The time for which a value has been above its limit [s]."""
     return (time + dt) * where(value > limit, active, 0.0)
 
 
@@ -107,7 +107,7 @@ def first_reason(k: FollowingLimits, m: FollowingState) -> Number:
 
 @law
 def more_urgent(reason: Number, other: Number) -> Number:
-    """The first of two reasons, of which any may be 0 for none."""
+    """The reason of higher priority of two, each of which may be 0 for none."""
     return where(reason > 0.0, where(other > 0.0, minimum(reason, other), reason), other)
 
 

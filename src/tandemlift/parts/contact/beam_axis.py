@@ -1,4 +1,4 @@
-"""The axis of the beam, and where along it the beam is nearest to an edge or to the top of a wall."""
+"""The axis of the beam, and its point nearest to an edge or to the top of a wall."""
 
 from typing import NamedTuple, Protocol
 
@@ -12,7 +12,7 @@ from tandemlift.parts.mechanics.loads import scaled, translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
-PARALLEL = 1e-12  # sin² of the angle between lines that have no one nearest point
+PARALLEL = 1e-12  # sin² of the angle between lines without a unique nearest point
 
 
 class Beam(NamedTuple):
@@ -31,7 +31,7 @@ class WallToBeam(SpringyWall, Protocol):
 
 
 class BeamAxis(NamedTuple):
-    """The beam's axis, world axes: centre [m], its velocity [m/s], direction, turn rate [rad/s]."""
+    """The beam's axis, world axes: centre [m], its velocity [m/s], direction, angular velocity [rad/s]."""
 
     center: Vec3
     velocity: Vec3
@@ -41,7 +41,7 @@ class BeamAxis(NamedTuple):
 
 @law
 def point_by_edge(a: BeamAxis, half: Number, edge: Wall) -> Number:
-    """Where along the beam's axis, ±half, it is nearest to an edge [m]: level with it, or nearest to its upper end."""
+    """The place on the beam's axis, ±half, nearest to an edge [m]: level with it, or nearest to its upper end."""
     x, y, b = edge.x - a.center.x, edge.y - a.center.y, a.direction
     along = x * b.x + y * b.y
     level = along / maximum(b.x * b.x + b.y * b.y, SMALL)
@@ -51,7 +51,7 @@ def point_by_edge(a: BeamAxis, half: Number, edge: Wall) -> Number:
 
 @law
 def point_by_top(a: BeamAxis, half: Number, wall: Wall) -> Number:
-    """Where along the beam's axis, ±half, it is nearest to a wall's top [m]."""
+    """The place on the beam's axis, ±half, nearest to a wall's top [m]."""
     # Ericson, Real-Time Collision Detection, section 5.1.9
     b, r = a.direction, a.center - Vec3(wall.x, wall.y, wall.top)
     cosine, on_beam = b.x * wall.along_x + b.y * wall.along_y, dot(b, r)

@@ -144,7 +144,7 @@ def is_fast(w: Walls, s: State, span: Number) -> Condition:
 
 @law
 def may_touch_wall(w: Walls, c: Clearance, s: State, rate: State, dt: Number) -> Condition:
-    """Whether anything may touch a wall in a step of dt [s] from state `s`, whose motion without walls is `rate`.
+    """1 if any part may touch a wall in a step of dt [s] from state `s`, whose motion without walls is `rate`.
 
     Every point moves at no more than |v| + r |ω|, r the vehicle's reach, and accelerates by no more than the same bound
     on `rate`. The distance so covered is doubled for safety.

@@ -25,7 +25,7 @@ from tandemlift.parts.contact.wall_geometry import offset, wall
 Point2 = Annotated[tuple[float, float], PerAxis(2, single=False)]
 
 SHORTEST = 1e-3  # m, of a wall
-SHARPEST = math.radians(150.0)  # turn of a centreline
+SHARPEST = math.radians(150.0)  # change of direction of a centreline
 
 
 class WallTable(Table):
@@ -95,7 +95,7 @@ class CorridorTable(Table):
 
     @property
     def walls(self) -> tuple[WallTable, ...]:
-        """Its walls: to the left from its start to its end, to the right, and across its ends where they are closed."""
+        """The corridor's walls: left from start to end, right, and across its ends if they are closed."""
         return _walls_of(self) if self.centreline else ()
 
 
@@ -115,7 +115,7 @@ def wall_tables(mission: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def wall_checks(walls: Sequence[WallTable]) -> Iterator[CheckResult]:
-    """Walls that are too short."""
+    """Check for walls that are too short."""
     for i, w in enumerate(walls):
         if math.dist(w.start, w.end) < SHORTEST:
             yield refused(f"walls.{i}.end = {shown(w.end)}: must be {SHORTEST} m or more from walls.{i}.start")
@@ -124,7 +124,7 @@ def wall_checks(walls: Sequence[WallTable]) -> Iterator[CheckResult]:
 def wall_warnings(
     walls: Sequence[WallTable], corridor: CorridorTable, centres: NDArray[np.float64], guards: Sequence[float]
 ) -> Iterator[CheckResult]:
-    """Quadrotors that start in a wall, by their centres (N × 3) and the radii of their guards (N) [m]."""
+    """Check for quadrotors that start in a wall, by their centres (N × 3) and the radii of their guards (N) [m]."""
     for i, w in enumerate((*walls, *corridor.walls)):
         name = f"walls.{i}" if i < len(walls) else f"wall {i - len(walls) + 1} of the corridor"
         upright = wall(w.start, w.end, w.top)

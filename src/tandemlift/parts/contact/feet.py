@@ -45,11 +45,11 @@ NO_HULL = Absent()
 
 
 class Floor(NamedTuple):
-    """A level floor, and what of the vehicle meets it: its feet, and its `hull`, a `pads.Hull` or `Absent`.
+    """A level floor, and the parts of the vehicle that touch it: feet, and its `hull`, a `pads.Hull` or `Absent`.
 
     `height` z of the floor [m]; of one foot `stiffness` k [N/m] and `damping` c [N·s/m], `tangential_stiffness` k_t and
     `tangential_damping` c_t; `friction` μ; `radius` ρ [m]; `feet`: centre of foot j of every quadrotor from the
-    system's centre of mass [m, body axes], vectors of sets. From there [m], `extent`: how far feet and hull are along
+    system's centre of mass [m, body axes], vectors of sets. From there [m], `extent`: how far feet and hull reach along
     each body axis; `reach`: how far any point of them can be.
     """
 
@@ -96,7 +96,7 @@ def drawn_towards(anchor: Number, place: Number, factor: Number) -> Number:
 
 @law
 def foot_at(floor: Floor, s: State, R: Mat3, spin: Vec3, f: Vec3) -> Foot:
-    """The feet at f [m, body axes] of a vehicle that turns at `spin` [rad/s, world axes]."""
+    """The feet at f [m, body axes] of a vehicle that rotates at `spin` [rad/s, world axes]."""
     arm = apply(R, f)
     turn = cross(spin, arm)
     depth = add_to_each(-arm.z, floor.radius + floor.height - s.position.z)
@@ -169,7 +169,7 @@ def grips_after_step(floor: Floor, grip: Quarters, s: State) -> Quarters:
 
 @law
 def may_touch(floor: Floor, s: State, time: Number) -> Condition:
-    """Whether a foot or any other part may touch the floor within `time` [s] of state `s`."""
+    """1 if a foot or any other part may touch the floor within `time` [s] of state `s`, else 0."""
     hangs = dot(absolute(world_z_in_body(s.attitude)), floor.extent) + floor.radius
     swings = floor.reach * (sqrt(dot(s.rates, s.rates)) + MAX_ANGULAR_ACCELERATION * time) * time
     fall = (minimum(s.velocity.z, 0.0) - 0.5 * MAX_ACCELERATION * time) * time
@@ -202,7 +202,7 @@ def floor(
     damping_ratio: float = 1.0,
     hull: Hull | Absent = NO_HULL,
 ) -> Floor:
-    """A floor for a vehicle: feet so stiff that it sinks by `sinkage` at rest, softer if the step demands it.
+    """A floor for a vehicle, whose feet are so stiff that it sinks by `sinkage` at rest; softer for a long step.
 
     Args:
         soles: N × 4 × 3, of the level vehicle, from its centre of mass [m, body axes].
@@ -231,7 +231,7 @@ def floor(
 
 
 def standing_height(floor: Floor, weight: float) -> float:
-    """Height of the level vehicle's centre of mass above the floor where feet and beam bear its weight [N], in m."""
+    """Height [m] of the level vehicle's centre of mass above the floor when feet and beam carry its weight [N]."""
     springs = [(floor.radius - z, 1.0) for foot in floor.feet for z in foot.z]
     if isinstance(floor.hull, Hull) and isinstance(floor.hull.beam, Ellipsoids):
         ends, ratio = floor.hull.beam, floor.hull.stiffness / floor.stiffness
@@ -240,7 +240,7 @@ def standing_height(floor: Floor, weight: float) -> float:
 
 
 def _height_on(springs: list[tuple[Number, Number]], lowest: Number, load: Number) -> Number:
-    """Height [m] at which the springs that touch no later than one of them bear a load over a foot's stiffness [m].
+    """Height [m] at which the springs that touch no later than one of them carry a load over a foot's stiffness [m].
 
     A spring is the height at which it touches [m], and its stiffness over that of a foot.
     """
@@ -249,7 +249,7 @@ def _height_on(springs: list[tuple[Number, Number]], lowest: Number, load: Numbe
 
 
 def sinkage_of(floor: Floor, weight: float) -> float:
-    """How deep a vehicle of this weight [N] sinks at rest on all its feet [m]."""
+    """The sinkage [m] of a vehicle of this weight [N] at rest on all its feet."""
     return weight / (floor.stiffness * 4 * len(floor.feet.first.x))
 
 

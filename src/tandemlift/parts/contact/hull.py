@@ -57,7 +57,7 @@ class Ellipsoids(NamedTuple):
 
 
 class Hull(NamedTuple):
-    """What of a vehicle meets the floor besides its feet; of one contact k [N/m], c and c_t [N·s/m].
+    """The parts of a vehicle besides its feet that touch the floor; of one contact k [N/m], c and c_t [N·s/m].
 
     `rotors`: number j of quadrotor i, both from 0, is 4 i + j; `guards`: one for each quadrotor; `beam`: its two ends,
     at −y and at +y, or `Absent` if the payload has no shape. All are in a box about `middle` with sides of twice
@@ -99,7 +99,7 @@ def reach_below(radius: Number, half_thickness: Number, leaning: Number, level: 
 
 @elementwise
 def sideways(radius: Number, half_thickness: Number, below: Number, along: Number) -> Number:
-    """How far the lowest point of a shape is beside its centre [m], along an axis on which n − u is `along`."""
+    """Horizontal offset of a shape's lowest point from its centre [m], along an axis on which n − u is `along`."""
     return (radius * radius - half_thickness * half_thickness) / below * along
 
 
@@ -182,7 +182,7 @@ def hull_loads(contact: HullContact, frame: PartsLayout, R: Mat3) -> PartLoads:
 
 @law
 def hull_may_touch(hull: Hull, height: Number, s: State, time: Number) -> Condition:
-    """Whether any part may touch the floor at z = `height` [m] within `time` [s] of state `s`.
+    """1 if any part may touch the floor at z = `height` [m] within `time` [s] of state `s`, else 0.
 
     The distance that a point may fall is doubled for safety.
     """
@@ -215,7 +215,7 @@ def hull(
     stiffness: float = 20000.0,
     damping_ratio: float = 0.2,
 ) -> Hull:
-    """The shapes of a vehicle that meet the floor: as stiff as asked, softer if the step demands it.
+    """The shapes of a vehicle that touch the floor, with the given stiffness, or less for a long step.
 
     Args:
         quadrotors: N × 3, their centres of mass from the system's [m, body axes].
@@ -228,7 +228,7 @@ def hull(
         beam: length [m] of the axis and radius [m] of a capsule along body y, if the payload is one.
         payload: its centre of mass from the system's [m, body axes].
         stiffness: of a contact [N/m].
-        damping_ratio: of the vehicle oscillating on one contact, without turning.
+        damping_ratio: of the vehicle oscillating on one contact, without rotation.
     """
     centers = array(quadrotors)
     hubs = (centers[:, None] + array(rotors)).reshape(-1, 3)
@@ -282,6 +282,6 @@ def _box_of(shapes: list[Ellipsoids]) -> Box:
 
 
 def _reach_of(shapes: list[Ellipsoids]) -> Number:
-    """How far any point of shapes is from the centre of mass [m]."""
+    """Largest distance of a point of the shapes from the centre of mass [m]."""
     numbers = [row for p in shapes for row in zip(*p.center, p.radius, strict=True)]
     return greatest([sqrt(x * x + y * y + z * z) + radius for x, y, z, radius in numbers])

@@ -53,7 +53,7 @@ FREELY = -1e9  # m/s: the rate of what has no core
 
 
 class Approach(NamedTuple):
-    """How shapes, a set, approach walls.
+    """The approach of shapes, a set, to walls.
 
     `normal`: from the wall, world axes; `lever` [m, body axes]: arm × normal, so that the rate of the distance is
     normal · velocity + lever · rates; `mobility` [1/kg]: its change by a unit impulse; `least`: ḋ_min [m/s].
@@ -82,13 +82,13 @@ def least_rate(distance: Number, radius: Number, acceleration: Number, dt: Numbe
 
 @elementwise
 def change_needed(rate: Number, bound: Number) -> Number:
-    """By how much an impulse changes the rate of a distance [m/s]: to the bound ḋ_min, but at most to −ḋ."""
+    """The change of a distance's rate by an impulse [m/s]: to the bound ḋ_min, but at most to −ḋ."""
     return maximum(minimum(bound, -rate) - rate, 0.0)
 
 
 @law
 def rate_along(n: Vec3, lever: Vec3, velocity: Vec3, rates: Vec3) -> Number:
-    """The rate at which distances along n change [m/s]; its derivative but for turning, if of a motion."""
+    """The rate of distances along n [m/s]; for a motion, its derivative without the terms of rotation."""
     return dot(n, velocity) + dot(lever, rates)
 
 
@@ -96,7 +96,7 @@ def rate_along(n: Vec3, lever: Vec3, velocity: Vec3, rates: Vec3) -> Number:
 def approach(
     c: WallContact, radius: Number, body: RigidBody, s: State, free: State, sprung: State, dt: Number
 ) -> Approach:
-    """How shapes at the places of contacts approach walls in state `s`; its motion without and with their springs."""
+    """The approach of shapes to walls at contacts in state `s`, by its motion without and with their springs."""
     R, square = rotation_from_quaternion(s.attitude), dot(c.offset, c.offset)
     arm, n = translated(-s.position, c.place + c.offset), scaled(c.offset, inverse_root(square))
     lever, spin = apply_transposed(R, cross(arm, n)), apply(R, s.rates)

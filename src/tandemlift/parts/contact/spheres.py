@@ -24,7 +24,7 @@ from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 SMALL = 1e-18  # m²: no direction is known at this distance
-SPARED = 0.02  # m, by which a guard gives under some 100 N
+SPARED = 0.02  # m, deflection of a guard under some 100 N
 
 
 @elementwise
@@ -80,7 +80,7 @@ class SpringyWall(Protocol):
 
 @law
 def sphere_contact(w: SpringyWall, p: Vec3, o: Vec3, radius: Number, velocity: Vec3, spin: Vec3) -> WallContact:
-    """Contact of a wall with a sphere that moves at a velocity [m/s] and turns at `spin` [rad/s], all in world axes.
+    """Contact of a wall with a sphere that moves at a velocity [m/s] and rotates at `spin` [rad/s], all in world axes.
 
     p is its centre, o the offset of p from the wall [m]; w: a `Walls`; the moment is about p [N·m].
     """

@@ -1,4 +1,4 @@
-"""Springs and dampers of a contact: normal force, friction, and what a Runge-Kutta step can resolve of them."""
+"""Springs and dampers of a contact: normal force, friction, and the stiffness that a Runge-Kutta step resolves."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +8,7 @@ from tandemlift.core.arrays import array, eigenvectors, has_symbols, inverse, la
 from tandemlift.core.law import elementwise
 from tandemlift.core.types import Number, number
 
-TINY = 1e-300  # N²: keeps 0/0 out of the friction of what is in the air
+TINY = 1e-300  # N²: prevents 0/0 in the friction without contact
 OSCILLATION = 0.5  # rad a step: the fastest oscillation on springs that a Runge-Kutta step resolves well
 DECAY = 2.0  # time constants a step: the fastest decay; Runge-Kutta of order four is stable to 2.78
 
@@ -53,7 +53,7 @@ def surface_mobility(center: NDArray[np.float64], radius: float, mass: float, in
 
 
 def softened_for_step(stiffness: float, damping: float, body_mobility: float, step: float) -> tuple[float, float]:
-    """Stiffness [N/m] and damping [N·s/m] of springs, reduced, if need be, to what a step [s] can resolve.
+    """Stiffness [N/m] and damping [N·s/m] of springs, reduced, if necessary, to values that a step [s] resolves.
 
     The damping ratio stays. `body_mobility` [1/kg]: the `mobility` of the body that stands on such springs.
     """

@@ -1,4 +1,4 @@
-"""How the vehicle stands on the floor where it starts and lands, and what cannot be or goes badly there."""
+"""The vehicle's equilibrium on the floor at start and landing, and the checks of it."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 
 DEEP = 0.02  # m, of feet in the floor at the start
-FAR_DOWN, FAR_UP = 0.02, 0.3  # m, of the landed reference above and below where the vehicle stands
+FAR_DOWN, FAR_UP = 0.02, 0.3  # m, of the landed reference above and below the height of the standing vehicle
 THROWN = 5.0  # times its sinkage
-NEARLY = 0.75  # of the impulse that ends a flight, as a contact gives back some of it
-SOFT = 2.0  # times the sinkage that was asked for
+NEARLY = 0.75  # of the impulse that ends a flight, as a contact returns some of it
+SOFT = 2.0  # times the specified sinkage
 
 
 class Standing(NamedTuple):
-    """The floor and, as the vehicle really is, z [m] of its centre of mass where it stands, and its sinkage there [m].
+    """The floor; for the real vehicle standing on it, z [m] of its centre of mass, and its sinkage [m].
 
     `depth`: of its lowest point in the floor at t = 0, beyond that sinkage [m].
     """
@@ -44,7 +44,7 @@ class Standing(NamedTuple):
 def standing_on(
     g: GroundTable, table: VehicleTable, mass_scale: float, step: float, z: float, euler: tuple[float, float, float]
 ) -> Standing:
-    """How a vehicle stands on the floor, for steps of `step` [s], which starts at height z [m] with these angles."""
+    """The equilibrium on the floor of a vehicle that starts at height z [m] with these angles; `step` in s."""
     vehicle, fleet = Vehicle.from_settings(table), table.quadrotors
     mass = vehicle.mass * mass_scale
     soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
@@ -58,7 +58,7 @@ def standing_on(
 
 
 def floor_checks(g: GroundTable, rotors: str, phases: PhasesTable, *, walls: bool) -> Iterator[CheckResult]:
-    """What needs a floor that is not there, and an effect of it on ideal rotors; `rotors`: `actuators.model`."""
+    """Check for keys that need a missing floor, and for ground effect on ideal rotors; `rotors`: `actuators.model`."""
     if g.model != "none":
         if g.effect and rotors != "rotors":
             yield refused('ground.effect = true: must be false where actuators.model is "ideal"')
@@ -75,14 +75,14 @@ def floor_checks(g: GroundTable, rotors: str, phases: PhasesTable, *, walls: boo
 
 
 def lift_height_checks(g: GroundTable, phases: PhasesTable) -> Iterator[CheckResult]:
-    """A lift that leads down into the floor."""
+    """Check for a lift that leads down into the floor."""
     if g.model == "floor" and phases.height < 0.0:
         given = f"phases.height = {phases.height}"
         yield refused(f"{given}: must be 0 or above over a floor, or the reference leads into it")
 
 
 def depth_checks(g: GroundTable, initial: InitialTable, standing: Standing) -> Iterator[CheckResult]:
-    """A start deep in the floor."""
+    """Check for a start deep in the floor."""
     if standing.depth > DEEP:
         key, value, hint = "ground.height", g.height, "must be lower, or initial.position higher"
         if value is None:
@@ -94,7 +94,7 @@ def depth_checks(g: GroundTable, initial: InitialTable, standing: Standing) -> I
 def floor_warnings(
     g: GroundTable, vehicle: VehicleTable, rotors: str, step: float, standing: Standing
 ) -> Iterator[CheckResult]:
-    """A soft floor, ideal rotors on a floor, and a payload that hangs lower than the feet."""
+    """Check for a soft floor, ideal rotors on a floor, and a payload lower than the feet."""
     if standing.sinkage > SOFT * g.sinkage:
         yield warned(
             f"ground.sinkage = {g.sinkage} m: with mission.step = {step} s the floor must be softer, "
@@ -103,7 +103,7 @@ def floor_warnings(
     if rotors == "ideal":
         yield warned(
             'actuators.model = "ideal": thrusts have no limits and may pull down, so the pilot may press the vehicle '
-            'on the floor as hard as a blow; "rotors" cannot'
+            'on the floor with the force of an impact; "rotors" cannot'
         )
     lower = min(q.position[2] - q.feet_depth for q in vehicle.quadrotors) + (vehicle.payload.radius or 0.0)
     if lower > 0.0:
@@ -111,7 +111,7 @@ def floor_warnings(
 
 
 def start_warnings(p: PhasesTable, standing: Standing) -> Iterator[CheckResult]:
-    """A start deep in the floor, or above it with rotors stopped."""
+    """Check for a start deep in the floor, or above it with stopped rotors."""
     depth = standing.depth
     if depth > THROWN * standing.sinkage:
         thrown = f"{depth**2 / (2.0 * standing.sinkage):.2g} m"  # of springs, undamped
@@ -126,7 +126,7 @@ def start_warnings(p: PhasesTable, standing: Standing) -> Iterator[CheckResult]:
 def blow_warnings(
     p: PhasesTable, initial: InitialTable, mass: float, limit: float, standing: Standing
 ) -> Iterator[CheckResult]:
-    """A start so fast into the floor that it ends the flight, or nearly so; a contact gives back some of the speed.
+    """Check for an impact on the floor at the start that may end the flight; a contact returns some of the speed.
 
     With stopped rotors, a vehicle that starts upwards falls back as fast. `mass` [kg] is the real one; an impulse of
     `limit` [N s] ends a flight.
@@ -140,12 +140,12 @@ def blow_warnings(
         what = f"[2] = {-down:g}" if straight else f" = {shown(initial.velocity)}"
         yield warned(
             f"initial.velocity{what} m/s drives the vehicle into the floor with "
-            f"{mass * speed:.3g} N s, and a blow of {limit:.3g} N s (crash.impulse) ends the flight"
+            f"{mass * speed:.3g} N s, and an impact of {limit:.3g} N s (crash.impulse) ends the flight"
         )
 
 
 def reference_warnings(p: PhasesTable, duration: float, standing: Standing) -> Iterator[CheckResult]:
-    """A reference that leads to a height where the vehicle does not stand, in a flight of `duration` [s]."""
+    """Check for a reference that differs from the height of the standing vehicle, in a flight of `duration` [s]."""
     rests = standing.rests
     stops = math.inf if p.land_start is None else p.land_start + p.land_duration
     if p.rotors == "flight" and rests < -FAR_DOWN and stops < duration:

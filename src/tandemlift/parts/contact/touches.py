@@ -46,7 +46,7 @@ class SurfaceTouches(NamedTuple):
 
 
 class Touches(NamedTuple):
-    """Which rotors still turn (1, or 0 from their first touch on), and the records on floor and walls, or `Absent`."""
+    """1 for each rotor that still turns, 0 from its first touch on; the records on floor and walls, or `Absent`."""
 
     turning: PerRotor
     floor: SurfaceTouches | Absent
@@ -76,7 +76,7 @@ def number_at(normal: Number, limit: Number, number: Number, none: Number) -> Nu
 
 @elementwise
 def if_number(number: Number, wanted: Number, value: Number) -> Number:
-    """A value of the part that has the number wanted, else 0."""
+    """The value if the part has the number `wanted`, else 0."""
     return where(absolute(number - wanted) < 0.5, value, 0.0)
 
 
@@ -141,7 +141,7 @@ def _with_surface(contacts: SurfaceContacts, records: SurfaceTouches, t: Number,
 
 @choice(absent="turning")
 def turning_after(contacts: SurfaceContacts | PartContacts | Absent, turning: PerRotor) -> PerRotor:
-    """Which rotors still turn after a step with contacts: of a surface, of the rotors, or `Absent`."""
+    """The rotors that still turn after a step with contacts of a surface, of the rotors, or `Absent`."""
 
 
 @turning_after.register(PartContacts)

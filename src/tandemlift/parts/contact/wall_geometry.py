@@ -1,4 +1,4 @@
-"""Upright rectangles, from the ground to a top: the offset of a point from them, and which of several are nearest.
+"""Upright rectangles from the ground to a top: the offset of a point from them, and the nearest of several.
 
 World axes. A rectangle of numbers serves one point, one of sets serves a set of points, each its own.
 """
@@ -11,7 +11,7 @@ from tandemlift.core.types import Number, number
 from tandemlift.core.vector import Vec3, dot
 
 SEAM = 1e-8  # m²: rectangles nearer to each other than this are joined there
-AWAY = 1e6  # m, where a rectangle stands that does not exist
+AWAY = 1e6  # m, place of a rectangle that stands for none
 HIDDEN = 1e30  # m², more than any distance
 
 
@@ -44,7 +44,7 @@ def wall(start: tuple[float, float], end: tuple[float, float], top: float) -> Wa
 def fraction_along(
     p_x: Number, p_y: Number, x: Number, y: Number, along_x: Number, along_y: Number, per_square: Number
 ) -> Number:
-    """Where along a wall its point nearest to p is, from 0 at its start to 1 at its end."""
+    """The place on a wall nearest to p, from 0 at its start to 1 at its end."""
     return clip(((p_x - x) * along_x + (p_y - y) * along_y) * per_square, 0.0, 1.0)
 
 

@@ -9,9 +9,9 @@ Each contact acts at the nearest point, with its penetration δ there:
 N acts along the line between the nearest points, F against the sliding velocity v of the surface there. The distance
 to a wall is continuous, so k δ is a spring, and both forces are passive.
 
-Which walls are near changes slowly: `nearest_with` looks at all of them now and then, from `no_walls_near` on, and in
+The set of near walls changes slowly: `nearest_with` examines all of them at intervals, from `no_walls_near` on, and in
 every step of a vehicle that is fast (`clearance.is_fast`). `near_wall_loads` measures the distance to the near ones in
-every state, so it stays exact in between. A blow that springs would not stop is stopped by `impulses`.
+every state, so it stays exact in between. Impacts that springs would not stop are stopped by `impulses`.
 """
 
 from __future__ import annotations
@@ -254,7 +254,7 @@ def walls(
     stiffness: float = 5000.0,
     damping_ratio: float = 0.5,
 ) -> Walls:
-    """Contact of a vehicle with walls: as stiff as asked, softer if the step [s] of the Runge-Kutta method demands it.
+    """Contact of a vehicle with walls, with the given stiffness, or less for a long step [s] of the Runge-Kutta method.
 
     Args:
         quadrotors: N × 3, their centres of mass from the system's [m, body axes].
@@ -267,7 +267,7 @@ def walls(
         beam: length [m] of the axis and radius [m] of a capsule along body y, if the payload is one.
         payload: its centre of mass from the system's [m, body axes].
         stiffness: of a contact [N/m].
-        damping_ratio: of the vehicle oscillating on one contact, without turning.
+        damping_ratio: of the vehicle oscillating on one contact, without rotation.
     """
     J, centers = array(inertia), array(quadrotors)
     radii = np.broadcast_to(guards, len(centers))

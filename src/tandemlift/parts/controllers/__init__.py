@@ -1,4 +1,4 @@
-"""Controllers: what a controller is, and which there are. docs/reference/controllers.md says how to add one.
+"""Controllers: their interface and the registered ones. docs/reference/controllers.md describes how to add one.
 
 A controller is one file. It names its settings (the keys of `[controller]`), makes its gains and its first memory from
 them, and gives the law
@@ -8,7 +8,7 @@ them, and gives the law
 for its own type of gains. Written as a law it compiles into the loop; registered with `compiled=False` any Python
 function will do, at a few microseconds a step.
 
-A controller of one's own imports what it needs from here, from `tandemlift.core.algebra` and from
+A user's controller imports from here, from `tandemlift.core.algebra` and from
 `tandemlift.core.keys`.
 """
 

@@ -42,7 +42,7 @@ class CommandFilterState(NamedTuple):
 
 
 class AttitudeReference(NamedTuple):
-    """What the attitude law tracks: angles [rad], rates [rad/s], accelerations [rad/s²] of φ, θ, ψ."""
+    """The reference of the attitude law: angles [rad], rates [rad/s], accelerations [rad/s²] of φ, θ, ψ."""
 
     angles: Vec3
     rates: Vec3
@@ -53,7 +53,7 @@ class AttitudeReference(NamedTuple):
 def shape_reference(
     kind: Unfiltered | CommandFilter, memory: NoMemory | CommandFilterState, desired: Vec3
 ) -> tuple[AttitudeReference, NoMemory | CommandFilterState]:
-    """(what the attitude law tracks, the new memory), from the desired orientation [rad]."""
+    """(the attitude law's reference, the new memory), from the desired orientation [rad]."""
 
 
 @shape_reference.register(Unfiltered)
@@ -76,7 +76,7 @@ def _filtered(
 
 @law
 def with_heading(tracked: AttitudeReference, reference: Reference) -> AttitudeReference:
-    """What the attitude law tracks, with the yaw and its derivatives as the reference has them."""
+    """The attitude law's reference with the yaw and its derivatives replaced by those of the trajectory."""
     a, r, c = tracked.angles, tracked.rates, tracked.accelerations
     return AttitudeReference(
         Vec3(a.x, a.y, reference.yaw), Vec3(r.x, r.y, reference.yaw_rate), Vec3(c.x, c.y, reference.yaw_acceleration)

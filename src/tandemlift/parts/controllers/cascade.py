@@ -1,4 +1,4 @@
-"""What the baseline controllers share: from an acceleration to a force, a tilt, an attitude reference and a command.
+"""The common part of the baseline controllers: acceleration → force → tilt → attitude reference → command.
 
 All of them get the same inputs and use them alike: they compensate the person's force and the disturbance, lead the
 reference's acceleration, and feed yaw rate and yaw acceleration forward. They differ in their feedback alone.
@@ -39,15 +39,15 @@ class CascadeTable(ControllerTable):
 
     filter_bandwidth: Bandwidth = key(15.0, "rad/s", ATTITUDE_FILTER, source="chosen")
     max_tilt: Tilt = key(
-        0.5, "rad", "largest angle of the wanted force from the vertical", source="chosen: as compliance.max_tilt"
+        0.5, "rad", "largest angle of the desired force from the vertical", source="chosen: as compliance.max_tilt"
     )
-    human_force_feedforward: bool = key(True, None, "true: the position law counters the measured push")
+    human_force_feedforward: bool = key(True, None, "true: the position law compensates the measured push")
 
 
 class ControllerModel(NamedTuple):
     """The vehicle as the controller believes it to be, and how a force becomes an attitude reference.
 
-    `feedforward` is 1 to counter the measured push, else 0.
+    `feedforward` is 1 to compensate the measured push, else 0.
     """
 
     mass: Number
@@ -75,7 +75,7 @@ def wanted_force(b: ControllerModel, acceleration: Vec3, measured: Measured, ref
 def tracked_attitude(
     b: ControllerModel, memory: CommandFilterState, e: Euler, u: Vec3, reference: Reference
 ) -> tuple[AttitudeReference, CommandFilterState]:
-    """(what the attitude law tracks, the new memory) for a force u [N, world axes] at the actual attitude e."""
+    """(the attitude law's reference, the new memory) for a force u [N, world axes] at the actual attitude e."""
     desired, memory = shape_reference(b.shaping, memory, desired_orientation(TiltZXY(), u, e, reference.yaw))
     return with_heading(desired, reference), memory
 

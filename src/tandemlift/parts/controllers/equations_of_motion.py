@@ -1,8 +1,8 @@
 """The equations of motion in the controller's coordinates χ = (x, y, z, φ, θ, ψ): χ̈ = Ϝ + δ + b u.
 
-The control law is derived from these; the body flies `rigid_body.motion`. The lines of x, y, z are exact. Those of
-φ, θ, ψ hold under Assumption 4, Θ̇ = ω, and with it leave out terms as large as the gyroscopic ones that they keep: at
-level attitude φ̈ = ṗ + q r, θ̈ = q̇ − p r, ψ̈ = ṙ − p q.
+The control law is derived from these; the simulated body uses `rigid_body.motion`. The lines of x, y, z are exact.
+Those of φ, θ, ψ hold under Assumption 4, Θ̇ = ω, and with it leave out terms as large as the gyroscopic ones that they
+keep: at level attitude φ̈ = ṗ + q r, θ̈ = q̇ − p r, ψ̈ = ṙ − p q.
 """
 
 from typing import NamedTuple

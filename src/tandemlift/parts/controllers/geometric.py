@@ -49,7 +49,7 @@ class GeometricSettings(CascadeTable):
     """`[controller]`: settings of geometric tracking control: position in world axes, attitude in body axes."""
 
     filter_bandwidth: Bandwidth = key(
-        14.0, "rad/s", "bandwidth of the command filter of the wanted force", source=TUNED
+        14.0, "rad/s", "bandwidth of the command filter of the desired force", source=TUNED
     )
     position_stiffness: Positive3 = key((5.35, 2.83, 40.0), "1/s²", "k_x/m, along x, y, z", source=TUNED)
     position_damping: Positive3 = key((3.34, 2.75, 20.5), "1/s", "k_v/m, along x, y, z", source=TUNED)
@@ -58,7 +58,7 @@ class GeometricSettings(CascadeTable):
 
 
 class Geometric(NamedTuple):
-    """Gains: the vehicle as it is believed to be, the four gains, the filter of A; `min_upward`: smallest A_z [N]."""
+    """Gains: the nominal vehicle, the four gains, the filter of A; `min_upward`: smallest A_z [N]."""
 
     vehicle: ControllerModel
     position_stiffness: Vec3

@@ -18,10 +18,10 @@ class ControllerTable(Table):
 
 
 class Disturbance(NamedTuple):
-    """What a controller compensates besides a person's force.
+    """The loads that a controller compensates besides a person's force.
 
-    The force that the pilot's observer finds [N, world axes], and the moment [N·m, body axes] that it and the person
-    exert about the centre of mass.
+    The force that the pilot's observer estimates [N, world axes], and the moment [N·m, body axes] that it and the
+    person exert about the centre of mass.
     """
 
     force: Vec3
@@ -40,7 +40,7 @@ class Measured(NamedTuple):
 
 
 class Command(NamedTuple):
-    """The wanted wrench (U₁, U₂…U₄), and the Euler angles [rad] that the attitude law tracks."""
+    """The desired wrench (U₁, U₂…U₄), and the Euler angles [rad] that the attitude law tracks."""
 
     wrench: Wrench
     euler: Vec3

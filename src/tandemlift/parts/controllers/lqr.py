@@ -13,7 +13,7 @@ and a are not measured: a model of the lag gives them. x is the deviation from w
 forward: its tilt, from a command filter, with its derivatives.
 
 Of the linear vehicle without delay: stable, with 60° of phase and half to any gain left at the input. The tilt that
-position errors ask for is held within `max_tilt`. No integral: a constant force that is not measured leaves an offset.
+position errors command is held within `max_tilt`. No integral: a constant force that is not measured leaves an offset.
 
 Tune first: the ratio of position to moment weights; then the rates' for damping.
 """
@@ -82,7 +82,7 @@ class LQRSettings(CascadeTable):
 
 
 class LQR(NamedTuple):
-    """Gains: the vehicle as it is believed to be, and K of the chains.
+    """Gains: the nominal vehicle, and K of the chains.
 
     `tilt_per_*` give the tilt [rad] for an error of position or velocity, in axes of the heading; `height_*` are
     of z; the rest are of roll, pitch, yaw. `lag_fraction`: how far the lag gets in a step.
@@ -111,7 +111,7 @@ class LQRState(NamedTuple):
 
 @law
 def tilt_axes(e: Euler, v: Vec3) -> Vec3:
-    """A world vector's horizontal part as the tilt to roll and pitch that moves the vehicle that way."""
+    """The tilt in roll and pitch that moves the vehicle along a world vector's horizontal part."""
     return Vec3(v.x * e.sin_yaw - v.y * e.cos_yaw, v.x * e.cos_yaw + v.y * e.sin_yaw, 0.0)
 
 

@@ -110,12 +110,12 @@ class NFTSMCSettings(ControllerTable):
     tilt_inverse: Literal["zxy", "printed"] = key(
         "zxy",
         None,
-        "how a wanted force becomes roll and pitch",
+        "conversion of a desired force to roll and pitch",
         choices={"zxy": "exactly, for Z-X-Y angles", "printed": "as the paper prints it"},
     )
-    human_force_feedforward: bool = key(False, None, "true: the position law counters the measured push")
+    human_force_feedforward: bool = key(False, None, "true: the position law compensates the measured push")
     max_tilt: Tilt | None = key(
-        None, "rad", "largest angle of the wanted force from the vertical", unset="there is no limit", example=0.5
+        None, "rad", "largest angle of the desired force from the vertical", unset="there is no limit", example=0.5
     )
 
 
@@ -148,7 +148,7 @@ class NFTSMC(NamedTuple):
 
 @choice
 def euler_rates(kind: ExactRates | BodyRates, e: Euler, rates: Vec3) -> Vec3:
-    """(φ̇, θ̇, ψ̇) as the attitude law takes them, from body rates [rad/s]."""
+    """(φ̇, θ̇, ψ̇) for the attitude law, from body rates [rad/s]."""
 
 
 @euler_rates.register(ExactRates)
@@ -163,7 +163,7 @@ def _body(kind: BodyRates, e: Euler, rates: Vec3) -> Vec3:
 
 @law
 def position_law(k: NFTSMC, state: State, desired: Trajectory, push: Vec3) -> Vec3:
-    """The force (u_x, u_y, u_z) [N, world axes] that the position surface wants.
+    """The force (u_x, u_y, u_z) [N, world axes] commanded by the position surface.
 
     Erratum: the paper leaves m_t out on ÿ_d and on the last line of u_z; it multiplies both.
     """
@@ -175,7 +175,7 @@ def position_law(k: NFTSMC, state: State, desired: Trajectory, push: Vec3) -> Ve
 
 @law
 def attitude_law(k: NFTSMC, e: Euler, rates: Vec3, desired: AttitudeReference) -> Vec3:
-    """The moments (U₂, U₃, U₄) [N·m] that the attitude surface wants; `rates` are Euler rates [rad/s].
+    """The moments (U₂, U₃, U₄) [N·m] commanded by the attitude surface; `rates` are Euler rates [rad/s].
 
     Errata: J is the whole vehicle's; sat(S_ψ/Φ), not sat(S_ψ)/Φ.
     """

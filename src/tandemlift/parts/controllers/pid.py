@@ -1,4 +1,4 @@
-"""Cascaded PID: position P → velocity PID → attitude P → rate PID, as autopilots have it.
+"""Cascaded PID as in autopilots: position P → velocity PID → attitude P → rate PID.
 
 Source: the multicopter cascade of PX4 (Meier, Honegger and Pollefeys, PX4, ICRA 2015, and its documentation);
 anti-windup by back-calculation and derivative filter: Åström and Hägglund, Advanced PID Control, 2006, sections 3.3
@@ -45,16 +45,16 @@ class PIDSettings(CascadeTable):
     """`[controller]`: settings of the cascaded PID: x, y, z in world axes; roll, pitch, yaw; rates in body axes."""
 
     filter_bandwidth: Bandwidth = key(13.5, "rad/s", ATTITUDE_FILTER, source=TUNED)
-    position_p: Positive3 = key((4.36, 0.765, 2.26), "1/s", "wanted velocity over the position error", source=TUNED)
-    velocity_p: Positive3 = key((3.09, 3.11, 18.1), "1/s", "wanted acceleration over the velocity error", source=TUNED)
+    position_p: Positive3 = key((4.36, 0.765, 2.26), "1/s", "desired velocity over the position error", source=TUNED)
+    velocity_p: Positive3 = key((3.09, 3.11, 18.1), "1/s", "desired acceleration over the velocity error", source=TUNED)
     velocity_i: NonNegative3 = key((0.414, 0.279, 2.04), "1/s²", "integral gain of the velocity error", source=TUNED)
     velocity_d: NonNegative3 = key((0.0628, 0.039, 0.0138), "1", "derivative gain of the velocity error", source=TUNED)
     velocity_i_limit: NonNegative3 = key(
         (2.0, 2.0, 2.0), "m/s²", "largest acceleration from the velocity integral", source="chosen"
     )
-    attitude_p: Positive3 = key((3.45, 0.173, 2.43), "1/s", "wanted rates over the attitude error", source=TUNED)
+    attitude_p: Positive3 = key((3.45, 0.173, 2.43), "1/s", "desired rates over the attitude error", source=TUNED)
     rate_p: Positive3 = key(
-        (7.94, 20.5, 3.87), "1/s", "wanted angular acceleration over the error of the rates", source=TUNED
+        (7.94, 20.5, 3.87), "1/s", "desired angular acceleration over the error of the rates", source=TUNED
     )
     rate_i: NonNegative3 = key((0.904, 1.93, 0.0707), "1/s²", "integral gain of the error of the rates", source=TUNED)
     rate_d: NonNegative3 = key((0.0191, 0.178, 0.0439), "1", "derivative gain of the error of the rates", source=TUNED)
@@ -90,7 +90,7 @@ class PIDStageState(NamedTuple):
 
 
 class PID(NamedTuple):
-    """Gains: the vehicle as it is believed to be, and the stages; `tracking` is of one step, over the mass."""
+    """Gains: the nominal vehicle, and the stages; `tracking` is of one step, over the mass."""
 
     vehicle: ControllerModel
     position: Vec3

@@ -1,4 +1,4 @@
-"""Which controllers there are."""
+"""The registry of controllers."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def register(name: str, settings: type[ControllerTable]) -> Callable[[Start], St
     Registering a name again replaces the controller if it comes from the same file or module.
 
     Raises:
-        InputError: the name is not fit for one or taken by another module, or `settings` is no ControllerTable.
+        InputError: the name is invalid or used by another module, or `settings` is no ControllerTable.
     """
     if not isinstance(name, str) or not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]{0,63}", name):
         raise InputError(f"a controller cannot be named {name!r}: letters, digits, '_' and '-', a letter first")
@@ -67,7 +67,7 @@ def controller(name: str) -> Controller:
     """The registered controller of that name.
 
     Raises:
-        InputError: there is none; a controller of one's own must be loaded first.
+        InputError: there is none; a user's controller must be loaded first.
     """
     if name not in CONTROLLERS:
         error = unknown("controller", name, sorted(CONTROLLERS))
@@ -76,7 +76,7 @@ def controller(name: str) -> Controller:
 
 
 def _checked(name: str, settings: type[ControllerTable], start: Start) -> Start:
-    """`start`, with a clear message where what it gives cannot fly."""
+    """Call `start`, with a clear message if its results are invalid."""
 
     @functools.wraps(start)
     def checked(s: ControllerTable, vehicle: Vehicle, step: float) -> tuple[object, object]:

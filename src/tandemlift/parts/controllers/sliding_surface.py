@@ -1,4 +1,4 @@
-"""The nonsingular fast terminal sliding surface, its control law, and what Lyapunov's method says of it.
+"""The nonsingular fast terminal sliding surface, its control law, and its stability by Lyapunov's method.
 
 Per axis, with e = desired − actual: S = ė + ξe + η|e|ᵃ sgn e. These laws hold for vectors of axes and for single
 numbers. With the exponent a ≥ 1 of the paper the approach on S = 0 is exponential near zero, not finite-time.
@@ -65,7 +65,7 @@ def saturate(x: Number) -> Number:
 
 @choice
 def switching(kind: Sign | Saturation | Tanh, S: Vec3) -> Vec3:
-    """sgn(S), or what stands for it in the boundary layer."""
+    """sgn(S), or its substitute in the boundary layer."""
 
 
 @switching.register(Sign)

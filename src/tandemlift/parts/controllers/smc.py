@@ -59,7 +59,7 @@ class LinearSurface(NamedTuple):
 
 
 class SMC(NamedTuple):
-    """Gains: the vehicle as it is believed to be, and both surfaces."""
+    """Gains: the nominal vehicle, and both surfaces."""
 
     vehicle: ControllerModel
     position: LinearSurface

@@ -76,7 +76,7 @@ class TwistingGains(NamedTuple):
 
 
 class SuperTwisting(NamedTuple):
-    """Gains: the vehicle as it is believed to be, and both surfaces."""
+    """Gains: the nominal vehicle, and both surfaces."""
 
     vehicle: ControllerModel
     position: TwistingGains

@@ -1,4 +1,4 @@
-"""A trial of a controller before it flies: an error message in plain words, with the line of the file."""
+"""Trial run of a controller before a flight; errors have a plain message with the line of the file."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tandemlift.parts.mechanics.rigid_body import State, Wrench
 from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
 
 COMMAND = Command(Wrench(0.0, ZERO), ZERO)
-SAMPLE = (  # something ordinary to try a law on
+SAMPLE = (  # ordinary inputs for the trial of a law
     Measured(
         State(Vec3(0.1, -0.2, 0.3), Vec3(0.1, 0.2, -0.1), Quat(0.98, 0.1, -0.1, 0.14), ZERO),
         Vec3(0.5, -0.4, 0.3),
@@ -30,10 +30,10 @@ _tried: set[Any] = set()
 
 
 def check_started(name: str, gains: object, memory: object) -> None:
-    """Refuse gains and a memory that cannot be compiled, or whose law fails or answers wrongly.
+    """Reject gains and a memory that cannot be compiled, or whose law fails or returns invalid values.
 
     Raises:
-        InputError: with what is wrong, and the line if there is one.
+        InputError: with the reason, and the line if there is one.
     """
     if type(gains) not in control.table:
         kind = type(gains).__name__
@@ -45,7 +45,7 @@ def check_started(name: str, gains: object, memory: object) -> None:
 
 
 def form(value: object) -> str:
-    """What a value is made of, such as Command(Wrench(number, Vec3), Vec3)."""
+    """The structure of a value, such as Command(Wrench(number, Vec3), Vec3)."""
     kind = "number" if isinstance(value, numbers.Real) else type(value).__name__
     parts = value if isinstance(value, tuple) and not isinstance(value, (Vec3, Quat)) else ()
     return f"{kind}({', '.join(map(form, parts))})" if parts else kind
@@ -84,7 +84,7 @@ def _try(name: str, gains: object, memory: object, like: object) -> None:
 
 
 def error_text(error: BaseException, file: str) -> str:
-    """An error in one line, with the line of the file that it comes from."""
+    """An error in one line, with its line in the file."""
     name, kind = Path(file).name, "" if isinstance(error, InputError) else f"{type(error).__name__}: "
     lines: list[Any] = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == file]
     said: object = error

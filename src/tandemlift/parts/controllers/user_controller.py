@@ -1,4 +1,4 @@
-"""A controller of one's own, from a Python file."""
+"""Loading of a user's controller from a Python file."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def run_controller(text: str, path: Path) -> Controller:
     try:
         code = compile(text, str(path), "exec")
         lines = text.splitlines(True)
-        linecache.cache[str(path)] = len(text), None, lines, str(path)  # what is traced, even if the file changes
+        linecache.cache[str(path)] = len(text), None, lines, str(path)  # the traced text, even if the file changes
         exec(code, module.__dict__)
         new = [c for name, c in CONTROLLERS.items() if before[0].get(name) is not c]
         if len(new) != 1:
@@ -77,7 +77,7 @@ def run_controller(text: str, path: Path) -> Controller:
 
 
 def _check_calls(module: ModuleType) -> None:
-    """Refuse a law that calls a function that is none: the compiler would not know it."""
+    """Reject a law that calls a function that is not a law, which the compiler could not trace."""
     laws = set(map(id, LAWS))
     for function in LAWS:
         if function.__globals__ is not module.__dict__:

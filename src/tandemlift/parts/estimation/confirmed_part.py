@@ -1,20 +1,20 @@
-"""What of a measured push F̂ is confirmed by the force r on the quadrotors besides their thrust, along one body axis.
+"""The part of a measured push F̂ that the force r on the quadrotors besides thrust confirms, along one body axis.
 
     a push P                      F̂ = P,        r = 0;
     joints that are wrong by j_i  F̂ = −Σ j_i,   r = Σ j_i, so that F̂ + r = 0: nothing pushes the vehicle;
     wind                          F̂ = ρ r,      ρ the ratio of the drag areas of payload and quadrotors;
     an accelerometer wrong by α   F̂ = m_L α,    r = Σ m_i α, like wind with ρ = m_L / Σ m_i.
 
-Nothing of F̂ is confirmed while F̂ + r is below 0.4 F̂, all of it above 0.6 F̂. What of r is within three times the
-standard deviation of F̂ + r without a push is gusts on the quadrotors, and refutes nothing. Wind takes ρ r from F̂, less
-a tolerance, where ρ r is above 0.6 F̂, and nothing below 0.4 F̂: so a long push is not mistaken for wind as the sensors
-drift. A part of the size of the tolerance is always left. The tolerance is half the threshold of a push, so what is
-left stays below the threshold, also once the bias of the dead band has followed an error of the other sign.
+Nothing of F̂ is confirmed while F̂ + r is below 0.4 F̂, all of it above 0.6 F̂. The part of r within three times the
+standard deviation of F̂ + r without a push is due to gusts on the quadrotors, and refutes nothing. Wind subtracts ρ r
+less a tolerance from F̂ if ρ r is above 0.6 F̂, and nothing below 0.4 F̂, so that a long push is not misclassified as
+wind when the sensors drift. A part of the size of the tolerance always remains. The tolerance is half the threshold of
+a push, so the rest stays below the threshold, even after the bias of the dead band has followed an opposite error.
 
-r counts from its mean over the tare, and F̂ from an offset. What is not confirmed for long becomes their new zero: a
-joint that jumps is tared again within seconds, and pushes are followed as before. So does a drift of the joints, the
-common part of F̂ and −r: fast while there is no push, slowly under one. A push that was confirmed is given up gradually,
-so that a gust on the quadrotors against it does not end it.
+r is measured from its mean over the tare, and F̂ from an offset. A part that stays unconfirmed becomes their new zero:
+a joint that jumps is tared again within seconds, and pushes are followed as before. The same holds for a drift of the
+joints, the common part of F̂ and −r: fast without a push, slowly during one. The confirmation of a push decays
+gradually, so that an opposite gust on the quadrotors does not end the push.
 
 Limits: wind that acts on the payload alone counts as a push. A gust on the quadrotors against a push weakens it, if it
 is larger than 0.4 of the push and lasts; in gusts, joints may be wrong by as much.
@@ -30,11 +30,11 @@ from tandemlift.core.types import Number
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, V, low_pass_step
 
 REFUTED, CONFIRMED = 0.4, 0.6  # unexplained share of a push up to which none is confirmed, and from which on all is
-RELEARN_TIME = 2.0  # s, in which what is not confirmed becomes the new zero
-QUIET_TIME = 1.0  # s, in which a drift of the joints does while there is no push
-DRIFT_TIME = 20.0  # s, in which it does under one, and the mean of r follows other drifts
-RISE_TIME, FALL_TIME = 0.7, 0.5  # s, in which a push counts as confirmed of late, and in which it is given up
-GUSTS, GUST_TIME = 3.0, 5.0  # standard deviations of F̂ + r that are gusts; s, in which its mean square is followed
+RELEARN_TIME = 2.0  # s, in which an unconfirmed part becomes the new zero
+QUIET_TIME = 1.0  # s, in which a drift of the joints does without a push
+DRIFT_TIME = 20.0  # s, in which it does during one, and the mean of r follows other drifts
+RISE_TIME, FALL_TIME = 0.7, 0.5  # s, in which a push counts as recently confirmed, and in which the confirmation decays
+GUSTS, GUST_TIME = 3.0, 5.0  # standard deviations of F̂ + r that count as gusts; s, time constant of its mean square
 FAR = 4.0  # tolerances: a larger r, such as the floor's force, is no drift
 LARGE, LITTLE = 3.0, 1.5  # tolerances: of a push beyond the first, less than the second is left where it is refuted
 NEGLIGIBLE = 0.1  # of a tolerance
@@ -42,10 +42,10 @@ TINY = 1e-12  # N
 
 
 class Zero(NamedTuple, Generic[V]):
-    """From where on r and a push count, the `mean` of r and the `offset` of the push, and what is remembered of both.
+    """The zeros of r (`mean`) and of the push (`offset`), and the memory of both.
 
-    `slow`: F̂ with the low-pass of r; `square`: mean of (F̂ + r)² while there is no push; `lately`: the push that was
-    confirmed of late. Forces [N] or moments [N·m].
+    `slow`: F̂ with the low-pass of r; `square`: mean of (F̂ + r)² while there is no push; `lately`: the recently
+    confirmed push. Forces [N] or moments [N·m].
     """
 
     mean: V
@@ -56,7 +56,7 @@ class Zero(NamedTuple, Generic[V]):
 
 
 class Confirmed(NamedTuple, Generic[V]):
-    """Of a push: what is not confirmed, 1 per axis where the motion refutes it, else 0, and the new `Zero`."""
+    """The unconfirmed part of a push, 1 per axis where the motion refutes it, else 0, and the new `Zero`."""
 
     withheld: V
     refuted: V
@@ -65,7 +65,7 @@ class Confirmed(NamedTuple, Generic[V]):
 
 @elementwise
 def confirmed_fraction(share: Number) -> Number:
-    """How much of a push is confirmed, 0 to 1, of which this share is not explained otherwise."""
+    """The confirmed fraction of a push, 0 to 1, from the fraction that has no other explanation."""
     return clip((share - REFUTED) * (1.0 / (CONFIRMED - REFUTED)), 0.0, 1.0)
 
 
@@ -84,17 +84,17 @@ def confirmed(push: Number, rest: Number, square: Number, tolerance: Number, rat
 
 @elementwise
 def is_refuted(push: Number, left: Number, off: Number, tolerance: Number) -> Number:
-    """1 for a push of which next to nothing is left because the vehicle does not move along with it, else 0."""
+    """1 for a push that is almost entirely refuted because the vehicle does not move along with it, else 0."""
     refuted = where(push * off < 0.0, where(absolute(left) < LITTLE * tolerance, 1.0, 0.0), 0.0)
     return where(absolute(push) > LARGE * tolerance, refuted, 0.0)
 
 
 @elementwise
 def mean_change(push: Number, left: Number, off: Number, tolerance: Number, dt: Number) -> Number:
-    """The change of r's mean in a step in which the offset follows what is not left of a push; `off`: r less its mean.
+    """The change of r's mean in a step in which the offset follows the rejected part; `off`: r less its mean.
 
-    With that part of the push goes what explains it, the error of the joints or the wind. Where all of the push is
-    left, the mean follows a drift along the push; one against it is a `joint_drift`.
+    The mean follows the explanation of the rejected part, the error of the joints or the wind. If nothing is rejected,
+    the mean follows a drift along the push; an opposite drift is a `joint_drift`.
     """
     withheld = absolute(push - left)
     along = where(push * off < 0.0, 0.0, where(absolute(off) < FAR * tolerance, 1.0, 0.0))
@@ -105,7 +105,7 @@ def mean_change(push: Number, left: Number, off: Number, tolerance: Number, dt: 
 
 @elementwise
 def square_change(push: Number, load: Number, square: Number, tolerance: Number, dt: Number) -> Number:
-    """The change of the mean square of a load F̂ + r in a step; none under a push, and slow for what is unusual."""
+    """The change of the mean square of a load F̂ + r in a step; none during a push, and slow for outliers."""
     usual = minimum(load * load, 9.0 * square + tolerance * tolerance)
     return where(absolute(push) < tolerance, usual - square, 0.0) * (dt / GUST_TIME)
 
@@ -121,7 +121,7 @@ def joint_drift(push: Number, off: Number, tolerance: Number, dt: Number) -> Num
 
 @elementwise
 def given_up_slowly(push: Number, left: Number, lately: Number) -> Number:
-    """What is left of a push: at least what was confirmed of late."""
+    """The remaining part of a push: at least the recently confirmed one."""
     kept = where(push * lately > 0.0, minimum(absolute(push), absolute(lately)), 0.0)
     more = maximum(absolute(left), kept)
     return where(push < 0.0, -more, more)
@@ -129,7 +129,7 @@ def given_up_slowly(push: Number, left: Number, lately: Number) -> Number:
 
 @elementwise
 def lately_change(left: Number, lately: Number, dt: Number) -> Number:
-    """The change in a step of the push that was confirmed of late."""
+    """The change in a step of the recently confirmed push."""
     grown = where(absolute(left) > absolute(lately), 1.0 / RISE_TIME, 1.0 / FALL_TIME)
     return (left - lately) * dt * where(left * lately < 0.0, 1.0 / FALL_TIME, grown)
 
@@ -138,7 +138,7 @@ def lately_change(left: Number, lately: Number, dt: Number) -> Number:
 def compared(
     low_pass: LowPass, zero: Zero[V], push: V, rest: V, tolerance: V, ratio: V, tare: Number, dt: Number
 ) -> Confirmed[V]:
-    """What a push and `rest`, that is r, tell of each other.
+    """Compare a push with `rest`, that is r, and return its unconfirmed part.
 
     Args:
         low_pass: of r.
@@ -148,7 +148,7 @@ def compared(
         tolerance: of forces or of moments.
         ratio: ρ.
         tare: share of this sample in the mean over the tare; 0 once that is over.
-        dt: since the last sample [s]; 0 while nothing is learnt, as before the end of the tare.
+        dt: since the last sample [s]; 0 without learning, as before the end of the tare.
     """
     force, off = push - zero.offset, rest - zero.mean
     now = confirmed(force, off, zero.square, tolerance, ratio)

@@ -1,8 +1,8 @@
-"""Contact with a wall: which part of the vehicle touches, where, in which direction, and how hard.
+"""Contact with a wall: the part of the vehicle that touches, and place, direction and force of the contact.
 
-`contact_evidence` tells that a part touches. It is decided once there has been evidence for 15 ms, so that the first
-blow has told the part. While a part touches, the slow means are held, so the force of a long contact is known. It is
-over once there is no force for a time, or once the part has moved away from where it touched: walls do not follow.
+`contact_evidence` gives the evidence for each part. A contact is reported after 15 ms of evidence, so that the first
+impact has identified the part. While a part touches, the slow means are held, so the force of a long contact is known.
+The contact ends once there is no force for a time, or once the part has moved away from the place.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
-DECISION_TIME = 0.015  # s of evidence, after which the part is told
-RELEASE = 0.5  # of the threshold: below, there is no contact
+DECISION_TIME = 0.015  # s of evidence, after which the part is reported
+RELEASE = 0.5  # of the threshold: below it, there is no contact
 QUIET_TIME = 0.1  # s without force, after which a contact is over
 AWAY = 0.04  # m by which a part has moved away from a wall when the contact is over
 EXPLAINED_TIME = 0.5  # s after a contact, in which joints that disagree are explained by it
@@ -46,7 +46,7 @@ class ContactEstimate(NamedTuple):
     `part`: 0 for none, else the number of the quadrotor whose guard touches, or −1 for the beam. `force` [N, world
     axes, horizontal] of the wall; `point` [m, world axes] where it began to act; `along` [m, body y]: how far that is
     from the payload's centre; `normal`: unit vector out of the wall, world axes; `rise` [s]: time in which the force
-    has risen; `on_map`: 1 if the pilot knows a wall there, else 0.
+    has risen; `on_map`: 1 if the pilot's map has a wall there, else 0.
     """
 
     part: Number
@@ -64,7 +64,7 @@ NO_CONTACT = ContactEstimate(0.0, ZERO, ZERO, 0.0, ZERO, 0.0, 0.0)
 class ContactState(NamedTuple):
     """Memory: the evidence; the contact; times [s].
 
-    `seen_time`: for how long there is evidence of a contact that begins; `quiet_time`: for how long a contact is
+    `seen_time`: time with evidence of a contact that begins; `quiet_time`: time for which a contact is
     without force; `over_time`: since the last one.
     """
 
@@ -76,7 +76,7 @@ class ContactState(NamedTuple):
 
 
 class KnownSurroundings(NamedTuple):
-    """What the pilot knows of its surroundings.
+    """The pilot's knowledge of its surroundings.
 
     `walls`: the known ones near it, or `Absent`; 1 in flight, except in lift and landing; 1 in a landing; the height
     of the `ground` [m].
@@ -152,7 +152,7 @@ def begun(
     s: State,
     y: Number,
 ) -> ContactEstimate:
-    """The contact of a part that begins now; `y`: where on the beam the push seems to act [m]."""
+    """The contact of a part that begins now; `y`: estimated place of the push on the beam [m]."""
     g, number = k.geometry, k.numbers
     on_beam = where(part < 0.0, 1.0, 0.0)
     of_guard = SideForces(picked(number, part, d.lasting.x), picked(number, part, d.lasting.y))
@@ -203,7 +203,7 @@ def contact_step(
         e: the estimator of the push.
         x: its reading.
         s: the state as estimated.
-        surroundings: what the pilot knows of its surroundings.
+        surroundings: the pilot's knowledge of its surroundings.
         dt: since the last sample [s].
     """
 

@@ -1,9 +1,9 @@
 """Evidence of a contact: horizontal forces that a person's hand and a broken sensor do not show.
 
-Horizontally, a rotor gives no force. So four things are known, in body axes: what acts on quadrotor i from outside,
-c_i = f_i + m_i s_i (`push_estimate`), what acts on the payload, q, what the joints carry, f_i, and what moves the
-whole, the momentum residual T = m a, which no joint sensor enters. All are low-passed, and seen as their deviation from
-a slow mean, so that bias, drift and mean wind do not count. With d_i, p, j_i and T these deviations:
+A rotor gives no horizontal force. Thus four horizontal forces are known, in body axes: the external force on quadrotor
+i, c_i = f_i + m_i s_i (`push_estimate`), that on the payload, q, the joint forces f_i, and the momentum residual of the
+whole, T = m a, which uses no joint sensor. All are low-passed, and taken as deviations from a slow mean, so that bias,
+drift and mean wind do not count. With d_i, p, j_i and T these deviations:
 
 | cause | d_i | p | T | j_i |
 |---|---|---|---|---|
@@ -13,12 +13,12 @@ a slow mean, so that bias, drift and mean wind do not count. With d_i, p, j_i an
 | the accelerometer is wrong by e | m_i e | m_L e | m e | 0 |
 | the gyroscope jumps | of opposite signs | 0 | 0 | 0 |
 
-So a guard touches where |d_i| is large, T confirms most of it, and the joints have seen it. Later a vehicle whose
-sensor broke may move, too; therefore a force that was not confirmed at once (`doubt`) is no contact. A known wall
-(`contact_map`) confirms one without T, even one that grows slowly.
+So a guard touches if |d_i| is large, T confirms most of it, and the joints have measured it. A vehicle with a failed
+sensor may move later, too; therefore a force that was not confirmed at once (`doubt`) is no contact. A known wall
+(`contact_map`) confirms a contact without T, even one that grows slowly.
 
-A beam that touches differs from a hand by its rise: a hand gives some 100 N/s at most. With a known wall at the place,
-away from which the force points, less is enough.
+A beam that touches is distinguished from a hand by the rise of the force: a hand gives some 100 N/s at most. If there
+is a known wall at the place and the force points away from it, a slower rise is enough.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ from tandemlift.parts.sensors.readings import ImuReading
 CONFIRMED = 0.7  # least share of a force that the momentum residual shows
 SEEN = 0.005  # least share of its square that the joints carry: 0.02 where all guards touch alike
 SHARP, STEEP = 60.0, 300.0  # N/s: least rise of a force on the beam at a known wall, and anywhere
-STEADY_RATE = 0.05  # 1/s, of the steady mean of what acts on the quadrotors, once tared: drift and wind
-LEAST_DOUBT, DOUBT_TIME = 0.008, 0.5  # s of an unconfirmed force that exclude a contact, and for how long at most
+STEADY_RATE = 0.05  # 1/s, of the steady mean of the forces on the quadrotors, once tared: drift and wind
+LEAST_DOUBT, DOUBT_TIME = 0.008, 0.5  # s of an unconfirmed force that exclude a contact, and the longest exclusion
 BEAM = -1.0  # number of the beam in place of that of a guard
 
 
@@ -69,8 +69,8 @@ class ForceBand(NamedTuple):
 class EvidenceState(NamedTuple):
     """Memory: the bands of c, f, T and q; the steady mean of c [N].
 
-    `steepest`: square of the greatest slope of a push [N²/s²] since it exceeds the threshold. `doubt` [s]: for how long
-    a force has lately not been confirmed by the motion.
+    `steepest`: square of the greatest slope of a push [N²/s²] since it exceeds the threshold. `doubt` [s]: recent time
+    for which the motion has not confirmed a force.
     """
 
     outside: ForceBand
@@ -153,7 +153,7 @@ def guard_touched(square: Number, shown: Number, least: Number, seen: Number) ->
         square: of its deviation [N²].
         shown: the product of it with the momentum residual [N²].
         least: square of the threshold, or of the force on the payload if that is larger [N²].
-        seen: 1 if the joints have seen it, else 0.
+        seen: 1 if the joints have measured it, else 0.
     """
     return where(square > least, where(shown > CONFIRMED * square, square * seen, 0.0), 0.0)
 
@@ -184,7 +184,7 @@ def confirms(square: Number, strongest: Number, shown: Number) -> Number:
 
 @law
 def doubt_after(k: ContactDetector, doubt: Number, d: Deviations, dt: Number) -> Number:
-    """For how long the strongest force has lately not been confirmed by the motion [s], at most `DOUBT_TIME`."""
+    """The recent time for which the motion has not confirmed the strongest force [s], at most `DOUBT_TIME`."""
     c, p, T = d.outside, d.push, d.momentum
     on_guards, on_payload = square_of(c), square_of(p)
     strongest = maximum(greatest(on_guards), on_payload)

@@ -1,6 +1,6 @@
-"""What a pilot that knows the walls makes of a horizontal force: which wall may have given it, and where.
+"""The map of walls: finds the wall that may have caused a horizontal force, and the place.
 
-A force is that of a wall if the part is near one, and if the force points away from it within the cone of friction.
+A force may come from a wall if the part is near it, and if the force points away from it within the friction cone.
 Upright sides and edges count; the tops of walls do not, because their forces are vertical.
 """
 
@@ -18,7 +18,7 @@ from tandemlift.parts.mechanics.loads import translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
-LEAST_COSINE = 0.6  # between a force and the way out of a wall: friction of 0.8 turns it by 39°, and noise by more
+LEAST_COSINE = 0.6  # between a force and a wall's normal: friction of 0.8 rotates it by 39°, noise by more
 
 
 class TouchGeometry(NamedTuple):
@@ -38,7 +38,7 @@ class TouchGeometry(NamedTuple):
 
 
 class BeamMatch(NamedTuple):
-    """1 if a known wall explains a force on the beam, else 0; where on it [m, body y]; the offset from the wall [m]."""
+    """1 if a known wall explains a force on the beam, else 0; its place [m, body y]; the offset from the wall [m]."""
 
     matched: Number
     along: Number

@@ -1,4 +1,4 @@
-"""Contact detection, `[contact]`: its keys, and how it starts."""
+"""Contact detection, `[contact]`: its keys and its start."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
 class ContactTable(Table):
-    """`[contact]`: how a touch of a wall is told from a hand and from a broken sensor, and the reaction to it.
+    """`[contact]`: distinction of contact with a wall from a push and from a faulty sensor, and the reaction to it.
 
     It needs `pilot.guidance = "interactive"`, `pilot.push` other than "truth", and rotors that push along body z alone,
     as all do here. See docs/explanation/safety.md.
@@ -29,18 +29,18 @@ class ContactTable(Table):
         "detection of contacts",
         choices={
             "none": "none: a guard that touches a wall looks like joints that disagree",
-            "on": "contacts are named, and the reference is kept out of the wall (needs sensors)",
+            "on": "contacts are reported, and the reference is kept outside the wall (needs sensors)",
         },
     )
     threshold: Positive = key(
         1.0,
         "N",
         "smallest sudden force on a part that may be a contact",
-        source="chosen: twenty times the noise of mission iris's sensors in it",
+        source="chosen: twenty times its noise with the sensors of mission iris",
     )
-    gap: NonNegative = key(0.06, "m", "distance by which the reference leaves the wall", source="chosen")
+    gap: NonNegative = key(0.06, "m", "distance by which the reference moves away from the wall", source="chosen")
     recovery_time: NonNegative = key(
-        1.0, "s", "time after a contact for which the reference still does not cross the place of it", source="chosen"
+        1.0, "s", "time after a contact for which the reference still does not cross its place", source="chosen"
     )
     hold_timeout: Positive = key(
         10.0, "s", "time in contact, less time without, after which the vehicle lands", source="chosen"
@@ -48,8 +48,8 @@ class ContactTable(Table):
 
 
 FAST = 80.0  # rad/s: 12 ms until half of a sudden force is seen; keeps 0.05 N of the noise of mission iris's sensors
-SLOW = 8.0  # rad/s, of the slow means: a hand and gusts change more slowly than a contact
-MARGIN = 0.06  # m: 30 ms at 1 m/s until a contact is seen, and an error of the position
+SLOW = 8.0  # rad/s, of the slow means: pushes and gusts change more slowly than a contact
+MARGIN = 0.06  # m: 30 ms at 1 m/s until a contact is detected, and an error of the position
 
 
 def start_contact_detection(
@@ -79,7 +79,7 @@ def start_contact_detection(
 
 
 def contact_checks(table: ContactTable, guidance: str, sensors: str, push: str) -> Iterator[CheckResult]:
-    """A detection without guidance by hand or without joints; by `pilot.guidance`, `sensors.model`, `pilot.push`."""
+    """Check for a detection without interactive guidance or joints; `pilot.guidance`, `sensors.model`, `pilot.push`."""
     if table.model == "none":
         return
     if guidance != "interactive":

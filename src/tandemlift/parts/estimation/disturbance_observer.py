@@ -47,7 +47,7 @@ from tandemlift.parts.rotors.allocation import Mixer, wrench
 class ObserverTable(Table):
     """`[observer]`: a disturbance observer, which separates wind and model error from the person's push.
 
-    The controller counters what it finds. It is driven by the thrusts that the allocation could give, so it needs
+    The controller compensates its estimate. It is driven by the thrusts that the allocation could give, so it needs
     `allocation.method = "constrained"`. Axes are x, y, z for forces and roll, pitch, yaw for moments.
     """
 
@@ -117,7 +117,7 @@ class ObserverState(NamedTuple):
 
 
 class DisturbanceEstimate(NamedTuple):
-    """The disturbance: force [N, world axes], moment [N·m, body axes]; and the estimation errors.
+    """The estimated disturbance: force [N, world axes], moment [N·m, body axes]; and the estimation errors.
 
     The residuals [m/s², rad/s²] estimate the error δ − δ̂ of the disturbance; by the paper's condition it must stay
     below λ₂.
@@ -246,7 +246,7 @@ def start_observer(
         effect: of its rotors.
         step: sampling time [s].
         initial: the state at the start.
-        hovers: whether the rotors turn as in hover at the start.
+        hovers: whether the rotors have their hover speed at the start.
     """
     if o.model == "none":
         return Absent(), Absent()
@@ -271,9 +271,9 @@ def start_observer(
 
 
 def observer_checks(table: ObserverTable, method: str) -> Iterator[CheckResult]:
-    """An observer that does not know what the rotors could give; `method`: `allocation.method`."""
+    """Check for an observer without known thrusts of the rotors; `method`: `allocation.method`."""
     if table.model != "none" and method != "constrained":
         yield refused(
             f'observer.model = "{table.model}": must be "none" unless allocation.method is "constrained", '
-            "which tells it what the rotors could give"
+            "which gives it the possible thrusts of the rotors"
         )

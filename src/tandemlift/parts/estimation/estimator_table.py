@@ -15,7 +15,7 @@ class EstimatorTable(Table):
     """`[estimator]`: the push from the joints' force sensors, and the state from inertial and motion sensors.
 
     The push is the force that accelerates the payload and does not come through a joint: wind on the payload is part of
-    it. During the tare, in hover, it is assumed to be zero; what the joints then read is their bias.
+    it. During the tare, in hover, it is assumed to be zero; the joints' readings are then their bias.
     """
 
     push_bandwidth: Bandwidth = key(
@@ -30,7 +30,7 @@ class EstimatorTable(Table):
         "when the force sensors are tared",
         choices={
             "at-time": "at tare_start",
-            "hover": "once the vehicle has hovered steadily for a second (needs guidance by hand)",
+            "hover": "once the vehicle has hovered steadily for a second (needs interactive guidance)",
         },
     )
     tare_start: NonNegative | None = key(
@@ -44,13 +44,13 @@ class EstimatorTable(Table):
     identify_mass: bool = key(
         False,
         None,
-        "true identifies the payload's mass during the tare; false takes the excess for a bias of the joints",
+        "true identifies the payload's mass during the tare; false treats the excess as a bias of the joints",
         rule="true needs a tare",
     )
     disagreement_limit: Scale = key(
         2.0,
         "N",
-        "the push is not trusted once one joint's sensor alone would have to be wrong by this horizontal force",
+        "largest horizontal error of a single joint sensor that would explain its readings; beyond, pushes are ignored",
         source="chosen",
     )
     min_force: Scale = key(
@@ -68,17 +68,17 @@ class EstimatorTable(Table):
     confirmation: Literal["none", "motion"] = key(
         "motion",
         None,
-        "what a push must agree with to be followed",
+        "motion with which a push must agree to be followed",
         choices={
             "none": "nothing",
-            "motion": "how the vehicle moves under the thrust that the pilot knows: of a push that the motion "
+            "motion": "motion under the thrust that the pilot assumes: of a push that the motion "
             "contradicts, or that came with wind on the quadrotors, less than the threshold is left",
         },
     )
     wind_compensation: Literal["none", "quadrotors"] = key(
         "none",
         None,
-        "what the push is freed of",
+        "load that is subtracted from the push",
         choices={
             "none": "nothing",
             "quadrotors": "the wind on the payload along body x and y, estimated from the outside forces on the "
@@ -97,11 +97,11 @@ WIDTH = 3.0  # of a push, in standard deviations
 
 
 def tare_checks(e: EstimatorTable, sampling: float, step: float) -> Iterator[CheckResult]:
-    """A mass that no tare identifies, and a tare between two samples of the joints, every `sampling` [s]."""
+    """Check for an identified mass without a tare, and a tare between two samples of the joints; `sampling` [s]."""
     if e.identify_mass and e.tare_start is None and e.tare == "at-time":
         yield refused(
             "estimator.identify_mass = true: the payload's mass is identified during the tare: "
-            "give estimator.tare_start, or do not identify"
+            "set estimator.tare_start, or do not identify"
         )
     interval = step * max(1, round(sampling / step))
     if (e.tare_start is not None or e.tare == "hover") and e.tare_duration < interval:
@@ -111,13 +111,13 @@ def tare_checks(e: EstimatorTable, sampling: float, step: float) -> Iterator[Che
 
 
 def hover_tare_checks(e: EstimatorTable, guidance: str) -> Iterator[CheckResult]:
-    """A tare once the vehicle hovers, which only guidance by hand finds out; `guidance`: `pilot.guidance`."""
+    """Check for a tare in hover, which only interactive guidance detects; `guidance`: `pilot.guidance`."""
     if e.tare == "hover" and guidance != "interactive":
         yield refused('estimator.tare = "hover": must be "at-time" where pilot.guidance is "scheduled"')
 
 
 def bias_warnings(e: EstimatorTable, force_bias: float, push: str) -> Iterator[CheckResult]:
-    """A bias of the joints [N] that no tare takes off; `push`: `pilot.push`."""
+    """Check for a bias of the joints [N] that no tare subtracts; `push`: `pilot.push`."""
     if e.tare != "hover" and e.tare_start is None and push != "truth" and force_bias > 0.0:
         bias = f"sensors.joints.force_bias = {force_bias}"
         yield warned(f"{bias} N is read as a push, as estimator.tare_start is left out")
@@ -126,7 +126,7 @@ def bias_warnings(e: EstimatorTable, force_bias: float, push: str) -> Iterator[C
 def tare_warnings(
     e: EstimatorTable, p: PhasesTable, pushes: Sequence[PushTable], duration: float
 ) -> Iterator[CheckResult]:
-    """A tare outside the hover or the flight of `duration` [s], or within a push."""
+    """Check for a tare outside the hover or the flight of `duration` [s], or within a push."""
     if e.tare == "hover" or e.tare_start is None:
         return
     end, lifted = e.tare_start + e.tare_duration, p.lift_start + p.lift_duration
@@ -139,4 +139,4 @@ def tare_warnings(
         yield warned(f"{window} ends after the landing begins at {p.land_start:g} s")
     for i, push in enumerate(pushes):
         if e.tare_start - WIDTH * push.sigma < push.time < end + WIDTH * push.sigma:
-            yield warned(f"{window} takes a part of pushes.{i} at {push.time:g} s for a bias")
+            yield warned(f"{window} treats a part of pushes.{i} at {push.time:g} s as a bias")

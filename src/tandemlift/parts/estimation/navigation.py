@@ -1,7 +1,7 @@
 """The state of the vehicle from its inertial sensors, corrected by the motion measurement.
 
-A strapdown observer: gyroscope and accelerometer carry attitude, velocity and position of the point where they are (the
-payload's centre of mass) from sample to sample; each motion sample pulls them in with fixed gains and moves the
+A strapdown observer: gyroscope and accelerometer propagate attitude, velocity and position of their location (the
+payload's centre of mass) from sample to sample; each motion sample corrects them with fixed gains and updates the
 estimates of both sensors' bias. The error of every axis (attitude with gyroscope's bias, velocity with accelerometer's)
 obeys e₊ = (1 − ℓ)(e + T b), b₊ = b − (1 − z)²/T (e + T b) from one motion sample to the next, T later: two poles at
 z = exp(−ω T) for ℓ = 1 − z². Position has one.
@@ -38,9 +38,9 @@ class Navigator(NamedTuple):
     """Gains of the observer.
 
     `interval` of the IMU's samples [s]; `centre`: the system's centre of mass from the IMU [m, body axes]; `age`: how
-    much older a motion sample is than the IMU's sample in the same readings [s]. Gains on a motion sample's turn,
-    velocity and position (0 to 1), and of the biases on its turn and velocity [1/s]. `rates`: share of a new sample in
-    the smoothed rates.
+    much older a motion sample is than the IMU's sample in the same readings [s]. Gains on a motion sample's rotation,
+    velocity and position (0 to 1), and of the biases on its rotation and velocity [1/s]. `rates`: share of a new sample
+    in the smoothed rates.
     """
 
     interval: Number
@@ -55,7 +55,7 @@ class Navigator(NamedTuple):
 
 
 class NavigationState(NamedTuple):
-    """Memory: the estimate, of the IMU's point, and what its next step needs.
+    """Memory: the estimate of the IMU's point, and the inputs of its next step.
 
     Position [m], velocity [m/s] and acceleration [m/s²] in world axes, attitude, rates as last measured and smoothed
     [rad/s]; bias of gyroscope [rad/s] and accelerometer [m/s²], body axes; `started` is 1 after the first sample.
@@ -73,7 +73,7 @@ class NavigationState(NamedTuple):
 
 
 class Innovation(NamedTuple):
-    """Measured less estimated: turn [rad, body axes], velocity [m/s] and position [m] in world axes."""
+    """Measured minus estimated: rotation [rad, body axes], velocity [m/s] and position [m] in world axes."""
 
     turn: Vec3
     velocity: Vec3

@@ -1,10 +1,10 @@
-"""How much of a measured push the rest of the vehicle confirms, so that the pilot follows no sensor error and no wind.
+"""Confirmation of a measured push by the rest of the vehicle, so that the pilot follows no sensor error and no wind.
 
-With F̂ the push by joints and accelerometer (`push_estimate`), f_i what quadrotor i puts on the payload, m_i its mass
-and s_i its specific force, r = Σ (f_i + m_i s_i) − T e_z is what acts on the quadrotors besides their modelled thrust
-T. All that acts on the vehicle from outside is F̂ + r. What r tells of F̂ is in `confirmed_part`, per body axis; about
-the vertical the same holds for the moments, without wind. Without rotors that have limits, T is not known, and nothing
-is told.
+With F̂ the push by joints and accelerometer (`push_estimate`), f_i the force of quadrotor i on the payload, m_i its
+mass and s_i its specific force, r = Σ (f_i + m_i s_i) − T e_z is the force on the quadrotors besides their modelled
+thrust T. The whole external force on the vehicle is F̂ + r. `confirmed_part` confirms F̂ by r, per body axis; about the
+vertical the same holds for the moments, without wind. Without limits of the rotors, T is unknown, and nothing is
+rejected.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ from tandemlift.parts.rotors.allocation import Mixer, mixer_from, wrench
 from tandemlift.parts.rotors.rotor_lag import Lag, lag, lag_step
 from tandemlift.parts.sensors.readings import ImuReading
 
-BANDWIDTH = 10.0  # rad/s, of the low-pass on r: a push does not show in r, so it need not be fast
+BANDWIDTH = 10.0  # rad/s, of the low-pass on r, which may be slow because a push does not change r
 REST_THRUST = 1e-3  # N
 NO_WIND = 1e-9  # a ratio ρ by which r explains nothing
 
 
 class RotorModel(NamedTuple):
-    """Rotors as the pilot knows them: their wrench, k [N/(rad/s)²] and 1/k, and lags, each a set."""
+    """The pilot's model of the rotors: their wrench, k [N/(rad/s)²] and 1/k, and lags, each a set."""
 
     effect: Mixer
     constant: PerRotor
@@ -71,7 +71,7 @@ class ConfirmationState(NamedTuple):
 
 
 class SampledPush(NamedTuple):
-    """What a push was estimated from: the reading of the IMU, the estimator, and its memory after the sample."""
+    """The source of an estimated push: the reading of the IMU, the estimator, and its memory after the sample."""
 
     imu: ImuReading
     estimator: PushEstimator
@@ -79,7 +79,7 @@ class SampledPush(NamedTuple):
 
 
 class OutsideLoad(NamedTuple):
-    """What acts from outside besides the push: force [N, body axes] and moment about z [N·m]; a sample."""
+    """A sample of the external load besides the push: force [N, body axes] and moment about z [N·m]."""
 
     force: Vec3
     turning: Number
@@ -87,7 +87,7 @@ class OutsideLoad(NamedTuple):
 
 @law
 def on_quadrotors(k: PushEstimator, imu: ImuReading, angular: Vec3) -> Vec3:
-    """Σ (f_i + m_i s_i) [N, body axes]: the rotors' thrust, and what acts on the quadrotors from outside."""
+    """Σ (f_i + m_i s_i) [N, body axes]: the rotors' thrust and the external force on the quadrotors."""
     a, w = imu.specific_force, imu.rates
     turn = cross(cross(k.quadrotors, w), w) - cross(k.quadrotors, angular)
     return sum_over_set(imu.joint_force + scaled(translated(a, turn), k.quadrotor_mass))
@@ -149,9 +149,9 @@ def confirm(
         k: a `PushConfirmation`, or `Absent`.
         memory: its memory.
         push: as estimated.
-        reading: what it was estimated from.
+        reading: the source of the estimate.
         commands: the last thrusts of all rotors [N]; not used without a model of the rotors.
-        explained: 1 while a contact with a wall explains what acts on the quadrotors, else 0.
+        explained: 1 while a contact with a wall explains the force on the quadrotors, else 0.
         dt: since the last sample [s].
     """
 
@@ -205,13 +205,13 @@ def withheld(
     )
 
 
-TOLERANCE = 0.5  # of the threshold of a push: also after a bias of the other sign, what is left stays below it
-MARGIN = 1.2  # on ratios of drag areas, which are not known better
-TINY_AREA = 1e-6  # m²: quadrotors with less tell nothing of the wind
+TOLERANCE = 0.5  # of the threshold of a push, so that the rest stays below it even after a bias of the other sign
+MARGIN = 1.2  # tolerance of the ratios of drag areas
+TINY_AREA = 1e-6  # m²: quadrotors with less do not measure the wind
 
 
 def rotor_model(vehicle: Vehicle, step: float) -> tuple[RotorModel, PerRotor]:
-    """The rotors as the pilot knows them, and their speeds at rest."""
+    """The pilot's model of the rotors, and their speeds at rest."""
     rotors, fleet = each(vehicle.rotor_count), [q for q in vehicle.quadrotors for _ in range(4)]
     up, down = (lag([getattr(q, name) for q in fleet], step) for name in ("lag_up", "lag_down"))
     constants = [q.thrust_constant for q in fleet]
@@ -241,14 +241,14 @@ def start_confirmation(
         e: `[estimator]`.
         vehicle: the nominal one.
         step: sampling time [s].
-        threshold: force [N] along each axis from which on a push is followed.
-        moment_threshold: moment [N·m] from which on a push turns the vehicle.
+        threshold: force [N] along each axis above which a push is followed.
+        moment_threshold: moment [N·m] above which a push rotates the vehicle.
         limited: whether the allocation knows the limits of the rotors, and so their thrusts.
     """
     x, y, z = threshold
     if e.confirmation == "none":
         return Absent(), Absent()
-    side = minimum(x, y) * TOLERANCE  # body axes turn with the heading
+    side = minimum(x, y) * TOLERANCE  # body axes rotate with the heading
     heavier = vehicle.payload.mass / (vehicle.mass - vehicle.payload.mass)
     margin = MARGIN if e.wind_compensation == "none" else 0.0
     rotors, speeds = rotor_model(vehicle, step) if limited else (Absent(), Absent())

@@ -1,12 +1,12 @@
 """The push of a person on the payload, from the sensors at its joints and in its centre of mass.
 
-With f_i, t_i what quadrotor i puts on the payload at its joint c_i, a the specific force and ω the rates, all in body
+With f_i, t_i the load of quadrotor i on the payload at its joint c_i, a the specific force and ω the rates, all in body
 axes and about the payload's centre of mass, the payload's equations of motion (the paper's trans_rot_payload_equ, with
 a person on its right side) leave for the person F = m_L a − Σ f_i and M = J_L ω̇ + ω × J_L ω − Σ t_i − Σ c_i × f_i.
 Wind on the payload counts as a push. ω̇ is the difference of consecutive samples.
 
 In hover, over a window, the means of F and M are taken as the sensors' bias, after the payload's mass if it is
-identified (`parts.estimation.tare`); where an excess of mass sits, hover does not tell (`inertial_force`). The wind on
+identified (`parts.estimation.tare`); the place of an excess mass is not observable in hover (`inertial_force`). Wind on
 the payload may be subtracted (`parts.mechanics.air_drag`).
 
 The external force on quadrotor i is f_i + m_i s_i, with s_i its specific force. Thrust is only in z, so x and y are
@@ -14,7 +14,7 @@ wind or sensor error; where they differ between quadrotors, the push is not trus
 that are equal at all joints are not detected.
 
 One low-pass in body axes serves F and M, so that the point of application, x × F = M on the beam's axis y, is exact
-however the force changes and the vehicle turns.
+however the force changes and the vehicle rotates.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ class PushEstimator(NamedTuple):
     `per_interval`: samples of the IMU per second. `least`: square of the least force [N²] that has a point of
     application. Tare from `tare_start` [s] until before `tare_end`; `identify` is 1 to identify the payload's mass,
     else 0. `limit`: disagreement [N] from which on nothing is trusted; `share` is 1/N, `alone` N/(N − 1) or 0 for N =
-    1. `windage`: how wind is taken off, or `Absent`.
+    1. `windage`: how wind is subtracted, or `Absent`.
     """
 
     mass: Number
@@ -124,10 +124,10 @@ def moment_on_payload(k: PushEstimator, imu: ImuReading, angular: Vec3) -> Vec3:
 
 @law
 def inertial_force(k: PushEstimator, specific_force: Vec3, rates: Vec3, angular: Vec3, mass: Number) -> Vec3:
-    """m_L a [N, body axes]; `mass` [kg] beyond the nominal is taken to be at the system's centre of mass.
+    """m_L a [N, body axes]; `mass` [kg] beyond the nominal is assumed at the system's centre of mass.
 
-    `specific_force` [m/s²] is at the payload's centre of mass. Taken to be there too, a large excess would make every
-    turn of the vehicle look like a push, which the pilot then compensates: an unstable loop.
+    `specific_force` [m/s²] is at the payload's centre of mass. If a large excess mass were assumed there too, every
+    rotation of the vehicle would look like a push, which the pilot then compensates: an unstable loop.
     """
     turn = cross(cross(k.system, rates), rates) - cross(k.system, angular)
     return specific_force * mass + turn * (mass - k.mass)
@@ -158,7 +158,7 @@ def sides(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces:
 
 @law
 def point_of_application(k: PushEstimator, force: Vec3, moment: Vec3) -> Number:
-    """Where on the beam's axis, body y [m], a force acts that has this moment about its centre (body axes)."""
+    """The place on the beam's axis, body y [m], of a force with this moment about the centre (body axes)."""
     square = force.x * force.x + force.z * force.z
     y = (moment.x * force.z - moment.z * force.x) / maximum(square, k.least)
     return where(square < k.least, 0.0, clip(y, -k.reach, k.reach))
@@ -209,7 +209,7 @@ def concluded(
     mass: Number,
     armed: Number,
 ) -> PushEstimate:
-    """The push from the sample's `force` [N] and `turning` moment [N·m], body axes, and what is low-passed."""
+    """The push from the sample's `force` [N] and moment `turning` [N·m], body axes, and the low-passed values."""
     R = rotation_from_quaternion(imu.frame)
     smoothed, moment = apply(R, after.force.value), after.moment.value
     wrong = disagreement(k, after.x.value, after.y.value)
@@ -246,7 +246,7 @@ def push_estimator(
     windage: PayloadDrag | Absent = NOTHING,
     system: ArrayLike = (0.0, 0.0, 0.0),
 ) -> PushEstimator:
-    """The estimator of the push on a payload, as the pilot believes the vehicle to be.
+    """The estimator of the push on a payload, with the pilot's model of the vehicle.
 
     Args:
         mass: of the payload [kg].
@@ -263,7 +263,7 @@ def push_estimator(
         tare_duration: [s].
         identify_mass: whether to identify the payload's mass during the tare.
         disagreement_limit: [N], from which on the push is not trusted.
-        windage: how the wind on the payload is taken off, or `Absent`.
+        windage: how the wind on the payload is subtracted, or `Absent`.
         system: the whole vehicle's centre of mass from the payload's [m], body axes (3).
 
     Raises:

@@ -38,7 +38,7 @@ class TareSums(NamedTuple):
 
 
 class Tare(NamedTuple):
-    """What the tare found: mass of the payload [kg], bias of force [N] and moment [N·m] (body axes) and sides."""
+    """The result of the tare: mass of the payload [kg], bias of force [N] and moment [N·m] (body axes) and sides."""
 
     mass: Number
     force: Vec3

@@ -1,12 +1,12 @@
-"""The wind on the payload, from what it puts on the quadrotors, so that it is not taken for a person's push.
+"""The wind on the payload, estimated from its force on the quadrotors, so that it is not misclassified as a push.
 
-What acts on quadrotor i from outside, f_i + m_i s_i with s_i its specific force (`push_estimate`), is horizontally
-drag alone: its rotors push along z. Drag is ½ ρ C A |v| v by body axis, with the same velocity v through the air for
-payload and quadrotors, as long as the vehicle hardly turns. So along x and y the payload's is the mean over the
+The horizontal external force on quadrotor i, f_i + m_i s_i with s_i its specific force (`push_estimate`), is drag
+alone, because its rotors push along z. Drag is ½ ρ C A |v| v by body axis, with the same velocity v through the air for
+payload and quadrotors, as long as the vehicle rotates slowly. So along x and y the payload's drag is the mean over the
 quadrotors times the ratio of their C A, whatever the wind. Along z nothing is known.
 
-The ratio also multiplies what the sensors err by. A low-pass of bandwidth ω keeps of σ a sample, every T, in the mean
-of N joints, ratio σ √(ω T/4N); it is as much too late for gusts, 2/ω.
+The ratio also multiplies the sensors' errors. For noise σ per sample, taken every T, in the mean of N joints, a
+low-pass of bandwidth ω leaves ratio · σ √(ω T/4N); it delays gusts by 2/ω.
 """
 
 from collections.abc import Iterator, Sequence
@@ -34,7 +34,7 @@ class PayloadDrag(NamedTuple):
 
 
 class PayloadDragState(NamedTuple):
-    """Memory: sum over the tare's samples of what is to be taken off, their count, and the low-pass [N, body axes]."""
+    """Memory: sum and count of the tare's samples of the wind force, and the low-pass [N, body axes]."""
 
     sum: Vec3
     count: Number  # type: ignore[assignment]  # hides a method of tuples
@@ -88,7 +88,7 @@ def _scaled(
 
 @choice(absent=ZERO)
 def subtracted_wind(memory: PayloadDragState | Absent) -> Vec3:
-    """What was subtracted from the push at the last sample [N, body axes], from this memory."""
+    """The force that was subtracted from the push at the last sample [N, body axes]."""
 
 
 @subtracted_wind.register(PayloadDragState)
@@ -109,10 +109,10 @@ def payload_drag_from(vehicle: Vehicle, bandwidth: float, step: float) -> Payloa
 
 
 def compensation_checks(model: str, quadrotors: Sequence[Quadrotor]) -> Iterator[CheckResult]:
-    """Quadrotors without drag along an axis, which tell nothing of its wind; `model`: `wind_compensation`."""
+    """Check for quadrotors without drag along an axis, which do not measure its wind; `model`: `wind_compensation`."""
     for axis, name in enumerate("xy"):
         if model != "none" and not any(q.drag_area[axis] * q.drag_coefficient > 0.0 for q in quadrotors):
             yield refused(
                 'estimator.wind_compensation = "quadrotors": must be "none" where no quadrotor has drag along body '
-                f"{name}: there its wind tells nothing"
+                f"{name}: there the wind is not measured"
             )

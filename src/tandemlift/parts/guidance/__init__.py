@@ -1,1 +1,1 @@
-"""Guidance by the clock or by hand: phases, heading, contact, requests, supervision and its reactions to faults."""
+"""Scheduled or interactive guidance: phases, heading, contact, requests, supervision and reactions to faults."""

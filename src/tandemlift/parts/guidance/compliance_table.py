@@ -1,4 +1,4 @@
-"""Guidance by hand, `[compliance]`: its keys."""
+"""Interactive guidance, `[compliance]`: its keys."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tandemlift.parts.mechanics.low_pass import low_pass
 
 
 class ComplianceTable(Table):
-    """`[compliance]`: guidance by hand, around mass, damping, stiffness and threshold of `[admittance]`.
+    """`[compliance]`: interactive guidance, around mass, damping, stiffness and threshold of `[admittance]`.
 
     It applies where `pilot.guidance = "interactive"`: measured push → low-pass → dead band → low-pass → admittance →
     limits.
@@ -49,30 +49,30 @@ class ComplianceTable(Table):
     braking_gain: Positive = key(
         4.0,
         "1/s",
-        "near the largest speed, acceleration is limited to this times the speed that is left",
+        "braking gain b: acceleration ≤ b · (max_speed − speed)",
         source="chosen",
     )
     max_tilt: Tilt = key(
         0.5,
         "rad",
-        "largest tilt that accelerations may ask for",
+        "largest tilt for accelerations",
         source="chosen: 29°, where hover needs 14 % more thrust",
     )
     thrust_fraction: Fraction = key(
         0.9, "1", "fraction of the largest thrust that accelerations may use", source="chosen: leaves 10 % for control"
     )
     force_lead: Delay = key(
-        0.11, "s", "lead time of the countered push, which makes up for filters and rotors", source=TRIAL
+        0.11, "s", "lead time of the compensated push, against the delay of filters and rotors", source=TRIAL
     )
-    moment_lead: Delay = key(0.06, "s", "lead time of the countered push's moment", source=TRIAL)
+    moment_lead: Delay = key(0.06, "s", "lead time of the compensated push's moment", source=TRIAL)
     reference_lead: Delay = key(0.11, "s", "lead time of the reference's acceleration", source=TRIAL)
     touchdown_depth: NonNegative = key(
-        0.03, "m", "a landing's reference ends this far below the ground, so that the feet press on it", source="chosen"
+        0.03, "m", "depth below the ground at which a landing's reference ends, so that the feet press", source="chosen"
     )
     min_height: NonNegative = key(
         0.1,
         "m",
-        "height above the ground from which it was lifted, below which a push moves the reference no further down; "
+        "height above the ground of the lift, below which a push moves the reference no further down; "
         "where there is a floor",
         source="chosen: far above the depth of a landing",
     )

@@ -1,11 +1,11 @@
-"""The reaction to a contact: the reference does not move into the wall, leaves it by a gap, and may slide along it.
+"""The reaction to a contact: the reference moves away from the wall by a gap, and may move along it but not into it.
 
-At the touch, the plane through the vehicle's centre of mass, across the way out of the wall, becomes a boundary. While
-the contact lasts, and for a time after it, the reference stays on its outer side: its velocity and its acceleration
-into the wall are zero, everything along the wall is as ever. It then leaves the wall slowly until a gap is reached.
-The observer of disturbances learns nothing from a wall, and the force of a wall on the beam is no push.
+At the touch, the plane through the vehicle's centre of mass, normal to the wall's normal, becomes a boundary. While the
+contact lasts, and for a time after it, the reference stays on its outer side: velocity and acceleration into the wall
+are zero, and motion along the wall is unchanged. The reference then slowly moves away until a gap is reached. The
+disturbance observer does not adapt to a wall, and the force of a wall on the beam is no push.
 
-The time in contact, which time without one takes back, leads to a landing.
+A timer counts up in contact and down without; it leads to a landing.
 """
 
 from __future__ import annotations
@@ -25,18 +25,18 @@ from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 LEAVING_SPEED = 0.1  # m/s, of the reference towards the gap
-LEAD = 0.25  # m, by which the reference may be ahead of the vehicle along a wall, whose friction holds it back
-SAME_WALL = 0.7  # least cosine between the ways out of two touches of one wall
+LEAD = 0.25  # m, largest lead of the reference along a wall, whose friction holds the vehicle back
+SAME_WALL = 0.7  # least cosine between the normals of two touches of one wall
 BEAM = 65.0  # number of the beam in the code of a contact: after that of the last possible quadrotor
-DIAGONAL = 0.38268  # sin 22.5°: from there on, a direction has a component along an axis
+DIAGONAL = 0.38268  # sin 22.5°: above it, a direction has a component along an axis
 DIRECTIONS, PLACES, HALF_PLACES = 9.0, 8192.0, 4096.0  # in the code of a contact
 HAND_RATE = 40.0  # N/s and N m/s: the fastest change of a push while a contact is near
 TINY = 1e-12  # m²
-ROUND = 6755399441055744.0  # 1.5 · 2^52: added and taken off, it leaves a whole number
+ROUND = 6755399441055744.0  # 1.5 · 2^52: adding and subtracting it rounds to a whole number
 
 
 class ContactReaction(NamedTuple):
-    """The parameters: `gap` [m] to leave; times [s] after which a contact is over, and leads to a landing."""
+    """The parameters: the `gap` to a wall [m]; times [s] after which a contact is over, and leads to a landing."""
 
     gap: Number
     recovery_time: Number
@@ -53,9 +53,9 @@ class HandWrench(NamedTuple):
 class ContactReactionState(NamedTuple):
     """Memory: 1 while the boundary holds; the part that touched; the contact's code; the push as used at last.
 
-    The boundary's `normal`, its place along that (`level` [m]), and its `lever` [m]: by how much the part that touched
-    leaves the wall per yaw angle. `free_time` [s]: since the last touch. `held_time` [s]: in contact, less the time
-    without.
+    The boundary's `normal`, its place along that (`level` [m]), and its `lever` [m]: distance by which the part that
+    touched leaves the wall per yaw angle. `free_time` [s]: since the last touch. `held_time` [s]: in contact, less the
+    time without.
     """
 
     holding: Number
@@ -70,9 +70,9 @@ class ContactReactionState(NamedTuple):
 
 
 class Boundary(NamedTuple):
-    """What a contact asks of the guidance.
+    """The bounds of the guidance by a contact.
 
-    `push`: the person's, as far as it is no wall's; `on`: 1 while the boundary holds. Its `normal`, its place along
+    `push`: the person's, without that of a wall; `on`: 1 while the boundary holds. Its `normal`, its place along
     that (`level`) and the least one of the reference [m], its `lever` (see `ContactReactionState`); the vehicle's
     `position` [m]; the load of the `wall`; 1 to `land`; the contact's `code`, for events; 1 while the beam touches.
     """
@@ -183,7 +183,7 @@ def _kept_out(b: Boundary, m: ComplianceState, dt: Number) -> ComplianceState:
 
 @choice(absent="moment")
 def turning_out(b: Boundary | Absent, moment: Number) -> Number:
-    """The moment about the vertical that may turn the vehicle [N·m]: none that turns the part into the wall."""
+    """The moment about the vertical that may rotate the vehicle [N·m]: none that rotates the part into the wall."""
 
 
 @turning_out.register(Boundary)
@@ -193,14 +193,14 @@ def _turning_out(b: Boundary, moment: Number) -> Number:
 
 @law
 def slower(m: HandWrench, force: Vec3, moment: Vec3, dt: Number) -> HandWrench:
-    """A push that follows the measured one no faster than a hand changes it: a wall's blows are no push."""
+    """A push that follows the measured one only as fast as a hand changes it, to exclude impacts on a wall."""
     step = HAND_RATE * dt
     return HandWrench(moved_towards(m.force, force, step), moved_towards(m.moment, moment, step))
 
 
 @choice(absent="pilot_input")
 def without_wall(b: Boundary | Absent, pilot_input: PilotInput) -> PilotInput:
-    """The pilot's input without what a wall gives of the push; of a beam that touches, what points out of the wall."""
+    """The pilot's input without the wall's part of the push; while the beam touches, without any part out of it."""
 
 
 @without_wall.register(Boundary)

@@ -1,4 +1,4 @@
-"""Faults: detected from the watchdogs' report and the limits of a flight, and the reaction to those that are present.
+"""Detection of faults by the watchdogs' report and a flight's limits, and the reaction to present faults.
 
 The reaction is the strongest that is configured for any of them. `core.faults` has the faults, their numbers and
 their order.
@@ -62,7 +62,7 @@ class ActiveFaults(_FaultTuple):
 
 
 class FaultReaction(NamedTuple):
-    """The strongest reaction to the faults that are present, and the alarm of the first that calls for it; or zeros."""
+    """The strongest reaction to the present faults, and the alarm of the first fault with it; or zeros."""
 
     reaction: Number
     alarm: Number
@@ -89,7 +89,7 @@ def strongest_reaction(f: ActiveFaults, r: ActiveFaults) -> FaultReaction:
 
 
 class Fence(NamedTuple):
-    """Corners of the box for the reference [m, world axes], and by how much the vehicle may be outside [m].
+    """Corners of the box for the reference [m, world axes], and the distance that the vehicle may be outside [m].
 
     `braking_gain` [1/s]: the largest speed towards a side of the box over the distance to it.
     """
@@ -122,7 +122,7 @@ class SupervisionLimits(NamedTuple):
 
 
 class LimitTimers(NamedTuple):
-    """For how long each limit has been exceeded, and for how long a landing has been standing on something [s]."""
+    """Times for which each limit has been exceeded, and for which a landing has stood on something [s]."""
 
     joints: Number
     thrust: Number
@@ -138,7 +138,7 @@ NO_TIME = LimitTimers(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 @law
 def time_exceeded(timer: Number, exceeded: Number, dt: Number) -> Number:
-    """For how long a limit has been exceeded [s]; `exceeded` is 1 or 0 now."""
+    """The time for which a limit has been exceeded [s]; `exceeded` is 1 or 0 now."""
     return (timer + dt) * exceeded
 
 
@@ -150,7 +150,7 @@ def expired(timer: Number, limit: Number) -> Number:
 
 @law
 def distance_outside(low: Vec3, high: Vec3, p: Vec3) -> Number:
-    """How far a position is outside a box [m], along the axis where it is farthest; negative inside."""
+    """The distance of a position outside a box [m], along the axis where it is largest; negative inside."""
     x = maximum(low.x - p.x, p.x - high.x)
     y = maximum(low.y - p.y, p.y - high.y)
     z = maximum(low.z - p.z, p.z - high.z)

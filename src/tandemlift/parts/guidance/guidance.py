@@ -1,6 +1,6 @@
-"""Guidance: from the pilot's input to the reference; its input, its output, and the common signature of its laws.
+"""Guidance, from the pilot's input to the reference: input, output, and the common signature of the laws.
 
-By a schedule as in the paper: `scheduled_guidance`. By hand, in phases: `hand_guidance`.
+The paper's scheduled guidance is in `scheduled_guidance`, interactive guidance with phases in `hand_guidance`.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ Reading = Literal["truth", "measurement", "estimate"]
 
 
 class PilotTable(Table):
-    """`[pilot]`: what guides the vehicle, and what the pilot reads."""
+    """`[pilot]`: the guidance of the vehicle, and the inputs of the pilot."""
 
     guidance: Literal["scheduled", "interactive"] = key(
         "scheduled",
         None,
-        "what guides the vehicle",
+        "guidance of the vehicle",
         choices={
             "scheduled": "lift and landing at set times, and the admittance between them",
             "interactive": "phases and requests, and `[compliance]` around the admittance",
@@ -43,7 +43,7 @@ class PilotTable(Table):
     state: Reading = key(
         "truth",
         None,
-        "where position, velocity, attitude and rates come from",
+        "source of position, velocity, attitude and rates",
         rule='"truth" without sensors',
         choices={
             "truth": "the simulation",
@@ -54,7 +54,7 @@ class PilotTable(Table):
     push: Reading = key(
         "truth",
         None,
-        "where the person's force comes from",
+        "source of the person's force",
         rule='"truth" without sensors',
         choices={
             "truth": "the simulation",
@@ -65,10 +65,10 @@ class PilotTable(Table):
     map: Literal["none", "walls"] = key(
         "none",
         None,
-        "what the pilot knows of its surroundings",
+        "map of the surroundings that the pilot uses",
         choices={
             "none": "nothing",
-            "walls": 'the walls, so that a contact is told from a hand more surely (with `contact.model = "on"`)',
+            "walls": 'the walls, which distinguish a contact from a push more reliably (with `contact.model = "on"`)',
         },
     )
 
@@ -123,8 +123,8 @@ class Guidance(NamedTuple):
 
     The gated force [N, world axes]; T_r with its derivatives; the reference; the push that the controller compensates:
     force [N, world axes] and moment [N·m, body axes]; the fraction of the thrusts that is commanded; 1 in flight, else
-    0; 1 while observers may learn, else 0, as where the feet may press on the ground; the channels. `wall`: what a wall
-    gives besides, a `LoadOfWall`, or `Absent`.
+    0; 1 while observers may learn, else 0, as where the feet may press on the ground; the channels. `wall`: load of a
+    wall, a `LoadOfWall`, or `Absent`.
     """
 
     force: Vec3
@@ -233,14 +233,14 @@ def _run_in_flight(rotors: RunningInFlight, t: Number) -> ThrustFraction:
 
 
 def running_from(p: PhasesTable) -> AlwaysRunning | RunningInFlight:
-    """When the rotors turn."""
+    """The times at which the rotors turn."""
     if p.rotors == "always":
         return AlwaysRunning()
     return RunningInFlight(p.lift_start, NEVER if p.land_start is None else p.land_start + p.land_duration)
 
 
 def reading_checks(pilot: PilotTable, sensors: str) -> Iterator[CheckResult]:
-    """A pilot that reads sensors where there are none; `sensors`: `sensors.model`."""
+    """Check for a pilot that reads sensors that a mission does not have; `sensors`: `sensors.model`."""
     for name, reading in (("state", pilot.state), ("push", pilot.push)):
         if sensors != "simulated" and reading != "truth":
             yield refused(

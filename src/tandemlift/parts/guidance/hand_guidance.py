@@ -1,4 +1,4 @@
-"""Guidance by hand: phases with entry conditions, a compliance, and a heading that a person can turn."""
+"""Interactive guidance: phases with entry conditions, a compliance, and a heading that a person can rotate."""
 
 from __future__ import annotations
 
@@ -78,10 +78,10 @@ from tandemlift.parts.person.requests import (
 
 
 class HandGuidance(NamedTuple):
-    """Guidance by hand.
+    """Interactive guidance.
 
     `moment`: low-pass of the push's moment, which the controller compensates with a lead time of `moment_lead` [s].
-    `available`: what rotors and tilt can give; `clearance` of the reference above the ground, or `Absent`.
+    `available`: the available thrust and tilt; `clearance` of the reference above the ground, or `Absent`.
     """
 
     phasing: PhaseSettings
@@ -98,7 +98,7 @@ class HandGuidance(NamedTuple):
 
 
 class HandGuidanceState(NamedTuple):
-    """Memory of the parts of a guidance by hand."""
+    """Memory of the parts of interactive guidance."""
 
     phase: PhaseState
     compliance: ComplianceState
@@ -111,7 +111,7 @@ class HandGuidanceState(NamedTuple):
 
 
 class HandGuidanceChannels(NamedTuple):
-    """The channels of a guidance by hand."""
+    """The channels of interactive guidance."""
 
     phase: Number
     push_filtered: Vec3
@@ -165,7 +165,7 @@ def with_lift_and_landing(g: HandGuidance, T: Trajectory, phase: PhaseOutput) ->
 def presses_on_ground(m: PhaseState, height: Number, floor: Number) -> Number:
     """1 once the reference of a landing, at a height [m], is below the ground, so that the feet press; else 0.
 
-    On a `floor` (1) also after the landing, with rotors that keep running: what the floor gives is no disturbance.
+    On a `floor` (1) also after the landing, with running rotors: the force of the floor is no disturbance.
     """
     return (is_in(m, LAND) + is_in(m, IDLE) * floor) * where(height < m.ground, 1.0, 0.0)
 
@@ -179,7 +179,7 @@ def channels_from(
     limited: Number,
     supervision: SupervisionChannels | Absent,
 ) -> HandGuidanceChannels:
-    """The channels of a step; `limited`: why it cannot follow, or 0; `supervision`: its channels."""
+    """The channels of a step; `limited`: the reason why it cannot follow, or 0; `supervision`: its channels."""
     push = m.filtered.value - m.band.bias
     return HandGuidanceChannels(phase.phase, push, m.band.active, damping, heading.rate, limited, supervision)
 
@@ -188,7 +188,7 @@ def channels_from(
 def following_step(
     g: HandGuidance, m: FollowingState, phase: PhaseState, state: State, load: Vec3, reference: Reference, time: tuple
 ) -> FollowingState:
-    """The memory of what limits the vehicle; nothing does on the ground, in a landing or in contact.
+    """The memory of the vehicle's limits, which do not apply on the ground, in a landing or in contact.
 
     Args:
         g: the guidance.

@@ -1,8 +1,8 @@
 """The phases of a flight with a person, as a state machine.
 
 idle on the ground → lift → hold ⇄ guided ⇄ contact, limited → land → idle; from each of them → stopped, which is final.
-`next_phase` has the transitions, `PhaseOutput` what a phase allows. The laws have no branches: every condition is a
-number, 1 or 0. The diagram is in docs/explanation/safety.md; `core.phases` has names and numbers.
+`next_phase` has the transitions, `PhaseOutput` the permissions of a phase. The laws have no branches: every condition
+is a number, 1 or 0. The diagram is in docs/explanation/safety.md; `core.phases` has names and numbers.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ from tandemlift.parts.person.requests import RequestCounts, RequestSchedule
 
 SETTLING_TIME = 1.0  # s, of steady hover before a tare
 STEADY_SPEED = 0.1  # m/s and rad/s
-SPIN, SPIN_HEIGHT = 2.0, 0.03  # rad/s, m: a landing that still turns so fast ends this far above the ground
+SPIN, SPIN_HEIGHT = 2.0, 0.03  # rad/s, m: a landing with at least this rate ends at this height above the ground
 
 
 class PhaseSettings(NamedTuple):
     """Parameters of the phases.
 
     `height` [m] of the lift; the times of the requests to lift and to land [s]; rates are 1/duration [1/s].
-    `touchdown_depth` [m]: how far below the ground a landing's reference ends, so that the feet press. `spin_up_time`
+    `touchdown_depth` [m]: depth at which a landing's reference ends, so that the feet press. `spin_up_time`
     [s]: from the start of the rotors to the lift. `always_running` is 1 if the rotors run on the ground too, else 0.
     `max_descent_speed` [m/s]: of a landing. `requests`: a `RequestSchedule`, or `Absent`.
     """
@@ -47,8 +47,8 @@ class PhaseSettings(NamedTuple):
 class PhaseState(NamedTuple):
     """Memory: the phase and its start [s]; height of the ground [m], and 1/duration of the present landing [1/s].
 
-    `lift_fraction`: of the lift that is done; `extra_depth` [m]: how much farther down the landing ends; the numbers of
-    requests to lift and to land that are handled; for how long the vehicle has hovered steadily, less `SETTLING_TIME`.
+    `lift_fraction`: of the lift that is done; `extra_depth` [m]: additional depth of the landing; the numbers of
+    handled requests to lift and to land; the time of steady hover, less `SETTLING_TIME`.
     """
 
     phase: Number
@@ -65,8 +65,8 @@ class PhaseState(NamedTuple):
 class PhaseBounds(NamedTuple):
     """Bounds, 1 or 0: whether supervision allows a lift and guidance; whether it demands to hold, land, stop.
 
-    `touched_down`: whether a landing has ended early on something. `extra_depth` [m]: how much farther down a landing
-    that begins now ends. `contact`: whether the reference is kept out of a wall. `limited`: above 0 while the vehicle
+    `touched_down`: whether a landing has ended early on something. `extra_depth` [m]: additional depth of a landing
+    that begins now. `contact`: whether the reference is kept outside a wall. `limited`: above 0 while the vehicle
     cannot follow its reference.
     """
 
@@ -82,7 +82,7 @@ class PhaseBounds(NamedTuple):
 
 
 class PhaseOutput(NamedTuple):
-    """What a phase allows: its number; 1 or 0 for on the ground, following pushes, rotors running.
+    """The permissions of a phase: its number; 1 or 0 for on the ground, following pushes, rotors running.
 
     `flying`: 1 once the feet may have left the ground, for observers. The ramps of lift and landing; the landing ends
     at height `end` [m]. `compensating`: 1 while the controller compensates pushes.
@@ -157,9 +157,9 @@ def next_phase(
 
 @law
 def turning_at_ground(m: PhaseState, state: State) -> Number:
-    """1 where a vehicle that turns about the vertical is about to touch the ground, else 0.
+    """1 if a vehicle that rotates about the vertical is about to touch the ground, else 0.
 
-    Feet that are dragged over the ground while the rotors run would turn it over.
+    Feet that are dragged over the ground while the rotors run would overturn it.
     """
     return where(state.position.z < m.ground + SPIN_HEIGHT, where(absolute(state.rates.z) > SPIN, 1.0, 0.0), 0.0)
 
@@ -173,7 +173,7 @@ def landing_rate(k: PhaseSettings, height: Number) -> Number:
 
 @law
 def hover_time(m: PhaseState, phase: Number, state: State, dt: Number) -> Number:
-    """For how long it has hovered steadily, less `SETTLING_TIME` [s]; above zero it only needs to be in the air."""
+    """The time of steady hover, less `SETTLING_TIME` [s]; above zero, being in the air is sufficient."""
     flies = where(phase == GUIDED, 1.0, where(phase == HOLD, 1.0, where(phase == CONTACT, 1.0, 0.0)))
     up = where(phase == LIMITED, 1.0, flies)
     moving = maximum(dot(state.velocity, state.velocity), dot(state.rates, state.rates))
@@ -229,7 +229,7 @@ def update_phase(
 
 @law
 def phase_output(k: PhaseSettings, m: PhaseState, t: Number) -> PhaseOutput:
-    """What a phase allows at time t [s]."""
+    """The permissions of a phase at time t [s]."""
     idle, lift, land, stopped = is_in(m, IDLE), is_in(m, LIFT), is_in(m, LAND), is_in(m, STOPPED)
     up = smoothstep(t, m.since + k.spin_up_time, k.lift_rate)
     down = smoothstep(t, m.since, m.land_rate)

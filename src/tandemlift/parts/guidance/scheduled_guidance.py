@@ -1,4 +1,4 @@
-"""The paper's guidance, by a schedule: gate → admittance → lift and landing at set times."""
+"""The paper's scheduled guidance: gate → admittance → lift and landing at set times."""
 
 from __future__ import annotations
 

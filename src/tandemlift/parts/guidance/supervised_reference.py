@@ -21,7 +21,7 @@ TOUCHDOWN_FACTOR = 8.0  # by which a blind descent accelerates at its end, so th
 
 
 class UsableInput(NamedTuple):
-    """State and push without values that are not numbers, and the status of the vehicle."""
+    """State and push with finite values, and the status of the vehicle."""
 
     state: State
     push: Vec3
@@ -62,7 +62,7 @@ def _with_numbers(
 def speed_limit(
     position: Number, velocity: Number, pull: Number, low: Number, high: Number, gain: Number, max_speed: Number
 ) -> Number:
-    """The largest speed [m/s] of a reference towards the side of the fence that it moves or is pulled to."""
+    """The largest speed [m/s] of a reference towards the side of the fence to which it moves or is pulled."""
     toward = where(pull == 0.0, velocity, pull)
     return clip(gain * where(toward > 0.0, high - position, position - low), 0.0, max_speed)
 
@@ -83,7 +83,7 @@ def _fenced(k: Supervision, compliance: Compliance, m: ComplianceState, lift: Nu
 def with_blind_descent(
     k: Supervision | Absent, target: Trajectory, state: State, blind: Number, landing: Number, fraction: Number
 ) -> Trajectory:
-    """The reference; a level descent if nothing of the motion is known (`blind` 1) and the vehicle lands (1).
+    """The reference; a level descent if the motion is unknown (`blind` 1) and the vehicle lands (1).
 
     `fraction` of the landing's time that is over: in the second half the descent accelerates, so that the feet press.
     """

@@ -1,6 +1,6 @@
 """Supervision of a flight by hand: checks, detection of faults, the reaction to them, and the log of events.
 
-`preflight_checks` › `fault_detection` › what the phases may do. A reaction is to hold the position
+`preflight_checks` › `fault_detection` › bounds of the phases. A reaction is to hold the position
 and ignore pushes, to land, or to stop the rotors. A hold ends after a time without a fault, or in a landing when it
 lasts too long; a landing and a stop are final.
 """
@@ -40,7 +40,7 @@ from tandemlift.parts.guidance.preflight_checks import (
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at
 
-TOUCHDOWN_TIME = 0.2  # s, after which a vehicle above its landing's reference is taken to stand on something
+TOUCHDOWN_TIME = 0.2  # s, after which a vehicle above its landing's reference is assumed to stand on something
 CONTACT, PHASE, ALARM = 1e8, 1e6, 1e2  # factors in the code of an event: contact, phase, alarm, failed check
 
 
@@ -49,7 +49,7 @@ class Supervision(NamedTuple):
 
     Nominal masses of vehicle and payload [kg]; the rotors' thrust limits [N] and their known faults; the reaction to
     each fault. A hold lasts at most `hold_timeout` [s] and ends after `recovery_time` [s] without a fault.
-    `blind_descent_depth` [m]: how much farther down a landing ends without a known height. `blind_descent_acceleration`
+    `blind_descent_depth` [m]: additional depth of a landing without a known height. `blind_descent_acceleration`
     [m/s²]: of a landing without any known motion. `slots`: numbers of the events, from 0, a set.
     """
 
@@ -81,7 +81,7 @@ class EventLog(NamedTuple):
 class SupervisionState(NamedTuple):
     """Memory of supervision.
 
-    Reaction and alarm; for how long it has held, and has been without a fault [s]; timers; the last valid state and the
+    Reaction and alarm; time of the hold, and time without a fault [s]; timers; the last valid state and the
     reference [m]; the numbers of the checks that fail before a lift and before pushes are followed, or 0; events.
 
     For refusals (`parts.pilot.refusals`): the alarm of the fault that is present now; the number of the check that
@@ -104,7 +104,7 @@ class SupervisionState(NamedTuple):
 
 
 class SupervisionOutput(NamedTuple):
-    """The bounds of the phases, and 1 if nothing of the vehicle's motion is known, else 0."""
+    """The bounds of the phases, and 1 if the vehicle's motion is unknown, else 0."""
 
     bounds: PhaseBounds
     motion_unknown: Number

@@ -1,4 +1,4 @@
-"""Supervision, `[supervision]`: its keys, and how it starts."""
+"""Supervision, `[supervision]`: its keys and its start."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class ReactionsTable(create_model("Reactions", __base__=Table, **_REACTION_KEYS)
 
 
 class SupervisionTable(Table):
-    """`[supervision]`: checks, watchdogs, limits and reactions of a flight by hand; see docs/explanation/safety.md."""
+    """`[supervision]`: checks, watchdogs, limits and reactions in flight; see docs/explanation/safety.md."""
 
     model: Literal["none", "on"] = key(
         "none",
@@ -55,7 +55,7 @@ class SupervisionTable(Table):
     )
     recovery_time: Positive = key(1.0, "s", "time without a fault after which a hold ends", source="chosen")
     blind_descent_depth: NonNegative = key(
-        0.5, "m", "how far below the ground a landing ends that does not know its height", source="chosen"
+        0.5, "m", "distance below the ground at which a landing with unknown height ends", source="chosen"
     )
     touchdown_gap: Positive = key(
         0.12,
@@ -64,7 +64,7 @@ class SupervisionTable(Table):
         source="chosen",
     )
     blind_descent_acceleration: NonNegative = key(
-        0.2, "m/s²", "downward acceleration of a landing that knows nothing of its motion", source="chosen"
+        0.2, "m/s²", "downward acceleration of a landing with unknown motion", source="chosen"
     )
     checks: ChecksTable = ChecksTable()
     watchdog: WatchTable = WatchTable()
@@ -155,13 +155,13 @@ def start_supervision(
 
 
 def supervision_checks(table: SupervisionTable, guidance: str) -> Iterator[CheckResult]:
-    """A supervision without guidance by hand; `guidance`: `pilot.guidance`."""
+    """Check for a supervision without interactive guidance; `guidance`: `pilot.guidance`."""
     if table.model != "none" and guidance != "interactive":
         yield refused('supervision.model = "on": must be "none" where pilot.guidance is "scheduled"')
 
 
 def limit_checks(table: SupervisionTable) -> Iterator[CheckResult]:
-    """Limits that exclude each other."""
+    """Check for limits that exclude each other."""
     if table.model == "none":
         return
     fence, checks = table.fence, table.checks
@@ -176,7 +176,7 @@ def limit_checks(table: SupervisionTable) -> Iterator[CheckResult]:
 
 
 def watchdog_checks(table: SupervisionTable, intervals: Mapping[str, float], step: float) -> Iterator[CheckResult]:
-    """Watchdogs that bark between two samples; `intervals` of the sensors [s] by key."""
+    """Check for watchdogs that trigger between two samples; `intervals` of the sensors [s] by key."""
     if table.model == "none":
         return
     for name in ("stale_time", "invalid_time"):

@@ -1,7 +1,7 @@
 """The compliance about the yaw axis, within the small yaw authority of the rotors.
 
 J ψ̈ + min(C |ψ̇|, U) sgn ψ̇ = M with M the moment beyond the threshold. With J the inertia of the vehicle, the rotors
-only need to give the damping, at most U: a larger moment of the person turns the vehicle faster and needs no more.
+only need to give the damping, at most U: a larger moment rotates the vehicle faster without more thrust.
 """
 
 from __future__ import annotations
@@ -21,28 +21,28 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
 class YawTable(Table):
-    """`[compliance.yaw]`: how a push beside the centre of mass turns the vehicle."""
+    """`[compliance.yaw]`: rotation of the vehicle by a push beside the centre of mass."""
 
     model: Literal["held", "compliant"] = key(
         "held",
         None,
-        "whether a push beside the centre turns the vehicle",
+        "whether a push beside the centre rotates the vehicle",
         choices={
             "held": "the heading is held",
-            "compliant": "an admittance about the vertical answers the push's moment",
+            "compliant": "an admittance about the vertical responds to the push's moment",
         },
     )
     inertia: Positive | None = key(
         None,
         "kg m²",
         "virtual moment of inertia",
-        unset="the vehicle's own, which asks the least of the rotors",
+        unset="the vehicle's own, which needs the smallest moments of the rotors",
         example=3.3,
     )
     damping: Positive = key(1.6, "N m s", "virtual damping", source="chosen")
     threshold: NonNegative = key(0.15, "N m", "moments up to this are ignored", source="chosen")
     max_moment: Positive = key(
-        0.9, "N m", "largest moment of the virtual damping", source="chosen: within what the rotors give"
+        0.9, "N m", "largest moment of the virtual damping", source="chosen: within the moment that the rotors have"
     )
     max_lead_angle: Tilt = key(
         0.35,
@@ -55,7 +55,7 @@ class YawTable(Table):
 class YawCompliance(NamedTuple):
     """Low-pass on the moment, dead-band [N·m], low-pass after it, 1/J [1/(kg·m²)], C [N·m·s], U [N·m].
 
-    `max_lead_angle` [rad]: by which the reference may lead the vehicle, so that it waits while the vehicle cannot turn.
+    `max_lead_angle` [rad]: largest lead of the reference, which waits while the vehicle cannot rotate.
     """
 
     input_filter: LowPass
@@ -81,7 +81,7 @@ class YawState(NamedTuple):
 class FixedHeading(NamedTuple):
     """A constant heading [rad], whatever the moment.
 
-    Once a rotor has failed, the reference is at most `max_lead_angle` [rad] from the vehicle, which may have to turn.
+    Once a rotor has failed, the reference is at most `max_lead_angle` [rad] from the vehicle, which may have to rotate.
     """
 
     angle: Number

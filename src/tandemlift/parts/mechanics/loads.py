@@ -1,4 +1,4 @@
-"""Loads on the parts of the vehicle, and what perfect sensors at its joints and in its payload read of them.
+"""Loads on the parts of the vehicle, and the readings of perfect sensors at its joints and in its payload.
 
 A vector for every quadrotor is a `Vec3` of sets. A joint transmits the load of its quadrotor on the payload.
 """
@@ -55,7 +55,7 @@ class PartLoads(NamedTuple):
 
 
 class PartsLayout(NamedTuple):
-    """Where the parts are and what they weigh, from which follows what joints transmit. Body axes.
+    """Places and masses of the parts, which determine the loads of the joints. Body axes.
 
     `payload` and `quadrotors`: centres of mass from the system's [m]; `joints`: from each quadrotor's centre of mass to
     its joint [m]; `mass` [kg] and `inertia` [kg·m², diagonal] of each quadrotor; of rotor j of every quadrotor, from
@@ -73,11 +73,11 @@ class PartsLayout(NamedTuple):
 
 
 class PerfectReadings(NamedTuple):
-    """What perfect sensors fixed to the parts would read; body axes.
+    """The readings of perfect sensors fixed to the parts; body axes.
 
     Specific force at the payload's centre of mass [m/s²] (acceleration less gravity), and the load of each quadrotor on
     the payload at its joint: force [N] and torque [N·m], vectors of sets. `contact_force`: that of floor and walls on
-    the whole vehicle [N, world axes], which an engine knows and no sensor reads.
+    the whole vehicle [N, world axes], which an engine provides and no sensor measures.
     """
 
     specific_force: Vec3

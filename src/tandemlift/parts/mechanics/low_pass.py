@@ -12,7 +12,7 @@ from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Vec3
 
-REST = 1e-200  # of any unit: far below what matters, and lost in the rounding of numbers above 1e-184
+REST = 1e-200  # of any unit: negligible, and lost in the rounding of numbers above 1e-184
 
 
 V = TypeVar("V", Number, Vec3)  # a set counts as a number
@@ -36,7 +36,7 @@ class LowPassState(NamedTuple, Generic[V]):
 
 @elementwise
 def flush_denormals(x: Number) -> Number:
-    """x, or 0 where |x| is below 1e-216, so that what decays does not end in denormal numbers, which are slow."""
+    """x, or 0 where |x| is below 1e-216, so that decaying values do not become denormal numbers, which are slow."""
     return (x + REST) - REST
 
 

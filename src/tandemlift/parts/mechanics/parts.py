@@ -1,4 +1,4 @@
-"""The parts of the vehicle: one quadrotor, the payload, the joints between them, and where the quadrotors are.
+"""The parts of the vehicle: one quadrotor, the payload, the joints between them, and the quadrotors' places.
 
 Forces F_i and couples τ_i are the load of quadrotor i on the payload, reduced to the quadrotor's centre of mass; F_i in
 world axes, τ_i, rates and lever arms d_i (payload centre to quadrotor) in body axes, which all parts share.

@@ -128,11 +128,11 @@ def _moment(push: PointPush, attitude: Quat) -> Vec3:
     return Vec3(G.z.y - G.y.z, G.x.z - G.z.x, G.y.x - G.x.y)
 
 
-FARTHEST = 0.5  # m, of a push from the box of all parts
+FARTHEST = 0.5  # m, largest distance of a push from the box of all parts
 
 
 def point_checks(key: str, point: Sequence[float], vehicle: Vehicle) -> Iterator[CheckResult]:
-    """A push at a point [m, body axes] that is not on the vehicle; `key` gave the point."""
+    """Check for a push at a point [m, body axes] that is not on the vehicle; `key` is the point's key."""
     if vehicle.beside(point) > FARTHEST:
         low, high = (shown(np.round(corner, 3).tolist()) for corner in vehicle.box)
         given = f"{key} = {shown([float(x) for x in point])}"

@@ -157,7 +157,7 @@ def rotated_by(attitude: Quat, turn: Vec3) -> Quat:
 def rotation_between(start: Quat, end: Quat) -> Vec3:
     """The rotation from one attitude to another, in the body axes of `start`: its axis times 2 sin(angle/2) [rad].
 
-    For small angles it is the rotation vector, to the third order. It grows with the angle up to half a turn, and
+    For small angles it is the rotation vector, to the third order. It grows with the angle up to 180°, and
     always takes the shorter way.
     """
     d = hamilton(Quat(start.w, -start.x, -start.y, -start.z), end)

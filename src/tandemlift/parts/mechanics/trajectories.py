@@ -37,7 +37,7 @@ class PhasesTable(Table):
     rotors: Literal["always", "flight"] = key(
         "always",
         None,
-        "when the rotors turn",
+        "times at which the rotors turn",
         choices={
             "always": "all the time",
             "flight": "from the start of the lift to the end of the landing (needs a floor)",
@@ -54,7 +54,7 @@ class Trajectory(NamedTuple):
 
 
 class Reference(NamedTuple):
-    """The reference to be tracked.
+    """The reference of the controller.
 
     The centre of mass's trajectory in world axes; the yaw ψ_d [rad], its rate [rad/s] and acceleration [rad/s²]; and
     `lead`: the predicted change of the trajectory's acceleration [m/s²] until the vehicle responds, zero if unknown.
@@ -113,7 +113,7 @@ def reference(p: ScheduledPhases, T: Trajectory, t: Number) -> Trajectory:
 
 
 def scheduled_phases(p: PhasesTable) -> ScheduledPhases:
-    """When the reference is lifted and landed, from `[phases]`."""
+    """The times of lift and landing of the reference, from `[phases]`."""
     return ScheduledPhases(
         height=p.height,
         lift_start=p.lift_start,
@@ -124,14 +124,14 @@ def scheduled_phases(p: PhasesTable) -> ScheduledPhases:
 
 
 def phase_checks(p: PhasesTable) -> Iterator[CheckResult]:
-    """A landing before the lift."""
+    """Check for a landing before the lift."""
     if p.land_start is not None and p.land_start < p.lift_start:
         limit = f"must not be before phases.lift_start = {p.lift_start}"
         yield refused(f"phases.land_start = {p.land_start}: {limit}")
 
 
 def phase_warnings(p: PhasesTable) -> Iterator[CheckResult]:
-    """A landing that cuts the lift short."""
+    """Check for a landing that cuts the lift short."""
     lifted = p.lift_start + p.lift_duration
     if p.height and p.land_start is not None and p.land_start < lifted:
         yield warned(f"phases.land_start = {p.land_start} is before the lift ends at {lifted:g} s: it is cut short")

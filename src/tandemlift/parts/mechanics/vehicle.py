@@ -1,8 +1,8 @@
 """A vehicle from its parts: mass, centre of mass, inertia, and the matrices between wrench and rotor thrusts.
 
 Body axes are parallel to the payload's; the beam lies along y. Rotors of a "+" quadrotor stand at +x, +y, −x, −y, of
-an "x" at 45° further, or where `rotor_positions` says; unless `spins` says otherwise, rotors 1 and 3 push the body to
-turn about +z, 2 and 4 about −z. Thrust is along body z, so heights do not enter the allocation.
+an "x" 45° further, or at `rotor_positions`; without `spins`, the reaction torque on the body of rotors 1 and 3 is about
++z, of 2 and 4 about −z. Thrust is along body z, so heights do not enter the allocation.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def mixer_inverse(quadrotor: Quadrotor) -> Array:
     """A⁻¹ (4 × 4): rotor thrusts from one quadrotor's thrust and moments.
 
     Raises:
-        InputError: its rotors cannot make every thrust and moment.
+        InputError: its rotors cannot produce every thrust and moment.
     """
     A = mixer(quadrotor)
     if quadrotor.rotor_positions is None and quadrotor.spins == (1, -1, 1, -1):
@@ -41,7 +41,7 @@ def mixer_inverse(quadrotor: Quadrotor) -> Array:
     if condition_number(A, lambda: inverse(A)) > 1e9:
         raise InputError(
             f"vehicle.quadrotors: rotors at {[list(r) for r in quadrotor.rotors]} with spins {list(quadrotor.spins)} "
-            "cannot make every thrust and moment: they may not all stand in a line, and their spins must differ"
+            "cannot produce every thrust and moment: they must not all be in a line, and their spins must differ"
         )
     return inverse(A)
 
@@ -79,15 +79,15 @@ class Vehicle:
     @staticmethod
     @cached
     def from_settings(table: VehicleTable) -> Vehicle:
-        """The vehicle that a mission describes; the same object for the same table, as many missions share one."""
+        """The vehicle of a mission's table; the same object for the same table, because many missions share one."""
         return Vehicle(table.payload, table.quadrotors, table.drag)
 
     @classmethod
     def from_mission(cls, mission: Mapping[str, Any]) -> Vehicle:
-        """The vehicle that the pilot of a mission knows, from the mission's nested tables, as a flight has them.
+        """The pilot's model of the vehicle, from a mission's nested tables, as a flight has them.
 
         Raises:
-            InputError: the mission has none that can be read.
+            InputError: the mission has no valid vehicle.
         """
         try:
             return cls.from_settings(VehicleTable.model_validate(mission["vehicle"]))

@@ -1,4 +1,4 @@
-"""Whether a vehicle can be computed with, and whether its rotors are clear of each other."""
+"""Checks for vehicles with too extreme numbers, and for rotors that strike each other."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 
 LEAST_RATIO = 1e-12  # of the principal moments of inertia
 PRECISION = 1e-6  # of the allocation
-ABOVE = 0.05  # m, between rotors that turn above each other: blades bend
+ABOVE = 0.05  # m, between rotors above each other, because blades bend
 
 
 @cached
 def vehicle_checks(table: VehicleTable, weights: tuple[tuple[float, ...], ...]) -> tuple[CheckResult, ...]:
-    """A vehicle that cannot be computed with, an allocation that loses the wrench, rotors that strike each other."""
+    """Check for too extreme numbers, an allocation that loses the wrench, and rotors that strike each other."""
     return tuple(_checks(Vehicle.from_settings(table), weights))
 
 
@@ -41,7 +41,7 @@ def _checks(vehicle: Vehicle, weights: tuple[tuple[float, ...], ...]) -> Iterato
 
 
 def _wrench_given(vehicle: Vehicle, weights: tuple[tuple[float, ...], ...]) -> Array | None:
-    """The wrench that the allocation gives for each that is asked for (4 × 4); None for numbers that are too large."""
+    """The wrench that the allocation gives for each unit command (4 × 4); None if numbers are too large."""
     try:
         with np.errstate(all="ignore"):
             moments = np.linalg.eigvalsh(vehicle.inertia)

@@ -137,7 +137,7 @@ class Quadrotor(Table):
     layout: Literal["+", "x"] = key(
         "x",
         None,
-        "where the rotors are",
+        "arrangement of the rotors",
         example="+",
         choices={"+": "at +x, +y, -x, -y", "x": "45° further"},
     )
@@ -152,7 +152,7 @@ class Quadrotor(Table):
         None,
         "m",
         "x and y of each rotor from the quadrotor's centre of mass",
-        rule="four pairs within ±1000, such that every moment can be made",
+        rule="four pairs within ±1000, such that every moment can be produced",
         unset="by layout and arm",
         example=[[0.25, 0.0], [0.0, 0.25], [-0.25, 0.0], [0.0, -0.25]],
     )
@@ -160,8 +160,8 @@ class Quadrotor(Table):
         (1, -1, 1, -1),
         "1",
         "sign of each rotor's reaction torque on the body, about z",
-        rule="each 1 or -1, such that every moment can be made",
-        source="neighbours turn against each other",
+        rule="each 1 or -1, such that every moment can be produced",
+        source="neighbours turn in opposite directions",
     )
     thrust_constant: Positive = key(..., "N/(rad/s)²", "thrust of a rotor over its speed squared", example=5.84e-6)
     max_speed: Positive = key(..., "rad/s", "largest speed of a rotor", example=1100.0)
@@ -229,7 +229,7 @@ class Quadrotor(Table):
 
     @property
     def joint_position(self) -> Triple:
-        """Where it is fixed to the payload [m], from the payload's centre of mass, body axes."""
+        """The place of its joint on the payload [m], from the payload's centre of mass, body axes."""
         return (self.position[0], self.position[1], 0.0) if self.joint is None else self.joint
 
     @property

@@ -1,7 +1,7 @@
 """The velocity of the air: steady wind, discrete gusts and turbulence.
 
-Gusts have the 1 − cosine shape of MIL-F-8785C, section 3.7. Velocities are in world axes [m/s]. The pilot does not know
-them.
+Gusts have the 1 − cosine shape of MIL-F-8785C, section 3.7. Velocities are in world axes [m/s]. They are unknown to
+the pilot.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ class GustTable(Table):
 
 
 class WindTable(Table):
-    """`[wind]`: moving air, which drags payload and quadrotors quadratically; the pilot does not know of it.
+    """`[wind]`: moving air with quadratic drag on payload and quadrotors, unknown to the pilot.
 
     Gusts and Dryden turbulence are those of MIL-F-8785C.
     """
@@ -67,12 +67,12 @@ class WindTable(Table):
     turbulence: Turbulence = key(
         0.0,
         "m/s",
-        "wind at 20 ft whose turbulence it is: 7.7 is light, 15.4 moderate, 0 none",
+        "mean wind at 20 ft that scales the turbulence: 7.7 is light, 15.4 moderate, 0 none",
     )
     height: Positive = key(
         3.048,
         "m",
-        "height above ground for the turbulence's scales; outside the standard's 3.048 to 304.8 its nearer end counts",
+        "height above ground for the turbulence's scales; clipped to the standard's range of 3.048 to 304.8",
         source="10 ft, where the standard begins",
     )
     airspeed: Airspeed | None = key(
@@ -211,7 +211,7 @@ def gusts_from(w: WindTable) -> list[Gust]:
 
 
 def wind_warnings(w: WindTable) -> Iterator[CheckResult]:
-    """Gusts without a wind, and turbulence at a height for which the standard has none."""
+    """Check for gusts without a wind, and for turbulence at a height outside the standard."""
     if w.gusts and w.model == "none":
         yield warned('wind.gusts do not blow while wind.model is "none"')
     lowest, highest = LOWEST * FOOT, HIGHEST * FOOT

@@ -1,1 +1,1 @@
-"""The person: a model that guides the vehicle, hand tremor, a hand moved from outside, and inputs of a caller."""
+"""The person: a model of guidance by hand, hand tremor, a virtual hand, and inputs of a caller."""

@@ -1,7 +1,7 @@
 """A push that reaches the body outside of the flight's loop, such as one on a topic of Gazebo.
 
-The simulator of the body applies it by itself, and reports it after the step. So it is no input of the pilot in that
-step; it is part of the flight's record and of what the person has done. A body that cannot be pushed so has `Absent`.
+The simulator of the body applies it by itself, and reports it after the step. It is thus no input of the pilot in that
+step, but part of the record and of the person's work. A body without such pushes has `Absent`.
 """
 
 from typing import NamedTuple
@@ -15,7 +15,7 @@ from tandemlift.core.vector import Vec3, dot
 class OutsidePush(NamedTuple):
     """The mean over a step: force [N, world axes] and moment about the centre of mass [N·m, body axes].
 
-    What its simulator does not know of it is nan. Then every metric that is formed from it is None.
+    Values that its simulator does not provide are nan. Every metric that is formed from them is None.
     """
 
     force: Vec3

@@ -1,10 +1,10 @@
 """A model of a person who guides the vehicle along a path by pushing it, with visual delay and hand tremor.
 
-delayed view → prediction → wanted force → place of the hand → muscles → force at the grip
+delayed view → prediction → desired force → place of the hand → muscles → force at the grip
 
-Pure pursuit: the person aims at a point ahead on the path, and the wanted force is proportional to the missing speed.
+Pure pursuit: the person aims at a point ahead on the path, and the desired force is proportional to the missing speed.
 The hand is placed ahead of the predicted grip by as much as gives this force through the stiffness of the arm; muscles,
-two equal time constants, bring it there. A slow integral of the wanted force across the path, the trim, balances a
+two equal time constants, bring it there. A slow integral of the desired force across the path, the trim, balances a
 wind. Stiffness and damping of the arm between hand and grip act at once, without the visual delay. The force is
 bounded. World axes; the grip is a point of the body.
 
@@ -53,7 +53,7 @@ PATH_LEG = PathLeg(ZERO, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class PersonView(NamedTuple):
-    """What a person sees: position and velocity of the centre of mass and of the grip, yaw [rad] and its rate."""
+    """A person's view: position and velocity of the centre of mass and of the grip, yaw [rad] and its rate."""
 
     position: Vec3
     velocity: Vec3
@@ -100,9 +100,9 @@ class Arm(NamedTuple):
 
 
 class PathFollowing(NamedTuple):
-    """How a person follows the path.
+    """Parameters of following the path.
 
-    Speed [m/s]; wanted force over missing speed [N·s/m]; look-ahead distance [m]; speed over the distance to a stop
+    Speed [m/s]; desired force over missing speed [N·s/m]; look-ahead distance [m]; speed over the distance to a stop
     [1/s]; force [N] that is added because the vehicle does not move below it; rate of the trim [1/s]; speed [m/s] below
     which they request the landing; time [s] and height [m] at which they begin; the number of the last leg.
     """
@@ -134,7 +134,7 @@ class PersonSettings(NamedTuple):
 
 
 class Person(NamedTuple):
-    """A person: the grip [m, body axes, from the centre of mass], the arm, and how they follow the path."""
+    """A person: the grip [m, body axes, from the centre of mass], the arm, and the following of the path."""
 
     grip: Vec3
     arm: Arm
@@ -143,7 +143,7 @@ class Person(NamedTuple):
 
 
 class HandTarget(NamedTuple):
-    """Target of the hand [m], target couple [N·m], and the wanted force across the path [N]."""
+    """Target of the hand [m], target couple [N·m], and the desired force across the path [N]."""
 
     place: Vec3
     couple: Number
@@ -174,7 +174,7 @@ def bounded(v: Vec3, limit: Number) -> Vec3:
 
 @law
 def pursue(w: PathFollowing, leg: PathLeg, p: Vec3, v: Vec3) -> Vec3:
-    """The wanted force [N] on a point at p [m] with velocity v [m/s], to guide it along a leg."""
+    """The desired force [N] on a point at p [m] with velocity v [m/s], to guide it along a leg."""
     along, left = leg.end - leg.start, leg.end - p
     square = maximum(dot(along, along), TINY)
     ahead = clip(dot(p - leg.start, along) / square + w.look_ahead / sqrt(square), 0.0, 1.0)

@@ -1,4 +1,4 @@
-"""A person who guides the vehicle by hand: where to, how, how strong, and how late."""
+"""The table of a person who guides the vehicle by hand: path, model, strength and delay."""
 
 from __future__ import annotations
 
@@ -40,22 +40,21 @@ class WaypointTable(Table):
     heading: float | None = key(
         None,
         "rad",
-        "heading of the vehicle on the way there; only model 'two-hands' turns it",
-        unset="the heading stays as before",
+        "heading of the vehicle on the path there; only model 'two-hands' rotates it",
+        unset="the heading is kept",
         example=0.0,
     )
     dwell: NonNegative = key(0.0, "s", "time for which the person keeps the vehicle there")
 
 
 class PersonTable(Table):
-    """`[person]`: a person in the loop, who sees the vehicle late and leads it by hand along a path.
+    """`[person]`: a person in the loop, who sees the vehicle with a delay and leads it by hand along a path.
 
-    What the person sees is `delay` old. The person predicts from it where the vehicle is now, and wants a force of
-    `gain` times the speed that is missing towards the point of the path that lies `look_ahead` farther on. The hand
-    moves to where the arm's `stiffness` gives this force, through the muscles' `lag`; stiffness and damping act between
-    hand and grip without delay. The person begins after `start_time`, once the vehicle has been lifted. At the last
-    waypoint, when the vehicle is slow, the person asks to land (a pilot with `guidance = "interactive"` obeys) and lets
-    go.
+    The person's view is delayed by `delay`. The person predicts the vehicle's present place from it. The desired force
+    is `gain` times the missing speed towards the point of the path that lies `look_ahead` farther on. The hand moves
+    to the place where the arm's `stiffness` gives this force, through the muscles' `lag`; stiffness and damping act
+    between hand and grip without delay. The person begins after `start_time`, once the vehicle has been lifted. At the
+    last waypoint, when the vehicle is slow, the person requests a landing (interactive guidance obeys) and lets go.
 
     Model "virtual-hand" is a hand that is moved from outside. It holds on to a point of the vehicle by a spring of
     `stiffness` to a target, smoothed by twice `lag`, brakes that point by `damping`, or pushes with a given force,
@@ -69,21 +68,21 @@ class PersonTable(Table):
     model: Literal["none", "pull", "steer", "two-hands", "hold", "virtual-hand"] = key(
         "none",
         None,
-        "who guides the vehicle by hand, and what the person leads along the path",
+        "model of the person, and the point that is led along the path",
         rule='"pull" to "hold" need [[person.path]] or a corridor',
         choices={
             "none": "no person",
             "pull": "one hand leads the grip, and the vehicle follows like a trailer",
             "steer": "one hand at the grip leads the centre of mass",
-            "two-hands": "two hands lead the payload's centre and turn the vehicle to each leg's heading",
-            "hold": "the hand goes to the waypoints and stays there, whatever is seen: for tests of passivity",
+            "two-hands": "two hands lead the payload's centre and rotate the vehicle to each leg's heading",
+            "hold": "the hand moves to the waypoints and stays there, whatever it sees: for tests of passivity",
             "virtual-hand": "a hand that is moved from outside, as by the live page or a recording",
         },
     )
     grip: float = key(
         0.0,
         "m",
-        "where one hand holds the payload, along body y from the payload's centre",
+        "place where one hand holds the payload, along body y from the payload's centre",
         rule="on the payload",
     )
     stiffness: Positive = key(10.0, "N/m", "stiffness of the arm between hand and grip", source="chosen: a light hold")
@@ -94,7 +93,7 @@ class PersonTable(Table):
     delay: Delay = key(
         0.2,
         "s",
-        "delay from what is seen to what is done, rounded to whole steps, at least one",
+        "delay from the view to the action, rounded to whole steps, at least one",
         rule="at most 10,000 steps",
         source="chosen: about a visual reaction time",
     )
@@ -107,17 +106,17 @@ class PersonTable(Table):
     max_force: Positive = key(8.0, "N", "largest force of the person", source="chosen")
     max_couple: NonNegative = key(0.8, "N m", "largest couple of two hands about the vertical", source="chosen")
     speed: Positive = key(
-        1.0, "m/s", "speed that the person aims at; the vehicle is slower by what the force needs", source="chosen"
+        1.0, "m/s", "desired speed; the vehicle is slower, because the force needs a missing speed", source="chosen"
     )
-    gain: Positive = key(3.0, "N s/m", "force for each m/s of speed that is missing", source="chosen")
+    gain: Positive = key(3.0, "N s/m", "force per missing speed", source="chosen")
     look_ahead: Positive = key(
-        1.0, "m", "distance along the path to the point that the person steers to", source="chosen"
+        1.0, "m", "distance along the path to the point to which the person steers", source="chosen"
     )
-    approach_gain: Positive = key(0.8, "1/s", "speed aimed at near a stop, over the distance left", source="chosen")
+    approach_gain: Positive = key(0.8, "1/s", "desired speed near a stop, over the remaining distance", source="chosen")
     breakaway_force: NonNegative = key(
         0.3,
         "N",
-        "force that is needed to move the vehicle, which the person knows and adds",
+        "force that is needed to move the vehicle, which the person adds",
         source="the threshold of the paper mission's admittance",
     )
     trim_rate: NonNegative = key(
@@ -127,11 +126,11 @@ class PersonTable(Table):
         source="chosen",
     )
     corner_distance: Positive = key(
-        0.5, "m", "distance to a waypoint at which the person turns to the next leg", source="chosen"
+        0.5, "m", "distance to a waypoint at which the person changes to the next leg", source="chosen"
     )
     arrival_radius: Positive = key(0.3, "m", "distance to a stop at which it counts as reached", source="chosen")
     landing_speed: Positive = key(
-        0.1, "m/s", "speed at the last waypoint below which the person asks to land", source="chosen"
+        0.1, "m/s", "speed at the last waypoint below which the person requests a landing", source="chosen"
     )
     yaw_gain: NonNegative = key(1.5, "N m/rad", "couple of two hands for each rad of heading error", source="chosen")
     yaw_damping: NonNegative = key(2.0, "N m s", "couple of two hands against the yaw rate", source="chosen")
@@ -152,7 +151,7 @@ class PersonTable(Table):
 
 
 def person_settings_from(p: PersonTable) -> PersonSettings:
-    """The person's way of leading, from the mission."""
+    """The person's parameters of following the path, from the mission."""
     hands = 1.0 if p.model == "two-hands" else 0.0
     at_grip, stays = 0.0 if p.model == "steer" else 1.0, 1.0 if p.model == "hold" else 0.0
     return PersonSettings(at_grip, hands * p.yaw_gain, hands * p.yaw_damping, stays)
@@ -170,7 +169,7 @@ def grip_from(p: PersonTable, vehicle: Vehicle) -> Vec3:
 
 
 class Walk(NamedTuple):
-    """What a path depends on besides the person.
+    """The data besides the person on which a path depends.
 
     Attributes:
         waypoints: of the path.
@@ -262,7 +261,7 @@ def start_person(p: PersonTable, vehicle: Vehicle, step: float, walk: Walk) -> t
 
 
 def person_checks(p: PersonTable, corridor: CorridorTable, length: float | None) -> Iterator[CheckResult]:
-    """A person without a way to go, or who holds on beside a payload of `length` [m]."""
+    """Check for a person without a path, or with a grip beside a payload of `length` [m]."""
     half = (length or 0.0) / 2.0
     if p.recording is not None and p.model != "virtual-hand":
         yield refused(f'person.recording = "{p.recording}": must be left out where person.model is "{p.model}"')
@@ -270,19 +269,18 @@ def person_checks(p: PersonTable, corridor: CorridorTable, length: float | None)
         return
     if not p.path and not corridor.centreline:
         yield refused(
-            f'person.model = "{p.model}": must be "none" without a way to go; give [[person.path]] or '
-            "corridor.centreline"
+            f'person.model = "{p.model}": must be "none" without a path; give [[person.path]] or corridor.centreline'
         )
     if abs(p.grip) > half:
         yield refused(f"person.grip = {p.grip}: must be on the payload, within ±{half:g} m of its centre")
 
 
 def person_warnings(p: PersonTable, guidance: str, tared: float | None) -> Iterator[CheckResult]:
-    """A person whom a pilot by `guidance` does not obey, or who pushes before the tare is over [s]."""
+    """Check for a person whom a pilot with this `guidance` does not obey, or who pushes before the tare ends [s]."""
     if p.model in ("none", "virtual-hand"):
         return
     if guidance != "interactive":
-        yield warned('the person of [person] asks to land in vain: pilot.guidance is not "interactive"')
+        yield warned('the landing request of [person] has no effect: pilot.guidance is not "interactive"')
     if tared is not None and p.start_time < tared:
         start = f"person.start_time = {p.start_time}"
-        yield warned(f"{start} is before the tare ends at {tared:g} s, which takes the push for a bias")
+        yield warned(f"{start} is before the tare ends at {tared:g} s, which treats the push as a bias")

@@ -48,7 +48,7 @@ class OperatorRequest(NamedTuple):
 
 
 class VehicleStatus(NamedTuple):
-    """The status of the vehicle at a sample, as the pilot knows it.
+    """The status of the vehicle at a sample, as available to the pilot.
 
     `rotor_failed` is 1 once a rotor has failed, else 0; `thrust` [N] of all rotors as allocated at the last sample, 0
     if unknown; `state_invalid` is 1 if the pilot's state has values that are not numbers, else 0; `limited`: the number
@@ -150,7 +150,7 @@ def start_requests(tables: Sequence[RequestTable]) -> RequestSchedule | Absent:
 
 
 def request_checks(tables: Sequence[RequestTable], guidance: str) -> Iterator[CheckResult]:
-    """Requests that nobody answers; `guidance`: `pilot.guidance`."""
+    """Check for requests that scheduled guidance does not handle; `guidance`: `pilot.guidance`."""
     if tables and guidance != "interactive":
         action = tables[0].action
         yield refused(f'requests.0.action = "{action}": must be left out where pilot.guidance is "scheduled"')

@@ -1,4 +1,4 @@
-"""A hand that is moved from outside: it pulls the body by a spring, or pushes it with a given force.
+"""A virtual hand, moved from outside, that pulls the body by a spring or pushes it with a given force.
 
 target, from outside → low-pass → place of the hand → spring, with a damper of the grip → force at the grip, bounded
 

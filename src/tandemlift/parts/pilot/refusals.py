@@ -1,6 +1,6 @@
-"""Why a pilot refuses to lift or to land, or does not follow a push right now, as numbers: see `core.refusals`.
+"""The present reasons for refusing a lift or a landing, or not following a push, as numbers: see `core.refusals`.
 
-The law reads what the pilot knew at its last sample, and is no part of a step. Modules of missions carry it too.
+The law uses the pilot's memory after its last sample, and is no part of a step. Mission modules contain it too.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ NONE = ReasonNumbers(0.0, 0.0, 0.0)
 
 @law
 def rounded(x: Number, parts: Number) -> Number:
-    """A number of moderate size, rounded to so many parts of 1."""
+    """A number of moderate size, rounded to a fraction of 1."""
     return ((x * parts + WHOLE) - WHOLE) / parts
 
 
@@ -139,7 +139,7 @@ def tilt_of(upright: Number) -> Number:
 
 @law
 def failed_sensor(k: Supervision, m: SupervisionState) -> ReasonNumbers:
-    """Which sensor has failed, or for how long none has."""
+    """The sensor that has failed, or the time without a failed one."""
     recovering = reason("recovering", m.fault_free_time, k.recovery_time)
     over = selected(m.reaction > 0.0, recovering, reason("unknown_sensor"))
     return selected(m.fault > 0.0, reason("sensors", m.fault), over)
@@ -147,7 +147,7 @@ def failed_sensor(k: Supervision, m: SupervisionState) -> ReasonNumbers:
 
 @choice(absent=reason("disabled"))
 def why_it_holds(k: Supervision | Absent, m: SupervisionState | Absent) -> ReasonNumbers:
-    """`ReasonNumbers`: why a vehicle in the air does not follow pushes; `k`: the supervision."""
+    """`ReasonNumbers` of a vehicle in the air that does not follow pushes; `k`: the supervision."""
 
 
 @why_it_holds.register(Supervision)
@@ -160,7 +160,7 @@ def _why_it_holds(k: Supervision, m: SupervisionState) -> ReasonNumbers:
 
 @choice(absent=NONE)
 def touching_part(k: ContactReaction | Absent, m: ContactReactionState | Absent) -> ReasonNumbers:
-    """`ReasonNumbers`: which part touches a wall; `k`: the reaction to contacts."""
+    """`ReasonNumbers` of the part that touches a wall; `k`: the reaction to contacts."""
 
 
 @touching_part.register(ContactReaction)
@@ -170,7 +170,7 @@ def _touching_part(k: ContactReaction, m: ContactReactionState) -> ReasonNumbers
 
 @law
 def below_threshold(k: Compliance, m: ComplianceState) -> ReasonNumbers:
-    """Whether the push is too weak along every axis; the push and the threshold of the axis that is nearest to it."""
+    """1 if the push is too weak along every axis; push and threshold of the axis that is nearest to its threshold."""
     found, nearest = NONE, 1.0
     for push, bias, limit in zip(m.filtered.value, m.band.bias, k.band.threshold, strict=True):
         missing = 1.0 - absolute(push - bias) / maximum(limit, 1e-9)

@@ -25,7 +25,7 @@ class Weights:
     """Mark of the allocation weights: one number, four, or four for each quadrotor."""
 
     def describe(self, limits: str) -> str:
-        """What is allowed, in words; `limits` is what each number must keep to."""
+        """The allowed values in words; `limits` is the condition on each number."""
         return f"one number {limits}, four numbers {limits}, or a list of four for each quadrotor"
 
     def rows(self, value: object) -> tuple[tuple[float, ...], ...]:
@@ -58,7 +58,7 @@ class AllocationTable(Table):
         ((1.0, 1.0, 1.0, 1.0),),
         "1",
         "cost c of a quadrotor's thrust, roll, pitch and yaw moment",
-        source="all alike; open in the paper",
+        source="all equal; open in the paper",
     )
     priorities: Priorities = key(
         (30.0, 900.0, 900.0, 1.0),
@@ -150,7 +150,7 @@ def wrench(effect: Mixer, thrusts: PerRotor) -> Wrench:
 
 @law
 def achieved_fraction(effect: Mixer, scale: Wrench, wanted: Wrench, thrusts: PerRotor) -> Number:
-    """Fraction of a wanted wrench that thrusts give: 1 − ‖B f − τ‖/‖τ‖ in units of `scale`, in [0, 1]; 1 for τ = 0.
+    """Fraction of a desired wrench that thrusts give: 1 − ‖B f − τ‖/‖τ‖ in units of `scale`, in [0, 1]; 1 for τ = 0.
 
     Args:
         effect: B, by rows.

@@ -1,4 +1,4 @@
-"""The decision which rotor is lost, from the evidence for each: the rules of `rotor_loss_detection`."""
+"""The decision about a lost rotor from the evidence for each rotor."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ PRIOR = 10.0  # evidence added for the rotor that is declared lost already
 
 
 class DecisionRules(NamedTuple):
-    """When a rotor is declared lost, or restored.
+    """The rules by which a rotor is declared lost, or restored.
 
     `threshold` against no fault and `isolation_margin` to the next rotor, as twice a log-likelihood ratio;
     `unexplained_fraction`: of |r|², that may stay unexplained; `dwell` [s]: for which all of it must hold;
@@ -30,9 +30,9 @@ class DecisionRules(NamedTuple):
 
 
 class DecisionState(NamedTuple):
-    """Which rotor is lost (1, else 0; a set), since when [s], how often one was declared lost; timers [s] of the test.
+    """The lost rotor (1, else 0; a set), its start [s], the count of losses declared; timers [s] of the test.
 
-    `above`: for how long each rotor has met the rules (a set); `alive`: for how long the lost one has shown thrust.
+    `above`: time for which each rotor has met the rules (a set); `alive`: time for which the lost one has had thrust.
     """
 
     lost: PerRotor
@@ -62,7 +62,7 @@ def but(value: Number, best: Number) -> Number:
 
 @elementwise
 def counted(timer: Number, evidence: Number, best: Number, sure: Number, dt: Number) -> Number:
-    """For how long [s] a rotor has met the rules."""
+    """The time [s] for which a rotor has met the rules."""
     return where(evidence < best, 0.0, (timer + dt) * sure)
 
 

@@ -68,7 +68,7 @@ class RotorLossDetection(NamedTuple):
 
 
 class DetectionState(NamedTuple):
-    """Memory: low-passes of the modelled thrusts, of momentum, of what else acts, mean and scatter of the residual."""
+    """Memory: low-passes of modelled thrusts, momentum and other loads; mean and scatter of the residual."""
 
     rotors: LowPassState
     thrusts: LowPassState

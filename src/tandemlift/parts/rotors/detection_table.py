@@ -1,4 +1,4 @@
-"""Rotor-failure detection, `[detection]`: its keys, and how it starts."""
+"""Rotor-failure detection, `[detection]`: its keys and its start."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ class DetectionTable(Table):
     """`[detection]`: rotor-failure detection, from the momentum that the modelled rotors do not explain.
 
     With `allocation.method = "constrained"`, which it needs: a rotor that is declared failed gets no thrust, and a
-    pilot that is guided by hand lands. A rotor that stops or loses more than about half of its thrust is found, one at
-    a time, from about three seconds after the lift, while nothing supports the vehicle from below.
+    pilot with interactive guidance lands. A rotor that stops or loses more than about half of its thrust is detected,
+    one at a time, from about three seconds after the lift, while nothing supports the vehicle from below.
     """
 
     model: Literal["none", "residual"] = key(
@@ -145,9 +145,9 @@ def _at_start(k: RotorLossDetection, vehicle: Vehicle, initial: InitialTable, ho
 
 
 def detection_checks(table: DetectionTable, method: str) -> Iterator[CheckResult]:
-    """A detection of failed rotors that the allocation cannot do without; `method`: `allocation.method`."""
+    """Check for a detection with an allocation that cannot omit rotors; `method`: `allocation.method`."""
     if table.model != "none" and method != "constrained":
         yield refused(
             f'detection.model = "{table.model}": must be "none" unless allocation.method is "constrained", '
-            "which alone can do without a rotor"
+            "which alone can omit a rotor"
         )

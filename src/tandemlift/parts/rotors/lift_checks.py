@@ -1,4 +1,4 @@
-"""Whether the rotors lift the vehicle, and can hold it in hover as the allocation shares out its weight."""
+"""Checks that the rotors can lift the vehicle, and hold it in hover with the allocation's distribution."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
 def lift_checks(rotors: str, weight: float, lift: float, mass_scale: float) -> Iterator[CheckResult]:
-    """Real rotors whose `lift` [N] is below the weight [N]; `rotors`: `actuators.model`."""
+    """Check for real rotors whose `lift` [N] is below the weight [N]; `rotors`: `actuators.model`."""
     if rotors == "rotors" and weight > lift:
         yield refused(
             f'actuators.model = "rotors": the vehicle weighs {weight:.4g} N'
@@ -20,7 +20,7 @@ def lift_checks(rotors: str, weight: float, lift: float, mass_scale: float) -> I
 
 
 def ideal_lift_warnings(weight: float, lift: float) -> Iterator[CheckResult]:
-    """Ideal rotors that give more than real ones could."""
+    """Check for ideal rotors that give more thrust than real ones could."""
     if weight > lift:
         yield warned(
             f"the vehicle weighs {weight:.4g} N and its rotors lift {lift:.4g} N; it flies only because "
@@ -29,12 +29,12 @@ def ideal_lift_warnings(weight: float, lift: float) -> Iterator[CheckResult]:
 
 
 def hover_thrusts(vehicle: Vehicle, weights: Sequence[Sequence[float]], weight: float) -> Array:
-    """Thrusts [N] of all rotors in hover as the allocation shares out the weight [N], (N × 4)."""
+    """Thrusts [N] of all rotors (N × 4) in hover, by the allocation of the weight [N]."""
     return vehicle.allocation(weights)[:, 0].reshape(-1, 4) * weight
 
 
 def hover_warnings(vehicle: Vehicle, thrusts: Array) -> Iterator[CheckResult]:
-    """Rotors that cannot give their thrusts (N × 4) [N] in hover."""
+    """Check for rotors that cannot give their thrusts (N × 4) [N] in hover."""
     for i, (q, own) in enumerate(zip(vehicle.quadrotors, thrusts, strict=True), 1):
         worst = max(own, key=lambda f: max(-f, f - q.max_thrust))
         if not 0.0 <= worst <= q.max_thrust:

@@ -29,7 +29,7 @@ class FaultTable(Table):
     time: NonNegative = key(..., "s", "start of the fault", example=15.0)
     efficiency: Share = key(0.0, "1", "fraction of the rotor's thrust that is left")
     known_after: NonNegative | None = key(
-        None, "s", "delay until the 'constrained' allocation knows of it", unset="it never knows", example=0.05
+        None, "s", "delay until the 'constrained' allocation uses it", unset="never", example=0.05
     )
 
 
@@ -84,14 +84,14 @@ def real_faults(tables: Sequence[FaultTable], vehicle: Vehicle) -> NoFaults | Ro
 
 
 def known_faults(tables: Sequence[FaultTable], vehicle: Vehicle) -> NoFaults | RotorFaults:
-    """The rotor faults that the pilot knows of, each from the time when it does."""
+    """The rotor faults known to the pilot, each from the time at which it becomes known."""
     known = [math.inf if f.known_after is None else f.time + f.known_after for f in tables]
     failures = [(f.quadrotor, f.rotor, minimum(t, NEVER), f.efficiency) for f, t in zip(tables, known, strict=True)]
     return rotor_faults(vehicle.rotor_count, failures)
 
 
 def fault_checks(tables: Sequence[FaultTable], quadrotors: int, rotors: str) -> Iterator[CheckResult]:
-    """Faults of rotors that the vehicle does not have, or that fail twice; `rotors`: `actuators.model`."""
+    """Check for faults of rotors that do not exist, or that fail twice; `rotors`: `actuators.model`."""
     seen = dict[tuple[int, int], int]()
     for i, f in enumerate(tables):
         if f.quadrotor > quadrotors:
@@ -106,9 +106,9 @@ def fault_checks(tables: Sequence[FaultTable], quadrotors: int, rotors: str) -> 
 
 
 def fault_warnings(tables: Sequence[FaultTable], weight: float, lift: float, method: str) -> Iterator[CheckResult]:
-    """Faults that leave too little `lift` [N] for the weight [N]; `method`: `allocation.method`."""
+    """Check for faults that leave too little `lift` [N] for the weight [N]; `method`: `allocation.method`."""
     if weight > lift:
-        yield warned(f"once all faults are there, the vehicle weighs {weight:.4g} N and its rotors lift {lift:.4g} N")
+        yield warned(f"with all faults, the vehicle weighs {weight:.4g} N and its rotors lift {lift:.4g} N")
     known = [i for i, f in enumerate(tables) if f.known_after is not None]
     if known and method != "constrained":
-        yield warned(f'faults.{known[0]}.known_after is of use only where allocation.method is "constrained"')
+        yield warned(f'faults.{known[0]}.known_after has an effect only if allocation.method is "constrained"')

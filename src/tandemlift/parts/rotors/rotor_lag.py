@@ -16,11 +16,11 @@ from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number, PerRotor, number
 from tandemlift.core.vector import each
 
-REST = 1e-100  # rad/s, lost in any speed; one that dies ends near 1e-115, not in slow denormal numbers
+REST = 1e-100  # rad/s, negligible; a speed that decays ends near 1e-115, not in slow denormal numbers
 
 
 class Lag(NamedTuple):
-    """A first-order lag over one step: by which factor a deviation decays, and it and its square in the mean."""
+    """A first-order lag over one step: the factor of a deviation's decay, and the means of it and of its square."""
 
     decay: PerRotor
     mean: PerRotor

@@ -1,4 +1,4 @@
-"""What rotors make of a command: limits, delay, lag, faults and ground effect, one after the other.
+"""The response of rotors to a command: limits, delay, lag, faults and ground effect, one after the other.
 
 A set holds a number for each rotor.
 """
@@ -22,7 +22,7 @@ from tandemlift.parts.rotors.rotor_lag import Lag, lag, lag_step
 
 
 class ActuatorsTable(Table):
-    """`[actuators]`: what the rotors do with a command."""
+    """`[actuators]`: response of the rotors to a command."""
 
     model: Literal["ideal", "rotors"] = key(
         "ideal",
@@ -156,7 +156,7 @@ def start_rotors(
         faults: the real ones.
         vehicle: the nominal one.
         step: time step [s].
-        weights: of the allocation, by which hover is shared out.
+        weights: of the allocation, which distribute the hover thrust.
         floor: height z [m] of a floor with ground effect, or None.
         delayed: whether commands arrive late.
     """

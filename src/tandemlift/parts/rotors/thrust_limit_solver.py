@@ -1,9 +1,9 @@
-"""Solver of the rotors' thrust limits: the thrusts within them that come closest to a wanted wrench.
+"""Solver of the rotors' thrust limits: the thrusts within them that come closest to a desired wrench.
 
 minimise ‖W(B f − τ)‖² + γ‖f − f₀‖² over 0 ≤ f ≤ f_max
 
-B (4 × n) is the effect of n rotors on thrust [N] and on the moments about x, y, z [N·m, body axes], τ the wanted
-wrench, f₀ [N] the thrusts that the pseudo-inverse asks for, W = diag(priority / row rms of B). γ > 0 makes the optimum
+B (4 × n) is the effect of n rotors on thrust [N] and on the moments about x, y, z [N·m, body axes], τ the desired
+wrench, f₀ [N] the thrusts of the pseudo-inverse, W = diag(priority / row rms of B). γ > 0 makes the optimum
 unique and f₀ itself the optimum if it is within the limits.
 
 `limited_thrusts` is a primal active-set method with a warm start (Nocedal and Wright, Numerical Optimization, 16.5;
@@ -45,7 +45,7 @@ ROUNDING = 2.220446049250313e-16  # of a double
 
 
 class BoundedProblem(NamedTuple):
-    """What is minimised.
+    """The problem to be minimised.
 
     `rows`: W B, `weighted_rows`, sets of n. `weights`: the diagonal of W, `weights_of`. `wanted`: τ [N, N·m body axes].
     `unlimited`: f₀ [N], a set. `limits`: f_max [N], a set, 0 for a rotor that is lost.
@@ -177,7 +177,7 @@ def _advanced(p: BoundedProblem, now: AllocationState, pull: PerRotor) -> tuple[
 
 @elementwise
 def _inward(active: Number, pull: Number, size: Number, limit: Number) -> Number:
-    """How hard a held rotor pulls back into its limits, 0 within rounding."""
+    """The gradient by which a held rotor is pulled back into its limits, 0 within rounding."""
     inward = -active * pull
     return where(limit > 0.0, where(inward > 4.0 * ROUNDING * size, inward, 0.0), 0.0)
 
@@ -230,7 +230,7 @@ def start_search(limits: PerRotor, held: AllocationState) -> Search:
 
 
 def limited_thrusts(p: BoundedProblem, held: AllocationState, most: int) -> tuple[AllocationState, int]:
-    """The thrusts within the limits that come closest to a wanted wrench.
+    """The thrusts within the limits that come closest to a desired wrench.
 
     Whatever happens, it ends after `most` steps with 0 ≤ f ≤ limits exactly. Until the first step that no limit cuts
     short, every rotor that would leave its limits is held; from then on the cost falls from step to step. 8 n steps are
@@ -239,7 +239,7 @@ def limited_thrusts(p: BoundedProblem, held: AllocationState, most: int) -> tupl
     is 0.
 
     Args:
-        p: what is minimised.
+        p: the problem.
         held: the working set to start from (zeros if none is known), −1 at 0, 1 at the limit, 0 free, and thrusts [N]
             of any size.
         most: bound on the number of steps.

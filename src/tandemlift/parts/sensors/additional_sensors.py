@@ -1,4 +1,4 @@
-"""Additional sensors: what each is, and the law of what it measures. An estimator may read them by name."""
+"""Additional sensors: the description of each, and the law of its reading. Estimators read them by name."""
 
 from __future__ import annotations
 

@@ -61,7 +61,7 @@ class SensorHealth(NamedTuple):
     """Memory of one sensor.
 
     `identical`: samples in a row that equal the one before. `invalid_time` [s]: since the last valid sample. `failure`:
-    what is wrong with the last sample (`SYMPTOMS`, from 1), 0 for nothing.
+    symptom of the last sample (`SYMPTOMS`, from 1), 0 for none.
     """
 
     identical: Number
@@ -78,7 +78,7 @@ class SampleChecks(NamedTuple):
 
 
 class WatchdogReport(NamedTuple):
-    """What is wrong: 1 or 0, or what is wrong with a sensor (`SYMPTOMS`, from 1; 0 for nothing).
+    """The watchdogs' report: 1 or 0 for devices, the symptom of each sensor (`SYMPTOMS`, from 1; 0 for none).
 
     `imu` and `motion`: stale. `seen`: 1 once both devices have sent a sample.
     """
@@ -198,7 +198,7 @@ def health_after(m: SensorHealth, checks: SampleChecks, fresh: Number, dt: Numbe
 
 
 def quantities(readings: Readings, sensor: Sensor) -> tuple[Vec3 | Quat, ...]:
-    """What a sensor read."""
+    """The reading of a sensor."""
     return tuple(getattr(getattr(readings, sensor.device), name) for name in sensor.quantities)
 
 

@@ -1,6 +1,6 @@
 """The errors of a sensor: noise, bias, drift, misalignment, saturation and quantisation. `read` makes a sample of them.
 
-A sample is clip(A x + bias + drift + σ n) rounded to whole steps; A turns body axes into the sensor's, the drift is a
+A sample is clip(A x + bias + drift + σ n) rounded to whole steps; A maps body axes to the sensor's, the drift is a
 random walk. One standard normal n a sample and axis serves both: the drift advances by w n *after* the reading. With
 the σ of `sensor_model`, the increments of such readings have the variance 2σ₀² + w² and the covariance −σ₀² with
 the one before, as those of white noise of σ₀ and an independent walk of w have; both are Gaussian, so they are the same
@@ -8,7 +8,7 @@ process, its walk begun σ/w samples earlier (J. F. Muth, J. Am. Stat. Assoc. 55
 Error terms: IEEE Std 952, annex C.
 
 The type of a model picks its law: `SensorModel` for a vector or one on every quadrotor, `ScalarSensorModel` for a
-number, `WhiteNoise` and `AttitudeNoise` for what has no other error, `NoError` for what is copied.
+number, `WhiteNoise` and `AttitudeNoise` for readings without other errors, `NoError` for copied ones.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ ROUNDING = 6755399441055744.0  # 1.5 · 2⁵²: a sum with it has no fraction le
 
 
 class SensorGrade(NamedTuple):
-    """How good a sensor is, in plain numbers and in the unit U of what it measures; perfect by default.
+    """The grade of a sensor, as plain numbers in the unit U of its readings; perfect by default.
 
     `bias` [U] and `misalignment` (rotation vector of the sensor's axes, body axes [rad]) are a number for all, three,
     or three for each quadrotor; `noise` is the standard deviation of a sample [U], `drift` that of a random walk after
@@ -88,7 +88,7 @@ class AttitudeNoise(NamedTuple):
 
 
 class NoError(NamedTuple):
-    """What goes into a sample as it is."""
+    """A quantity that is sampled without errors."""
 
 
 @elementwise
@@ -184,12 +184,12 @@ def _rows(value: ArrayLike, count: int) -> Array:
 
 
 def _sensor_axes(turn: Array) -> Array:
-    """Axes (3 × 3, rows) of a sensor turned by a rotation vector; exactly the body's for none."""
+    """Axes (3 × 3, rows) of a sensor rotated by a rotation vector; exactly the body's for a zero vector."""
     return np.array(rotation_from_quaternion(quaternion_from_rotation_vector(vec3(turn)))).T
 
 
 class _Errors(NamedTuple):
-    """What models of vectors and of numbers share."""
+    """The common parameters of models of vectors and of numbers."""
 
     noise: float
     walk: float
@@ -213,7 +213,7 @@ def sensor_model(grade: SensorGrade, interval: float, count: int | None = None) 
     """The sensor of a vector of this grade, or one on every quadrotor.
 
     Args:
-        grade: how good it is.
+        grade: its errors.
         interval: time from sample to sample [s].
         count: number of quadrotors; None for a single sensor.
     """

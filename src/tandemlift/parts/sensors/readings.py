@@ -1,4 +1,4 @@
-"""What the sensors on the vehicle and around it read: every device samples on its own clock and holds its last sample.
+"""Readings of all sensors: every device samples on its own clock and holds its last sample.
 
 The inertial measurement unit (IMU) holds an accelerometer at the payload's centre of mass and a gyroscope; the
 force-torque sensors at the joints run on its clock; all read in body axes. The motion measurement reads position and
@@ -42,8 +42,8 @@ T = TypeVar("T")
 class ImuChannels(NamedTuple, Generic[T]):
     """One value for each quantity that is sampled with the IMU: a truth, a model, a drift, a noise, a fault.
 
-    Specific force at the payload's centre of mass [m/s²], rates [rad/s], and what each quadrotor puts on the payload at
-    its joint: force [N] and torque [N·m], vectors of sets. `frame` is the attitude estimate of the pilot at that time.
+    Specific force at the payload's centre of mass [m/s²], rates [rad/s], and the load of each quadrotor on the payload
+    at its joint: force [N] and torque [N·m], vectors of sets. `frame` is the pilot's attitude estimate at that time.
     """
 
     specific_force: T
@@ -180,19 +180,19 @@ def sample_device(k: Device, m: DeviceState[R], truth: Channels[Sample], normals
 
 @law
 def true_imu(state: State, perfect: PerfectReadings, believed: Quat) -> ImuChannels[Sample]:
-    """What the IMU and the joints' sensors measure, without errors."""
+    """The readings of the IMU and the joints' sensors without errors."""
     return ImuChannels(perfect.specific_force, state.rates, perfect.joint_force, perfect.joint_torque, believed)
 
 
 @law
 def true_motion(state: State) -> MotionChannels[Sample]:
-    """What the motion measurement measures, without errors."""
+    """The readings of the motion measurement without errors."""
     return MotionChannels(state.position, state.velocity, state.attitude)
 
 
 @law
 def true_additional(sensor: object, state: State, perfect: PerfectReadings) -> AdditionalChannels[Sample]:
-    """What an additional sensor measures, without errors."""
+    """The reading of an additional sensor without errors."""
     return AdditionalChannels(true_value(sensor, state, perfect))
 
 

@@ -1,4 +1,4 @@
-"""Sensors, faults of sensors and delays that cannot be simulated, and ranges that hover exceeds."""
+"""Checks for invalid sensors, sensor faults and delays, and for ranges that hover exceeds."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ MAX_DELAY = 10_000  # steps
 
 
 def delay_checks(delays: Mapping[str, float], step: float) -> Iterator[CheckResult]:
-    """Delays [s] by key that take too many steps."""
+    """Check for delays [s], by key, that take too many steps."""
     for key, delay in delays.items():
         if delay / step > MAX_DELAY:
             yield refused(f"{key} = {delay}: must be at most {MAX_DELAY} steps of mission.step = {step}")
 
 
 def additional_checks(table: SensorsTable) -> Iterator[CheckResult]:
-    """Additional sensors that are not registered, that there are twice, or that cannot be simulated."""
+    """Check for additional sensors that are not registered, that occur twice, or that cannot be simulated."""
     for i, s in enumerate(table.additional):
         key = f"sensors.additional.{i}.name = {shown(s.name)}"
         if s.name not in ADDITIONAL:
@@ -34,12 +34,12 @@ def additional_checks(table: SensorsTable) -> Iterator[CheckResult]:
 
 
 def range_warnings(table: SensorsTable, vehicle: Vehicle, thrusts: Array) -> Iterator[CheckResult]:
-    """Sensors that hover takes beyond their ranges; `thrusts` of all rotors there [N] (N × 4)."""
+    """Check for sensors whose ranges are exceeded in hover; `thrusts` of all rotors there [N] (N × 4)."""
     for i, (q, own) in enumerate(zip(vehicle.quadrotors, thrusts, strict=True), 1):
         force = own.sum() - q.mass * GRAVITY
         if abs(force) > table.joints.force_range:
             given = f"sensors.joints.force_range = {table.joints.force_range}"
-            yield warned(f"{given}: joint {i} bears {force:.4g} N in hover")
+            yield warned(f"{given}: joint {i} carries {force:.4g} N in hover")
     if table.accelerometer.range < GRAVITY:
         yield warned(f"sensors.accelerometer.range = {table.accelerometer.range}: it reads {GRAVITY} m/s2 in hover")
 
@@ -47,7 +47,7 @@ def range_warnings(table: SensorsTable, vehicle: Vehicle, thrusts: Array) -> Ite
 def sensor_fault_checks(
     tables: Sequence[SensorFaultTable], sensors: SensorsTable, quadrotors: int
 ) -> Iterator[CheckResult]:
-    """Faults of sensors that there are not, or that cannot fail so, or that fail twice."""
+    """Check for faults of sensors that do not exist, that cannot fail in this way, or that fail twice."""
     if tables and sensors.model == "none":
         yield refused('sensors.model = "none": must be "simulated" where there are sensor_faults')
     additional = [s.name for s in sensors.additional]

@@ -1,7 +1,7 @@
-"""Sensors that fail: what their readings become between the sensor and the pilot.
+"""Faults of sensors, which change their readings between the sensor and the pilot.
 
 From one step until another, a sensor repeats its last value (frozen), gives no numbers (nan), has an offset (bias), or
-gives one value whatever happens (range); a device sends no new sample (stale). The laws are mapped over the channels of
+gives a constant value (range); a device sends no new sample (stale). The laws are mapped over the channels of
 every device. The type of a fault picks its law; a channel without a fault of its own has `NoFault`.
 """
 
@@ -49,7 +49,7 @@ class SensorFault(NamedTuple):
 
 
 class AttitudeFault(NamedTuple):
-    """A fault of the attitude: while the reading is kept, it is turned by `size` [rad, body axes]."""
+    """A fault of the attitude: while the reading is kept, it is rotated by `size` [rad, body axes]."""
 
     fault: SensorFault
 

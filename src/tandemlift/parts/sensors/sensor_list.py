@@ -1,4 +1,4 @@
-"""Every sensor, each said once: its device, what it measures, in which unit and frame.
+"""The list of sensors: device, quantities, unit and frame of each.
 
 Two devices belong to the vehicle: the inertial measurement unit ("imu"), on whose clock the force-torque sensors at the
 joints also run, and the motion measurement ("motion"). The pilot reads their quantities by name. Every other sensor is
@@ -23,8 +23,8 @@ class Sensor(NamedTuple):
         quantities: the fields of its device's reading.
         unit: of a reading of the first of them.
         frame: of the first of them, "" if it has no direction.
-        meaning: what it measures, in a few words.
-        width: how many numbers its reading has; of the joints', for each of them.
+        meaning: a short description of its quantity.
+        width: count of numbers in its reading; for joints, of each of them.
     """
 
     name: str

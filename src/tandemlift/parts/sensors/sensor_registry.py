@@ -1,4 +1,4 @@
-"""Registration of additional sensors: the law of what each measures (`sensor_list` says what they are)."""
+"""Registration of additional sensors with the laws of their readings; `sensor_list` describes them."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ PARAMETERS: dict[str, Any] = {}
 
 @choice
 def true_value(sensor: object, state: State, perfect: PerfectReadings) -> Number | Vec3:
-    """What an additional sensor reads without errors: a number, or a `Vec3`."""
+    """The reading of an additional sensor without errors: a number, or a `Vec3`."""
 
 
 def register_sensor(sensor: Sensor) -> Callable[[F], F]:
-    """Register the law of what an additional sensor measures.
+    """Register the law of an additional sensor's reading.
 
     The law is called with the sensor's parameters, the true `State` of the vehicle's centre of mass and the
     `PerfectReadings` of payload and joints. It gives a number or a `Vec3`, and keeps to what a law may do
@@ -41,7 +41,7 @@ def register_sensor(sensor: Sensor) -> Callable[[F], F]:
         sensor: its row, from `parts.sensors.sensor_list.additional`.
 
     Raises:
-        InputError: the name is not fit for one or taken, the law is in no file, or gives something else.
+        InputError: the name is invalid or used, the law is in no file, or returns something else.
     """
     name = sensor.name
     if not re.fullmatch(r"[a-z][a-z0-9_]{0,31}", name):
@@ -50,7 +50,7 @@ def register_sensor(sensor: Sensor) -> Callable[[F], F]:
     def keep(law: F) -> F:
         _check_name(name, law)
         parameters = _type_of_parameters(name)
-        parameters.__module__ = law.__module__  # what is compiled depends on its file
+        parameters.__module__ = law.__module__  # the compiled code depends on its file
         value = law(parameters(None, None), AT_REST, NO_LOAD)
         if not isinstance(value, FORMS.get(sensor.width, ())):
             form = type(value).__name__
@@ -69,7 +69,7 @@ def _type_of_parameters(name: str) -> Any:
 
 
 def _check_name(name: str, law: Callable[..., Any]) -> None:
-    """Refuse a name that a sensor of another file has, and a law that is in no file."""
+    """Reject a name of a sensor from another file, and a law that is in no file."""
     file = inspect.unwrap(law).__code__.co_filename
     if not Path(file).is_file():
         raise InputError(f"sensor {name!r}: its law must be defined in a file, not in {file}")

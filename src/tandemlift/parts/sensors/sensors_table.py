@@ -1,4 +1,4 @@
-"""Simulated sensors, and how they fail."""
+"""The tables of simulated sensors and of their faults."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ AdditionalName: TypeAlias = Literal[tuple(ADDITIONAL)] | str  # type: ignore[val
 class AdditionalSensorTable(Table):
     """`[[sensors.additional]]`: sensors beyond those that the pilot needs, one table each, with a clock of their own.
 
-    Their samples are recorded in channel `measured_NAME`. CONTRIBUTING.md tells how to add a sensor.
+    Their samples are recorded in channel `measured_NAME`. CONTRIBUTING.md describes how to add a sensor.
     """
 
     name: AdditionalName = key(
@@ -138,15 +138,15 @@ class SensorsTable(Table):
     """`[sensors]`: simulated sensors; errors are independent along each axis.
 
     There are a force-torque sensor at every joint, an accelerometer and a gyroscope, all on one clock, the inertial
-    measurement unit's (imu), and a motion measurement with a clock of its own. The pilot knows a sample one step after
-    it was taken, or later by its delay.
+    measurement unit's (imu), and a motion measurement with a clock of its own. The pilot receives a sample one step
+    after it was taken, or later by its delay.
     """
 
     model: Literal["none", "simulated"] = key(
         "none",
         None,
         "model of the sensors",
-        choices={"none": "no sensors: the pilot reads the truth", "simulated": "sensors with the errors of this table"},
+        choices={"none": "no sensors: the pilot uses the truth", "simulated": "sensors with the errors of this table"},
     )
     interval: Interval = key(
         0.0, "s", "time between samples of the imu and the joints, rounded to whole steps; 0 samples at every step"
@@ -192,7 +192,7 @@ class SensorFaultTable(Table):
     kind: Literal["stale", "frozen", "nan", "bias", "range"] = key(
         ...,
         None,
-        "how the sensor fails",
+        "kind of the failure",
         example="frozen",
         choices={
             "stale": "a device sends nothing new",

@@ -1,4 +1,4 @@
-"""What takes the place of invalid samples and lost sensors: last valid values, and predictions of the navigator."""
+"""Substitutes for invalid samples and lost sensors: last valid values, and predictions of the navigator."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class PredictedReadings(NamedTuple):
 
 
 class MeanBiases(NamedTuple):
-    """Means of the bias estimates [rad/s, m/s²], and for how long they were averaged, less `SETTLING_TIME` [s]."""
+    """Means of the bias estimates [rad/s, m/s²], and the time of averaging, less `SETTLING_TIME` [s]."""
 
     gyroscope: Vec3
     accelerometer: Vec3
@@ -63,7 +63,7 @@ def substituted_imu(
 ) -> ImuReading:
     """The IMU's sample with substitutes for lost sensors.
 
-    While the navigator cannot estimate a bias, its sensor's reading is moved so that the mean bias is taken off.
+    While the navigator cannot estimate a bias, the mean bias is subtracted from the sensor's reading.
     """
     at_rest = apply_transposed(rotation_from_quaternion(p.state.attitude), UP * GRAVITY) + p.accelerometer_bias
     no_attitude = maximum(r.motion, r.attitude)
@@ -80,7 +80,7 @@ def substituted_imu(
 def substituted_motion(
     v: MotionReading, h: PerSensor[SensorHealth], r: WatchdogReport, velocity: Vec3, p: PredictedReadings
 ) -> MotionReading:
-    """A motion sample with the prediction in place of what is invalid or lost; `velocity`: from the position."""
+    """A motion sample with the prediction in place of invalid or lost values; `velocity`: from the position."""
     position = maximum(maximum(r.position, h.position.failure), r.motion)
     no_velocity = maximum(maximum(r.velocity, h.velocity.failure), r.motion)
     attitude = maximum(maximum(r.attitude, h.attitude.failure), r.motion)

@@ -51,7 +51,7 @@ from tandemlift.parts.sensors.substitutes import (
 )
 
 Samples = Annotated[int, Field(ge=2, le=1_000_000)]
-FAR = "chosen: beyond what the vehicle should meet"
+FAR = "chosen: larger than expected in flight"
 
 
 class WatchTable(Table):
@@ -136,7 +136,7 @@ class WatchdogState(NamedTuple):
 
 @law
 def lost(k: Watchdog, h: SensorHealth, limits: SensorLimits) -> Number:
-    """What is wrong with a sensor that is lost (`SYMPTOMS`, from 1), or 0."""
+    """The symptom of a lost sensor (`SYMPTOMS`, from 1), or 0."""
     invalid = where(h.invalid_time >= k.invalid_time, h.failure, 0.0)
     return where(h.failure > 0.0, invalid, where(h.identical >= limits.frozen_samples, FROZEN, 0.0))
 
@@ -145,7 +145,7 @@ def lost(k: Watchdog, h: SensorHealth, limits: SensorLimits) -> Number:
 def report_of(
     k: Watchdog, h: PerSensor[SensorHealth], imu_age: Number, motion_age: Number, seen: Number, d: Inconsistency
 ) -> WatchdogReport:
-    """What is wrong, with devices of these ages [s]; `seen` is 1 once both have sent a sample."""
+    """The report for devices with these ages [s]; `seen` is 1 once both have sent a sample."""
     failures = PerSensor(*[lost(k, *sensor) for sensor in zip(h, k.sensors, strict=True)])
     return WatchdogReport(
         imu=where(imu_age >= k.stale_time, 1.0, 0.0),

@@ -1,4 +1,4 @@
-"""The guidance by hand of a mission."""
+"""The interactive guidance of a mission."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def phase_settings(p: PhasesTable, c: ComplianceTable, requests: Sequence[Reques
 def start_hand_guidance(
     mission: Mission, vehicle: Vehicle, admittance: Admittance, known: NoFaults | RotorFaults
 ) -> tuple[HandGuidance, HandGuidanceState]:
-    """The guidance by hand of a mission before its first sample, and its memory; `known`: the known rotor faults."""
+    """Interactive guidance before its first sample, and its memory; `known`: the known rotor faults."""
     c, of_controller = mission.compliance, getattr(mission.controller, "max_tilt", None)
     push, at_rest = push_filters(c, mission.mission.step), mission.phases.rotors == "always"
     at = ZERO if at_rest else Vec3(*mission.initial.position)
