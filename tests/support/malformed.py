@@ -182,7 +182,7 @@ WRONG_PARTS = [
     case("rotor in space", ROTORS % "[1, 0, 0], [0, 1], [1, 1], [0, 0]", "rotor_positions.0 = [1, 0, 0]", "list of 2"),
     case("half a spin", fleet("0, 1, 0").replace("arm", "spins = [1, -1, 0.5, -1], arm"), "spins.2 = 0.5", "-1 or 1"),
     case("spins alike", fleet("0, 1, 0").replace("arm", "spins = [1, 1, 1, 1], arm"), "[1, 1, 1, 1]", "every thrust"),
-    case("rotors in a line", ROTORS % "[1, 0], [2, 0], [3, 0], [4, 0]", "[4.0, 0.0]", "cannot make every thrust"),
+    case("rotors in a line", ROTORS % "[1, 0], [2, 0], [3, 0], [4, 0]", "[4.0, 0.0]", "cannot produce every thrust"),
     case("no arm", fleet("0, 1, 0").replace("arm = 0.25, ", ""), "have either arm (and layout), or rotor_positions"),
     case("no feet", fleet("0, 1, 0").replace("arm", "feet_depth = 0, arm"), "feet_depth = 0", "> 0 and ≤ 1000"),
     case("negative area", "vehicle.payload.drag_area = [1, -1, 1]", "drag_area.1 = -1", "≥ 0"),
@@ -248,7 +248,7 @@ WRONG_PARTS_TOGETHER = [
     case("estimate without sensors", "pilot.state = 'estimate'", 'pilot.state = "estimate"', 'must be "truth"'),
     case("push without sensors", "pilot.push = 'measurement'", 'pilot.push = "measurement"', '"simulated"'),
     of_parts("sensors taken away", "sensors.model = 'none'", 'pilot.state = "estimate"', 'must be "truth"'),
-    case("mass without a tare", "estimator.identify_mass = true", "identify_mass = true", "give estimator.tare_start"),
+    case("mass without a tare", "estimator.identify_mass = true", "identify_mass = true", "set estimator.tare_start"),
     of_parts("tare of no sample", "estimator.tare_duration = 0.0001", "tare_duration = 0.0001", "every 0.001 s"),
     of_parts(
         "tare shorter than slow samples", "sensors.interval = 4.0", "estimator.tare_duration = 3.0", "come every 4 s"

@@ -1,1 +1,1 @@
-"""From a mission to its flight: whole, many at once, changed in flight; outcome and findings; the pilot alone."""
+"""Flies missions: one, many at once, with changes in flight; outcomes and findings; the pilot alone."""

@@ -1,4 +1,4 @@
-"""Values that callers of a simulation give, checked: arrays of finite numbers, and seeds."""
+"""Checks of values from a simulation's caller: arrays of finite numbers, and seeds."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What ended a flight, as numbers: a law, which modules of missions carry too. `simulation.outcome` has the words."""
+"""The ending of a flight as numbers: a law, also in mission modules. `simulation.outcome` has the words."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def _remembered(crash: CrashMemory, now: EndingMoment) -> Any:
 
 @choice(absent=0.0)
 def impulse_of(strike: Any, impulse: Any) -> Any:
-    """The impulse of contact [N·s]; 0 where there is nothing to touch."""
+    """The impulse of contact [N·s]; 0 if there is nothing to touch."""
 
 
 @impulse_of.register(Strike)
@@ -62,7 +62,7 @@ def _impulse_of(strike: Strike, impulse: Number) -> Number:
 
 @choice(absent=0.0)
 def outside_of(fence: Any, position: Vec3) -> Any:
-    """How far a position is outside the fence [m]."""
+    """The distance of a position outside the fence [m]."""
 
 
 @outside_of.register(OuterFence)
@@ -72,10 +72,10 @@ def _outside_of(fence: OuterFence, position: Vec3) -> Any:
 
 @law
 def ending_numbers(limits: CrashLimits, crash: Any, now: EndingMoment) -> EndingNumbers:
-    """What ended a flight.
+    """The ending of a flight as numbers.
 
     Args:
-        limits: what ends a flight.
+        limits: those that end a flight.
         crash: the memory of a crash, or `Absent`.
         now: the number of the ending that stops the flight now, at this time and in this state.
     """

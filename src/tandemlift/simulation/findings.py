@@ -1,4 +1,4 @@
-"""Findings of a flight: formed from what the detectors, the supervision and the rotor-loss detection remember."""
+"""Findings of a flight, from the memories of detectors, supervision and rotor-loss detection."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ def _excess(
 def _deviations(d: Detectors, promise: Promise, mission: Mission, dt: float) -> Iterator[Finding]:
     far, reach = math.sqrt(d.distance.worst), mission.findings.reach_distance
     if d.distance.steps and far > reach:
-        text = f"the reference is {far:.3g} m from the vehicle, which it has left behind"
+        text = f"the reference is {far:.3g} m from the vehicle and moves away from it"
         yield _excess("out-of-reach", text, d.distance, dt, "distance from the reference", far, "m", reach)
     elif d.distance.steps:
         text = f"{far:.3g} m from its reference (promised: {promise.distance:g} m)"
@@ -144,7 +144,7 @@ def _saturations(m: Excess | Absent, steps: int, mission: Mission, dt: float) ->
     fraction, long = m.steps / steps, m.stretch > f.saturated_time
     if not long and fraction <= f.saturated_fraction:
         return
-    text = f"a rotor is at its limit for {m.stretch:.3g} s at a stretch, {100.0 * fraction:.3g} % of the flight"
+    text = f"a rotor is at its limit for {m.stretch:.3g} s without interruption, {100.0 * fraction:.3g} % of the flight"
     yield finding(
         "saturated",
         text,
@@ -162,14 +162,14 @@ def _out_of_reach(m: Excess | Absent, p: FlightPlan) -> Iterator[Finding]:
     if isinstance(m, Absent) or not m.steps or m.stretch <= p.mission.findings.reach_time:
         return
     needed, most = math.sqrt(m.worst), math.sqrt(p.model.finding_limits.thrust)
-    text = f"the reference asks for {needed:.4g} N of thrust, the rotors have {most:.4g} N"
+    text = f"the reference needs {needed:.4g} N of thrust, the rotors have {most:.4g} N"
     yield _excess("out-of-reach", text, m, p.dt, "thrust that the reference needs", needed, "N", most)
 
 
 def _unanswered(m: Excess, dt: float) -> Iterator[Finding]:
-    """A push that moves nothing."""
+    """The finding of a push without response."""
     if m.steps:
-        text = f"a push of up to {m.worst:.3g} N moves nothing"
+        text = f"the vehicle does not respond to a push of up to {m.worst:.3g} N"
         yield finding(
             "no-response-to-push",
             f"{text} for {m.steps * dt:.3g} s",
@@ -183,14 +183,14 @@ def _unanswered(m: Excess, dt: float) -> Iterator[Finding]:
 
 
 def _unpushed(m: Excess, limit: float, dt: float) -> Iterator[Finding]:
-    """Motion of the reference without a push, of more than the limit [m]."""
+    """The finding of a reference that moves without a push by more than the limit [m]."""
     if m.steps:
-        text = f"the reference moved {m.worst:.3g} m although nobody pushed"
+        text = f"the reference moved {m.worst:.3g} m without a push"
         yield _excess("response-without-push", text, m, dt, "motion without a push", m.worst, "m", limit)
 
 
 def _refuted(m: Excess, longest: float, dt: float) -> Iterator[Finding]:
-    """A measured push that the motion refutes for more than the longest time [s]."""
+    """The finding of a measured push that the motion refutes for more than the longest time [s]."""
     if m.stretch > longest:
         size = math.sqrt(m.worst)
         text = f"the joint sensors measured a push of up to {size:.3g} N along which the vehicle does not move"
@@ -249,7 +249,7 @@ def _events(log: EventLog) -> list[tuple[float, float]]:
 
 
 def _by_lost_rotor(p: FlightPlan, flight_state: FlightState) -> Iterator[Finding]:
-    """The landing after a failed rotor that was found, where no supervision reports it."""
+    """The finding of a landing after a detected rotor failure, if no supervision reports it."""
     detection, memory, guidance = p.model.pilot.detection, flight_state.memory.detection, flight_state.memory.guidance
     supervised = isinstance(getattr(guidance, "supervision", None), SupervisionState)
     if isinstance(detection, Absent) or isinstance(memory, Absent) or supervised:
@@ -264,12 +264,12 @@ def _by_lost_rotor(p: FlightPlan, flight_state: FlightState) -> Iterator[Finding
 
 
 def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str, end: float) -> Iterator[Finding]:
-    """A landing that the mission asks for by its clock, that should be over by the end [s], and is not."""
+    """The finding of a scheduled landing that should be over by the end [s], but is not."""
     asked = _landing_asked(p.mission)
     if outcome == "flying" and asked + landing_time(p.mission) <= end:
         position = flight_state.state.position
         height = position.z - p.model.flight_state.state.position.z
-        text = f"{height:.3g} m above its start at the end, with a landing asked for at {asked:g} s"
+        text = f"{height:.3g} m above its start at the end, with a landing requested at {asked:g} s"
         yield finding(
             "not-landed",
             text,
@@ -283,7 +283,7 @@ def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str, end: flo
 
 
 def _landing_asked(mission: Mission) -> float:
-    """When the mission first asks for the landing that no lift follows [s]; infinite if it asks for none."""
+    """The time of the mission's first landing request without a later lift [s]; infinite if there is none."""
     times = {action: [r.time for r in mission.requests if r.action == action] for action in ("lift", "land")}
     land_start, last_lift = mission.phases.land_start, max([mission.phases.lift_start, *times["lift"]])
     lands = [*times["land"], *([] if land_start is None else [land_start])]

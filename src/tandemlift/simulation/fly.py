@@ -94,7 +94,7 @@ def _fly_compiled(
 
 
 def _flies_stepwise(p: FlightPlan) -> bool:
-    """Whether a mission is flown step by step, because Python takes part in it."""
+    """Whether a mission is flown step by step, because Python is part of its loop."""
     return p.interpreted is not None or changes_in_flight(p.mission)
 
 
@@ -121,7 +121,7 @@ def fly(mission: Mission, engine: str | None = None, *, progress: Progress | Non
 
     Returns:
         The flight. If it crashed or diverged, or its engine was lost, it holds the samples until then, and `ending`
-        says why.
+        has the reason.
 
     Raises:
         OSError: the engine in another process took no step at all.
@@ -148,7 +148,7 @@ def fly_many(
     """Fly many missions of any mixture of variants, in blocks that share each instruction, on several threads.
 
     Args:
-        missions: from `load_mission`; an iterator is read as the flights go on, one mission after the other.
+        missions: from `load_mission`; an iterator is read during the flights, one mission after the other.
         keep: "flights" for a list of `Flight`; "metrics" for a list of metrics only, in memory that does not grow with
             the number of steps.
         threads: number of threads; by default one for each processor.
@@ -160,8 +160,8 @@ def fly_many(
         One entry for each mission, in the order given, equal to the last bit to that of a flight alone.
 
     Raises:
-        InputError: `keep` or `threads` is not one of the above, or a mission cannot be built and `refusals` are not
-            asked for.
+        InputError: `keep` or `threads` is not one of the above, or a mission cannot be built and `refusals` is
+            false.
     """
     if keep not in ("flights", "metrics"):
         raise InputError(f"keep = {keep!r}: must be 'flights' or 'metrics'")
@@ -173,7 +173,7 @@ def fly_many(
 
 
 def _flown_by_threads(groups: _FlightGroups, keep: str, count: int, finished: _Counter) -> list[Any]:
-    """What becomes of all missions, in the order given, by some threads."""
+    """The results of all missions, in the order given, by some threads."""
     results, going = dict[int, Any](), threading.Event()
     going.set()
 
@@ -218,7 +218,7 @@ class _Counter:
 
 
 class _FlightGroup(NamedTuple):
-    """Flights that fly together, and their places among all missions; or the refusal of the mission at one place."""
+    """Flights that fly together, with their indices among all missions; or the refusal of the mission at one index."""
 
     places: list[int]
     flights: list[FlightPlan]
@@ -226,7 +226,7 @@ class _FlightGroup(NamedTuple):
 
 
 class _FlightGroups:
-    """The groups of some missions, for any number of threads: each takes the next one when it is free.
+    """The groups of some missions, for any number of threads: each takes the next group when it is free.
 
     A group is prepared by the thread that takes it, so that one thread prepares while others fly, and no more missions
     are held than those that fly or wait for others of their variant.
@@ -254,7 +254,7 @@ class _FlightGroups:
             return next(self._groups, None)
 
     def results_of(self, group: _FlightGroup, keep: str, going: Callable[[], bool]) -> list[Any]:
-        """The flights of a group, flown, or their metrics; or what refuses them."""
+        """The flights of a group, flown, or their metrics; or their refusal."""
         if group.refusal:
             return [group.refusal]
         try:
@@ -288,7 +288,7 @@ class _FlightGroups:
                 group.flights.append(p)
                 count += 1
                 full = len(group.flights) == LANES
-                if full or count > WAITING:  # one that is full, else the one that waits longest
+                if full or count > WAITING:  # a full group, else the one that waits longest
                     group = waiting.pop(key) if full else waiting.popitem(last=False)[1]
                     count -= len(group.flights)
                     yield group

@@ -1,4 +1,4 @@
-"""The one way in which studies fly many missions, each in its engine."""
+"""Flies many missions for studies, each in its engine."""
 
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ def fly_each(
         One entry for each mission, in the order given.
 
     Raises:
-        EngineLost: an engine is lost, and `interrupted` flights are not asked for.
-        InputError: an engine is unknown, or a mission cannot be built and `refusals` are not asked for.
+        EngineLost: an engine is lost, and `interrupted` is false.
+        InputError: an engine is unknown, or a mission cannot be built and `refusals` is false.
     """
     if isinstance(engine, str):
         return _Engine(engine, keep, threads, refusals, interrupted).flown(missions, progress)

@@ -1,4 +1,4 @@
-"""The outcome of a flight, by the definitions of `core.outcomes`, and why it was stopped before its end."""
+"""The outcome of a flight, by the definitions of `core.outcomes`, and the reason of an early end."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from tandemlift.simulation.plan import FlightPlan
 NOT_FINITE = "must be finite"
 STEEPEST = 1.875  # slope of the smooth step that a landing follows
 MARGIN = 1.0  # s, in which a landing should touch down after its reference
-BORNE = 0.5  # of the weight: what the floor bears of a vehicle that stands on it
+BORNE = 0.5  # of the weight: the part that the floor carries of a standing vehicle
 
 
 def ending_of(p: FlightPlan, s: FlightState, step: int, interruption: Ending | None = None) -> Ending | None:
-    """Why a flight was stopped at a step, or None; a crash after which it flew on counts before an interruption."""
+    """The reason for stopping a flight at a step, or None; a crash counts before a later interruption."""
     ended = s.ended or (getattr(s.crash, "number", 0.0) if interruption else 0.0)
     if ended == 0.0:
         return interruption
@@ -34,7 +34,7 @@ def ending_of(p: FlightPlan, s: FlightState, step: int, interruption: Ending | N
 
 
 def place_of(p: FlightPlan, s: FlightState) -> Vec3:
-    """Where a flight ended [m, world]."""
+    """The place at which a flight ended [m, world]."""
     return ending_numbers(p.model.limits, s.crash, EndingMoment(s.ended, 0.0, s.state, s.impulse)).place
 
 
@@ -58,7 +58,7 @@ def outcome_of(p: FlightPlan, s: FlightState, last: Sample, highest: float, end:
         s: its last state.
         last: its last sample.
         highest: the greatest z of its centre of mass [m].
-        end: when it was over [s].
+        end: time of its end [s].
     """
     mission, start = p.mission, p.model.flight_state.state.position.z
     if asks_for_lift(mission, end) and highest - start < _lifted(mission):
@@ -67,7 +67,7 @@ def outcome_of(p: FlightPlan, s: FlightState, last: Sample, highest: float, end:
 
 
 def asks_for_lift(mission: Mission, end: float) -> bool:
-    """Whether a mission asks its pilot for a lift that should be over by its end [s]."""
+    """Whether a mission has a lift that should be over by its end [s]."""
     p = mission.phases
     if p.height <= 0.0:
         return False
@@ -76,12 +76,12 @@ def asks_for_lift(mission: Mission, end: float) -> bool:
 
 
 def _lifted(mission: Mission) -> float:
-    """The height above its start from which on a vehicle has lifted [m]."""
+    """The height above its start above which a vehicle has lifted [m]."""
     return min(mission.outcome.lifted_height, 0.5 * mission.phases.height)
 
 
 def _stands(p: FlightPlan, state: State, last: Any, start: float, end: float) -> bool:
-    """Whether a vehicle stands at the end [s]; without a floor, whether it is where its landing leaves it."""
+    """Whether a vehicle stands at the end [s]; without a floor, whether it is at the place of its landing."""
     mission, slow = p.mission, math.dist(state.velocity, ZERO) < p.mission.outcome.landed_speed
     if not isinstance(last.contact, Absent):
         return slow and last.contact.contact_force.z > BORNE * p.model.limits.strike.weight

@@ -60,7 +60,7 @@ def scheduled_changes(p: FlightPlan) -> list[ScheduledChange]:
 
 
 def _kept(p: FlightPlan) -> tuple[Any, ...]:
-    """Everything that a change must keep: layouts except that of the controller's memory, and data."""
+    """The parts that a change must keep: layouts except that of the controller's memory, and data."""
     flight_state, plant = p.model.flight_state, p.model.plant
     rest = flight_state._replace(memory=flight_state.memory._replace(controller=Absent()))
     data = (plant, *p.tables, p.delays, p.seeds)

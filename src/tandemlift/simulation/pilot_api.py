@@ -95,7 +95,7 @@ class Pilot:
             stop: whether to stop the rotors at once; they stay stopped until `reset`.
             enabled: whether the pilot may follow the person; otherwise it holds its position.
 
-        The requests affect only a pilot that is guided by hand. `refusals` says why one of them is refused.
+        The requests affect only interactive guidance. `refusals` has the reason if one of them is refused.
 
         Returns:
             Thrust of every rotor [N] (4N,), the same array each time.
@@ -117,13 +117,13 @@ class Pilot:
 
     @property
     def refusals(self) -> Refusals:
-        """What the pilot would refuse right now, as of the last sample: to lift, to land, to follow a push; and why."""
+        """The refusals of a lift, of a landing and of following a push as of the last sample, with reasons."""
         data: PilotData = unflat(self._numbers, self._start)
         return refusals_of(data.parameters.guidance, data.memory.guidance, data.samples * self._dt)
 
     @property
     def memory(self) -> Array:
-        """What changes from sample to sample: the samples taken so far, then the numbers of the pilot's memory."""
+        """The changing numbers: the count of samples taken so far, then those of the pilot's memory."""
         return self._numbers[: 1 + leaves(self._start.memory)].copy()
 
     def reset(self) -> None:

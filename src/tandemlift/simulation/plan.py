@@ -1,4 +1,4 @@
-"""The plan of a flight: a mission prepared for the compiled loop, which its types select and which is cached."""
+"""The plan of a flight: a mission prepared for the compiled loop, which is cached by its types."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ class FlightPlan:
     def loop_code(self) -> LoopCode:
         """The compiled loops of this variant."""
         found = LOOP_CODE.get(self.variant)
-        if found is None:  # another thread may have made them by now
+        if found is None:  # another thread may have made them meanwhile
             made = LoopCode(self.model, self.given, fuses=self.mission.mission.fma)
             found = LOOP_CODE.setdefault(self.variant, made)
         return found

@@ -1,7 +1,7 @@
 """A flight that takes commands from step to step and records them.
 
-Saved, it is a mission: a TOML file, with the hand in an archive beside it, that flies the same flight again to the last
-bit. It depends on no clock and no page.
+It is saved as a mission: a TOML file, with the hand in an archive beside it, whose flight is bit-identical. It depends
+on no clock and no page.
 """
 
 from __future__ import annotations
@@ -35,21 +35,21 @@ from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_of
 
-FLYING = "flying"  # the outcome of a flight that goes on
+FLYING = "flying"  # the outcome of a flight that continues
 MISSION, HAND, FLIGHT = MISSION_FILE, HAND_FILE, "flight.npz"
 EMPTY_FLIGHT = "nothing was flown yet: there is nothing to save"
 
 
 @dataclass(frozen=True)
 class FlightSnapshot:
-    """A flight as far as it had come, and what made it: enough to fly it again to the last bit.
+    """A flight up to some step, with all data to fly it again bit-identically.
 
     Attributes:
-        start: the mission that it began as.
+        start: its initial mission.
         engine: name of the body's engine.
         flown: its raw outcome.
-        hand: positions of the hand, each with the step from which on it holds.
-        changes: what was changed in flight, as a mission's `[[changes]]`.
+        hand: positions of the hand, each with its first step.
+        changes: the changes in flight, as a mission's `[[changes]]`.
     """
 
     start: Mission
@@ -99,14 +99,14 @@ def save_flight(folder: Path, flown: RawResult, engine: str) -> Flight:
 
 
 class FlightSetup(NamedTuple):
-    """A mission put together, and its body if that is in another engine; nothing is compiled yet."""
+    """An assembled mission, and its body if that is in another engine; nothing is compiled yet."""
 
     plan: FlightPlan
     body: EngineBody | None
 
 
 def setup_flight(mission: Mission, engine: str = "compiled") -> FlightSetup:
-    """Put a flight together, as far as needs no compiling.
+    """Assemble a flight without compiling it.
 
     Raises:
         InputError: the engine is not known, or the mission cannot be built.
@@ -119,15 +119,15 @@ class RecordedFlight:
     """One flight of a mission whose `person.model` is "virtual-hand"; it is compiled on construction.
 
     Args:
-        mission: how it begins; at the end of its duration it can only be saved.
+        mission: the initial one; at the end of its duration the flight can only be saved.
         engine: name of the body's engine.
-        setup: the same, put together before.
+        setup: the same, assembled before.
 
     Attributes:
         layout: of a sample.
         now: the mission with the changes made so far.
         step: steps flown.
-        interruption: why its engine took no further step, or None; then it is over.
+        interruption: the reason if its engine took no further step, or None; then it is over.
 
     Raises:
         InputError: the engine is not known, or the mission cannot be built.
@@ -176,7 +176,7 @@ class RecordedFlight:
 
     @property
     def ending(self) -> Ending | None:
-        """Why it was stopped as crashed, diverged or interrupted, or None."""
+        """The reason if it was stopped as crashed, diverged or interrupted, or None."""
         return ending_of(self._p, self._flight_state(), self.step, self.interruption) if self.lost else None
 
     def numbers(self) -> Array:
@@ -184,12 +184,12 @@ class RecordedFlight:
         return self._stepper.a[: leaves(self._like)].copy()
 
     def findings(self, numbers: Array) -> tuple[Finding, ...]:
-        """What went badly until it had these numbers, which may be formed while the flight goes on."""
+        """The findings until it had these numbers, which may be computed during the flight."""
         return findings_of(self._p, unflat(numbers, self._like), self.step, FLYING)
 
     @property
     def ending_place(self) -> Vec3:
-        """Where it was stopped [m, world]."""
+        """The place at which it was stopped [m, world]."""
         return place_of(self._p, self._flight_state())
 
     def _flight_state(self) -> FlightState:
@@ -201,12 +201,12 @@ class RecordedFlight:
 
     @property
     def refusals(self) -> Refusals:
-        """What the pilot would refuse right now, and why."""
+        """The refusals that would apply now, with reasons."""
         return self._stepper.refusals(self.step * self.dt)
 
     @property
     def hand(self) -> VirtualHandInput:
-        """The hand as it was last moved."""
+        """The last input of the hand."""
         return unflat(self._stepper.a[self._stepper.hand], HAND_RELEASED)
 
     def advance(self) -> None:
@@ -247,7 +247,7 @@ class RecordedFlight:
         self._hand.append((self.step, numbers))
 
     def prepare(self, key: str, value: Any, duration: float = 0.0) -> ScheduledChange:
-        """Prepare a change, which may take long; the flight may go on meanwhile.
+        """Prepare a change, which may take long; the flight may continue meanwhile.
 
         Raises:
             InputError: it cannot be made in flight.
@@ -267,7 +267,7 @@ class RecordedFlight:
         self.now = due.prepared.mission
 
     def snapshot(self) -> FlightSnapshot:
-        """The flight up to its last sample, taken at the beginning of its last step; it may go on meanwhile.
+        """The flight up to its last sample, taken at the beginning of its last step; it may continue meanwhile.
 
         Raises:
             InputError: nothing was flown yet.
@@ -279,7 +279,7 @@ class RecordedFlight:
         return FlightSnapshot(self.start, self.engine, self._flown(steps), hand, list(self._changes))
 
     def _flown(self, steps: int) -> RawResult:
-        """The raw outcome of so many steps."""
+        """The raw outcome of that many steps."""
         p, state = self._p, self._stepper.a if self.lost else self._before
         return RawResult(
             unflat(state[: leaves(self._like)], self._like),

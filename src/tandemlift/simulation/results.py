@@ -45,7 +45,7 @@ class RawResult:
         log: logged samples as rows.
         last: the last sample.
         wall: computing time [s].
-        interruption: why it was interrupted, or None.
+        interruption: the reason of an interruption, or None.
     """
 
     flight_state: FlightState
@@ -131,7 +131,7 @@ EventCode = tuple[int, int, int, int]
 
 
 def describe_event(now: EventCode, before: EventCode) -> str:
-    """The text of an event, from (phase, alarm, failed check, contact) now and in the event before."""
+    """The text of an event, from (phase, alarm, failed check, contact) now and in the previous event."""
     phase, alarm, refused, contact = now
     if contact and contact != before[3]:
         words = f"contact: {describe_contact(contact)}"

@@ -41,8 +41,8 @@ class Simulation:
 
     A step goes from `time` to `time` + `dt`. The pilot is sampled at its start; its decision and the inputs of the
     caller act until its end. Then `state` is the state at the new `time`, and `sim["rotor_thrusts"]` and the other
-    channels are the sample of the step just taken: what the pilot read and decided at its start, `sample_time`, and
-    what acted over it. A `Flight` holds the same samples.
+    channels are the sample of the step just taken: the pilot's readings and decision at its start, `sample_time`, and
+    the loads during it. A `Flight` holds the same samples.
 
     Args:
         mission: from `load_mission`.
@@ -108,7 +108,7 @@ class Simulation:
             push: force (3,) [N] on the vehicle in world axes, in addition to the mission's pushes.
             thrusts: of every rotor (4N,) [N], quadrotor by quadrotor, commanded instead of the pilot's decision.
                 Delay, lag, limits and faults of real rotors apply to them; ideal rotors produce them exactly. The pilot
-                continues to decide and does not know of them.
+                continues to decide without receiving them.
             point: point of application of the push (3,) [m], body axes, from the centre of mass; that centre if None.
 
         Returns:
@@ -193,13 +193,13 @@ class Simulation:
 
     @property
     def ending(self) -> Ending | None:
-        """Why the flight is lost: quantity, time, value and limit, or a reason; None if it is not."""
+        """The end of a lost flight: quantity, time, value and limit, or a reason; None if it is not lost."""
         flown = self._result(np.empty((0, 0)), np.empty(0))
         return ending_of(self._p, flown.flight_state, self.k, flown.interruption)
 
     @property
     def refusals(self) -> Refusals:
-        """What the pilot would refuse right now: to lift, to land, to follow a push; and why, and what to do."""
+        """The refusals of a lift, a landing and following a push that would apply now, with reasons and remedies."""
         return self._stepper.refusals(self.time)
 
     def _why_over(self) -> str:
@@ -242,7 +242,7 @@ class Simulation:
     # the record
 
     def flight(self) -> Flight:
-        """The record of what was flown so far, logged every `mission.log_interval`; the simulation can go on.
+        """The record of the flight so far, logged every `mission.log_interval`; the simulation can continue.
 
         It equals that of a flight whose mission ends at `time`: its last sample is that of the pilot at `time`, if one
         is due, without inputs. With a body in another engine, or a controller in plain Python, this sample exists only

@@ -104,7 +104,7 @@ class Stepper:
             self._exchange_laws(due.prepared)
 
     def _exchange_laws(self, p: FlightPlan) -> None:
-        """Go on with other laws. A controller of another layout starts with fresh memory; ramps end at once."""
+        """Continue with other laws. A controller of another layout starts with an initial memory; ramps end at once."""
         size, hand, row = leaves(self.p.model.flight_state), self.a[self.hand].copy(), self.row
         flight_state = unflat(self.a[:size], self.p.model.flight_state)
         memory, fresh = flight_state.memory, p.model.flight_state.memory.controller
@@ -189,7 +189,7 @@ class Stepper:
             self.body.rest()
 
     def refusals(self, t: float) -> Refusals:
-        """What the pilot would refuse at time t [s], after the last step, and why."""
+        """The refusals that would apply at time t [s], after the last step, with reasons."""
         model = self.p.model
         guidance = self._part(model.pilot.guidance, "pilot", "guidance")
         return refusals_of(guidance, self._part(model.flight_state.memory.guidance, *GUIDANCE_MEMORY), t)
@@ -216,7 +216,7 @@ def fly_stepwise(
     """Fly a mission step by step; with the compiled body equal to the compiled loop to the last bit.
 
     Raises:
-        EngineLost: the engine took no step at all. Later, the result has what was flown, and the reason.
+        EngineLost: the engine took no step at all. Later, the result has the flight so far, and the reason.
     """
     stepper, columns = Stepper(p, body), leaves(p.sample)
     log, last = np.zeros((rows, columns)), np.full(columns, math.nan)

@@ -1,4 +1,4 @@
-"""What a flight touched: the record of touches of its last state, in words and numbers."""
+"""The touches of a flight: the record of its last state in words and numbers."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class TouchReport(NamedTuple):
 
 
 def touches_of(flight_state: FlightState) -> list[TouchReport]:
-    """What a flight touched up to this state, in the order of time; nothing where there is nothing to touch.
+    """The touches of a flight up to this state, in the order of time.
 
     Feet on the floor are no touch. Floor and walls have up to one report each for rotors, guards and beam.
     """

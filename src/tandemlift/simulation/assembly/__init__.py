@@ -1,1 +1,1 @@
-"""A mission assembled into a flight at t = 0: its state, its parameters, and its inputs from outside."""
+"""Assembles a mission into a flight at t = 0: its state, its parameters, and its external inputs."""

@@ -1,4 +1,4 @@
-"""A flight assembled from a mission: its state and parameters at t = 0, and its inputs from outside.
+"""Assembles the flight of a mission: state and parameters at t = 0, and external inputs.
 
 All random numbers derive from the mission's seed: constant errors and the initial turbulence are drawn here, the rest
 step by step by a counter-based generator with the seed's key.
@@ -93,7 +93,7 @@ def delays_from(mission: Mission) -> NDArray[np.int64]:
 
 
 def delay_lines_from(mission: Mission, delays: NDArray[np.int64]) -> DelayLines | Absent:
-    """Which delay lines a mission has; `Absent` if it has none."""
+    """The delay lines of a mission; `Absent` if it has none."""
     if not delays.any():
         return Absent()
     imu, motion, command, view, *more = [Delayed() if d else Absent() for d in delays]
@@ -102,7 +102,7 @@ def delay_lines_from(mission: Mission, delays: NDArray[np.int64]) -> DelayLines 
 
 
 def start_metrics(far: Clearance | Absent, person: PersonState | Absent) -> RunningMetrics:
-    """The running metrics before the first step; `far`: the clearance before any wall was looked at."""
+    """The running metrics before the first step; `far`: the clearance before the first search for walls."""
     return EMPTY._replace(clearance=far, effort=person if isinstance(person, Absent) else NO_EFFORT)
 
 

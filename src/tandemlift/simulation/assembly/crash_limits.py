@@ -1,4 +1,4 @@
-"""What ends a flight before its time, from `[crash]`, the floor and the fence."""
+"""The limits that end a flight early, from `[crash]`, the floor and the fence."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From where on a mission's flight has findings: the limits of the detectors in `simulation.loop.detectors`."""
+"""The limits of the detectors in `simulation.loop.detectors`, above which a flight has findings."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.simulation.loop.detectors import ASLEEP, Detectors, FindingLimits, PushLimits
 from tandemlift.simulation.loop.oscillation import OscillationLimits, Swings
 
-HEARD = 2.0  # times the threshold, from where on a true push should be heard
+HEARD = 2.0  # times the threshold, above which a true push should have an effect
 LEAST, LEAST_FORCE = 0.1, 0.01  # of the smallest threshold, and N: the least force after the gate that counts
 UNLIMITED = 1e6  # m/s
 

@@ -30,7 +30,7 @@ NO_PUSH = LowPassState(ZERO, ZERO)
 
 
 def phase_settings(p: PhasesTable, c: ComplianceTable, requests: Sequence[RequestTable]) -> PhaseSettings:
-    """When the vehicle lifts and lands, and how."""
+    """The parameters of lift and landing."""
     return PhaseSettings(
         height=p.height,
         lift_start=p.lift_start,

@@ -44,5 +44,5 @@ def _table(rows: list[Any], width: int) -> NDArray[np.float64]:
 
 @cached
 def near_walls_from(settings: Any) -> NearWalls | Absent:
-    """The nearest walls before any was looked at, or `Absent`."""
+    """The nearest walls before the first search, or `Absent`."""
     return settings if isinstance(settings, Absent) else no_walls_near(settings)

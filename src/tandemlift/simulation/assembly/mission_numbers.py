@@ -41,7 +41,7 @@ def _parts(value: Any) -> Iterator[tuple[str | int, Any]]:
 
 
 def with_numbers(value: T, numbers: Mapping[str, Any], place: Place = ()) -> T:
-    """The mission with other values for some of its numbers. They are not checked, so they may be symbols."""
+    """The mission with other values for some of its numbers, which are not checked and may be symbols."""
     old = dict(_parts(value))
     if not old:
         return numbers.get(dotted(place), value) if place else value

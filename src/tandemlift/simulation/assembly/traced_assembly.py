@@ -1,8 +1,8 @@
-"""What a mission's numbers become in a flight, as a graph.
+"""The graph from the numbers of a mission to the numbers of its flight.
 
-A mission is assembled with symbols for its numbers, so that one graph computes all numbers of a flight from them, on
-any machine to the last bit: each product and each sum is rounded by itself. What depends on more than the values of
-numbers (how many steps a delay has, what a Riccati equation gives) is fixed to what this mission says.
+A mission is assembled with symbols for its numbers, so that one graph computes all numbers of a flight, bit-identical
+on any machine: each product and each sum is rounded separately. Results that depend on more than the values of numbers
+(the steps of a delay, the solution of a Riccati equation) are fixed to those of this mission.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from tandemlift.simulation.assembly.assemble import AssembledFlight, assemble
 from tandemlift.simulation.assembly.mission_numbers import counts_of_mission, numbers_of_mission, with_numbers
 
 FIXED = {
-    "mission.duration": "sets how many steps there are",
-    "mission.step": "sets how many steps there are, and how many a time has",
-    "mission.log_interval": "sets how many steps a row of the log has",
+    "mission.duration": "determines the number of steps",
+    "mission.step": "determines the number of steps, and the steps of every time",
+    "mission.log_interval": "determines the steps between rows of the log",
 }
 SCHEDULED = "belongs to a change in flight, which becomes a mission of its own"
 WHOLE = "is a whole number, on which the layout of the flight may depend"
@@ -38,7 +38,7 @@ class TracedAssembly(NamedTuple):
         graph: of operations that are rounded one by one.
         keys: of the inputs; input i is `graph.input("number", i)`.
         values: of the inputs in this mission.
-        assembled: what was built, of symbols and plain numbers.
+        assembled: the result, with symbols and plain numbers.
         guards: conditions and whether they hold in this mission; while all keep their truth, the graph is that of
             missions with other values of the inputs, too.
         fixed: keys that are no inputs, and why.
@@ -57,11 +57,11 @@ class TracedAssembly(NamedTuple):
 
 
 def trace_assembly(mission: Mission, build: Callable[[Mission], Any] = assemble) -> TracedAssembly:
-    """Trace what is built of a mission's numbers.
+    """Trace the assembly of a mission's numbers.
 
     Args:
         mission: from `load_mission`.
-        build: what to trace; by default, the whole flight.
+        build: the function to trace; by default, the assembly of the whole flight.
 
     Raises:
         InputError: a part of the mission cannot be built.
@@ -82,7 +82,7 @@ def _fixed_always(mission: Mission) -> dict[str, str]:
 def _tried(
     mission: Mission, numbers: dict[str, float], fixed: dict[str, str], build: Callable[[Mission], Any]
 ) -> tuple[TracedAssembly | None, dict[str, str]]:
-    """A trace with all numbers that are not fixed, and those that turned out to be fixed, too."""
+    """A trace with all numbers that are not fixed, and the numbers that were found to be fixed."""
     inputs = {key: value for key, value in numbers.items() if key not in fixed}
     keys, graph = tuple(inputs), ValuedGraph(tuple(inputs.values()))
     symbols = {key: graph.input("number", i) for i, key in enumerate(keys)}
@@ -90,7 +90,7 @@ def _tried(
     try:
         with cached_for_a_trace():
             assembled = build(with_numbers(mission, symbols))
-    except Exception as error:  # a controller's start may do anything with its settings and the vehicle
+    except Exception as error:  # a controller's start may use its settings and the vehicle in any way
         return None, _left_plain(keys, error)
     finally:
         FUSES.reset(before)
@@ -119,7 +119,7 @@ def with_values(value: Any, graph: ValuedGraph) -> Any:
 
 
 def assembled_by_graph(mission: Mission, build: Callable[[Mission], Any]) -> Any:
-    """What `build` makes of a mission; of one that is not fused, with the numbers that its graph gives."""
+    """The result of `build` for a mission; if the mission is not fused, with the numbers of its graph."""
     if mission.mission.fma:
         return build(mission)
     traced = trace_assembly(mission, build)
@@ -127,6 +127,6 @@ def assembled_by_graph(mission: Mission, build: Callable[[Mission], Any]) -> Any
 
 
 def assembled_flight(mission: Mission) -> AssembledFlight:
-    """The flight of a mission at t = 0; of one that is not fused, with the bits that it has on every machine."""
+    """The flight of a mission at t = 0; if the mission is not fused, bit-identical on every machine."""
     made: AssembledFlight = assembled_by_graph(mission, assemble)
     return made

@@ -1,1 +1,1 @@
-"""The closed loop: one step, what it logs, running metrics, perception, wind loads and delays."""
+"""The closed loop: one step, its log sample, running metrics, perception, wind loads and delays."""

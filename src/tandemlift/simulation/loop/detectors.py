@@ -1,9 +1,9 @@
-"""Detectors that watch every step of a flight for findings; `simulation.findings` forms findings from their memory.
+"""Detectors that examine every step of a flight for findings; `simulation.findings` forms findings from their memory.
 
-Each detector is cheap while all is well: it decides whether its limit is exceeded, and its memory changes only while it
-is, and in the step after. `Detectors.awake` says so of all of them; while it is 0, compiled loops skip them.
+A detector is cheap while its limit is not exceeded: its memory changes only while it is, and in the step after.
+`Detectors.awake` is 1 if that is so for any of them; while it is 0, compiled loops skip them.
 
-A rotor that the pilot knows to have failed is commanded nothing, and is not taken for saturated.
+A rotor that is known to the pilot as failed has no command, and does not count as saturated.
 """
 
 from __future__ import annotations
@@ -43,11 +43,11 @@ from tandemlift.simulation.loop.running_metrics import at_limit
 
 
 class FindingLimits(NamedTuple):
-    """From where on a flight has findings.
+    """The limits above which a flight has findings.
 
-    `settled` [s]: from when on the promise holds. Squares of the promised distance [m²], and the heading [rad]; the
-    smallest cosine of the tilt. `mass` [kg]; the square of the largest `thrust` [N²]. `rate` [(rad/s)²] below whose
-    square no body rate oscillates. `unpushed` [m]: how far the reference may move while nobody pushes.
+    `settled` [s]: start of the promise. Squares of the promised distance [m²], and the heading [rad]; the smallest
+    cosine of the tilt. `mass` [kg]; the square of the largest `thrust` [N²]. `rate` [(rad/s)²]: square of the smallest
+    oscillation of a body rate. `unpushed` [m]: largest motion of the reference without a push.
     """
 
     settled: Number
@@ -84,11 +84,11 @@ class Detectors(NamedTuple):
 
 
 class Watched(NamedTuple):
-    """What the detectors look at in a step: each as its limit has it, see `FindingLimits`.
+    """The inputs of the detectors in a step, each in the form of its limit, see `FindingLimits`.
 
-    `swings`: what may oscillate. `limited`: rotors at a limit. `needed`: square of the thrust that the reference asks
-    for [N²]. `push` [N] that should move the vehicle. `pushed`: 1 while there is a true push, `followed`: 1 while
-    one is followed, else 0. `refuted` [N]: what of a push the motion refutes.
+    `swings`: signals that may oscillate. `limited`: rotors at a limit. `needed`: square of the thrust for the reference
+    [N²]. `push` [N] that should move the vehicle. `pushed`: 1 while there is a true push, `followed`: 1 while one is
+    followed, else 0. `refuted` [N]: part of a push that the motion refutes.
     """
 
     swings: Swings
@@ -121,7 +121,7 @@ ASLEEP = Detectors(
 
 @choice
 def usable_rotors(how: Any, left: Any, t: Number) -> Any:
-    """Above 0 for rotors that the pilot can use at time t [s]: a number for all, or a set; `left`: of a found loss."""
+    """Above 0 for rotors usable at time t [s]: a number for all, or a set; `left`: of a detected loss."""
 
 
 @usable_rotors.register(Mixer)
@@ -136,7 +136,7 @@ def _not_failed(how: ConstrainedAllocation, left: Number, t: Number) -> PerRotor
 
 @choice
 def rotors_at_limit(rotors: Any, commands: Any, usable: Any) -> Any:
-    """How many rotors that can be used are commanded to a limit or beyond."""
+    """The number of usable rotors that are commanded to a limit or beyond."""
 
 
 @rotors_at_limit.register(IdealRotors)
@@ -146,7 +146,7 @@ def _without_limits(rotors: IdealRotors, commands: PerRotor, usable: Number) -> 
 
 @elementwise
 def counted(at_its_limit: Number, usable: Number) -> Number:
-    """1 for a rotor at its limit that can be used, else 0."""
+    """1 for a usable rotor at its limit, else 0."""
     return where(usable > 0.0, at_its_limit, 0.0)
 
 
@@ -168,7 +168,7 @@ def _needed(reach: Excess, mass: Number, a: Vec3) -> Number:
 
 @law
 def watched(model: Any, output: Any, x: Sample, flying: Number, t: Number) -> Watched:
-    """What the detectors look at in a step; `flying` is 1 in flight, else 0."""
+    """The inputs of the detectors in a step; `flying` is 1 in flight, else 0."""
     k, flight_state, decision = model.finding_limits, model.flight_state, output.decision
     left = left_of(model.pilot.detection, flight_state.memory.detection)
     error, gated, true = x.reference_position - x.position, decision.guidance.force, x.push_force
@@ -181,7 +181,7 @@ def watched(model: Any, output: Any, x: Sample, flying: Number, t: Number) -> Wa
         * flying,
         needed=thrust_needed(flight_state.detectors.reach, k.mass, x.reference_acceleration),
         push=push_to_answer(k.push.threshold, k.push.least, gated, true),
-        pushed=where(dot(true, true) <= k.push.least, 0.0, 1.0),  # 1 too where a simulator does not tell the push
+        pushed=where(dot(true, true) <= k.push.least, 0.0, 1.0),  # also 1 if a simulator does not report the push
         followed=where(dot(gated, gated) > k.push.least, 1.0, 0.0),
         refuted=refuted_push(output.estimates),
     )
@@ -189,7 +189,7 @@ def watched(model: Any, output: Any, x: Sample, flying: Number, t: Number) -> Wa
 
 @law
 def may_be_found(k: FindingLimits, w: Watched) -> Number:
-    """1 if any detector may have something to remember, else 0: quick to tell, and never 0 where one has."""
+    """1 if the memory of any detector may change, else 0; fast to compute, and never 0 if one changes."""
     s = w.swings
     found = where(dot(w.push, w.push) > k.push.least, 1.0, where(w.limited > 0.0, 1.0, 0.0))
     found = maximum(found, maximum(maximum(w.pushed, w.followed), where(dot(w.refuted, w.refuted) > 0.0, 1.0, 0.0)))

@@ -1,7 +1,7 @@
-"""What ends a flight before its time: divergence, or a crash.
+"""The early ends of a flight: divergence, or a crash.
 
-A contact's impulse I grows by what the force has beyond the vehicle's weight, and fades with the time constant τ:
-İ = |(F_x, F_y, max(0, F_z − W))| − I/τ. So standing, pressing and sliding add up to little, a blow to its whole.
+A contact's impulse I integrates the force beyond the vehicle's weight, and decays with the time constant τ:
+İ = |(F_x, F_y, max(0, F_z − W))| − I/τ. An impact counts in full; standing, pressing and sliding contribute little.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Strike(NamedTuple):
 
 
 class OuterFence(NamedTuple):
-    """Corners of the fence [m, world axes], and how far outside a flight ends [m]."""
+    """Corners of the fence [m, world axes], and the distance outside at which a flight ends [m]."""
 
     low: Vec3
     high: Vec3
@@ -37,13 +37,13 @@ class OuterFence(NamedTuple):
 
 
 class Aftermath(NamedTuple):
-    """For how long a flight goes on after a crash, at most [s]."""
+    """The longest time of a flight after a crash [s]."""
 
     duration: Any
 
 
 class CrashLimits(NamedTuple):
-    """What ends a flight: smallest cosine of the tilt; `Strike`, `OuterFence`, `Aftermath`, each or `Absent`."""
+    """Limits that end a flight: smallest cosine of the tilt; `Strike`, `OuterFence`, `Aftermath`, each or `Absent`."""
 
     min_upright: Number
     strike: Any
@@ -52,7 +52,7 @@ class CrashLimits(NamedTuple):
 
 
 class CrashMemory(NamedTuple):
-    """A crash: number of its ending (0 for none), its time [s], state and impulse then; for how long it lies still."""
+    """A crash: number of its ending (0 for none), time [s], state and impulse then; time at rest after it."""
 
     number: Any
     time: Any
@@ -74,7 +74,7 @@ def _impulse(strike: Strike, impulse: Number, force: Vec3, dt: Number) -> Number
 
 @choice(absent="number")
 def unless_struck(strike: Any, impulse: Any, number: Any) -> Any:
-    """The number of an ending; that of a blow, if the impulse is too large."""
+    """The number of an ending; that of an impact, if the impulse is too large."""
 
 
 @unless_struck.register(Strike)
@@ -94,7 +94,7 @@ def _outside(fence: OuterFence, position: Vec3) -> Number:
 
 @law
 def ending_number(c: CrashLimits, s: State, impulse: Number | Absent) -> Number:
-    """The number of the ending that a state and an impulse of contact call for; 0 while the flight goes on."""
+    """The number of the ending by a state and an impulse of contact; 0 while the flight continues."""
     upright = body_z_axis(s.attitude).z
     number = unless_struck(c.strike, impulse, outside_fence(c.fence, s.position))
     sound = where(upright > c.min_upright, number, where(upright < 2.0, TURNED_OVER, DIVERGED))

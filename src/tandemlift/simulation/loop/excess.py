@@ -1,4 +1,4 @@
-"""How a limit is exceeded: for how long in all, how long at a stretch, and the worst value with its time and place."""
+"""The excess over a limit: total and longest duration, and the worst value with its time and place."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def exceed(m: Any, over: Any, value: Any, place: Vec3, t: Any, dt: Any) -> Any:
     Args:
         m: the memory before.
         over: 1 if the limit is exceeded, else 0.
-        value: what is exceeded, larger where it is worse.
+        value: the compared value, larger if it is worse.
         place: of the vehicle [m, world axes].
         t: time at the start of the step [s].
         dt: length of the step [s].

@@ -66,7 +66,7 @@ class WatchedEstimatorsState(NamedTuple):
 
 
 class CheckedEstimates(NamedTuple):
-    """The `Estimates`, the usable readings, and what is wrong with the sensors."""
+    """The `Estimates`, the usable readings, and the report on the sensors."""
 
     push: PushEstimate
     state: State
@@ -105,13 +105,13 @@ def trusted_push(p: PushEstimate, r: WatchdogReport) -> PushEstimate:
 
 @law
 def without_blow(r: WatchdogReport, blow: Number) -> WatchdogReport:
-    """The report; in a blow (1) the accelerometer and the velocity of another moment differ without a fault."""
+    """The report; in an impact (1) accelerometer and velocity are of different times, and differ without a fault."""
     return r._replace(speed_inconsistent=r.speed_inconsistent * (1.0 - blow))
 
 
 @law
 def best_state(s: State, readings: Readings, r: WatchdogReport, rates: Vec3) -> State:
-    """The estimated state, or readings where the sensors of the estimate are lost; `rates`: measured or substituted."""
+    """The estimated state, or readings if the estimate's sensors are lost; `rates`: measured or substituted."""
     no_accelerometer, no_gyroscope = maximum(r.accelerometer, r.imu), maximum(r.gyroscope, r.imu)
     v = readings.motion
     return State(

@@ -1,6 +1,6 @@
-"""The channels of one step of a flight, and what the step adds to the running metrics.
+"""The channels of one step of a flight, and its contribution to the running metrics.
 
-`flight.channels` says what every channel is, in the same order. A part that a mission does not have has no channels:
+`flight.channels` describes every channel, in the same order. A part that a mission does not have has no channels:
 its group is `Absent`.
 """
 
@@ -89,7 +89,7 @@ class ContactChannels(NamedTuple):
 
 
 class DetectionChannels(NamedTuple):
-    """The number of the rotor that the detection takes for failed; 0 for none."""
+    """The number of the rotor that is classified as failed; 0 for none."""
 
     failed_rotor: Number
 

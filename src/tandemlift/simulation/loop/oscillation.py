@@ -1,8 +1,8 @@
-"""Detection of oscillations: half periods in a row of similar length, in a band, whose amplitude does not decay.
+"""Detection of oscillations: consecutive half periods of similar length, in a band, whose amplitude does not decay.
 
-A half period begins where a signal passes a level on the other side of zero. So the signal's mean is taken for zero,
-and an oscillation smaller than the level, or one that stays on one side, is none. Peaks are compared with their running
-mean: in one that decays by more than a third in two half periods, the count begins anew.
+A half period begins when a signal passes a level on the other side of zero. The signal's mean is thus assumed zero, and
+oscillations smaller than the level, or on one side of zero, are ignored. Peaks are compared with their running mean: if
+an oscillation decays by more than a third in two half periods, the count restarts.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from tandemlift.core.types import Number
 from tandemlift.core.vector import componentwise
 
 SIMILAR_PEAK = 0.6  # of the mean peak, which a peak must reach
-SIMILAR_TIME = 2.0  # times the half period before, and as much less, that a half period may last
+SIMILAR_TIME = 2.0  # largest ratio of a half period to the previous one, either way
 
 
 @componentwise
 class Swings(NamedTuple):
-    """Something for each motion that may oscillate: body rates p, q, r, and the vertical speed beside its reference."""
+    """A value for each motion that may oscillate: body rates p, q, r, and the error of the vertical speed."""
 
     roll: Any
     pitch: Any

@@ -1,4 +1,4 @@
-"""Perception: the readings of the sensors, the estimates from them, and which of both the pilot uses."""
+"""Perception: the readings of the sensors, the estimates from them, and the pilot's choice of both."""
 
 from __future__ import annotations
 
@@ -41,9 +41,9 @@ class PerceptionData(NamedTuple):
 
 
 class Estimators(NamedTuple):
-    """The estimators of push and state, the nominal vehicle, when the tare begins, and what checks the push.
+    """The estimators of push and state, the nominal vehicle, the start of the tare, and the checks of the push.
 
-    That is the detector of contacts, and the confirmation by what else acts on the vehicle.
+    The checks are the detector of contacts, and the confirmation by other loads on the vehicle.
     """
 
     push: PushEstimator
@@ -123,7 +123,7 @@ def estimate_all(
 ) -> Any:
     """(the estimates from readings, the estimators' memory) at time t [s].
 
-    `surroundings`: what is known of obstacles; `commands`: the last thrusts of all rotors [N].
+    `surroundings`: known obstacles; `commands`: the last thrusts of all rotors [N].
     """
 
 
@@ -159,12 +159,12 @@ def _estimated(
 
 @choice(absent=NO_SURROUNDINGS)
 def surroundings_of(estimators: Any, sources: PilotSources, near: Any, guidance: Any) -> Any:
-    """What the estimators know of obstacles; `near`: the walls near the vehicle, `guidance`: its memory."""
+    """The estimators' knowledge of obstacles; `near`: the walls near the vehicle, `guidance`: its memory."""
 
 
 @choice(absent=Absent())
 def walls_known(known: Any, near: Any) -> Any:
-    """The walls near the vehicle, if the pilot knows them."""
+    """The walls near the vehicle, if the pilot has a map."""
 
 
 @walls_known.register(KnownWalls)

@@ -1,7 +1,7 @@
-"""Detectors of a push that is not followed, and of a reference that follows a push that is not there.
+"""Detectors of a push without response, and of a response without a push.
 
-`simulation.loop.detectors` runs them. What the pilot makes of a measured push shows in the force after its gate; the
-true push is known to the simulation alone.
+`simulation.loop.detectors` runs them. The pilot's response to a measured push is visible in the force after its gate;
+only the simulation knows the true push.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ ECHO_TIME = 0.5  # s after a true push, in which filters may still pass it on
 
 
 class PushLimits(NamedTuple):
-    """What a push should do.
+    """The expected response to a push.
 
-    `threshold` [N] beyond which a true push should be heard, or `Absent` where the pilot is given every push. The
+    `threshold` [N] above which a true push should have an effect, or `Absent` if the pilot receives every push. The
     square of the `least` force that counts [N²]. 1/C of the axes that yield without a spring [m/(N s)], and the largest
     `speed` [m/s]. After a `time` [s], the work of a push must be a `response` of that at the speed that the admittance
     ends with.
@@ -51,10 +51,10 @@ class PushResponse(NamedTuple):
 
 
 class UnpushedMotion(NamedTuple):
-    """Memory: the last time of a true push [s], and by how much the reference moved since without one.
+    """Memory: the last time of a true push [s], and the motion of the reference since then.
 
     `now` is 1 while there is a push or one is followed, else 0; with it 0 before and after a step, nothing changes.
-    `begun` is 1 once a push was followed since then, else 0; `origin` [m]: where the reference was at that time.
+    `begun` is 1 once a push was followed since then, else 0; `origin` [m]: the reference at that time.
     """
 
     now: Number
@@ -70,7 +70,7 @@ UNMOVED = UnpushedMotion(0.0, 0.0, 0.0, ZERO, NO_EXCESS)
 
 @choice(absent="gated")
 def push_to_answer(threshold: Any, least: Any, gated: Vec3, true: Vec3) -> Any:
-    """The push that should move the vehicle [N]: that after the gate, else a true one that should have been heard."""
+    """The push that should move the vehicle [N]: that after the gate, else a true one that should have an effect."""
 
 
 @push_to_answer.register(Vec3)
@@ -82,7 +82,7 @@ def _heard_or_true(threshold: Vec3, least: Number, gated: Vec3, true: Vec3) -> V
 def push_step(
     k: PushLimits, m: PushResponse, push: Vec3, x: Sample, active: Number, t: Number, dt: Number
 ) -> PushResponse:
-    """The memory of the response after a step under a push [N]; `active` is 1 while pushes should be answered."""
+    """The memory of the response after a step under a push [N]; `active` is 1 while pushes should be followed."""
     now = where(dot(push, push) > k.least, active, 0.0)
     goes_on = where(now > m.now, 0.0, 1.0)
     since = where(now > m.now, t, m.since)
@@ -102,7 +102,7 @@ def unpushed_step(
     """The memory after a step.
 
     Args:
-        limit: how far the reference may move while nobody pushes [m].
+        limit: largest motion of the reference without a push [m].
         m: the memory before.
         now: (1 while there is a true push, 1 while one is followed), else 0.
         reference: of the admittance [m, world axes].

@@ -1,4 +1,4 @@
-"""Running sums over every step of a flight, from which its metrics are formed: memory does not grow with the steps."""
+"""Running sums over all steps of a flight, from which its metrics are computed in constant memory."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class PersonEffort(NamedTuple):
 
 
 class RunningMetrics(NamedTuple):
-    """Sums and extremes over steps; `triggers`: how many pushes became active; `push_active`: 1 while one is.
+    """Sums and extremes over steps; `triggers`: number of pushes that became active; `push_active`: 1 while one is.
 
     `highest`: the greatest z [m].
     """
@@ -141,7 +141,7 @@ def _root_mean(squares: Vec3, steps: float) -> list[float] | None:
 def summary(early: RunningMetrics, late: RunningMetrics, step: float) -> dict[str, Any]:
     """The metrics by their names in metrics.json, from the sums before and after 10 s, with steps of `step` [s].
 
-    None where there is nothing to form one from.
+    None if there is no data for one.
     """
     steps = early.steps + late.steps
     return {

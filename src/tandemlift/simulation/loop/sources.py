@@ -1,4 +1,4 @@
-"""Where the pilot reads state, push and walls from: the truth, the measurement or the estimate."""
+"""The pilot's sources of state, push and walls: the truth, the measurement or the estimate."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class PushWrench(NamedTuple):
 
 
 class KnownWalls(NamedTuple):
-    """The pilot knows the walls."""
+    """The pilot has a map of the walls."""
 
 
 class PilotSources(NamedTuple):

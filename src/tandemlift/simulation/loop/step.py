@@ -1,9 +1,8 @@
-"""The closed loop, the only place where the pilot and a body meet: one step of a flight, and the sample that it logs.
+"""The closed loop of pilot and body: one step of a flight, and its log sample.
 
-At time t_k the pilot reads the state and the person's push, or what sensors and estimators make of them, and decides;
-the rotors respond; the body then moves for one step with their thrusts held and the push continuous. The pilot gets
-the sensor readings of a step at the next one, or later. A part that a mission does not have is `Absent`, and costs
-nothing.
+At time t_k the pilot reads the state and the person's push, or their measurements and estimates, and decides; the
+rotors respond; the body then moves for one step with their thrusts held and the push continuous. The pilot receives the
+sensor readings of a step at the next one, or later. A part that a mission does not have is `Absent`, and costs nothing.
 """
 
 from __future__ import annotations
@@ -94,7 +93,7 @@ class FlightState(NamedTuple):
 class FlightModel(NamedTuple):
     """One flight: its state, and the parameters that stay. Its type is the variant of the compiled loop.
 
-    `sources`: where the pilot's state and push come from. `delays`: a `DelayLines`. `limits`: a `CrashLimits`.
+    `sources`: those of the pilot's state and push. `delays`: a `DelayLines`. `limits`: a `CrashLimits`.
     """
 
     flight_state: FlightState
@@ -122,8 +121,8 @@ class StepNoise(NamedTuple):
 class StepInputs(NamedTuple):
     """The inputs of a step: the push, gusts [m/s], standard normals, and the person's memory once they have pushed.
 
-    `external` is what a caller adds who steps the flight, else `Absent`. `outside` is the push that the body's own
-    simulator applied; it is known once the body has moved, and is `Absent` where there is no such push.
+    `external` is the input of a caller who steps the flight, else `Absent`. `outside` is the push that the body's own
+    simulator applied; it is known once the body has moved, and is `Absent` if there is no such push.
     """
 
     hand: PushSamples[Push]

@@ -20,7 +20,7 @@ from tandemlift.simulation.loop_code.traced_step import TracedStep
 class LoopCode:
     """The compiled loops for flights laid out like `model`, with inputs laid out like `given`.
 
-    Each loop is compiled when it is first asked for. `fuses`: whether a·b + c is rounded once.
+    Each loop is compiled on first use. `fuses`: whether a·b + c is rounded once.
     """
 
     def __init__(self, model: FlightModel, given: StepInputs, *, fuses: bool = True) -> None:

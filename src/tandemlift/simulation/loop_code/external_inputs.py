@@ -1,4 +1,4 @@
-"""The inputs of a flight from outside: pushes, gusts, random numbers, walls and the legs of a person's path.
+"""The external inputs of a flight: pushes, gusts, random numbers, walls and the legs of a person's path.
 
 Pushes and gusts depend on time alone. The force of the person is evaluated SPAN steps ahead at every half step, so that
 a push that is over costs nothing and the number of pushes is data. For a flight alone, the standard normals of SPAN

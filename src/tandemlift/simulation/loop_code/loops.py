@@ -28,7 +28,7 @@ from tandemlift.simulation.loop_code.traced_step import Symbols
 
 
 class StepHalves(NamedTuple):
-    """A step of the loop in two halves, each to be written by a call: up to its sample, and what follows."""
+    """A step of the loop in two halves, each to be written by a call: up to its sample, and the rest."""
 
     sample: Callable[[], None]
     go_on: Callable[[], None]

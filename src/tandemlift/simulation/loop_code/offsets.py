@@ -9,7 +9,7 @@ from tandemlift.core.vector import Absent
 
 
 class LeafSpan(NamedTuple):
-    """A span of leaves: the first one, and how many."""
+    """A span of leaves: the first one, and their number."""
 
     at: int
     size: int

@@ -69,7 +69,7 @@ def write_next_state(step: StepWriter, f: Function, k: str) -> None:
 
 
 def _read_by_detectors(step: StepWriter, at: LeafSpan) -> list[Symbol]:
-    """What detectors need of the state before the step, which is read before the state is written; their counters."""
+    """The detectors' inputs from the state before the step, read before the state is written; their counters."""
     g, state = step.graph, step.traced.next_state[at.at : at.at + at.size]
     needed = g.needed([s.node for s in state])
     inputs = [n for n in needed if g.ops[n] == "in" and g.args[n][0] == "fly" and g.args[n][1] < at.at]

@@ -1,4 +1,4 @@
-"""What the functions of a flight's loop share: the traced step, scratch memory, arguments and the context's words."""
+"""The common base of the functions of a flight's loop: traced step, scratch memory, arguments, context's words."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ ARGUMENTS = "ptr %c, ptr %flight, ptr %work"
 
 
 class StepWriter:
-    """What the functions of a flight's loop share: the traced step, the scratch memory, and how functions are written.
+    """The common base of the functions of a flight's loop: traced step, scratch memory, writing of functions.
 
     Args:
         traced: the graph of a step.
@@ -115,7 +115,7 @@ class StepWriter:
         return bool(self.moves_body and self.touches.size and self.traced.body_in_free_air)
 
     def body_roots(self) -> Symbols:
-        """The values of the body after the step in all its forms, and what decides among them."""
+        """The values of the body after the step in all its forms, and the conditions that select among them."""
         x = self.traced
         bodies = [*x.body_in_contact, *x.body_on_feet, *x.body_in_free_air]
         return [*bodies, *x.may_touch_walls, *x.may_touch_hull]

@@ -59,7 +59,7 @@ class Templates(NamedTuple):
         acting: the `Actuation`.
         moved: the `BodyStep`.
         sample: a row of the log.
-        nowhere: the nearest walls before any was looked at; its numbers are used, not only its layout.
+        nowhere: the nearest walls before the first search; its numbers are used, not only its layout.
     """
 
     model: FlightModel
@@ -77,7 +77,7 @@ class Templates(NamedTuple):
 
     @property
     def has_walls(self) -> bool:
-        """Whether there are walls."""
+        """Whether the mission has walls."""
         return not isinstance(self.nowhere, Absent)
 
     @property
@@ -87,7 +87,7 @@ class Templates(NamedTuple):
 
     @property
     def has_floor(self) -> bool:
-        """Whether there is a floor."""
+        """Whether the mission has a floor."""
         return not isinstance(self.model.plant.floor, Absent)
 
     @property

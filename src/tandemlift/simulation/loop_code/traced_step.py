@@ -1,8 +1,8 @@
 """A traced step of a flight: each number that the step computes, as a symbol of the step's inputs.
 
 Inputs by kind: `fly` (leaf of the flight), `hand`, `gust`, `noise`, `t`, `dt`; `answer` of a controller in Python;
-`solved`, the limit solver's result; `external`, what the caller of a step adds; `moved`, the body after the step, and
-`outside`, the push that it was given outside of the loop.
+`solved`, the limit solver's result; `external`, the input of a step's caller; `moved`, the body after the step, and
+`outside`, the push on it from outside the loop.
 Inputs of values computed before the step: `push`, `gusts`, `wall` (rows), `begins`, `due`, `when`, `number`, `key`.
 """
 
@@ -103,7 +103,8 @@ def changed_layout(before: Any, after: Any, path: str = "") -> str:
             if layout(a) != layout(b):
                 return changed_layout(a, b, f"{path}.{name}" if path else name)
     kinds = [type(x).__name__ if hasattr(x, "_fields") else "a number" for x in (before, after)]
-    return f"{path or 'a step'} is {kinds[0]} before a step and {kinds[1]} after it: a law returns what it was given"
+    return f"{path or 'a step'} is {kinds[0]} before a step and {kinds[1]} after it: a law must keep the layout of its
+    state"
 
 
 def check_layout(gains: Any, before: Any, after: Any) -> None:
@@ -124,7 +125,7 @@ class TracedStep:
     """The graph of a step of flights like `templates`.
 
     Args:
-        templates: the layouts of what passes through a step.
+        templates: the layouts of the values of a step.
         calls_python: whether a controller in Python is called in the middle of the step.
         fuses: whether a·b + c is rounded once.
         rolls: whether large sets may be loops.
