@@ -52,7 +52,7 @@ TOLD = {  # on top of mission iris
         {"estimator.tare_start": None, "estimator.identify_mass": False},
         ["sensors.joints.force_bias = 0.3 N is read as a push"],
     ),
-    "weak joints": ({"sensors.joints.force_range": 2.0}, ["joint 1 bears 2.453 N in hover", "joint 2"]),
+    "weak joints": ({"sensors.joints.force_range": 2.0}, ["joint 1 carries 2.453 N in hover", "joint 2"]),
     "a weak accelerometer": ({"sensors.accelerometer.range": 9.0}, ["it reads 9.81 m/s2 in hover"]),
     "a payload of less than nothing": ({"plant.mass_scale": 0.5}, ["plant.mass_scale = 0.5", "-1.25 kg"]),
     "a beam that hangs on one": (
@@ -62,7 +62,7 @@ TOLD = {  # on top of mission iris
     "too many faults": ({"faults": WEAK, "vehicle.payload.mass": 1.2}, ["weighs 41.2 N", "lift 37.45 N"]),
     "a pilot that cannot use what it knows": (
         {"faults": WEAK[:1], **UNLIMITED},
-        ["faults.0.known_after is of use only where"],
+        ["faults.0.known_after has an effect only if"],
     ),
 }
 

@@ -103,8 +103,7 @@ def changed_layout(before: Any, after: Any, path: str = "") -> str:
             if layout(a) != layout(b):
                 return changed_layout(a, b, f"{path}.{name}" if path else name)
     kinds = [type(x).__name__ if hasattr(x, "_fields") else "a number" for x in (before, after)]
-    return f"{path or 'a step'} is {kinds[0]} before a step and {kinds[1]} after it: a law must keep the layout of its
-    state"
+    return f"{path or 'a step'} is {kinds[0]} before a step and {kinds[1]} after it: a law must keep its layout"
 
 
 def check_layout(gains: Any, before: Any, after: Any) -> None:
