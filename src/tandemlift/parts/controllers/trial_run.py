@@ -67,7 +67,7 @@ def _try(name: str, gains: object, memory: object, like: object) -> None:
         return
     try:
         answer: object = law(gains, memory, *SAMPLE)
-    except ArithmeticError:  # compiled, it gives inf or nan, which the law may well handle
+    except ArithmeticError:  # compiled code gives inf or nan here, which the law may handle
         return
     except Exception as error:
         raise InputError(f"controller {name!r}: {error_text(error, law.__code__.co_filename)}") from error

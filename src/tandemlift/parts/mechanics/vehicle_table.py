@@ -1,4 +1,4 @@
-"""The parts of the vehicle: payload, quadrotors, drag; and how the real body differs from the modelled one."""
+"""The parts of the vehicle: payload, quadrotors, drag; differences of the real body from the modelled one."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ from tandemlift.core.keys import (
 
 
 class DisturbanceTable(Table):
-    """`[disturbance]`: a constant force and moment that the pilot does not know of."""
+    """`[disturbance]`: a constant force and moment that are unknown to the pilot."""
 
     force: Axes3 = key((0.0, 0.0, 0.0), "N", "force at the centre of mass, world axes")
     moment: Axes3 = key((0.0, 0.0, 0.0), "N m", "moment, body axes")
 
 
 class PlantTable(Table):
-    """`[plant]`: how the real body differs from the pilot's model of it."""
+    """`[plant]`: differences of the real body from the pilot's model."""
 
     mass_scale: Scale = key(1.0, "1", "real mass over the modelled mass", source="the model is right")
     inertia_scale: Annotated[tuple[Scale, Scale, Scale], PerAxis(3)] = key(

@@ -34,7 +34,7 @@ def register_sensor(sensor: Sensor) -> Callable[[F], F]:
     """Register the law of an additional sensor's reading.
 
     The law is called with the sensor's parameters, the true `State` of the vehicle's centre of mass and the
-    `PerfectReadings` of payload and joints. It gives a number or a `Vec3`, and keeps to what a law may do
+    `PerfectReadings` of payload and joints. It returns a number or a `Vec3`, and obeys the rules for laws
     (`core.law`). Registering a name again replaces the sensor if it comes from the same file.
 
     Args:
