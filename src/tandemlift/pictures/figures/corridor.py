@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -66,7 +67,7 @@ def instants(flight: Flight) -> list[int]:
     return sorted({0, *map(int, np.searchsorted(way, np.linspace(0.0, way[-1], count)[1:-1])), len(path) - 1})
 
 
-def _vehicle(ax: Any, flight: Flight, k: int, color: str) -> None:
+def _vehicle(ax: Axes, flight: Flight, k: int, color: str) -> None:
     """Draw the vehicle of sample k from above: its beam and the guards about its quadrotors."""
     body = skeleton(Vehicle.from_mission(flight.mission)).placed(flight["position"][k], flight["attitude"][k])
     centers, vehicle = body.struts[:, 1, :2], Vehicle.from_mission(flight.mission)
@@ -98,18 +99,24 @@ def arrows(flight: Flight, shown: list[int]) -> list[tuple[Array, Array]]:
     return [(point, force) for point, force in found if np.linalg.norm(force) > WEAK]
 
 
-def _pushes(ax: Any, found: list[tuple[Array, Array]]) -> None:
-    look: Any = {"arrowstyle": "-|>,head_length=3,head_width=1.6", "mutation_scale": 1.0, "shrinkA": 0, "shrinkB": 0}
+def _pushes(ax: Axes, found: list[tuple[Array, Array]]) -> None:
+    look: dict[str, Any] = {
+        "arrowstyle": "-|>,head_length=3,head_width=1.6",
+        "mutation_scale": 1.0,
+        "shrinkA": 0,
+        "shrinkB": 0,
+    }
     for point, force in found:
         ends = (tuple(point), tuple(point + NEWTON * force))
         ax.add_patch(FancyArrowPatch(*ends, color=VERMILLION, lw=1.2, zorder=6, gid="push", **look))
     if found:
         point, force = max(found, key=lambda push: float(np.linalg.norm(push[1])))
-        sides: Any = {"ha": "left" if force[0] >= 0.0 else "right", "va": "bottom" if force[1] >= 0.0 else "top"}
-        text = f"{np.linalg.norm(force):.3g} N"
-        ax.annotate(
-            text, point + NEWTON * force, color=VERMILLION, fontsize=points(7.5), zorder=7, bbox=BEHIND_TEXT, **sides
-        )
+        sides: dict[str, Any] = {
+            "ha": "left" if force[0] >= 0.0 else "right",
+            "va": "bottom" if force[1] >= 0.0 else "top",
+        }
+        text, (x, y) = f"{np.linalg.norm(force):.3g} N", point + NEWTON * force
+        ax.annotate(text, (x, y), color=VERMILLION, fontsize=points(7.5), zorder=7, bbox=BEHIND_TEXT, **sides)
 
 
 def _desired(flight: Flight) -> Array:
@@ -127,7 +134,7 @@ def _bounds(flight: Flight, shown: list[int]) -> Array:
     return np.array([points.min(axis=0) - ROUND, points.max(axis=0) + ROUND])
 
 
-def _from_above(ax: Any, flight: Flight, shown: list[int], found: list[tuple[Array, Array]]) -> None:
+def _from_above(ax: Axes, flight: Flight, shown: list[int], found: list[tuple[Array, Array]]) -> None:
     for w in flight.walls:
         ax.plot(*np.array([w["start"], w["end"]]).T, color=INK, lw=1.6, solid_capstyle="round", zorder=3, gid="wall")
     ax.plot(*_desired(flight).T, color=GREY, lw=0.7, ls=(0, (4, 3)), zorder=1, gid="desired")
@@ -142,7 +149,7 @@ def _from_above(ax: Any, flight: Flight, shown: list[int], found: list[tuple[Arr
     ax.set_ylabel("$y$ (m)")
 
 
-def _clearance(ax: Any, flight: Flight) -> None:
+def _clearance(ax: Axes, flight: Flight) -> None:
     """The clearances over the distance flown; a dot at the smallest."""
     path, far = flight["position"][:, :2], clearances(flight)
     way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tandemlift.core.phases import GUIDED
@@ -37,7 +38,7 @@ def error_over_lambda(flight: Flight) -> Array | None:
     return np.abs(left) / np.maximum(np.array(gains["lambda_2"]), 1e-12)
 
 
-def _condition(ax: Any, flight: Flight, error: Array) -> None:
+def _condition(ax: Axes, flight: Flight, error: Array) -> None:
     """Fill the panel of the condition: the largest error over the axes of position, and of attitude."""
     for part, look, name in ((slice(0, 3), COMPONENTS[0], "position"), (slice(3, 6), COMPONENTS[1], "attitude")):
         line(ax, flight.time, error[:, part].max(axis=1), label=name, **look)

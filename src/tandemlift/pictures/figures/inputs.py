@@ -7,9 +7,8 @@ its own shows the start in full, and the column of the whole flight is scaled to
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -32,7 +31,7 @@ LEAST = (1.0, 0.02, 0.02, 0.02)  # N, N m, N m, N m: least spans of the axes
 LABELS = ("$U_1$ (N)", "$U_2$ (N m)", "$U_3$ (N m)", "$U_4$ (N m)")
 
 
-def _panel(ax: Any, flight: Flight, i: int, part: NDArray[np.bool_], shown: NDArray[np.bool_]) -> None:
+def _panel(ax: Axes, flight: Flight, i: int, part: NDArray[np.bool_], shown: NDArray[np.bool_]) -> None:
     """Draw input i over the samples `shown`, on a value axis that is scaled to the samples `part`."""
     values = flight["thrust"] if i == 0 else flight["moment"][:, i - 1]
     line(ax, flight.time[shown], values[shown], color=BLUE, lw=1.0)

@@ -9,9 +9,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure import Caption, all_flights
 from tandemlift.pictures.figures.drawing.panels import extent, line, shade, time_axis, value_ticks
@@ -31,7 +33,7 @@ LEAST_PUSH = 0.1  # N, half the least span of the axis
 LEAST_REFERENCE = 0.01  # m
 
 
-def _share_zero(ax: Any, other: Any, forces: Any, positions: Any) -> None:
+def _share_zero(ax: Axes, other: Axes, forces: Array, positions: Array) -> None:
     """Limit both value axes so that their zeros stand at one height and no value touches the frame."""
     ends = [extent(np.zeros(1), forces), extent(np.zeros(1), positions)]
     sizes = [max(*np.abs(end), least) for end, least in zip(ends, (LEAST_PUSH, LEAST_REFERENCE), strict=True)]
@@ -43,7 +45,7 @@ def _share_zero(ax: Any, other: Any, forces: Any, positions: Any) -> None:
         axes.yaxis.set_major_locator(value_ticks())
 
 
-def _panel(ax: Any, other: Any, flight: Flight, axis: int) -> list[Any]:
+def _panel(ax: Axes, other: Axes, flight: Flight, axis: int) -> list[Any]:
     """Fill one axis's panel and its second value axis; returns the handles for the legend."""
     push, reference = flight["push_force"][:, axis], flight["admittance_position"][:, axis]
     threshold = float(flight.mission["admittance"]["threshold"][axis])

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -32,7 +33,7 @@ COLUMNS = (("joint_force", "f", "N", 0.2), ("joint_torque", "t", "N m", 0.05))  
 FAINT: dict[str, Any] = {"lw": 0.5, "alpha": 0.35, "zorder": 1}
 
 
-def _panel(ax: Any, flight: Flight, name: str, first: int, least: float) -> bool:
+def _panel(ax: Axes, flight: Flight, name: str, first: int, least: float) -> bool:
     """Fill one panel with columns `first` to `first` + 2 of a channel; returns whether it is scaled to what follows."""
     part = slice(first, first + 3)
     shown = [flight[channel][:, part] for channel in (name, f"measured_{name}") if channel in flight.channels]

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tandemlift.analysis.linearization.analysis import Modes, frequency_response
@@ -16,6 +17,7 @@ from tandemlift.pictures.figures.drawing.style import (
     GREY,
     PALE,
     VERMILLION,
+    StyledFigure,
     page_figure,
     points,
     styled,
@@ -38,7 +40,7 @@ def draw(model: LinearModel, modes: Modes, input: str, output: str) -> Figure:
         input: beginning of the names of inputs, such as "push_force".
         output: that of outputs, such as "position"; input i is drawn to output i.
     """
-    figure: Any = page_figure(3.1)
+    figure: StyledFigure = page_figure(3.1)
     grid = figure.add_gridspec(2, 2, width_ratios=(1.0, 1.15))
     _poles(figure.add_subplot(grid[:, 0]), modes)
     size, phase = figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1])
@@ -50,7 +52,7 @@ def draw(model: LinearModel, modes: Modes, input: str, output: str) -> Figure:
     return figure
 
 
-def _poles(axes: Any, modes: Modes) -> None:
+def _poles(axes: Axes, modes: Modes) -> None:
     s = np.array([mode.s for mode in modes.modes])
     far = ROOM * max(float(np.abs(s).max(initial=1.0)), 1.0)
     axes.set_xscale("symlog", linthresh=LINEAR)
@@ -74,7 +76,7 @@ def _poles(axes: Any, modes: Modes) -> None:
     axes.set_title("modes, and lines of damping ratio")
 
 
-def _response(size: Any, phase: Any, model: LinearModel, input: str, output: str) -> None:
+def _response(size: Axes, phase: Axes, model: LinearModel, input: str, output: str) -> None:
     columns, rows = _named(model.inputs, input), _named(model.outputs, output)
     frequencies = np.geomspace(LOWEST, HIGHEST / model.step, POINTS)
     response = frequency_response(model, frequencies)

@@ -96,14 +96,19 @@ def _draw_vehicle(scene: Scene3D, body: Skeleton, color: str, order: float) -> N
     bars = LineCollection(list(on_paper([*body.arms, *body.struts])), colors=color, lw=0.7, **common)
     scene.axes.add_collection(discs)
     scene.axes.add_collection(bars)
-    look: Any = {"lw": 2.4, "solid_capstyle": "round"} if len(body.beam) == 2 else {"marker": "s", "ms": 4.0}
+    look: dict[str, Any] = {"lw": 2.4, "solid_capstyle": "round"} if len(body.beam) == 2 else {"marker": "s", "ms": 4.0}
     scene.line(body.beam, color=color, zorder=order, gid="payload", **look)
 
 
 def _draw_pushes(scene: Scene3D, found: list[PushArrow], tips: Array) -> None:
     """Draw the arrows, each with a thin line down to the floor that shows where above it the push acted."""
     floor = scene.box[2, 0]
-    look: Any = {"arrowstyle": "-|>,head_length=4,head_width=2", "mutation_scale": 1.0, "shrinkA": 0, "shrinkB": 0}
+    look: dict[str, Any] = {
+        "arrowstyle": "-|>,head_length=4,head_width=2",
+        "mutation_scale": 1.0,
+        "shrinkA": 0,
+        "shrinkB": 0,
+    }
     sizes = [float(np.linalg.norm(push.force)) for push in found]
     numbered = sizes if len(sizes) <= MOST_NUMBERED else [max(sizes)]
     for push, tip, size in zip(found, tips, sizes, strict=True):
@@ -120,9 +125,9 @@ def _number(scene: Scene3D, ends: Array, newtons: float) -> None:
     way = np.diff(ends, axis=0)[0]
     aside = np.array([-way[1], way[0]]) / max(float(np.hypot(*way)), 1e-12)
     aside *= 1.0 if aside[1] > 0.2 or (aside[1] > -0.2 and aside[0] < 0.0) else -1.0
-    sides: Any = {"ha": "right" if aside[0] < -0.3 else "left" if aside[0] > 0.5 else "center"}
+    sides: dict[str, Any] = {"ha": "right" if aside[0] < -0.3 else "left" if aside[0] > 0.5 else "center"}
     sides["va"] = "bottom" if aside[1] > 0.4 else "center"
-    look: Any = {
+    look: dict[str, Any] = {
         "textcoords": "offset points",
         "annotation_clip": False,
         "fontsize": points(7.5),
@@ -147,7 +152,7 @@ def _draw_path(scene: Scene3D, path: Array) -> list[Any]:
     """Draw the path (T, 3) [m], its shadow, start and end; returns the handles for the legend."""
     thin = path[np.unique(np.concatenate([decimate(coordinate) for coordinate in path.T]))]
     shadow = np.column_stack([thin[:, :2], np.full(len(thin), scene.box[2, 0])])
-    ends: Any = {"color": BLUE, "mfc": PAPER, "ms": 4, "ls": "none", "zorder": 41}
+    ends: dict[str, Any] = {"color": BLUE, "mfc": PAPER, "ms": 4, "ls": "none", "zorder": 41}
     return [
         scene.line(thin, color=BLUE, lw=1.3, zorder=3, gid="path"),
         scene.line(shadow, color=GREY, lw=0.8, zorder=1),

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
@@ -67,14 +68,14 @@ def places(flight: Flight) -> list[Array]:
     return found
 
 
-def _shadings(ax: Any, flight: Flight, estimator: EstimatorTable) -> None:
+def _shadings(ax: Axes, flight: Flight, estimator: EstimatorTable) -> None:
     shade(ax, flight.time, flight["push_usable"] == 0.0)
     if estimator.tare_start is not None:
         end = estimator.tare_start + estimator.tare_duration
         shade(ax, flight.time, (flight.time >= estimator.tare_start) & (flight.time < end), LIGHT_BLUE)
 
 
-def _force(ax: Any, flight: Flight, axis: int) -> list[Any]:
+def _force(ax: Axes, flight: Flight, axis: int) -> list[Any]:
     """Fill the panel of one axis's force; returns the handles for the legend."""
     threshold = float(flight.mission["admittance"]["threshold"][axis])
     measured, estimate, true = (flight[name][:, axis] for name in ("push_measured", "push_estimate", "push_force"))
@@ -89,7 +90,7 @@ def _force(ax: Any, flight: Flight, axis: int) -> list[Any]:
     return handles[:4]
 
 
-def _place(ax: Any, flight: Flight) -> None:
+def _place(ax: Axes, flight: Flight) -> None:
     """Fill the panel of where on the beam the push acts, as wide as the beam if the payload is one."""
     true = places(flight)
     point = flight["push_point_estimate"]
@@ -105,7 +106,7 @@ def _place(ax: Any, flight: Flight) -> None:
     ax.set_ylabel("acts at $y$ (m)")
 
 
-def _mass(ax: Any, flight: Flight) -> None:
+def _mass(ax: Axes, flight: Flight) -> None:
     true, estimate = true_payload_mass(flight), flight["payload_mass_estimate"]
     ax.axhline(true, zorder=1, **TRUE)
     line(ax, flight.time, estimate, zorder=4, **ESTIMATE)
@@ -113,7 +114,7 @@ def _mass(ax: Any, flight: Flight) -> None:
     ax.set_ylabel("payload (kg)")
 
 
-def _disagreement(ax: Any, flight: Flight, limit: float) -> None:
+def _disagreement(ax: Axes, flight: Flight, limit: float) -> None:
     values = flight["sensor_disagreement"]
     line(ax, flight.time, values, zorder=4, **ESTIMATE | {"ls": "-"})
     ax.axhline(limit, zorder=1, **LIMIT)

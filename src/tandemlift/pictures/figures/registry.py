@@ -9,13 +9,15 @@ import os
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure_style import figure_style
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from tandemlift.pictures.figures.drawing.figure import Caption, FlightFigure
 
 VIEWS = "views"
@@ -55,7 +57,7 @@ def figures_for(flight: Flight) -> dict[str, FlightFigure]:
     return {name: figure for name, figure in figures().items() if figure.IN_FLIGHTS(flight)}
 
 
-def save_figure(figure: Any, path: Path) -> Path:
+def save_figure(figure: Figure, path: Path) -> Path:
     """Write one figure as PNG or PDF, by the ending of the path; its folder is made if it does not exist."""
     from tandemlift.pictures.figures.drawing.style import save
 

@@ -10,6 +10,7 @@ from itertools import product
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
@@ -47,7 +48,7 @@ def rotor_fault(flight: Flight, quadrotor: int, rotor: int) -> dict[str, Any] | 
     return faults[-1] if faults and len(flight.time) and faults[-1]["time"] <= flight.time[-1] else None
 
 
-def _limits(ax: Any, flight: Flight, most: float, fault: dict[str, Any] | None) -> None:
+def _limits(ax: Axes, flight: Flight, most: float, fault: dict[str, Any] | None) -> None:
     """Draw the limits of a rotor, the upper one falling where it fails, and mark that."""
     time_axis(ax, flight, label=False)
     ax.xaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 3, 5, 10]))
@@ -61,7 +62,7 @@ def _limits(ax: Any, flight: Flight, most: float, fault: dict[str, Any] | None) 
     ax.axvline(at, zorder=4, gid="fault", **FAILED)
     place = most * (1.0 + left) / 2.0 if left < ROOMY else 0.25 * most
     late = at > end / 2.0
-    look: Any = {
+    look: dict[str, Any] = {
         "fontsize": points(7),
         "color": VERMILLION,
         "va": "center",
@@ -73,7 +74,7 @@ def _limits(ax: Any, flight: Flight, most: float, fault: dict[str, Any] | None) 
     )
 
 
-def _panel(ax: Any, flight: Flight, column: int, most: float, fault: dict[str, Any] | None) -> None:
+def _panel(ax: Axes, flight: Flight, column: int, most: float, fault: dict[str, Any] | None) -> None:
     """Fill the panel of one rotor: a column of its channels, and the most that it gives [N]."""
     thrust = flight["rotor_thrusts"][:, column]
     line(ax, flight.time, flight["rotor_commands"][:, column], zorder=2, **COMMAND)
@@ -84,7 +85,7 @@ def _panel(ax: Any, flight: Flight, column: int, most: float, fault: dict[str, A
     ax.yaxis.set_major_locator(value_ticks())
 
 
-def _fraction(ax: Any, flight: Flight) -> None:
+def _fraction(ax: Axes, flight: Flight) -> None:
     line(ax, flight.time, flight["allocation_fraction"], color=BLUE, lw=1.0)
     ax.axhline(1.0, color=GREY, lw=0.4, zorder=0)
     ax.set_ylim(-0.05, 1.08)

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -40,7 +41,7 @@ LEAST_HEIGHT = 0.02  # m
 HEIGHT = "height above floor (m)"
 
 
-def _vector(ax: Any, flight: Flight, name: str, least: float) -> None:
+def _vector(ax: Axes, flight: Flight, name: str, least: float) -> None:
     components(ax, flight.time, flight[name], zorder=3)
     fit(ax, flight[name], least=least)
     ax.axhline(0.0, color=GREY, lw=0.4, zorder=1)
@@ -48,7 +49,7 @@ def _vector(ax: Any, flight: Flight, name: str, least: float) -> None:
         ax.axhline(true_weight(flight), color=INK, lw=0.7, ls=(0, (5, 3)), zorder=2)
 
 
-def _height(ax: Any, flight: Flight, floor: float) -> None:
+def _height(ax: Axes, flight: Flight, floor: float) -> None:
     values = clearance(flight, floor)
     line(ax, flight.time, values, color=BLUE, lw=1.2, zorder=3)
     fit(ax, values, np.zeros(1), least=LEAST_HEIGHT)

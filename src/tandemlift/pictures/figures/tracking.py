@@ -7,9 +7,11 @@ axes. Each error is divided by its largest absolute value, which the legend give
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import EngFormatter
 
@@ -84,7 +86,7 @@ def size_of(value: float, unit: str) -> str:
     return rf"${digits}\times10^{{{int(power)}}}$°" if power else f"{digits}°"
 
 
-def _trajectories(axes: Any, flight: Flight, column: FigureColumn) -> list[Any]:
+def _trajectories(axes: Sequence[Axes], flight: Flight, column: FigureColumn) -> list[Any]:
     """Fill the three upper panels of a column; returns the handles of the actual and the desired line."""
     handles = []
     for i, ax in enumerate(axes):
@@ -96,14 +98,14 @@ def _trajectories(axes: Any, flight: Flight, column: FigureColumn) -> list[Any]:
     return handles
 
 
-def _mark_findings(ax: Any, flight: Flight) -> None:
+def _mark_findings(ax: Axes, flight: Flight) -> None:
     """Mark the times at which findings begin by triangles at the upper edge."""
     times = sorted({f.time for f in flight.findings})
     if times:
         ax.plot(times, [1.1] * len(times), "v", color=VERMILLION, ms=3.5, clip_on=False, zorder=5)
 
 
-def _errors(ax: Any, flight: Flight, column: FigureColumn) -> None:
+def _errors(ax: Axes, flight: Flight, column: FigureColumn) -> None:
     """Fill the bottom panel of a column with the errors over their largest absolute values."""
     for i, look in enumerate(COMPONENTS):
         error, peak = normalised(drawable(flight[column.error][:, i]))

@@ -113,7 +113,7 @@ class Film:
 
 
 @lru_cache(maxsize=4)
-def _font(height: int) -> Any:
+def _font(height: int) -> ImageFont.FreeTypeFont:
     return ImageFont.truetype(str(Path(matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), height)
 
 

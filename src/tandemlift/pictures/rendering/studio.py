@@ -6,6 +6,7 @@ import ctypes
 import os
 import sys
 from functools import cache
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -34,7 +35,7 @@ WINDOWS = {  # what draws without a display: a library, and VTK's window for it
 
 
 @cache
-def pyvista() -> Any:
+def pyvista() -> ModuleType:
     """The module pyvista.
 
     Raises:

@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
@@ -75,7 +76,7 @@ def _errors(flight: Flight, part: ScoredPart) -> Array:
     return 1e3 * np.where(scored(flight, part)[inside, None], flight["position_error"][inside], np.nan)
 
 
-def _panel(ax: Any, flights: Mapping[str, Flight], part: ScoredPart, axis: int) -> None:
+def _panel(ax: Axes, flights: Mapping[str, Flight], part: ScoredPart, axis: int) -> None:
     """Draw the errors [mm] of all flights along an axis in a part."""
     shown = []
     for place, flight in enumerate(flights.values()):
@@ -89,7 +90,7 @@ def _panel(ax: Any, flights: Mapping[str, Flight], part: ScoredPart, axis: int) 
     ax.axhline(0.0, color=GREY, lw=0.4, zorder=0)
 
 
-def _still(ax: Any, what: str) -> None:
+def _still(ax: Axes, what: str) -> None:
     """Say in a panel that nothing moves there, in place of its values."""
     ax.text(0.5, 0.5, what, transform=ax.transAxes, ha="center", va="center", fontsize=points(8), color=GREY)
     ax.set_yticks([])
@@ -143,7 +144,7 @@ def _bands(time: Array, thrusts: Array) -> tuple[Array, Array, Array, Array]:
     return time[starts], low, mean, high
 
 
-def _rotors(ax: Any, flight: Flight) -> None:
+def _rotors(ax: Axes, flight: Flight) -> None:
     time, low, mean, high = _bands(flight.time, drawable(flight["rotor_thrusts"]))
     ax.fill_between(time, low, high, color=LIGHT_BLUE, lw=0.0)
     ax.plot(time, mean, color=BLUE, lw=0.9)

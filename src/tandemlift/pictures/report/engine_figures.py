@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
@@ -64,7 +65,7 @@ def _legend(figure: Figure, names: list[str], first: int = 0) -> None:
     figure.legend(handles, names, loc="outside upper left", ncols=len(names), columnspacing=1.4)
 
 
-def _from_above(ax: Any, flights: Mapping[str, Flight]) -> None:
+def _from_above(ax: Axes, flights: Mapping[str, Flight]) -> None:
     first = next(iter(flights.values()))
     for wall in first.walls:
         ax.plot(*np.array([wall["start"], wall["end"]]).T, color=INK, lw=1.4, solid_capstyle="round", gid="wall")

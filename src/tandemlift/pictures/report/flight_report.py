@@ -35,7 +35,7 @@ WIDE = 600  # CSS pixels from where a figure scrolls sideways on a narrow screen
 ARRIVED = 0.5  # m: a vehicle that ends farther from its reference has not arrived
 
 
-def number(value: Any) -> str:
+def number(value: object) -> str:
     """A metric's value as HTML: four significant digits, or a power of ten; a dash for None."""
     if value is None:
         return DASH
@@ -61,15 +61,15 @@ def split_unit(name: str) -> tuple[str, str]:
     return words[:1].upper() + words[1:], unit
 
 
-def _cells(name: str, value: Any, unit: str) -> str:
+def _cells(name: str, value: object, unit: str) -> str:
     """The table cells of a metric's value: one per axis, or one over all three columns."""
     if name == "command_at_start" and isinstance(value, (list, tuple)):
         parts = (
             f"U{'₁₂₃₄'[i]} = {number(v)} {'N m' if i else 'N'}".replace(" ", NO_BREAK) for i, v in enumerate(value)
         )
         return f'<td class="one" colspan="3">{", ".join(parts)}</td>'
-    single = not isinstance(value, (list, tuple)) or len(value) != 3
-    values = [value] if single else value
+    values = list(value) if isinstance(value, (list, tuple)) and len(value) == 3 else [value]
+    single = len(values) == 1
     texts = [", ".join(map(number, v)) if isinstance(v, (list, tuple)) else number(v) for v in values]
     if unit == "rad":
         degrees = [math.degrees(v) if isinstance(v, (int, float)) else None for v in values]
@@ -126,7 +126,7 @@ def _length(metres: float) -> str:
     return f"{number(metres * 1e3)} mm" if metres < 1.0 else f"{number(metres)} m"
 
 
-def _pngs(flight: Flight, figures: Any) -> dict[str, Path]:
+def _pngs(flight: Flight, figures: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> dict[str, Path]:
     """The PNG files of a flight's figures by name, of those that there are."""
     names = (VIEWS, *figures_for(flight))
     if isinstance(figures, (str, os.PathLike)):

@@ -6,7 +6,6 @@ import math
 import re
 import unicodedata
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 NOTHING = r"\multicolumn{2}{c}{--}"
 NUMBER = "r@{}l"  # the column of a number: what is before its point, and the rest
@@ -46,7 +45,7 @@ def _letter(character: str) -> str:
     return _escaped(plain) if plain.isprintable() and plain else "?" if character.isprintable() else " "
 
 
-def latex_number(value: Any) -> str:
+def latex_number(value: float | str | None) -> str:
     """The two cells of a number, to four digits; a text or a truth value over both, and a dash for None."""
     if isinstance(value, (bool, str)):
         return rf"\multicolumn{{2}}{{c}}{{{latex_text(str(value).lower() if isinstance(value, bool) else value)}}}"

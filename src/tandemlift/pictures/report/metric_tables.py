@@ -58,7 +58,7 @@ def metrics_as_csv(flights: MetricsByColumn) -> str:
     return text.getvalue()
 
 
-def _plain(value: Any) -> str:
+def _plain(value: object) -> str:
     return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
@@ -29,7 +28,7 @@ def _environment() -> Environment:
     )
 
 
-def write_page(path: str | os.PathLike[str], template: str, **values: Any) -> Path:
+def write_page(path: str | os.PathLike[str], template: str, **values: object) -> Path:
     """Write a page; it appears whole or not at all.
 
     Args:

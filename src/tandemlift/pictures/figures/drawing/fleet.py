@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from matplotlib.figure import Figure
 
-from tandemlift.pictures.figures.drawing.style import page_figure, points
+from tandemlift.pictures.figures.drawing.style import StyledFigure, page_figure, points
 
 MOST = 8  # quadrotors: what a page holds
 HIGH, LOW = 1.3, 0.95  # in: of a row of panels where there are few, and where there are many
@@ -20,7 +18,7 @@ def fleet_figure(count: int, around: float) -> tuple[Figure, int]:
     """
     rows = min(count, MOST)
     height = around + max(LOW * rows, HIGH * min(rows, FEW))
-    figure: Any = page_figure(height)
+    figure: StyledFigure = page_figure(height)
     if rows < count:
         figure.supxlabel(f"quadrotors 1 to {rows} of {count}", x=0.995, ha="right", fontsize=points(8))
     return figure, rows

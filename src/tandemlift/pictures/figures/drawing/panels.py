@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
@@ -20,7 +21,7 @@ LEGEND = "outside upper center"
 RELATIVE = 2e-3  # of the largest value: the least span of its axis, so that tick labels stay short
 
 
-def line(ax: Axes, time: Array, values: Array, **look: Any) -> Any:
+def line(ax: Axes, time: Array, values: Array, **look: Any) -> Line2D:
     """Draw a series (T,) over time [s], thinned; a lone sample becomes a dot. Returns the line."""
     if len(time) == 1:
         look = {**look, "marker": ".", "ls": "none"}
@@ -30,7 +31,7 @@ def line(ax: Axes, time: Array, values: Array, **look: Any) -> Any:
     return drawn
 
 
-def components(ax: Axes, time: Array, values: Array, **look: Any) -> list[Any]:
+def components(ax: Axes, time: Array, values: Array, **look: Any) -> list[Line2D]:
     """Draw a vector (T, 3) over time [s], a line for each component. Returns the lines."""
     return [line(ax, time, values[:, i], **COMPONENTS[i], **look) for i in range(3)]
 

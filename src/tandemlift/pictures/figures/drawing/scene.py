@@ -9,8 +9,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
+from numpy.typing import ArrayLike
 
 from tandemlift.core.types import Array
 from tandemlift.pictures.figures.drawing.figure_style import current_style
@@ -27,7 +30,7 @@ TALLEST = 5.2  # in
 ROOM = np.array([0.4, 0.3, 0.5, 0.36])  # in, for labels around text of `TEXT`: left, bottom, right, top
 
 
-def on_paper(points: Any) -> Array:
+def on_paper(points: ArrayLike) -> Array:
     """Points (…, 3) [m, world axes] seen from the reader's eye, (…, 2) [m]."""
     return np.asarray(points) @ np.column_stack([RIGHT, UP])
 
@@ -60,7 +63,7 @@ class Scene3D:
         size = np.array([style.width_for(inner[0] + room[0]), style.height or inner[1] + room[1]])
         corner = (size - inner - room) / 2.0 + around[:2]
         self.figure = StyledFigure(size[0], size[1], layout=None)
-        self.axes: Any = self.figure.add_axes((*(corner / size), *(inner / size)))
+        self.axes: Axes = self.figure.add_axes((*(corner / size), *(inner / size)))
         self.axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
         self.axes.set_axis_off()
         if floor is not None:
@@ -69,7 +72,7 @@ class Scene3D:
             self.fill(ground, facecolor=GROUND, zorder=-1, gid="floor")
         self._draw_box()
 
-    def line(self, points: Array, **look: Any) -> Any:
+    def line(self, points: Array, **look: Any) -> Line2D:
         """Draw a line through points (n, 3) [m, world axes]. Returns it."""
         (drawn,) = self.axes.plot(*on_paper(points).T, clip_on=False, **look)
         return drawn
@@ -94,12 +97,21 @@ class Scene3D:
         self._number("y", ys, [(x1, y, z0) for y in ys], (5.0, -3.0), "left", "center", (26.0, -12.0))
         self._number("z", zs, [(x0, y0, z) for z in zs], (-4.0, 2.0), "right", "center", (0.0, 12.0))
 
-    def _number(self, axis: str, values: Array, places: Any, offset: Any, across: str, along: str, name: Any) -> None:
+    def _number(
+        self,
+        axis: str,
+        values: Array,
+        places: ArrayLike,
+        offset: tuple[float, float],
+        across: str,
+        along: str,
+        name: tuple[float, float],
+    ) -> None:
         """Numbers at places along an edge, offset [points], and the axis's name beside the middle, or over z."""
         digits = max(0, -int(np.floor(np.log10(self.cell) + 1e-9)))
         texts = [f"{value + 0.0:.{digits}f}".replace("-", "−") for value in values]
         spots = on_paper(places)
-        look: Any = {"textcoords": "offset points", "annotation_clip": False}
+        look: dict[str, Any] = {"textcoords": "offset points", "annotation_clip": False}
         for text, spot in list(zip(texts, spots, strict=True))[:: -(-len(texts) // (CELLS + 1))]:
             self.axes.annotate(text, spot, offset, fontsize=points(7.5), ha=across, va=along, **look)
         beside = spots[-1] if axis == "z" else spots.mean(axis=0)

@@ -10,11 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import matplotlib.style
 import numpy as np
 from cycler import cycler
+from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
 
 from tandemlift.core.files import atomic_write
@@ -105,11 +106,11 @@ class StyledFigure(Figure):
         style: that style.
     """
 
-    def __init__(self, width: float, height: float, layout: Any = "constrained") -> None:
+    def __init__(self, width: float, height: float, layout: Literal["constrained"] | None = "constrained") -> None:
         self.style = current_style()
         super().__init__(figsize=self.style.size(width, height), layout=layout)
 
-    def draw(self, renderer: Any) -> None:
+    def draw(self, renderer: RendererBase) -> None:
         """Draw it, its colours from the style's palette."""
         with matplotlib.rc_context(settings(self.style)):
             super().draw(renderer)

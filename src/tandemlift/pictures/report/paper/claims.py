@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -185,5 +185,5 @@ def _of_the_corridor(corridor: Flight) -> Iterator[Claim]:
     )
 
 
-def _list(values: Any, digits: int) -> str:
+def _list(values: Iterable[float], digits: int) -> str:
     return ", ".join(f"{value + 0.0:.{digits}f}" for value in values).replace("-", "−")

@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
@@ -53,7 +52,7 @@ def stages(flight: Flight) -> list[int]:
     return [0, int(np.searchsorted(way, way[-1] / 2.0)), last, len(path) - 1]
 
 
-def _vehicle(ax: Any, body: Skeleton) -> None:
+def _vehicle(ax: Axes, body: Skeleton) -> None:
     discs = PolyCollection(list(on_paper(body.rotors)), facecolor=(PAPER, 0.85), edgecolor=INK, lw=0.7, zorder=10)
     bars = LineCollection(list(on_paper([*body.arms, *body.struts])), colors=INK, lw=0.9, zorder=10)
     ax.add_collection(discs)
@@ -61,7 +60,7 @@ def _vehicle(ax: Any, body: Skeleton) -> None:
     ax.plot(*on_paper(body.beam).T, color=INK, lw=3.0, solid_capstyle="round", zorder=10)
 
 
-def _walls(ax: Any, flight: Flight, place: Array, floor: float) -> list[Array]:
+def _walls(ax: Axes, flight: Flight, place: Array, floor: float) -> list[Array]:
     """Draw the walls around a place (3) [m], before the vehicle or behind it. Returns their rims (2, 3) [m]."""
     reach = np.append(AROUND, 10.0)
     rims, low, high = [], place - reach, place + reach
@@ -77,7 +76,7 @@ def _walls(ax: Any, flight: Flight, place: Array, floor: float) -> list[Array]:
     return rims
 
 
-def _stage(ax: Any, flight: Flight, k: int) -> None:
+def _stage(ax: Axes, flight: Flight, k: int) -> None:
     """Draw one instant."""
     place, floor = flight["position"][k], floor_height(flight) or 0.0
     ground = place + np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) * [*AROUND, 0.0]

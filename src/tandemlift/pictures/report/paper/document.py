@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.report.paper.claims import claims
@@ -91,7 +92,7 @@ def _effect(metrics: Mapping[str, Any]) -> dict[str, str]:
     }
 
 
-def _shown(value: Any) -> str:
+def _shown(value: ArrayLike) -> str:
     """A value of a mission in a few characters: one number where all of a list are equal."""
     if isinstance(value, bool):
         return "true" if value else "false"

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -35,7 +34,7 @@ def _steps(values: Array) -> tuple[Array, Array]:
     return np.concatenate([ordered[:1], ordered[places]]), np.concatenate([[0.0], share])
 
 
-def _panel(ax: Any, rows: StudyRows, quantity: Quantity) -> None:
+def _panel(ax: Axes, rows: StudyRows, quantity: Quantity) -> None:
     values = rows.values[quantity.name]
     shown = shown_quantity(quantity, values)
     for place, group in enumerate(compared(rows, MOST_CURVES)):

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tandemlift.analysis.studies.closed_form import YAW
@@ -13,7 +14,17 @@ from tandemlift.analysis.studies.feel_study import FeelStudy
 from tandemlift.analysis.studies.standard_push import PushedAxis
 from tandemlift.pictures.figures.drawing.figure import Caption
 from tandemlift.pictures.figures.drawing.panels import fit, line
-from tandemlift.pictures.figures.drawing.style import ACTUAL, DESIRED, GREY, INK, PALE, PAPER, page_figure, styled
+from tandemlift.pictures.figures.drawing.style import (
+    ACTUAL,
+    DESIRED,
+    GREY,
+    INK,
+    PALE,
+    PAPER,
+    StyledFigure,
+    page_figure,
+    styled,
+)
 
 CAPTION = Caption(
     "Standard push",
@@ -30,7 +41,7 @@ LEAST_SPEED = 0.05  # m/s, span of an axis
 def draw(study: FeelStudy) -> Figure:
     """Draw every axis of a study."""
     rows = math.ceil(len(study.pushed) / COLUMNS)
-    figure: Any = page_figure(0.35 + HEIGHT * rows)
+    figure: StyledFigure = page_figure(0.35 + HEIGHT * rows)
     grid = figure.add_gridspec(rows, COLUMNS)
     handles: list[Any] = []
     for i, pushed in enumerate(study.pushed):
@@ -43,7 +54,7 @@ def draw(study: FeelStudy) -> Figure:
     return figure
 
 
-def _panel(axes: Any, p: PushedAxis) -> list[Any]:
+def _panel(axes: Axes, p: PushedAxis) -> list[Any]:
     """Fill the panel of an axis; returns the handles for the legend."""
     turning = p.feel.axis == YAW
     pushed = axes.axvspan(0.0, p.hold, facecolor=PALE, alpha=0.45, lw=0.0, zorder=0)

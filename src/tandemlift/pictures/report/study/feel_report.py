@@ -117,7 +117,7 @@ def _write(path: Path, text: str) -> None:
         partial.write_text(f"{text}\n", "utf-8")
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: object) -> object:
     """A value for JSON, which has no infinity."""
     if isinstance(value, dict):
         return {key: _plain(inner) for key, inner in value.items()}

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
@@ -91,7 +94,7 @@ def medians(cell: Places, values: Array, count: int) -> Array:
     return np.asarray(np.where(numbers > 0, 0.5 * (ordered[low] + ordered[high]), np.nan))
 
 
-def bad_shares(cell: Places, bad: Any, count: int) -> Array:
+def bad_shares(cell: Places, bad: Array, count: int) -> Array:
     """The share of bad rows of each cell (count,); NaN of none."""
     inside = cell >= 0
     numbers = np.bincount(cell[inside], minlength=count)
@@ -125,7 +128,7 @@ def _edges(of: MapAxis) -> Array:
     return np.arange(-0.5, of.size) if of.edges is None else of.edges
 
 
-def _ticks(axis: Any, of: MapAxis) -> None:
+def _ticks(axis: Axis, of: MapAxis) -> None:
     """Ticks of an axis: at some of its values, or at round numbers."""
     step = -(-of.size // MOST_LABELS)
     if of.edges is None:
@@ -134,7 +137,7 @@ def _ticks(axis: Any, of: MapAxis) -> None:
         axis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
 
 
-def _map(ax: Any, x: MapAxis, y: MapAxis, formed: Array, colours: Any) -> Any:
+def _map(ax: Axes, x: MapAxis, y: MapAxis, formed: Array, colours: Mapping[str, Any]) -> QuadMesh:
     ax.patch.set(hatch="////", edgecolor=GREY, lw=0.0)
     image = ax.pcolormesh(_edges(x), _edges(y), np.ma.masked_invalid(formed), rasterized=True, **colours)
     _ticks(ax.xaxis, x)
@@ -187,7 +190,7 @@ def _places(axis: MapAxis) -> Array:
         return np.arange(float(axis.size))
 
 
-def _curve(ax: Any, layer: _Layer, group: RowGroup, axis: MapAxis) -> None:
+def _curve(ax: Axes, layer: _Layer, group: RowGroup, axis: MapAxis) -> None:
     cell, values, x = axis.cell[group.places], layer.values[group.places], _places(axis)
     if layer.is_share:
         parts = [share(int((values[cell == i] > 0.0).sum()), int((cell == i).sum())) for i in range(axis.size)]

@@ -18,6 +18,7 @@ from tandemlift.analysis.studies.table import Study
 from tandemlift.core.errors import shown
 from tandemlift.core.findings import KIND_OF
 from tandemlift.core.phases import FAILURES
+from tandemlift.core.types import Array
 from tandemlift.pictures.report.findings_section import with_keys
 from tandemlift.pictures.report.flight_report import DASH, html_table, number
 from tandemlift.pictures.report.study.outcome_tables import MOST_GROUPS, outcome_counts, tabled_groups
@@ -202,7 +203,7 @@ def measured(rows: StudyRows) -> str:
     )
 
 
-def _quantiles(values: Any, look: QuantityDisplay, low_is_bad: bool) -> Sequence[str]:
+def _quantiles(values: Array, look: QuantityDisplay, low_is_bad: bool) -> Sequence[str]:
     known = finite(values) * look.scale
     if not len(known):
         return [count(0), *[DASH] * 4]

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from html import escape
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tandemlift.analysis.studies.quantities import IntervalEstimate
@@ -64,7 +65,7 @@ def strongest(found: Sequence[Analysed]) -> list[str]:
     return known[0].strongest if known else []
 
 
-def _bars(ax: Any, found: Sensitivity, names: Sequence[str]) -> None:
+def _bars(ax: Axes, found: Sensitivity, names: Sequence[str]) -> None:
     places = np.arange(len(names))
     for kind, colour, width in ((found.total, LIGHT_BLUE, 0.8), (found.first, BLUE, 0.4)):
         if kind:

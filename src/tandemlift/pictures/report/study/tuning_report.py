@@ -140,7 +140,7 @@ def _values(found: Tuning) -> str:
     return html_table(_head(("Key", "Present", "New", "Searched")), rows, "compared part")
 
 
-def _value(value: Any) -> str:
+def _value(value: object) -> str:
     return escape(shown(value)) if isinstance(value, (bool, str)) else number(value)
 
 
@@ -170,7 +170,7 @@ def _words(changes: Mapping[str, Any]) -> str:
     return ", ".join(f"{key} = {shown(_short(value))}" for key, value in changes.items())
 
 
-def _short(value: Any) -> Any:
+def _short(value: object) -> object:
     """Numbers with four digits."""
     if isinstance(value, float):
         return float(f"{value:.4g}")

@@ -64,5 +64,5 @@ def _what(rows: StudyRows, place: int, said: dict[str, Any]) -> str:
     return ", ".join([*[escape(part) for part in parts if part], *values, f"seed {said['seed']}", *more])
 
 
-def _shown(value: Any, unit: str) -> str:
+def _shown(value: object, unit: str) -> str:
     return f"{number(value) if isinstance(value, (int, float)) else escape(str(value))} {unit}".rstrip()
