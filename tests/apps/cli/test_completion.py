@@ -12,7 +12,7 @@ from click.testing import CliRunner
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
-from tandemlift.apps.cli.terminal import words
+from tandemlift.apps.cli.terminal import completion
 from tandemlift.missions import built_in
 from tools import need
 
@@ -23,13 +23,13 @@ ALONE = ("numpy", "pydantic", "matplotlib", "llvmlite")  # each takes longer to 
 @pytest.fixture(scope="module", autouse=True)
 def shipped(tmp_path_factory):
     """The words as an install has them."""
-    file = tmp_path_factory.mktemp("words") / "words.json"
-    file.write_text(json.dumps(words.formed_words()), "utf-8")
+    file = tmp_path_factory.mktemp("words") / "completion.json"
+    file.write_text(json.dumps(completion.formed_words()), "utf-8")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(words, "shipped_text", lambda: file.read_text("utf-8"))
-        words.known_words.cache_clear()
+        patch.setattr(completion, "shipped_text", lambda: file.read_text("utf-8"))
+        completion.known_words.cache_clear()
         yield file
-    words.known_words.cache_clear()
+    completion.known_words.cache_clear()
 
 
 @pytest.fixture
@@ -81,7 +81,7 @@ def test_the_last_word_of_a_line_is_completed(line, found, folder):
 
 
 def test_each_mission_key_and_table_is_reached_one_dot_at_a_time_and_can_be_explained():
-    known = words.known_words()
+    known = completion.known_words()
 
     def reached(command, begun=""):
         for found in completed(f"{command} {begun}"):
@@ -95,7 +95,7 @@ def test_each_mission_key_and_table_is_reached_one_dot_at_a_time_and_can_be_expl
 
 
 def test_the_words_are_those_that_the_package_lists():
-    known = words.known_words()
+    known = completion.known_words()
     assert known["mission"] == dict(built_in())
     for kind in ("controller", "engine"):
         listed = CliRunner().invoke(cli, [f"{kind}s"]).output.splitlines()
@@ -108,10 +108,8 @@ def program(folder, shipped):
     """A program `tandemlift` on the path, with the words as an install has them; an import of what is slow fails."""
     slow = dict.fromkeys(ALONE)
     code = f"import sys; sys.modules |= {slow!r}; sys.path.insert(0, {str(SOURCES)!r})\n"
-    code += "from pathlib import Path\nfrom tandemlift.apps.cli.terminal import words\n"
-    code += (
-        f"words.shipped_text = Path({str(shipped)!r}).read_text\nfrom tandemlift.apps.cli.main import main\nmain()\n"
-    )
+    code += "from pathlib import Path\nfrom tandemlift.apps.cli.terminal import completion\n"
+    code += f"completion.shipped_text = Path({str(shipped)!r}).read_text\nfrom tandemlift.apps.cli.main import main\nmain()\n"
     path = folder / "bin" / "tandemlift"
     path.parent.mkdir()
     path.write_text(f"#!{sys.executable}\n{code}", "utf-8")

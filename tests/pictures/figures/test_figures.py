@@ -19,8 +19,7 @@ from tandemlift.flight.record import Ending
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing import style as figure_style
 from tandemlift.pictures.figures.drawing.series import decimate, intervals, normalised
-from tandemlift.pictures.figures.drawing.skeleton import skeleton
-from tandemlift.pictures.figures.drawing.vehicle import true_weight
+from tandemlift.pictures.figures.drawing.vehicle import skeleton, true_weight
 from tandemlift.pictures.figures.registry import VIEWS, captions, figures, figures_for, save_figures
 
 RUNAWAY = {

@@ -5,9 +5,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, get_args, get_origin
 
-from tandemlift.apps.live.message_rules import message_rules, name_rule
 from tandemlift.apps.live.page_functions import ENDING_PARTS, frame_fields
 from tandemlift.apps.live.session import checks, pacing
 from tandemlift.apps.live.session import refusal_texts as texts
@@ -25,7 +24,8 @@ from tandemlift.apps.live.session.tunable_parameters import (
     parameters_of,
 )
 from tandemlift.apps.live.wire.frames import ECHO, FRESH, RATE
-from tandemlift.apps.live.wire.page_messages import SILENT
+from tandemlift.apps.live.wire.page_messages import PAGE_MESSAGES, SILENT, NumberedMessage
+from tandemlift.apps.live.wire.quantities import NAME_PATTERN, NAME_RULE
 from tandemlift.apps.live.wire.scene import SceneParameter
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import DIVERGED, ENDING_OF, ENDINGS
@@ -33,6 +33,7 @@ from tandemlift.core.refusals import REQUESTS, refusals_for, sentences_for
 from tandemlift.core.types import flat
 from tandemlift.flight.record import ENDING_TEXT
 from tandemlift.missions import changed, tables_of
+from tandemlift.missions.bounds import allowed, bounds, plain
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.loop_code import leaf_offset
@@ -41,6 +42,48 @@ from tandemlift.simulation.parameter_changes import LATER, NO_EFFECT, scheduled_
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND, MISSION
 from tandemlift.simulation.stepping import GUIDANCE_MEMORY
+
+OWN = ("type", "seq")  # fields that the page writes by itself
+
+
+def message_rules() -> dict[str, dict[str, dict[str, Any]]]:
+    """By message and field: how many numbers (0 if they are not named one by one), their bounds, and the refusal."""
+    found = {}
+    for name, kind in PAGE_MESSAGES.items():
+        rules = {field: _rule(name, field, kind) for field in kind.model_fields if field not in OWN}
+        found[name] = {field: rule for field, rule in rules.items() if rule}
+    return {name: rules for name, rules in found.items() if rules}
+
+
+def name_rule() -> tuple[str, str]:
+    """The regular expression of the name of a saved flight, and the refusal of another."""
+    return NAME_PATTERN, f"save.name = {{value}}: must {NAME_RULE}"
+
+
+def _rule(message: str, field: str, kind: type[NumberedMessage]) -> dict[str, Any] | None:
+    info = kind.model_fields[field]
+    annotation, marks = plain(info.annotation), list(info.metadata)
+    parts = [part for part in get_args(annotation) if part is not Ellipsis]
+    if get_origin(annotation) is tuple and parts:
+        limits, count, rule = bounds(get_args(parts[0])[1:]), len(parts), allowed(parts[0])
+    elif field == "value":
+        limits, count, rule = _innermost_bounds(info.annotation), 0, allowed(info.annotation, marks)
+    else:
+        limits, count, rule = bounds(marks), 0, allowed(info.annotation, marks)
+    if not {"ge", "le"} <= limits.keys():
+        return None
+    wrong = f"{message}.{{key}} = {{value}}: must be {rule}"
+    return {"count": count, "min": limits["ge"], "max": limits["le"], "wrong": wrong}
+
+
+def _innermost_bounds(annotation: Any) -> dict[str, float]:
+    """The first bounds anywhere in an annotation."""
+    for part in get_args(annotation):
+        found = bounds([part]) if hasattr(part, "metadata") else _innermost_bounds(part)
+        if found:
+            return found
+    return {}
+
 
 ENGINE = "compiled"
 ONLY_SERVER = "{what}: only a flight of `tandemlift live` has it"

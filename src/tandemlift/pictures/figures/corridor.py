@@ -24,7 +24,6 @@ from tandemlift.pictures.figures.drawing.figure import Caption, with_walls
 from tandemlift.pictures.figures.drawing.figure_style import current_style
 from tandemlift.pictures.figures.drawing.panels import extent, legend_above, line, value_ticks
 from tandemlift.pictures.figures.drawing.series import decimate, drawable
-from tandemlift.pictures.figures.drawing.skeleton import skeleton
 from tandemlift.pictures.figures.drawing.style import (
     BEHIND_TEXT,
     BLUE,
@@ -35,6 +34,7 @@ from tandemlift.pictures.figures.drawing.style import (
     page_figure,
     points,
 )
+from tandemlift.pictures.figures.drawing.vehicle import skeleton
 from tandemlift.pictures.figures.path import pushes
 
 CAPTION = Caption(

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure import Caption, all_flights
-from tandemlift.pictures.figures.drawing.panels import fit, line, time_axis
-from tandemlift.pictures.figures.drawing.start import START, is_disturbed
+from tandemlift.pictures.figures.drawing.panels import START, fit, is_disturbed, line, time_axis
 from tandemlift.pictures.figures.drawing.style import BLUE, GREY, INK, journal, page_figure
 from tandemlift.pictures.figures.drawing.vehicle import true_weight
 

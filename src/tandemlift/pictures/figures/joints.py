@@ -14,9 +14,15 @@ from matplotlib.lines import Line2D
 
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
-from tandemlift.pictures.figures.drawing.fleet import fleet_figure
-from tandemlift.pictures.figures.drawing.panels import components, fit, line, time_axis
-from tandemlift.pictures.figures.drawing.start import START, is_disturbed
+from tandemlift.pictures.figures.drawing.panels import (
+    START,
+    components,
+    fit,
+    fleet_figure,
+    is_disturbed,
+    line,
+    time_axis,
+)
 from tandemlift.pictures.figures.drawing.style import COMPONENTS, GREY, journal
 
 CAPTION = Caption(

@@ -19,13 +19,11 @@ from matplotlib.patches import FancyArrowPatch, Patch
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.figures.drawing.attitude import body_to_world
 from tandemlift.pictures.figures.drawing.figure import Caption, all_flights
 from tandemlift.pictures.figures.drawing.ground import floor_height
 from tandemlift.pictures.figures.drawing.panels import legend_above
 from tandemlift.pictures.figures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.pictures.figures.drawing.series import decimate, drawable
-from tandemlift.pictures.figures.drawing.skeleton import Skeleton, skeleton
 from tandemlift.pictures.figures.drawing.style import (
     BEHIND_TEXT,
     BLUE,
@@ -39,6 +37,7 @@ from tandemlift.pictures.figures.drawing.style import (
     journal,
     points,
 )
+from tandemlift.pictures.figures.drawing.vehicle import Skeleton, body_to_world, skeleton
 from tandemlift.pictures.figures.drawing.walls import WallOutline, draw_walls, walls_near
 
 CAPTION = Caption(

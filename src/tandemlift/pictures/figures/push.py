@@ -17,7 +17,6 @@ from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.figures.drawing.attitude import body_to_world
 from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.figures.drawing.panels import fit, legend_above, line, shade, time_axis
 from tandemlift.pictures.figures.drawing.style import (
@@ -31,7 +30,7 @@ from tandemlift.pictures.figures.drawing.style import (
     journal,
     page_figure,
 )
-from tandemlift.pictures.figures.drawing.vehicle import true_payload_mass
+from tandemlift.pictures.figures.drawing.vehicle import body_to_world, true_payload_mass
 
 CAPTION = Caption(
     "Push estimate",

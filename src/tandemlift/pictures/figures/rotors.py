@@ -18,8 +18,7 @@ from matplotlib.ticker import MaxNLocator
 from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
-from tandemlift.pictures.figures.drawing.fleet import fleet_figure
-from tandemlift.pictures.figures.drawing.panels import extent, line, time_axis, value_ticks
+from tandemlift.pictures.figures.drawing.panels import extent, fleet_figure, line, time_axis, value_ticks
 from tandemlift.pictures.figures.drawing.style import BLUE, GREY, INK, TAN, VERMILLION, journal, points
 
 CAPTION = Caption(

@@ -19,9 +19,8 @@ from tandemlift.analysis.studies.controller_comparison import LEAST, ScoredPart,
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure import Caption
-from tandemlift.pictures.figures.drawing.panels import extent, fit, line, time_axis
+from tandemlift.pictures.figures.drawing.panels import LONG, START, extent, fit, line, time_axis
 from tandemlift.pictures.figures.drawing.series import drawable
-from tandemlift.pictures.figures.drawing.start import LONG, START
 from tandemlift.pictures.figures.drawing.style import (
     BLUE,
     GREEN,

@@ -13,7 +13,7 @@ from tandemlift.parts.contact.beam_axis import beam_axis, beam_point, point_by_e
 from tandemlift.parts.contact.wall_geometry import edges_of, offset, offset_from_top, wall
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.figures.drawing.attitude import body_to_world
+from tandemlift.pictures.figures.drawing.vehicle import body_to_world
 
 
 class Clearances(NamedTuple):

@@ -8,8 +8,7 @@ from tandemlift.parts.contact.feet import floor, sole_positions, standing_height
 from tandemlift.parts.contact.ground_table import GroundTable
 from tandemlift.parts.contact.hull import hull
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.figures.drawing.attitude import body_to_world
-from tandemlift.pictures.figures.drawing.vehicle import true_mass
+from tandemlift.pictures.figures.drawing.vehicle import body_to_world, true_mass
 
 
 def _soles(vehicle: Vehicle) -> Array:

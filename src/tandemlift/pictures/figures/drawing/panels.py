@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.series import decimate, drawable, intervals
-from tandemlift.pictures.figures.drawing.style import COMPONENTS, PALE
+from tandemlift.pictures.figures.drawing.style import COMPONENTS, PALE, StyledFigure, page_figure, points
 
 LEGEND = "outside upper center"
 RELATIVE = 2e-3  # of the largest value: the least span of its axis, so that tick labels stay short
@@ -85,3 +85,40 @@ def legend_above(figure: Figure, handles: Sequence[Any], names: Sequence[str], p
         if box is None or box.width <= figure.bbox.width or rows == len(names):
             return
         legend.remove()
+
+
+MOST = 8  # quadrotors: what a page holds
+HIGH, LOW = 1.3, 0.95  # in: of a row of panels where there are few, and where there are many
+FEW = 4  # rows
+
+
+def fleet_figure(count: int, around: float) -> tuple[Figure, int]:
+    """A figure for `count` quadrotors, and how many rows it has; `around` [in] is what is above and below them.
+
+    Where not all quadrotors have a row, it says so.
+    """
+    rows = min(count, MOST)
+    height = around + max(LOW * rows, HIGH * min(rows, FEW))
+    figure: StyledFigure = page_figure(height)
+    if rows < count:
+        figure.supxlabel(f"quadrotors 1 to {rows} of {count}", x=0.995, ha="right", fontsize=points(8))
+    return figure, rows
+
+
+START = 1.0  # s, how long a start may be
+LONG = 5.0  # s, flights shorter than this are all start
+DISTURBED = 1.5  # times the span of what follows, from where the start is one of its own
+
+
+def _span(values: Array) -> float:
+    low, high = extent(values)
+    return high - low
+
+
+def is_disturbed(time: Array, values: Array, least: Sequence[float]) -> bool:
+    """Whether any of the values (T, n) spans far more in the first second than afterwards; `least`: (n) that count."""
+    if not len(time) or time[-1] < LONG:
+        return False
+    late = time > START
+    spans = ((_span(column), _span(column[late])) for column in values.T)
+    return any(whole > DISTURBED * max(after, size) for (whole, after), size in zip(spans, least, strict=True))

@@ -1,10 +1,22 @@
-"""Masses of the vehicle that flew, which may differ from those that its pilot knows."""
+"""The vehicle that flew: its masses, its attitudes as rotation matrices, and its outline as lines."""
 
 from __future__ import annotations
 
-from tandemlift.core.types import GRAVITY
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.core.types import GRAVITY, Array
+from tandemlift.core.vector import Quat
 from tandemlift.flight.record import Flight
-from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.vehicle import Vehicle, mixer
+
+
+def body_to_world(attitude: Array) -> Array:
+    """R (…, 3, 3) that turns body axes into world axes, of unit quaternions w, x, y, z (…, 4)."""
+    rows = rotation_from_quaternion(Quat(*np.moveaxis(attitude, -1, 0)))
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
 
 def true_mass(flight: Flight) -> float:
@@ -20,3 +32,46 @@ def true_weight(flight: Flight) -> float:
 def true_payload_mass(flight: Flight) -> float:
     """Mass [kg] of the payload that flew: it has the whole difference from the vehicle that the pilot knows."""
     return true_mass(flight) - sum(q.mass for q in Vehicle.from_mission(flight.mission).quadrotors)
+
+
+CORNERS = 24  # of the polygon that stands for a rotor's disc
+
+
+class Skeleton(NamedTuple):
+    """Points of a vehicle [m]: `beam` (1 or 2, 3), `struts` (N, 2, 3), `arms` (4N, 2, 3), `rotors` (4N, corners, 3)."""
+
+    beam: Array
+    struts: Array
+    arms: Array
+    rotors: Array
+
+    def placed(self, position: Array, attitude: Array) -> Skeleton:
+        """The skeleton with its centre of mass at a position (3) [m, world] and a unit quaternion w, x, y, z (4)."""
+        R = body_to_world(attitude)
+        return Skeleton(*(points @ R.T + position for points in self))
+
+    @property
+    def points(self) -> Array:
+        """All points (n, 3) [m]."""
+        return np.concatenate([part.reshape(-1, 3) for part in self])
+
+
+def skeleton(vehicle: Vehicle) -> Skeleton:
+    """The skeleton of a vehicle, in body axes about the system's centre of mass.
+
+    A payload with a length is a beam along body y; one without is the point that the struts meet in.
+    """
+    half = (vehicle.payload.length or 0.0) / 2.0
+    origin = -vehicle.center_of_mass
+    beam = origin + np.array([[0.0, -half, 0.0], [0.0, half, 0.0]])[: 2 if half else 1]
+    struts, arms, rotors = [], [], []
+    turn = np.linspace(0.0, 2.0 * np.pi, CORNERS, endpoint=False)
+    circle = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(CORNERS)])
+    for quadrotor, center in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):
+        nearest = origin + np.array([0.0, np.clip(quadrotor.position[1], -half, half), 0.0])
+        struts.append([nearest, center])
+        _, roll, pitch, _ = mixer(quadrotor)
+        for hub in center + np.column_stack([-pitch, roll, np.zeros(4)]):  # a rotor's levers are where it stands
+            arms.append([center, hub])
+            rotors.append(hub + quadrotor.rotor_radius * circle)
+    return Skeleton(beam, np.array(struts), np.array(arms), np.array(rotors))

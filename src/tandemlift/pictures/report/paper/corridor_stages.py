@@ -14,7 +14,6 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.figure import Caption
 from tandemlift.pictures.figures.drawing.ground import floor_height
 from tandemlift.pictures.figures.drawing.scene import NEAR, on_paper
-from tandemlift.pictures.figures.drawing.skeleton import Skeleton, skeleton
 from tandemlift.pictures.figures.drawing.style import (
     BLUE,
     EDGE,
@@ -27,6 +26,7 @@ from tandemlift.pictures.figures.drawing.style import (
     points,
     styled,
 )
+from tandemlift.pictures.figures.drawing.vehicle import Skeleton, skeleton
 from tandemlift.pictures.figures.drawing.walls import walls_in
 
 CAPTION = Caption(

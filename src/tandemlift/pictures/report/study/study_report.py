@@ -14,9 +14,8 @@ from tandemlift.missions import format_toml
 from tandemlift.pictures.report.controller_comparison import html_figures
 from tandemlift.pictures.report.page import html, write_page
 from tandemlift.pictures.report.study import distributions, maps, sections, sensitivity
-from tandemlift.pictures.report.study.outcome_tables import write_outcomes
+from tandemlift.pictures.report.study.outcome_tables import html_worst, write_outcomes
 from tandemlift.pictures.report.study.words import html_command
-from tandemlift.pictures.report.study.worst_table import html_worst
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
