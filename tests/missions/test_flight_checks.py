@@ -11,18 +11,14 @@ import tandemlift as tl
 from tandemlift.core.errors import CLOSE, FAILS, OK, judged
 from tandemlift.core.vector import ZERO, vec3
 from tandemlift.missions import built_in, load_mission, tables_of
-from tandemlift.missions.flight_checks.authority import CONTROL, authority_of
-from tandemlift.missions.flight_checks.loads import SIGMAS, WindOnParts, loads_of, turbulence_of
-from tandemlift.missions.flight_checks.loops import lag_of
-from tandemlift.missions.flight_checks.passage import least_room, places_of
-from tandemlift.missions.flight_checks.schedule import heights_of, landing_duration
-from tandemlift.missions.flight_checks.sensing import noise_of
-from tandemlift.missions.flight_checks.table import CHECKS, flight_checks
-from tandemlift.missions.tables.weight import weight_of
+from tandemlift.missions.flight_checks import CHECKS, flight_checks, schedule_of, wind_on_parts
 from tandemlift.parts.mechanics.air_drag import air_loads
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
-from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.person.passage import least_room, places_of
+from tandemlift.parts.pilot.sensing_checks import noise_of, push_bandwidths
+from tandemlift.parts.rotors.authority import CONTROL
+from tandemlift.parts.rotors.hover_loads import SIGMAS, loads_of
 from tandemlift.simulation.assembly.assemble import assemble
 
 IRIS = tables_of(load_mission("iris"))["vehicle"]["quadrotors"]
@@ -166,10 +162,10 @@ def test_a_verdict_follows_from_the_margin(value, verdict):
 def test_the_authority_is_where_the_first_rotor_meets_a_limit_and_no_more_than_what_any_thrusts_can_give():
     linprog = pytest.importorskip("scipy.optimize").linprog
     mission = load_mission("iris")
-    vehicle, authority = Vehicle.from_settings(mission.vehicle), authority_of(mission)
+    vehicle, authority = mission.hover.vehicle, mission.hover.authority
     most = mission.vehicle.quadrotors[0].max_thrust
     for i in range(3):
-        wrench = np.array([weight_of(mission), 0.0, 0.0, 0.0])
+        wrench = np.array([mission.hover.weight, 0.0, 0.0, 0.0])
         ends = [
             vehicle.allocation(mission.allocation.weights) @ (wrench + sign * authority[i] * np.eye(4)[1 + i])
             for sign in (1, -1)
@@ -189,19 +185,18 @@ def test_the_wind_on_the_parts_is_that_of_the_flight():
         loads = air_loads(model.wind.drag, model.plant.frame, state, vec3(air))
         return np.array([*loads.payload.force]) + np.array([sum(part) for part in loads.quadrotors.force])
 
-    air, wound = np.array(mission.wind.velocity), WindOnParts(mission)
+    air, wound = np.array(mission.wind.velocity), wind_on_parts(mission)
     force, _, spread, _ = wound.at(None)
     assert force == pytest.approx(flown(air), rel=1e-12)
-    eddies = turbulence_of(mission)
-    slopes = [(flown(air + 1e-6 * eddy) - flown(air - 1e-6 * eddy)) / 2e-6 for eddy in eddies]
+    slopes = [(flown(air + 1e-6 * eddy) - flown(air - 1e-6 * eddy)) / 2e-6 for eddy in wound.eddies]
     assert spread == pytest.approx(np.sqrt(np.sum(np.square(slopes), axis=0)), rel=1e-6)
-    load = next(iter(loads_of(mission, yielding_yaw=True)))
+    load = next(loads_of(mission.disturbance, wound, mission.pushes, 90.0, yielding_yaw=True))
     assert load.across == pytest.approx(np.hypot(*force[:2]) + SIGMAS * np.hypot(*spread[:2]))
 
 
 def test_pushes_move_the_reference_as_they_do_in_flight():
     mission = load_mission("off-centre-push")
-    ((number, height),) = [(i, h) for i, h in heights_of(mission) if mission.pushes[i].force[2]]
+    ((number, height),) = [(i, h) for i, h in schedule_of(mission).heights if mission.pushes[i].force[2]]
     flight = tl.fly(mission)
     reference = flight["reference_position"][:, 2] - flight["reference_position"][0, 2]
     before_landing = np.searchsorted(flight.time, mission.phases.land_start) - 1
@@ -214,7 +209,7 @@ def test_a_landing_takes_as_long_as_in_flight():
     mission = load_mission("iris", high)
     flight = tl.fly(mission)
     idle = flight.time[(flight["phase"] == 0.0) & (flight.time > 20.5)]
-    assert idle[0] - 20.0 == pytest.approx(landing_duration(mission), rel=0.1)
+    assert idle[0] - 20.0 == pytest.approx(schedule_of(mission).landing_duration, rel=0.1)
 
 
 def test_the_noise_of_the_push_is_that_of_the_flight():
@@ -224,15 +219,17 @@ def test_the_noise_of_the_push_is_that_of_the_flight():
     flight = tl.fly(mission)
     hovers = flight.time > 14.0
     filtered = flight["push_filtered"][hovers]
-    assert noise_of(mission) == pytest.approx(filtered[:, 2].std(), rel=0.35)
+    bandwidths = push_bandwidths(mission.pilot, mission.estimator, mission.compliance)
+    noise = noise_of(mission.sensors, mission.hover.vehicle, bandwidths, mission.mission.step)
+    assert noise == pytest.approx(filtered[:, 2].std(), rel=0.35)
 
 
 def test_a_trailing_vehicle_ends_behind_its_grip_and_a_kept_heading_is_kept():
     narrow, zigzag = load_mission("narrow"), load_mission("zigzag")
-    trail = places_of(narrow)
+    trail, kept = (places_of(m.person, m.corridor, m.initial) for m in (narrow, zigzag))
     assert trail.headings[-1] == pytest.approx(-np.pi / 2.0, abs=0.05)
-    assert np.ptp(places_of(zigzag).headings) == 0.0
-    room, _ = least_room(zigzag, places_of(zigzag))
+    assert np.ptp(kept.headings) == 0.0
+    room, _ = least_room(kept, zigzag.all_walls, zigzag.hover.vehicle)
     assert room == pytest.approx(
         2.0 - 1.0, abs=0.01
     )  # half of 4 m less the quadrotor's arm of 1 m, where it runs along x
@@ -240,7 +237,7 @@ def test_a_trailing_vehicle_ends_behind_its_grip_and_a_kept_heading_is_kept():
 
 def test_the_share_left_for_control_is_where_flights_begin_to_saturate():
     """With 80 % of the authority as a yaw moment iris holds its heading, with 110 % it does not."""
-    yaw = float(authority_of(load_mission("iris"))[2])
+    yaw = float(load_mission("iris").hover.authority[2])
     turned = []
     for share in (1.0 - CONTROL - 0.05, 1.1):
         quick = {"disturbance.moment": [0.0, 0.0, share * yaw], "pushes": [], "mission.duration": 30.0}
@@ -249,4 +246,4 @@ def test_the_share_left_for_control_is_where_flights_begin_to_saturate():
 
 
 def test_the_lag_is_the_mean_up_and_down():
-    assert lag_of(load_mission("iris")) == pytest.approx(0.5 * (0.0125 + 0.025))
+    assert load_mission("iris").hover.lag == pytest.approx(0.5 * (0.0125 + 0.025))

@@ -10,7 +10,7 @@ from validation.scenarios import BASE, WINDY
 
 import tandemlift as tl
 from tandemlift.missions import load_mission
-from tandemlift.missions.flight_checks.table import flight_checks
+from tandemlift.missions.flight_checks import flight_checks
 
 
 def push(**keys):

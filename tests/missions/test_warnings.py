@@ -12,7 +12,6 @@ from tandemlift.core.types import leaves
 from tandemlift.missions import built_in, load_mission
 from tandemlift.missions.checks import sample_size
 from tandemlift.missions.tables.setting_checks import standing_of
-from tandemlift.missions.tables.weight import lift_of, weight_of
 from tandemlift.parts.contact.feet import sinkage_of, standing_height
 from tandemlift.simulation.assembly.assemble import assemble
 from tandemlift.simulation.plan import FlightPlan
@@ -117,8 +116,8 @@ def test_the_floor_that_is_checked_is_the_one_that_is_flown(changes):
     mission = load_mission("iris", changes)
     standing, flown = standing_of(mission), assemble(mission).model.plant.floor
     assert standing.floor == flown
-    assert standing.sinkage == pytest.approx(sinkage_of(flown, weight_of(mission)))
-    assert standing.rests == pytest.approx(flown.height + standing_height(flown, weight_of(mission)))
+    assert standing.sinkage == pytest.approx(sinkage_of(flown, mission.hover.weight))
+    assert standing.rests == pytest.approx(flown.height + standing_height(flown, mission.hover.weight))
 
 
 def test_a_level_vehicle_starts_as_deep_in_its_own_floor_as_it_sinks():
@@ -147,9 +146,9 @@ def told_of(name, changes):
 def test_lift_and_weight_are_those_of_the_parts():
     mission = load_mission("iris", {"faults": WEAK, "plant.mass_scale": 1.1})
     most = 5.84e-6 * 1100.0**2
-    assert weight_of(mission) == pytest.approx(3.5 * 1.1 * 9.81)
-    assert lift_of(mission) == pytest.approx(8 * most)
-    assert lift_of(mission, faulty=True) == pytest.approx((5 + 0.3) * most)
+    assert mission.hover.weight == pytest.approx(3.5 * 1.1 * 9.81)
+    assert mission.hover.lift == pytest.approx(8 * most)
+    assert mission.hover.faulty_lift == pytest.approx((5 + 0.3) * most)
 
 
 WITHOUT = {"detection.model": "none", "supervision.model": "none"}

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from reference_tables.markdown import table
 from tandemlift.analysis.linearization.mission_check import LOOP_CHECKS
-from tandemlift.missions.flight_checks.table import CHECKS, FlightCheck
+from tandemlift.missions.flight_checks import CHECKS, FlightCheck
 
 
 def checks_at_load() -> str:

@@ -12,7 +12,7 @@ from tandemlift.core.errors import FlightWarning, InputError, accepted, shown, s
 from tandemlift.missions.changes import MISSING, Place, Tables, changed_tables, value_at
 from tandemlift.missions.checks import mission_checks, refusals
 from tandemlift.missions.files import Layer, tables_of
-from tandemlift.missions.flight_checks.table import worst_failures
+from tandemlift.missions.flight_checks import worst_failures
 from tandemlift.missions.refusals import Problem, problems_in
 from tandemlift.missions.tables.mission import Mission
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from tandemlift.core.errors import CheckResult, InputError, refused
-from tandemlift.missions.flight_checks.table import flight_checks
+from tandemlift.missions.flight_checks import flight_checks
 from tandemlift.missions.recording import read_recording
 from tandemlift.missions.tables.mission import Mission, MissionTable
 from tandemlift.missions.tables.setting_checks import outcome_refusals, part_refusals, setting_warnings

@@ -20,14 +20,8 @@ from tandemlift.analysis.linearization.loop_margins import (
 )
 from tandemlift.analysis.linearization.mission_check import LOOP_CHECKS
 from tandemlift.missions import load_mission, tables_of
-from tandemlift.missions.flight_checks.loops import (
-    delay_to_crossing,
-    eigenvalues_by_axis,
-    excess_turns,
-    lag_of,
-    loop_delays,
-)
-from tandemlift.missions.flight_checks.table import CHECKS
+from tandemlift.missions.flight_checks import CHECKS, control_loop
+from tandemlift.parts.pilot.loop_checks import delay_to_crossing, eigenvalues_by_axis, excess_turns, loop_delays
 
 HOVER = {"pushes": [], "mission.duration": 14.0, "phases.land_start": 60.0}
 SHAKEN = 0.5  # rad/s, of rates in hover
@@ -60,14 +54,14 @@ def slower(factor):
 
 
 def test_the_delay_that_iris_bears_is_the_one_at_which_its_flights_begin_to_oscillate():
-    lag = lag_of(load_mission("iris"))
+    lag = load_mission("iris").hover.lag
     predicted = largest(lambda delay: is_stable(loop_of("iris"), delay, lag))
     flown = onset(lambda delay: {"actuators.delay": delay}, 0.02, 0.09, 0.002)
     assert predicted == pytest.approx(flown, rel=0.15)
 
 
 def test_the_lag_that_iris_bears_is_the_one_at_which_its_flights_begin_to_oscillate():
-    lag = lag_of(load_mission("iris"))
+    lag = load_mission("iris").hover.lag
     predicted = largest(lambda slow: is_stable(loop_of("iris"), 0.01, slow)) / lag
     assert predicted == pytest.approx(onset(slower, 2.0, 8.0, 0.1), rel=0.15)
 
@@ -75,8 +69,8 @@ def test_the_lag_that_iris_bears_is_the_one_at_which_its_flights_begin_to_oscill
 @pytest.mark.parametrize("controller", ["nftsmc", "geometric", "super-twisting"])
 def test_the_closed_forms_of_a_load_agree_with_the_linear_model(controller):
     mission = load_mission("iris", controller=controller)
-    lag, loop = lag_of(mission), loop_of("iris", controller)
-    max_delay = {found.axis: found.bears for found in loop_delays(mission)}
+    lag, loop = mission.hover.lag, loop_of("iris", controller)
+    max_delay = {found.axis: found.bears for found in loop_delays(control_loop(mission))}
     cut = loop.L / (1.0 + 1j * loop.w * lag)[:, None, None]
     for i, axis in enumerate(("z", "roll", "pitch", "yaw")):
         delay, _ = delay_to_crossing(loop.w, single_loop(cut, i))
@@ -149,8 +143,8 @@ def test_the_closed_forms_agree_with_the_linear_model_wherever_the_quadrotors_ar
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", tl.FlightWarning)
         mission = load_mission("iris", changes, controller=("nftsmc", "pid", "geometric", "smc")[case])
-    lag, loop = lag_of(mission), open_loop(mission)
-    max_delay = min(found.bears for found in loop_delays(mission))
+    lag, loop = mission.hover.lag, open_loop(mission)
+    max_delay = min(found.bears for found in loop_delays(control_loop(mission)))
     assert max_delay == pytest.approx(largest(lambda delay: is_stable(loop, delay, lag)) + 0.0015, rel=0.06)
 
 
@@ -159,7 +153,9 @@ def test_a_quadrotor_off_the_axis_does_not_make_a_loop_oscillate(mirrored):
     with warnings.catch_warnings():
         warnings.simplefilter("error", tl.FlightWarning)
         mission = load_mission("iris", {"vehicle.quadrotors.0.position": [0.03 * mirrored, 1.0, 0.075]})
-    for found, centred in zip(loop_delays(mission), loop_delays(load_mission("iris")), strict=True):
+    for found, centred in zip(
+        loop_delays(control_loop(mission)), loop_delays(control_loop(load_mission("iris"))), strict=True
+    ):
         assert found.bears == pytest.approx(centred.bears, rel=1e-3), found.axis
 
 

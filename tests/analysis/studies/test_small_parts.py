@@ -9,10 +9,10 @@ from study_runs import TWELVE, fly
 
 import tandemlift as tl
 from tandemlift.analysis.studies import controller_comparison
-from tandemlift.analysis.studies.closed_form import _free
+from tandemlift.analysis.studies.closed_form import _free, axes_of
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution import estimate
-from tandemlift.analysis.studies.feel_study import _both, drift_checks
+from tandemlift.analysis.studies.feel_study import _both, feel_checks
 from tandemlift.analysis.studies.html import MOST_NAMES, study_html
 from tandemlift.analysis.studies.standard_push import answer_of
 from tandemlift.analysis.studies.study import mission_of_row
@@ -73,9 +73,8 @@ def test_the_numbers_of_an_answer_are_those_of_a_lag():
 
 
 def drift(**changes):
-    return list(
-        drift_checks(tl.load_mission("iris", {key.replace("__", "."): value for key, value in changes.items()}))
-    )
+    mission = tl.load_mission("iris", {key.replace("__", "."): value for key, value in changes.items()})
+    return [result for result in feel_checks(mission, axes_of(mission)) if result.check == "drift"]
 
 
 def test_drift_counts_where_joints_are_measured_and_for_as_long_as_the_bias_is_not_learned():

@@ -17,8 +17,7 @@ from tandemlift.analysis.linearization.loop_margins import (
 from tandemlift.core.errors import CLOSE, FAILS, REFUSED, CheckResult, InputError, judged, noted
 from tandemlift.missions import Mission
 from tandemlift.missions.checks import mission_checks
-from tandemlift.missions.flight_checks.loops import lag_of
-from tandemlift.missions.flight_checks.table import FlightCheck
+from tandemlift.missions.flight_checks import FlightCheck
 
 NEAR_PHASE = 1.0 / 6.0  # of 180 deg: less than 30 deg of phase left is close
 NEAR_GAIN = 0.4  # a gain that may grow by less than a factor of 1.7, or fall by less, is close
@@ -75,7 +74,7 @@ def loop_results(mission: Mission) -> Iterator[CheckResult]:
         yield noted("loop", f"there is no linear model: {error}", verdict=CLOSE)
         return
     real = mission.actuators.model == "rotors"
-    delay, lag = (mission.actuators.delay, lag_of(mission)) if real else (0.0, 0.0)
+    delay, lag = (mission.actuators.delay, mission.hover.lag) if real else (0.0, 0.0)
     if not loop.stable:
         text = (
             "the hover is unstable even without delay and lag of the rotors: see what fails above, or lower the gains"

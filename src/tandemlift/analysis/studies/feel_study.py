@@ -6,18 +6,27 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
-from tandemlift.analysis.studies.closed_form import AXES, YAW, AxisFeel
+from tandemlift.analysis.studies.closed_form import YAW, AxisFeel
 from tandemlift.analysis.studies.standard_push import Answer, PushedAxis, pushed_axes
 from tandemlift.core.errors import FAILS, CheckResult, judged, noted
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import GRAVITY, Progress
 from tandemlift.missions import Mission
-from tandemlift.missions.flight_checks.authority import CONTROL, authority_of, tilt_limit_of
-from tandemlift.missions.flight_checks.passage import least_room, passage_checks, places_of
-from tandemlift.missions.flight_checks.sensing import NOISE_SIGMAS, noise_of, sensing_checks
-from tandemlift.missions.tables.weight import lift_of, weight_of
+from tandemlift.missions.flight_checks import schedule_of, wind_on_parts
 from tandemlift.parts.compliance.admittance import LN_20
+from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.person.passage import least_room, passage_checks, places_of
+from tandemlift.parts.pilot.sensing_checks import (
+    NOISE_SIGMAS,
+    SensorDrift,
+    drift_after,
+    noise_of,
+    push_bandwidths,
+    sensing_checks,
+)
+from tandemlift.parts.rotors.authority import CONTROL
+from tandemlift.parts.rotors.hover import HoverFacts
 
 DRIFT_SIGMAS = 2.0  # standard deviations of the sensors' drift
 SATURATED = 0.01  # of the time, at most, with a rotor at its limit
@@ -26,21 +35,33 @@ APART = 0.25  # of the final speed, at most, between closed form and flight
 
 def feel_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
     """The checks by closed forms."""
-    for k in axes:
-        yield from limit_checks(m, k)
-    yield from sensing_checks(m)
-    yield from drift_checks(m)
-    yield from rotor_checks(m, axes)
-    yield from passage_checks(m)
-    yield from stop_checks(m, axes)
+    hover, wind, schedule, s, e = m.hover, wind_on_parts(m), schedule_of(m), m.sensors, m.estimator
+    vehicle, by_hand = hover.vehicle, schedule.compliance
+    if by_hand is not None:
+        for limits in zip(axes, by_hand.max_speed, by_hand.max_acceleration, strict=False):
+            yield from limit_checks(*limits)
+    yield from sensing_checks(s, m.pilot, e, schedule, wind)
+    if s.model != "none" and m.pilot.push != "truth":
+        noise = noise_of(s, vehicle, push_bandwidths(m.pilot, e, by_hand), m.mission.step)
+        tared = (e.tare_start or 0.0) + e.tare_duration
+        lasting = min(max(m.mission.duration - tared, 0.0), m.compliance.bias_time_constant)
+        drift = drift_after(lasting, s.joints, tared=e.tare == "hover" or e.tare_start is not None)
+        yield drift_check(drift, noise, vehicle.count, min(m.admittance.threshold))
+        if by_hand is not None and by_hand.yaw.model == "compliant":
+            yield yaw_drift_check(drift, vehicle, by_hand.yaw.threshold)
+    if m.actuators.model == "rotors":
+        tilts = [tilt_limit_of(m.controller), None if by_hand is None else by_hand.max_tilt]
+        thrust = hover.faulty_lift * (1.0 if by_hand is None else by_hand.thrust_fraction)
+        yield from rotor_checks(hover, axes, thrust, [t for t in tilts if t is not None], m.compliance.yaw.max_moment)
+    yield from passage_checks(m.person, m.corridor, m.all_walls, m.initial, vehicle)
+    places = places_of(m.person, m.corridor, m.initial) if m.all_walls else None
+    if places is not None:
+        room = least_room(places, m.all_walls, vehicle)[0] - max(q.guard_radius for q in vehicle.quadrotors)
+        yield stop_check(room, axes)
 
 
-def limit_checks(m: Mission, k: AxisFeel) -> Iterator[CheckResult]:
-    """Final speed and first acceleration against the limits of interactive guidance."""
-    if m.pilot.guidance != "interactive" or k.axis == YAW:
-        return
-    i = AXES.index(k.axis)
-    speed, acceleration = m.compliance.max_speed[i], m.compliance.max_acceleration[i]
+def limit_checks(k: AxisFeel, speed: float, acceleration: float) -> Iterator[CheckResult]:
+    """Final speed and first acceleration along x, y or z against the limits of interactive guidance [m/s], [m/s²]."""
     yield judged(
         "speed",
         k.final_speed,
@@ -71,54 +92,48 @@ def _slower(k: AxisFeel, most: float) -> str:
     return f"allow it at least {time:.2g} s for {k.final_speed:.3g} m/s, or ask for {most_speed}"
 
 
-def drift_checks(m: Mission) -> Iterator[CheckResult]:
-    """Noise and drift of the joints' sensors against the smallest threshold; in yaw, drift alone."""
-    if m.sensors.model == "none" or m.pilot.push == "truth":
-        return
-    joints, count = m.sensors.joints, len(m.vehicle.quadrotors)
-    tare = m.estimator.tare == "hover" or m.estimator.tare_start is not None
-    tared = (m.estimator.tare_start or 0.0) + m.estimator.tare_duration
-    lasting = min(max(m.mission.duration - tared, 0.0), m.compliance.bias_time_constant)
-    of_force, of_torque = (
-        math.hypot(drift * math.sqrt(lasting), 0.0 if tare else bias)
-        for drift, bias in ((joints.force_drift, joints.force_bias), (joints.torque_drift, joints.torque_bias))
-    )
-    value, threshold = (
-        NOISE_SIGMAS * noise_of(m) + DRIFT_SIGMAS * of_force * math.sqrt(count),
-        min(m.admittance.threshold),
-    )
-    why = f"of {lasting:.3g} s" if tare else "and bias, as there is no tare,"
-    remedy = "raise the threshold, tare (estimator.tare_start), or lower the drift and bias of sensors.joints"
+REMEDY = "raise the threshold, tare (estimator.tare_start), or lower the drift and bias of sensors.joints"
+
+
+def drift_check(drift: SensorDrift, noise: float, joints: int, threshold: float) -> CheckResult:
+    """Noise of the push [N] and drift of all joints' sensors against the smallest threshold [N]."""
+    value = NOISE_SIGMAS * noise + DRIFT_SIGMAS * drift.force * math.sqrt(joints)
     text = (
-        f"noise and drift {why} make {value:.3g} N of the measured push, and admittance.threshold = {threshold:g} N: "
-        f"the vehicle creeps while nobody pushes; {remedy}"
+        f"noise and drift {drift.why} make {value:.3g} N of the measured push, and admittance.threshold = "
+        f"{threshold:g} N: the vehicle creeps while nobody pushes; {REMEDY}"
     )
-    yield judged("drift", value, threshold, "N", text)
-    yaw = m.compliance.yaw
-    if m.pilot.guidance == "interactive" and yaw.model == "compliant":
-        arms = Vehicle.from_settings(m.vehicle).lever_arms
-        moment = DRIFT_SIGMAS * math.sqrt(sum(of_force**2 * (x * x + y * y) + of_torque**2 for x, y, _ in arms))
-        text = (
-            f"drift {why} makes {moment:.3g} N m of the measured moment, and compliance.yaw.threshold = "
-            f"{yaw.threshold:g} N m: the vehicle turns while nobody pushes; {remedy}"
-        )
-        yield judged("drift", moment, yaw.threshold, "N m", text, subject=YAW)
+    return judged("drift", value, threshold, "N", text)
 
 
-def rotor_checks(m: Mission, axes: Iterable[AxisFeel]) -> Iterator[CheckResult]:
+def yaw_drift_check(drift: SensorDrift, vehicle: Vehicle, threshold: float) -> CheckResult:
+    """Drift of the measured yaw moment against its threshold [N m]."""
+    sums = (drift.force**2 * (x * x + y * y) + drift.torque**2 for x, y, _ in vehicle.lever_arms)
+    moment = DRIFT_SIGMAS * math.sqrt(sum(sums))
+    text = (
+        f"drift {drift.why} makes {moment:.3g} N m of the measured moment, and compliance.yaw.threshold = "
+        f"{threshold:g} N m: the vehicle turns while nobody pushes; {REMEDY}"
+    )
+    return judged("drift", moment, threshold, "N m", text, subject=YAW)
+
+
+def rotor_checks(
+    hover: HoverFacts, axes: Iterable[AxisFeel], thrust: float, tilts: Sequence[float], yaw_moment: float
+) -> Iterator[CheckResult]:
     """What real rotors must give beside the weight under the standard push, against thrust, tilt and yaw moment.
 
     They add m a − F to the push F for the acceleration a of the answer, and hold against all of F at its final speed.
+
+    Args:
+        hover: the vehicle and its rotors.
+        axes: that answer.
+        thrust: that may be used [N].
+        tilts: limits of the tilt [rad].
+        yaw_moment: `compliance.yaw.max_moment` [N m].
     """
-    if m.actuators.model != "rotors":
-        return
-    weight, lift = weight_of(m), lift_of(m, faulty=True)
-    mass, by_hand = weight / GRAVITY, m.pilot.guidance == "interactive"
-    thrust = lift * (m.compliance.thrust_fraction if by_hand else 1.0)
-    tilts = [x for x in (tilt_limit_of(m), m.compliance.max_tilt if by_hand else None) if x is not None]
+    weight, mass = hover.weight, hover.weight / GRAVITY
     for k in axes:
         if k.axis == YAW:
-            yield _yaw_check(m, k)
+            yield _yaw_check(hover, k, yaw_moment)
             continue
         needed = max(abs(k.acceleration - k.push / mass), k.push / mass)
         across = math.sqrt(max(thrust * thrust - weight * weight, 0.0))
@@ -133,11 +148,9 @@ def rotor_checks(m: Mission, axes: Iterable[AxisFeel]) -> Iterator[CheckResult]:
         yield judged("rotors", needed, limit, "m/s²", text, subject=k.axis)
 
 
-def _yaw_check(m: Mission, k: AxisFeel) -> CheckResult:
-    authority = float(authority_of(m)[2])
-    own = float(Vehicle.from_settings(m.vehicle).inertia[2, 2])
-    steady, limit = min(k.beyond, m.compliance.yaw.max_moment), (1.0 - CONTROL) * authority
-    needed = max(steady, abs(own * k.acceleration - k.beyond))
+def _yaw_check(hover: HoverFacts, k: AxisFeel, most: float) -> CheckResult:
+    own, limit = float(hover.vehicle.inertia[2, 2]), (1.0 - CONTROL) * float(hover.authority[2])
+    needed = max(min(k.beyond, most), abs(own * k.acceleration - k.beyond))
     text = (
         f"under {k.push:g} N m the rotors must give {needed:.3g} N m of yaw moment, and {1.0 - CONTROL:.0%} of what "
         f"they have in hover is {limit:.3g} N m: lower compliance.yaw.max_moment, or leave out compliance.yaw.inertia"
@@ -145,18 +158,14 @@ def _yaw_check(m: Mission, k: AxisFeel) -> CheckResult:
     return judged("rotors", needed, limit, "N m", text, subject=YAW)
 
 
-def stop_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
-    """The way until it stops after the hand lets go, against the room beside the person's way."""
-    places = places_of(m) if m.all_walls else None
-    if places is None:
-        return
-    room = least_room(m, places)[0] - max(q.guard_radius for q in m.vehicle.quadrotors)
+def stop_check(room: float, axes: Sequence[AxisFeel]) -> CheckResult:
+    """The way until it stops after the hand lets go, against the room beside the person's way [m]."""
     slowest = max(axes[:2], key=lambda k: k.stop_distance)
     text = (
         f"let go at {slowest.final_speed:.3g} m/s along {slowest.axis} it stops within {slowest.stop_distance:.3g} m, "
         f"and {max(room, 0.0):.3g} m are free beside the person's way: late hands touch; ask for less speed or time"
     )
-    yield judged("stop", slowest.stop_distance, room, "m", text)
+    return judged("stop", slowest.stop_distance, room, "m", text)
 
 
 def flown_checks(p: PushedAxis) -> Iterator[CheckResult]:

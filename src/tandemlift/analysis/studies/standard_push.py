@@ -143,7 +143,7 @@ def push_mission(m: Mission, k: AxisFeel, start: float, end: float) -> Mission:
         },
         "phases": {"land_start": NEVER},
         "pilot": {"map": "none"},
-        "pushes": _pushes(m, k, start, hold_of(k)),
+        "pushes": _pushes(k, start, hold_of(k), m.initial.euler[2]),
         "person": {"model": "none"},
     }
     tables.pop("person", None)
@@ -152,8 +152,8 @@ def push_mission(m: Mission, k: AxisFeel, start: float, end: float) -> Mission:
         return check(merge(tables, changes), f"{m.mission.name}, pushed along {k.axis}")
 
 
-def _pushes(m: Mission, k: AxisFeel, start: float, hold: float) -> list[dict[str, Any]]:
-    """A row of Gaussians whose sum is the standard push."""
+def _pushes(k: AxisFeel, start: float, hold: float, yaw: float) -> list[dict[str, Any]]:
+    """A row of Gaussians whose sum is the standard push, on a vehicle with a yaw [rad] at its start."""
     spacing = max(RISE, hold / MOST_PUSHES)
     times = start + spacing * (np.arange(max(round(hold / spacing), 1)) + 0.5)
     peak = k.push / math.sqrt(2.0 * math.pi)
@@ -164,7 +164,7 @@ def _pushes(m: Mission, k: AxisFeel, start: float, hold: float) -> list[dict[str
     turned = np.concatenate([[0.0], np.cumsum(speed_at(k, fine, hold)[:-1] * np.diff(fine))])
     found = []
     for t in times:
-        angle = m.initial.euler[2] + float(np.interp(t - start, fine, turned))
+        angle = yaw + float(np.interp(t - start, fine, turned))
         force = np.array([-math.cos(angle), -math.sin(angle), 0.0]) * (0.5 * peak / ARM)
         for side in (1.0, -1.0):
             point = [0.0, side * ARM, 0.0]

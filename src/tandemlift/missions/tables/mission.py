@@ -25,12 +25,14 @@ from tandemlift.parts.guidance.supervision_table import SupervisionTable
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.rigid_body import InitialTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTable, VehicleTable
 from tandemlift.parts.mechanics.wind import WindTable
 from tandemlift.parts.person.person_table import PersonTable
 from tandemlift.parts.person.requests import RequestTable
 from tandemlift.parts.rotors.allocation import AllocationTable
 from tandemlift.parts.rotors.detection_table import DetectionTable
+from tandemlift.parts.rotors.hover import HoverFacts
 from tandemlift.parts.rotors.rotor_faults import FaultTable
 from tandemlift.parts.rotors.rotors import ActuatorsTable
 from tandemlift.parts.sensors.sensors_table import SensorFaultTable, SensorsTable
@@ -153,6 +155,12 @@ class Mission(Table):
     def all_walls(self) -> tuple[WallTable, ...]:
         """All walls: those of `walls`, then the corridor's."""
         return (*self.walls, *self.corridor.walls)
+
+    @property
+    def hover(self) -> HoverFacts:
+        """The vehicle in hover, with all faults of rotors that the flight has."""
+        faults = tuple(f for f in self.faults if f.time < self.mission.duration)
+        return HoverFacts(Vehicle.from_settings(self.vehicle), self.plant, self.actuators, self.allocation, faults)
 
     def _repr_html_(self) -> str:
         """HTML for a notebook: the main choices of the mission."""

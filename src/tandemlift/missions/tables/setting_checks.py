@@ -7,14 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
-from tandemlift.core.errors import CheckResult, warned
+from tandemlift.core.errors import CheckResult
 from tandemlift.core.phases import HARD
-from tandemlift.core.vector import vec3
 from tandemlift.missions.tables import outcome_checks as outcomes
 from tandemlift.missions.tables.mission import Mission
-from tandemlift.missions.tables.weight import lift_of, weight_of
 from tandemlift.parts.compliance.admittance import admittance_checks, gate_checks
 from tandemlift.parts.contact import standing
 from tandemlift.parts.contact.corridor import wall_checks, wall_warnings
@@ -25,23 +21,23 @@ from tandemlift.parts.estimation.wind_compensation import compensation_checks
 from tandemlift.parts.guidance import supervision_table as supervision
 from tandemlift.parts.guidance.guidance import reading_checks
 from tandemlift.parts.mechanics.push import point_checks
-from tandemlift.parts.mechanics.rotation import rotation_from_euler
 from tandemlift.parts.mechanics.trajectories import phase_warnings
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_checks import vehicle_checks
 from tandemlift.parts.mechanics.wind import wind_warnings
-from tandemlift.parts.person.person_table import person_checks, person_warnings
+from tandemlift.parts.person.person_table import PersonTable, person_checks, person_warnings
 from tandemlift.parts.person.requests import request_checks
 from tandemlift.parts.rotors import lift_checks as lifts
 from tandemlift.parts.rotors.detection_table import detection_checks
 from tandemlift.parts.rotors.rotor_faults import fault_checks, fault_warnings
+from tandemlift.parts.rotors.rotors import ActuatorsTable
 from tandemlift.parts.sensors import sensor_checks as sensors
+from tandemlift.parts.sensors.sensors_table import SensorsTable
 
 
 def standing_of(m: Mission) -> standing.Standing:
     """The vehicle's equilibrium on the floor of a mission."""
-    at = m.initial
-    return standing.standing_on(m.ground, m.vehicle, m.plant.mass_scale, m.mission.step, at.position[2], at.euler)
+    return standing.standing_on(m.ground, m.vehicle, m.plant.mass_scale, m.mission.step, m.initial)
 
 
 def part_refusals(m: Mission) -> Iterator[CheckResult]:
@@ -51,8 +47,8 @@ def part_refusals(m: Mission) -> Iterator[CheckResult]:
     yield from vehicle_checks(m.vehicle, m.allocation.weights)
     yield from admittance_checks(m.admittance, step)
     yield from fault_checks(m.faults, count, rotors)
-    yield from lifts.lift_checks(rotors, weight_of(m), lift_of(m), m.plant.mass_scale)
-    yield from sensors.delay_checks(_delays(m), step)
+    yield from lifts.lift_checks(m.hover)
+    yield from sensors.delay_checks(_delays(m.actuators, s, m.person), step)
     yield from sensors.additional_checks(s)
     yield from reading_checks(m.pilot, s.model)
     yield from estimator.tare_checks(m.estimator, s.interval, step)
@@ -78,14 +74,14 @@ def part_refusals(m: Mission) -> Iterator[CheckResult]:
     yield from person_checks(m.person, m.corridor, m.vehicle.payload.length)
 
 
-def _delays(m: Mission) -> dict[str, float]:
+def _delays(actuators: ActuatorsTable, sensors: SensorsTable, person: PersonTable) -> dict[str, float]:
     delays = {
-        "actuators.delay": m.actuators.delay,
-        "sensors.delay": m.sensors.delay,
-        "sensors.motion.delay": m.sensors.motion.delay,
-        "person.delay": m.person.delay,
+        "actuators.delay": actuators.delay,
+        "sensors.delay": sensors.delay,
+        "sensors.motion.delay": sensors.motion.delay,
+        "person.delay": person.delay,
     }
-    return delays | {f"sensors.additional.{i}.delay": s.delay for i, s in enumerate(m.sensors.additional)}
+    return delays | {f"sensors.additional.{i}.delay": s.delay for i, s in enumerate(sensors.additional)}
 
 
 def outcome_refusals(m: Mission) -> Iterator[CheckResult]:
@@ -98,58 +94,30 @@ def outcome_refusals(m: Mission) -> Iterator[CheckResult]:
 
 def setting_warnings(m: Mission) -> Iterator[CheckResult]:
     """Warnings of settings that do not suit each other."""
-    yield from phase_warnings(m.phases)
-    yield from _promise_warnings(m)
-    yield from _hardware_warnings(m)
-    if m.ground.model == "floor":
-        yield from _floor_warnings(m)
-    yield from wind_warnings(m.wind)
-    e, push = m.estimator, m.pilot.push
-    tared = None if e.tare_start is None or push == "truth" else e.tare_start + e.tare_duration
-    yield from person_warnings(m.person, m.pilot.guidance, tared)
-
-
-def _promise_warnings(m: Mission) -> Iterator[CheckResult]:
-    guidance, p = m.pilot.guidance, m.phases
-    if m.sensors.model == "simulated" and m.pilot.state != "truth":
+    guidance, hover, p, e, end = m.pilot.guidance, m.hover, m.phases, m.estimator, m.mission.duration
+    simulated, over_floor = m.sensors.model == "simulated", m.ground.model == "floor"
+    yield from phase_warnings(p)
+    if simulated and m.pilot.state != "truth":
         yield from outcomes.sensed_promise_warnings(m.promise, guidance, m.sensors.motion)
-    lands = m.ground.model == "floor" and p.land_start is not None and p.land_start < m.mission.duration
-    if guidance == "interactive" and lands:
+    if guidance == "interactive" and over_floor and p.land_start is not None and p.land_start < end:
         yield from outcomes.landing_promise_warnings(m.promise, guidance, m.compliance.touchdown_depth)
-
-
-def _hardware_warnings(m: Mission) -> Iterator[CheckResult]:
-    vehicle, weight = Vehicle.from_settings(m.vehicle), weight_of(m)
-    thrusts = lifts.hover_thrusts(vehicle, m.allocation.weights, weight)
     if m.actuators.model == "rotors":
-        yield from lifts.hover_warnings(vehicle, thrusts)
-        yield from fault_warnings(m.faults, weight, lift_of(m, faulty=True), m.allocation.method)
+        yield from lifts.hover_warnings(hover)
+        yield from fault_warnings(m.faults, hover.weight, hover.faulty_lift, m.allocation.method)
     else:
-        yield from lifts.ideal_lift_warnings(weight, lift_of(m))
-    if m.sensors.model == "simulated":
-        yield from sensors.range_warnings(m.sensors, vehicle, thrusts)
-        yield from _payload_warnings(m)
-        yield from estimator.bias_warnings(m.estimator, m.sensors.joints.force_bias, m.pilot.push)
-        yield from estimator.tare_warnings(m.estimator, m.phases, m.pushes, m.mission.duration)
-
-
-def _payload_warnings(m: Mission) -> Iterator[CheckResult]:
-    real = m.vehicle.payload.mass + (m.plant.mass_scale - 1.0) * Vehicle.from_settings(m.vehicle).mass
-    if real <= 0.0:
-        yield warned(
-            f"plant.mass_scale = {m.plant.mass_scale}: the joint forces assign all of the difference to the payload, "
-            f"which would weigh {real:.4g} kg"
-        )
-
-
-def _floor_warnings(m: Mission) -> Iterator[CheckResult]:
-    stands, vehicle = standing_of(m), Vehicle.from_settings(m.vehicle)
-    yield from standing.floor_warnings(m.ground, m.vehicle, m.actuators.model, m.mission.step, stands)
-    yield from standing.start_warnings(m.phases, stands)
-    mass = vehicle.mass * m.plant.mass_scale
-    limit = mass * HARD if m.crash.impulse is None else m.crash.impulse
-    yield from standing.blow_warnings(m.phases, m.initial, mass, limit, stands)
-    yield from standing.reference_warnings(m.phases, m.mission.duration, stands)
-    R = np.array(rotation_from_euler(vec3(m.initial.euler)))
-    centres = np.array(m.initial.position) + vehicle.lever_arms @ R.T
-    yield from wall_warnings(m.walls, m.corridor, centres, [q.guard_radius for q in vehicle.quadrotors])
+        yield from lifts.ideal_lift_warnings(hover)
+    if simulated:
+        yield from sensors.range_warnings(m.sensors, hover.vehicle, hover.thrusts)
+        yield from lifts.payload_warnings(hover)
+        yield from estimator.bias_warnings(e, m.sensors.joints.force_bias, m.pilot.push)
+        yield from estimator.tare_warnings(e, p, m.pushes, end)
+    if over_floor:
+        limit, stands = hover.mass * HARD if m.crash.impulse is None else m.crash.impulse, standing_of(m)
+        yield from standing.floor_warnings(m.ground, m.vehicle, m.actuators.model, m.mission.step, stands)
+        yield from standing.start_warnings(p, stands)
+        yield from standing.blow_warnings(p, m.initial, hover.mass, limit, stands)
+        yield from standing.reference_warnings(p, end, stands)
+        yield from wall_warnings(m.walls, m.corridor, m.initial, hover.vehicle)
+    yield from wind_warnings(m.wind)
+    tared = None if e.tare_start is None or m.pilot.push == "truth" else e.tare_start + e.tare_duration
+    yield from person_warnings(m.person, guidance, tared)

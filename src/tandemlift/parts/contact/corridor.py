@@ -21,6 +21,9 @@ from tandemlift.core.errors import CheckResult, refused, shown, warned
 from tandemlift.core.keys import PerAxis, Table, key, must
 from tandemlift.core.vector import vec3
 from tandemlift.parts.contact.wall_geometry import offset, wall
+from tandemlift.parts.mechanics.rigid_body import InitialTable
+from tandemlift.parts.mechanics.rotation import rotation_from_euler
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 Point2 = Annotated[tuple[float, float], PerAxis(2, single=False)]
 
@@ -122,13 +125,15 @@ def wall_checks(walls: Sequence[WallTable]) -> Iterator[CheckResult]:
 
 
 def wall_warnings(
-    walls: Sequence[WallTable], corridor: CorridorTable, centres: NDArray[np.float64], guards: Sequence[float]
+    walls: Sequence[WallTable], corridor: CorridorTable, initial: InitialTable, vehicle: Vehicle
 ) -> Iterator[CheckResult]:
-    """Check for quadrotors that start in a wall, by their centres (N × 3) and the radii of their guards (N) [m]."""
+    """Check for quadrotors that start in a wall."""
+    R = np.array(rotation_from_euler(vec3(initial.euler)))
+    centres = np.array(initial.position) + vehicle.lever_arms @ R.T
     for i, w in enumerate((*walls, *corridor.walls)):
         name = f"walls.{i}" if i < len(walls) else f"wall {i - len(walls) + 1} of the corridor"
         upright = wall(w.start, w.end, w.top)
-        for j, (guard, centre) in enumerate(zip(guards, centres, strict=True), 1):
+        for j, (q, centre) in enumerate(zip(vehicle.quadrotors, centres, strict=True), 1):
             distance = math.hypot(*offset(upright, vec3(centre)))
-            if distance < guard:
-                yield warned(f"quadrotor {j} starts {guard - distance:.2g} m deep in {name}")
+            if distance < q.guard_radius:
+                yield warned(f"quadrotor {j} starts {q.guard_radius - distance:.2g} m deep in {name}")

@@ -41,18 +41,16 @@ class Standing(NamedTuple):
 
 
 @cached
-def standing_on(
-    g: GroundTable, table: VehicleTable, mass_scale: float, step: float, z: float, euler: tuple[float, float, float]
-) -> Standing:
-    """The equilibrium on the floor of a vehicle that starts at height z [m] with these angles; `step` in s."""
-    vehicle, fleet = Vehicle.from_settings(table), table.quadrotors
+def standing_on(g: GroundTable, table: VehicleTable, mass_scale: float, step: float, start: InitialTable) -> Standing:
+    """The equilibrium on the floor of a vehicle with this start, which is on the floor by default; `step` in s."""
+    vehicle, fleet, z = Vehicle.from_settings(table), table.quadrotors, start.position[2]
     mass = vehicle.mass * mass_scale
     soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
     shapes = hull(**vehicle.hull_shapes, mass=mass, inertia=vehicle.inertia, step=step)
     built = floor(soles, mass, vehicle.inertia, step, friction=g.friction, sinkage=g.sinkage, hull=shapes)
     stands, sinkage = standing_height(built, mass * GRAVITY), sinkage_of(built, mass * GRAVITY)
     height = z - stands if g.height is None else g.height
-    R = rotation_from_euler(vec3(euler))
+    R = rotation_from_euler(vec3(start.euler))
     lowest = z + min(float((soles @ np.array(R.z)).min()), lowest_of_hull(shapes, R))
     return Standing(built._replace(height=height), height + stands, sinkage, height - lowest - sinkage)
 

@@ -17,6 +17,11 @@ class ControllerTable(Table):
     name: str = key(..., None, "name of the controller, one of `tandemlift controllers`", example="nftsmc")
 
 
+def tilt_limit_of(table: ControllerTable) -> float | None:
+    """The largest tilt that a controller asks for [rad]; None without a limit."""
+    return getattr(table, "max_tilt", None)
+
+
 class Disturbance(NamedTuple):
     """The loads that a controller compensates besides a person's force.
 

@@ -14,10 +14,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from tandemlift.core.errors import CheckResult, judged
-from tandemlift.missions.flight_checks.authority import AXES, authority_of
-from tandemlift.missions.flight_checks.controller_response import controller_response
-from tandemlift.missions.tables.mission import Mission
-from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.controllers.interface import ControllerTable
+from tandemlift.parts.mechanics.rigid_body import InitialTable
+from tandemlift.parts.pilot.controller_response import controller_response
+from tandemlift.parts.rotors.authority import AXES
+from tandemlift.parts.rotors.hover import HoverFacts
 
 BEYOND = 4.0  # times the rotors' moment, up to which flights recover; found by flights of mission flight-ready
 TILTED = 0.4  # rad, of the commanded attitude; likewise
@@ -27,15 +28,17 @@ TURNS = (0.35, 0.35, 2.0)  # rad, about each axis until a rotation is stopped, a
 SETTLED = np.array([1.0 + 1e-9])  # in the discrete plane
 
 
-def start_checks(m: Mission) -> Iterator[CheckResult]:
-    """Check the commanded moments and tilt at a start with real, running rotors and the pseudo-inverse."""
-    yield from motion_checks(m)
-    free = m.actuators.model == "rotors" and m.allocation.method == "pseudo-inverse" and m.phases.rotors == "always"
-    response = controller_response(m) if free else None
+def start_checks(
+    initial: InitialTable, hover: HoverFacts, controller: ControllerTable, step: float, *, running: bool
+) -> Iterator[CheckResult]:
+    """Check speed and rates; with real, running rotors and the pseudo-inverse, also the commanded moments and tilt."""
+    real = running and hover.actuators.model == "rotors"
+    yield from motion_checks(initial, hover, real=real)
+    free = real and hover.allocation.method == "pseudo-inverse"
+    response = controller_response(controller, hover.vehicle, step) if free else None
     if response is None:
         return
-    asked, i = response.at(SETTLED)[0].real, m.initial
-    authority = authority_of(m)
+    asked, i, authority = response.at(SETTLED)[0].real, initial, hover.authority
     for axis, name in enumerate(AXES):
         value = abs(asked[axis + 1, 2] @ i.euler + asked[axis + 1, 3] @ i.rates)
         text = (
@@ -55,19 +58,19 @@ def start_checks(m: Mission) -> Iterator[CheckResult]:
         yield judged("start", tilt, TILTED, "rad", text, subject=f"tilt along {'xy'[along]}")
 
 
-def motion_checks(m: Mission) -> Iterator[CheckResult]:
-    """Check speed and rates at the start."""
-    speed, fastest = float(np.linalg.norm(m.initial.velocity)), FASTEST[m.actuators.model]
+def motion_checks(initial: InitialTable, hover: HoverFacts, *, real: bool) -> Iterator[CheckResult]:
+    """Check speed and rates at the start; `real`: real rotors are running."""
+    speed, fastest = float(np.linalg.norm(initial.velocity)), FASTEST[hover.actuators.model]
     limits = np.full(3, SPINNING)
-    if m.actuators.model == "rotors" and m.phases.rotors == "always":
-        inertia = np.diag(Vehicle.from_settings(m.vehicle).inertia) * m.plant.inertia_scale
-        limits = np.minimum(limits, np.sqrt(2.0 * np.array(TURNS) * authority_of(m) / inertia))
+    if real:
+        inertia = np.diag(hover.vehicle.inertia) * hover.plant.inertia_scale
+        limits = np.minimum(limits, np.sqrt(2.0 * np.array(TURNS) * hover.authority / inertia))
     found = [("velocity", "speed", speed, fastest, "m/s")]
-    rates = zip(AXES, np.abs(m.initial.rates).tolist(), limits.tolist(), strict=True)
+    rates = zip(AXES, np.abs(initial.rates).tolist(), limits.tolist(), strict=True)
     found += [("rates", f"{axis} rate", rate, limit, "rad/s") for axis, rate, limit in rates]
     for key, subject, value, limit, unit in found:
         text = (
-            f"initial.{key} = {list(getattr(m.initial, key))}: a {subject} of {value:.3g} {unit} is more than flights "
+            f"initial.{key} = {list(getattr(initial, key))}: a {subject} of {value:.3g} {unit} is more than flights "
             f"recover from: lower it to {limit:.3g} {unit} or less"
         )
         yield judged("start", value, limit, unit, text, subject=subject)

@@ -30,9 +30,15 @@ import numpy as np
 
 from tandemlift.core.errors import CheckResult, judged
 from tandemlift.core.types import GRAVITY, Array
-from tandemlift.missions.flight_checks.controller_response import INPUTS, controller_response
-from tandemlift.missions.tables.mission import Mission
-from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.controllers.interface import ControllerTable
+from tandemlift.parts.estimation.disturbance_observer import ObserverTable
+from tandemlift.parts.estimation.estimator_table import EstimatorTable
+from tandemlift.parts.guidance.compliance_table import ComplianceTable
+from tandemlift.parts.guidance.guidance import PilotTable
+from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable
+from tandemlift.parts.pilot.controller_response import INPUTS, controller_response
+from tandemlift.parts.rotors.hover import HoverFacts
+from tandemlift.parts.sensors.sensors_table import SensorsTable
 
 LOOPS = ("z", "roll", "pitch", "yaw")
 LOWEST, HIGHEST, POINTS = 0.02, 1000.0, 120  # rad/s
@@ -59,23 +65,63 @@ class LoopDelay(NamedTuple):
     crossover: float
 
 
-def loop_checks(m: Mission) -> Iterator[CheckResult]:
-    """Check the delay of each loop with real rotors; no check for ideal ones."""
-    for loop in loop_delays(m):
-        value, limit = 1e3 * loop.delay, 1e3 * loop.bears
-        parts = f"actuators.delay = {m.actuators.delay:g} s, step and readings make {value:.3g} ms"
-        if loop.bears == 0.0:
+class PushFeedback(NamedTuple):
+    """How interactive guidance compensates a measured push.
+
+    Attributes:
+        mass_error: error of the mass in the measured push [kg].
+        force_lead: lead time of the force [s].
+        moment_lead: lead time of the moment [s].
+        bandwidth: bandwidth of their low-pass [rad/s].
+    """
+
+    mass_error: float
+    force_lead: float
+    moment_lead: float
+    bandwidth: float
+
+    def compensated(self, s: Any, lead: float) -> Any:
+        """The compensated fraction of a push [1] at s [rad/s], with a lead time [s]."""
+        return (1.0 + lead * s) / (1.0 + s / self.bandwidth) ** 2
+
+
+class ReadingDelays(NamedTuple):
+    """Common delay of all readings [s]; additional delays of position, velocity, angles, rates and push [s] (5)."""
+
+    common: float
+    additional: Array
+
+
+class ControlLoop(NamedTuple):
+    """The parts of the control loop, which is closed every `step` [s]."""
+
+    hover: HoverFacts
+    controller: ControllerTable
+    observer: ObserverTable
+    readings: ReadingDelays
+    push: PushFeedback | None
+    step: float
+
+
+def loop_checks(loop: ControlLoop) -> Iterator[CheckResult]:
+    """Check the delay of each axis with real rotors; no check for ideal ones."""
+    hover = loop.hover
+    for found in loop_delays(loop):
+        value, limit = 1e3 * found.delay, 1e3 * found.bears
+        parts = f"actuators.delay = {hover.actuators.delay:g} s, step and readings make {value:.3g} ms"
+        if found.bears == 0.0:
             what = (
-                f"the {loop.axis} loop oscillates with the rotors' lag of {1e3 * lag_of(m):.3g} ms, whatever its delay"
+                f"the {found.axis} loop oscillates with the rotors' lag of {1e3 * hover.lag:.3g} ms, whatever its delay"
             )
         else:
-            what = f"the {loop.axis} loop tolerates {limit:.3g} ms of delay with the rotors' lag, and {parts}"
-        yield judged("delay", value, limit, "ms", f"{what}{_remedy(m)}", subject=loop.axis, near=NEAR)
+            what = f"the {found.axis} loop tolerates {limit:.3g} ms of delay with the rotors' lag, and {parts}"
+        remedy = _remedy(loop.push, hover.vehicle.payload.mass)
+        yield judged("delay", value, limit, "ms", f"{what}{remedy}", subject=found.axis, near=NEAR)
 
 
-def _remedy(m: Mission) -> str:
-    wrong = push_mass_error(m)
-    if abs(wrong) < NOTABLE * m.vehicle.payload.mass:
+def _remedy(push: PushFeedback | None, payload: float) -> str:
+    wrong = 0.0 if push is None else push.mass_error
+    if abs(wrong) < NOTABLE * payload:
         return ": lower the gains of [controller], the rotors' lag_up and lag_down, or the delays"
     return (
         f", as the measured push errs by {wrong:.3g} kg of the payload's mass: correct vehicle.payload.mass or "
@@ -83,40 +129,35 @@ def _remedy(m: Mission) -> str:
     )
 
 
-def lag_of(m: Mission) -> float:
-    """The mean lag of the rotors, up and down [s]."""
-    return sum(q.lag_up + q.lag_down for q in m.vehicle.quadrotors) / (2.0 * len(m.vehicle.quadrotors))
-
-
-def push_mass_error(m: Mission) -> float:
-    """The error of the mass [kg] in the push that interactive guidance compensates.
+def push_feedback(
+    pilot: PilotTable, c: ComplianceTable, estimator: EstimatorTable, hover: HoverFacts, disturbance: DisturbanceTable
+) -> PushFeedback | None:
+    """The compensation of a measured push; None with scheduled guidance, and for the true push.
 
     The push is m̂ a − Σ f. In the joint forces, the whole difference of the real mass belongs to the payload; the
     simulated body keeps its centre of mass, and so does the pilot with an identified difference. A mass that the tare
     identifies includes a vertical disturbance as weight.
     """
-    if not measures_push(m):
-        return 0.0
-    believed = m.vehicle.payload.mass
-    real = believed + (m.plant.mass_scale - 1.0) * Vehicle.from_settings(m.vehicle).mass
-    if not m.estimator.identify_mass:
-        return believed - real
-    return -m.disturbance.force[2] / GRAVITY
+    if pilot.guidance != "interactive" or pilot.push == "truth":
+        return None
+    unknown = hover.vehicle.payload.mass - hover.payload_mass
+    error = -disturbance.force[2] / GRAVITY if estimator.identify_mass else unknown
+    return PushFeedback(error, c.force_lead, c.moment_lead, c.input_bandwidth)
 
 
-def loop_delays(m: Mission) -> Iterator[LoopDelay]:
-    """The loops of a mission with real rotors."""
-    response = controller_response(m) if m.actuators.model == "rotors" else None
+def loop_delays(loop: ControlLoop) -> Iterator[LoopDelay]:
+    """The loops of each axis with real rotors."""
+    hover, h = loop.hover, loop.step
+    real = hover.actuators.model == "rotors"
+    response = controller_response(loop.controller, hover.vehicle, h) if real else None
     if response is None:
         return
-    h = m.mission.step
     w = np.geomspace(LOWEST, min(HIGHEST, 0.9 * math.pi / h), POINTS)
-    late, readings = reading_delays(m)
-    delay = round(m.actuators.delay / h) * h + 0.5 * h + late
-    K = response.at(np.exp(1j * w * h)) * np.exp(-1j * w[:, None, None] * readings)[..., None]
-    lags = np.array([0.5 * (q.lag_up + q.lag_down) for q in m.vehicle.quadrotors])
+    delay = round(hover.actuators.delay / h) * h + 0.5 * h + loop.readings.common
+    K = response.at(np.exp(1j * w * h)) * np.exp(-1j * w[:, None, None] * loop.readings.additional)[..., None]
+    lags = np.array([0.5 * (q.lag_up + q.lag_down) for q in hover.vehicle.quadrotors])
     lagging = np.mean(1.0 / (1.0 + 1j * w[:, None] * lags), axis=1)
-    loops = eigenvalues_by_axis(open_loop(m, w, K) * lagging[:, None, None])
+    loops = eigenvalues_by_axis(open_loop(loop, w, K) * lagging[:, None, None])
     turns = [excess_turns(w, L) for L in loops]
     stable = abs(sum(turns)) < TURNED  # where two loops meet, they may be interchanged
     for axis, L, turned in zip(LOOPS, loops, turns, strict=True):
@@ -124,50 +165,40 @@ def loop_delays(m: Mission) -> Iterator[LoopDelay]:
         yield LoopDelay(axis, delay, bears, crossover)
 
 
-def reading_delays(m: Mission) -> tuple[float, Array]:
-    """(Common delay of all readings [s], additional delays of position, velocity, angles, rates and push (5))."""
-    s, beyond = m.sensors, np.zeros(INPUTS)
-    if s.model == "none" or m.pilot.state == "truth":
-        return 0.0, beyond
-    late = m.mission.step + s.delay + 0.5 * s.interval
-    if m.pilot.state == "measurement":
+def reading_delays(s: SensorsTable, state: str, step: float) -> ReadingDelays:
+    """The delays of readings; `state`: `pilot.state`, `step` of the pilot [s]."""
+    beyond = np.zeros(INPUTS)
+    if s.model == "none" or state == "truth":
+        return ReadingDelays(0.0, beyond)
+    if state == "measurement":
         beyond[:3] = max(s.motion.delay + 0.5 * s.motion.interval - s.delay - 0.5 * s.interval, 0.0)
-    return late, beyond
+    return ReadingDelays(step + s.delay + 0.5 * s.interval, beyond)
 
 
-def open_loop(m: Mission, w: Array, K: Any) -> Any:
+def open_loop(loop: ControlLoop, w: Array, K: Any) -> Any:
     """The loop (w, 4, 4) in accelerations at frequencies w [rad/s] without delay and lag; K (w, 4, 5, 3)."""
-    s, vehicle, o, c = 1j * w, Vehicle.from_settings(m.vehicle), m.observer, m.compliance
-    scale = np.diag(np.sqrt(m.plant.inertia_scale))
+    s, hover, o, push = 1j * w, loop.hover, loop.observer, loop.push
+    vehicle, scale = hover.vehicle, np.diag(np.sqrt(hover.plant.inertia_scale))
     assumed, real = np.eye(4), np.eye(4)
     assumed[0, 0], assumed[1:, 1:] = vehicle.mass, vehicle.inertia
-    real[0, 0], real[1:, 1:] = vehicle.mass * m.plant.mass_scale, scale @ vehicle.inertia @ scale
+    real[0, 0], real[1:, 1:] = hover.mass, scale @ vehicle.inertia @ scale
     bandwidth = np.array([o.force_bandwidth[2], *o.moment_bandwidth])
     Q = (bandwidth / (s[:, None] + bandwidth)) ** 2 * (o.model != "none")
-    M = 1.0 / (1.0 + 0.5 * s * (o.rotor_lag + o.rotor_delay + m.mission.step)) ** 2
+    M = 1.0 / (1.0 + 0.5 * s * (o.rotor_lag + o.rotor_delay + loop.step)) ** 2
     read = np.zeros((len(w), INPUTS, 3, 4), complex)  # position, velocity, angles, rates, push: of a height, of angles
     read[:, 0, 2, 0] = 1.0
     read[:, 0, 0, 2], read[:, 0, 1, 1] = GRAVITY / (s * s), -GRAVITY / (s * s)
     read[:, 2, :, 1:] = np.eye(3)
     read[:, 1], read[:, 3] = (s[:, None, None] * read[:, part] for part in (0, 2))
-    read[:, 4, 2, 0] = push_mass_error(m) * s * s * (measured(m, s, c.force_lead) - Q[:, 0])
+    if push is not None:
+        read[:, 4, 2, 0] = push.mass_error * s * s * (push.compensated(s, push.force_lead) - Q[:, 0])
     asked = np.linalg.solve(assumed, -np.einsum("wuvi,wvij->wuj", K, read))
     moved = np.linalg.solve(real, assumed)
     feedback = asked @ moved / (s * s)[:, None, None]
-    if measures_push(m):
-        errs = measured(m, s, c.moment_lead)[:, None] - Q[:, 1:]
+    if push is not None:
+        errs = push.compensated(s, push.moment_lead)[:, None] - Q[:, 1:]
         feedback[:, 1:, 1:] += errs[:, :, None] * (moved - np.eye(4))[1:, 1:]
     return (feedback + Q[:, :, None] * moved) / (1.0 - Q * M[:, None])[:, :, None]
-
-
-def measures_push(m: Mission) -> bool:
-    """Whether interactive guidance compensates a measured push."""
-    return m.pilot.guidance == "interactive" and m.pilot.push != "truth"
-
-
-def measured(m: Mission, s: Any, lead: float) -> Any:
-    """The fraction of a push that interactive guidance compensates [1], with a lead time [s]."""
-    return (1.0 + lead * s) / (1.0 + s / m.compliance.input_bandwidth) ** 2
 
 
 def eigenvalues_by_axis(L: Any) -> Any:

@@ -1,56 +1,59 @@
 """Checks of the rotors' thrust, tilt and moments about each axis against a mission's demand.
 
-Moments are those of the allocation's pseudo-inverse in hover: with thrusts f₀ and the moment's column a of the inverse,
-the first rotor reaches a limit at the smallest of (f_max − f₀)/a and f₀/(−a). `missions.hardware_checks` rejects
-missions whose rotors cannot lift the vehicle.
+Moments are those of the allocation's pseudo-inverse in hover. `lift_checks` rejects missions whose rotors cannot lift
+the vehicle.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-
-import numpy as np
+from collections.abc import Iterable, Iterator, Sequence
 
 from tandemlift.core.errors import CheckResult, judged
 from tandemlift.core.types import Array
-from tandemlift.missions.flight_checks.loads import ALWAYS, VehicleLoads, loads_of
-from tandemlift.missions.tables.mission import Mission
-from tandemlift.missions.tables.weight import lift_of, weight_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.rotors.hover import HoverFacts
+from tandemlift.parts.rotors.hover_loads import ALWAYS, VehicleLoads
 
 AXES = ("roll", "pitch", "yaw")
 CONTROL = 0.15  # of the largest moment, reserved for control, as supervision.checks.thrust_fraction does for the thrust
 CLOCKED = 0.95  # of the largest thrust that a flight with scheduled guidance may need
 
 
-def authority_checks(m: Mission) -> Iterator[CheckResult]:
-    """Checks of thrust, tilt and moments of real rotors; none for ideal ones."""
-    if m.actuators.model != "rotors":
+def authority_checks(
+    hover: HoverFacts, loads: Iterable[VehicleLoads], by_hand: float | None, tilt: float | None, lifting: float | None
+) -> Iterator[CheckResult]:
+    """Checks of thrust, tilt and moments of real rotors; none for ideal ones.
+
+    Args:
+        hover: the vehicle and its rotors.
+        loads: on it, at least one.
+        by_hand: `compliance.thrust_fraction` of interactive guidance; None if scheduled.
+        tilt: largest tilt of the controller [rad]; None without a limit.
+        lifting: `supervision.checks.thrust_fraction` of a supervised flight; None without supervision.
+    """
+    if hover.actuators.model != "rotors":
         return
-    yields = m.pilot.guidance == "interactive" and m.compliance.yaw.model == "compliant"
-    loads = list(loads_of(m, yielding_yaw=yields))
-    thrust = thrust_check(m, loads)
+    loads = list(loads)
+    thrust = thrust_check(hover, loads, by_hand)
     yield thrust
-    if thrust.value is None or thrust.value < lift_of(m, faulty=True):
-        yield tilt_check(m, loads)
-    yield from moment_checks(m, loads)
-    if m.supervision.model == "on":
-        yield supervised_check(m)
+    if thrust.value is None or thrust.value < hover.faulty_lift:
+        yield tilt_check(hover, loads, tilt)
+    yield from moment_checks(hover.authority, loads)
+    if lifting is not None:
+        yield supervised_check(hover.vehicle, lifting)
 
 
 def _at(when: str) -> str:
     return "" if when == ALWAYS else f"{when}, "
 
 
-def thrust_check(m: Mission, loads: list[VehicleLoads]) -> CheckResult:
+def thrust_check(hover: HoverFacts, loads: Sequence[VehicleLoads], by_hand: float | None) -> CheckResult:
     """Compare the thrust for the worst vertical load with the usable thrust of all rotors."""
-    weight, lift = weight_of(m), lift_of(m, faulty=True)
-    by_hand = m.pilot.guidance == "interactive"
-    fraction, key = (m.compliance.thrust_fraction, "compliance.thrust_fraction") if by_hand else (CLOCKED, "")
+    lift, fraction = hover.faulty_lift, CLOCKED if by_hand is None else by_hand
     worst = min(loads, key=lambda load: float(load.force[2]))
-    needed, limit = weight - min(float(worst.force[2]), 0.0), fraction * lift
-    names = f"{key} = {fraction:g}" if key else f"{fraction:g}"
+    needed, limit = hover.weight - min(float(worst.force[2]), 0.0), fraction * lift
+    names = f"{fraction:g}" if by_hand is None else f"compliance.thrust_fraction = {fraction:g}"
     then = "the vehicle cannot fly" if needed > lift else "too little is left to follow pushes and to control"
     text = (
         f"{_at(worst.when)}hover needs {needed:.3g} N of thrust, and {names} of the rotors' {lift:.3g} N is "
@@ -59,10 +62,8 @@ def thrust_check(m: Mission, loads: list[VehicleLoads]) -> CheckResult:
     return judged("thrust", needed, limit, "N", text, subject=worst.when, near=0.05)
 
 
-def supervised_check(m: Mission) -> CheckResult:
+def supervised_check(vehicle: Vehicle, fraction: float) -> CheckResult:
     """Compare the weight that the pilot assumes with its limit for a lift."""
-    vehicle = Vehicle.from_settings(m.vehicle)
-    fraction = m.supervision.checks.thrust_fraction
     limit = fraction * vehicle.max_thrust
     text = (
         f"the vehicle weighs {vehicle.weight:.3g} N, and supervision.checks.thrust_fraction = {fraction:g} of its "
@@ -71,14 +72,9 @@ def supervised_check(m: Mission) -> CheckResult:
     return judged("supervised lift", vehicle.weight, limit, "N", text)
 
 
-def tilt_limit_of(m: Mission) -> float | None:
-    """The largest tilt of the controller [rad]; None without a limit."""
-    return getattr(m.controller, "max_tilt", None)
-
-
-def tilt_check(m: Mission, loads: list[VehicleLoads]) -> CheckResult:
-    """Compare the horizontal load with the force that tilt and thrust provide beside the weight."""
-    weight, lift, tilt = weight_of(m), lift_of(m, faulty=True), tilt_limit_of(m)
+def tilt_check(hover: HoverFacts, loads: Sequence[VehicleLoads], tilt: float | None) -> CheckResult:
+    """Compare the horizontal load with the force that tilt [rad] and thrust provide beside the weight."""
+    weight, lift = hover.weight, hover.faulty_lift
 
     def limit_of(load: VehicleLoads) -> float:
         up = max(weight - float(load.force[2]), 0.0)
@@ -96,21 +92,8 @@ def tilt_check(m: Mission, loads: list[VehicleLoads]) -> CheckResult:
     return judged("tilt", worst.across, limit, "N", text, subject=worst.when)
 
 
-def authority_of(m: Mission) -> Array:
-    """The largest moment [N m] about each body axis, either way, in hover by the pseudo-inverse (3)."""
-    inverse = Vehicle.from_settings(m.vehicle).allocation(m.allocation.weights)
-    most = np.repeat([q.max_thrust for q in m.vehicle.quadrotors], 4)
-    hover = inverse[:, 0] * weight_of(m)
-    up, down = np.maximum(most - hover, 0.0)[:, None], np.maximum(hover, 0.0)[:, None]
-    column = inverse[:, 1:]
-    size = np.maximum(np.abs(column), 1e-12)
-    one, other = np.where(column > 0.0, up, down) / size, np.where(column > 0.0, down, up) / size
-    return np.minimum(one.min(axis=0), other.min(axis=0))
-
-
-def moment_checks(m: Mission, loads: list[VehicleLoads]) -> Iterator[CheckResult]:
-    """Compare the moment of all loads about each axis with the moment that the rotors have left in hover."""
-    authority = authority_of(m)
+def moment_checks(authority: Array, loads: Sequence[VehicleLoads]) -> Iterator[CheckResult]:
+    """Compare the moment of all loads about each axis with that which the rotors have left in hover [N m] (3)."""
     for i, axis in enumerate(AXES):
         worst = max(loads, key=lambda load: float(load.about[i]))
         value, limit = float(worst.about[i]), (1.0 - CONTROL) * float(authority[i])

@@ -6,34 +6,26 @@ force, along x and y through the commanded angle. A disturbance observer leaves 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from tandemlift.core.errors import FAILS, CheckResult, judged, noted
 from tandemlift.core.types import Array
-from tandemlift.missions.flight_checks.controller_response import controller_response
-from tandemlift.missions.flight_checks.loads import WindOnParts
-from tandemlift.missions.flight_checks.start import SETTLED
-from tandemlift.missions.tables.mission import Mission
-from tandemlift.missions.tables.outcomes import promise_of
-from tandemlift.missions.tables.weight import weight_of
-from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.controllers.interface import ControllerTable
+from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable
+from tandemlift.parts.pilot.controller_response import controller_response
+from tandemlift.parts.pilot.start_checks import SETTLED
+from tandemlift.parts.rotors.hover import HoverFacts
+from tandemlift.parts.rotors.hover_loads import WindOnParts
 
 DRIVEN = {"lambda_1": "far from its surface", "lambda_2": "against disturbances"}  # purpose of each gain of nftsmc
 AXES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
-def stiffness_checks(m: Mission) -> Iterator[CheckResult]:
-    """Checks of zero gains, and of the offset from the reference."""
-    yield from gain_checks(m)
-    if m.observer.model == "none":
-        yield from offset_checks(m)
-
-
-def gain_checks(m: Mission) -> Iterator[CheckResult]:
+def gain_checks(controller: ControllerTable) -> Iterator[CheckResult]:
     """Check for reaching gains of nftsmc that are zero."""
-    gains = getattr(m.controller, "gains", None)
+    gains = getattr(controller, "gains", None)
     for name, purpose in DRIVEN.items():
         off = [axis for axis, gain in zip(AXES, getattr(gains, name, ()), strict=False) if gain == 0.0]
         if off:
@@ -41,18 +33,22 @@ def gain_checks(m: Mission) -> Iterator[CheckResult]:
             yield noted("gain", text, verdict=FAILS, subject=name)
 
 
-def offset_checks(m: Mission) -> Iterator[CheckResult]:
-    """Compare the offset by a wrong mass, the mean wind and an unknown force with the promised distance."""
-    response = controller_response(m)
+def offset_checks(
+    controller: ControllerTable,
+    hover: HoverFacts,
+    step: float,
+    wind: WindOnParts,
+    disturbance: DisturbanceTable,
+    limits: Sequence[float],
+) -> Iterator[CheckResult]:
+    """Compare the offset by a wrong mass, the mean wind and an unknown force with limits along x, y, z [m]."""
+    response = controller_response(controller, hover.vehicle, step)
     if response is None:
         return
-    wind, _, _, _ = WindOnParts(m).at(None)
-    load = wind + m.disturbance.force
-    load[2] += Vehicle.from_settings(m.vehicle).weight - weight_of(m)
-    promised = promise_of(m.promise, m.pilot.guidance).rms_promised(m.pilot.guidance)
-    lands = m.ground.model == "none" and m.phases.land_start is not None and m.phases.land_start < m.mission.duration
-    for axis, force, stiffness in zip(AXES, load, stiffness_of(m, response.at(SETTLED)[0].real), strict=False):
-        limit = min(promised, m.outcome.landed_height) if lands and axis == "z" else promised
+    load = wind.at(None)[0] + disturbance.force
+    load[2] += hover.vehicle.weight - hover.weight
+    held = stiffness_of(hover.weight, response.at(SETTLED)[0].real)
+    for axis, force, stiffness, limit in zip(AXES, load, held, limits, strict=False):
         value = abs(force) / max(stiffness, 1e-12)
         text = (
             f"wind, disturbance and a wrong mass push along {axis} with {force:.3g} N, and the controller holds with "
@@ -63,9 +59,9 @@ def offset_checks(m: Mission) -> Iterator[CheckResult]:
         yield judged("offset", value, limit, "m", text, subject=axis, near=0.3)
 
 
-def stiffness_of(m: Mission, asked: Array) -> Array:
-    """The stiffness [N/m] along x, y, z of a settled response (4, 5, 3)."""
+def stiffness_of(weight: float, asked: Array) -> Array:
+    """The stiffness [N/m] along x, y, z of a settled response (4, 5, 3) with a weight [N]."""
     angles = [
         asked[row, 0, axis] / max(abs(asked[row, 2, about]), 1e-12) for axis, row, about in ((0, 2, 1), (1, 1, 0))
     ]
-    return np.abs([*(np.array(angles) * weight_of(m)), asked[0, 0, 2]])
+    return np.abs([*(np.array(angles) * weight), asked[0, 0, 2]])

@@ -2,21 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+import itertools
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from tandemlift.core.errors import CLOSE, FAILS, SETTINGS, CheckResult, noted
-from tandemlift.missions.flight_checks.authority import authority_checks
-from tandemlift.missions.flight_checks.loops import loop_checks
-from tandemlift.missions.flight_checks.passage import passage_checks
-from tandemlift.missions.flight_checks.pushes import point_checks, push_checks
-from tandemlift.missions.flight_checks.schedule import schedule_checks
-from tandemlift.missions.flight_checks.sensing import sensing_checks
-from tandemlift.missions.flight_checks.start import start_checks
-from tandemlift.missions.flight_checks.stiffness import stiffness_checks
 from tandemlift.missions.tables.mission import Mission
+from tandemlift.missions.tables.outcomes import promise_of
+from tandemlift.parts.controllers.interface import tilt_limit_of
+from tandemlift.parts.person.passage import passage_checks
+from tandemlift.parts.person.person_table import waypoints_from
+from tandemlift.parts.pilot.loop_checks import ControlLoop, loop_checks, push_feedback, reading_delays
+from tandemlift.parts.pilot.push_checks import point_checks, push_checks
+from tandemlift.parts.pilot.schedule_checks import (
+    Schedule,
+    descent_checks,
+    haste_checks,
+    landing_checks,
+    lift_checks,
+    push_time_checks,
+    way_checks,
+)
+from tandemlift.parts.pilot.sensing_checks import sensing_checks
+from tandemlift.parts.pilot.start_checks import start_checks
+from tandemlift.parts.pilot.stiffness_checks import gain_checks, offset_checks
+from tandemlift.parts.rotors.authority import authority_checks
+from tandemlift.parts.rotors.hover_loads import WindOnParts, loads_of
 
 
 class FlightCheck(NamedTuple):
@@ -171,32 +184,75 @@ CHECKS = (
     ),
 )
 
-PARTS: tuple[Callable[[Mission], Iterator[CheckResult]], ...] = (
-    authority_checks,
-    start_checks,
-    stiffness_checks,
-    loop_checks,
-    sensing_checks,
-    schedule_checks,
-    push_checks,
-    point_checks,
-    passage_checks,
-)
+
+def wind_on_parts(m: Mission) -> WindOnParts:
+    """The wind on a mission's vehicle with the heading of its start."""
+    return WindOnParts(m.wind, m.hover.vehicle, m.initial.euler[2], m.mission.step)
+
+
+def schedule_of(m: Mission) -> Schedule:
+    """The schedule of a mission."""
+    by_hand = m.compliance if m.pilot.guidance == "interactive" else None
+    return Schedule(m.phases, m.pushes, m.admittance, by_hand, m.mission.duration)
+
+
+def control_loop(m: Mission) -> ControlLoop:
+    """The control loop of a mission."""
+    step, hover = m.mission.step, m.hover
+    readings = reading_delays(m.sensors, m.pilot.state, step)
+    push = push_feedback(m.pilot, m.compliance, m.estimator, hover, m.disturbance)
+    return ControlLoop(hover, m.controller, m.observer, readings, push, step)
 
 
 def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
     """The results of all checks of a mission, by closed forms."""
     with np.errstate(all="ignore"):
-        return tuple(result for part in PARTS for result in _results(part, m))
+        return tuple(result for part, results in _parts(m).items() for result in _computable(part, results))
 
 
-def _results(part: Callable[[Mission], Iterator[CheckResult]], m: Mission) -> Iterator[CheckResult]:
+def _parts(m: Mission) -> dict[str, Iterator[CheckResult]]:
+    """The checks of each part, in order; none is computed before it is asked for."""
+    step, end, pilot, controller = m.mission.step, m.mission.duration, m.pilot, m.controller
+    hover, wind, schedule = m.hover, wind_on_parts(m), schedule_of(m)
+    by_hand, supervised = schedule.compliance, m.supervision.model == "on"
+    compliant_yaw = by_hand is not None and by_hand.yaw.model == "compliant"
+    loads = loads_of(m.disturbance, wind, m.pushes, end, yielding_yaw=compliant_yaw)
+    usable = None if by_hand is None else by_hand.thrust_fraction
+    lifting = m.supervision.checks.thrust_fraction if supervised else None
+    promised, landed = promise_of(m.promise, pilot.guidance).rms_promised(pilot.guidance), m.outcome.landed_height
+    lands = m.ground.model == "none" and m.phases.land_start is not None and m.phases.land_start < end
+    offsets = (promised, promised, min(promised, landed) if lands else promised)
+    windy = wind.blows and pilot.push != "truth"  # wind on the payload counts as a push
+    joined = windy or m.person.model != "none" or any(change.key.startswith("admittance") for change in m.changes)
+    return {
+        "authority checks": authority_checks(hover, loads, usable, tilt_limit_of(controller), lifting),
+        "start checks": start_checks(m.initial, hover, controller, step, running=m.phases.rotors == "always"),
+        "stiffness checks": itertools.chain(
+            gain_checks(controller),
+            offset_checks(controller, hover, step, wind, m.disturbance, offsets) if m.observer.model == "none" else (),
+        ),
+        "loop checks": loop_checks(control_loop(m)),
+        "sensing checks": sensing_checks(m.sensors, pilot, m.estimator, schedule, wind),
+        "schedule checks": itertools.chain(
+            lift_checks(schedule, m.outcome.lifted_height),
+            haste_checks(schedule, hover),
+            push_time_checks(schedule, m.estimator, pilot.push),
+            descent_checks(schedule) if m.ground.model == "floor" else (),
+            landing_checks(schedule),
+            way_checks(schedule, m.person, waypoints_from(m.person, m.corridor), m.initial),
+        ),
+        "push checks": push_checks(() if joined else m.pushes, m.admittance.threshold, compliant_yaw=compliant_yaw),
+        "point checks": point_checks(m.pushes, hover.vehicle),
+        "passage checks": passage_checks(m.person, m.corridor, m.all_walls, m.initial, hover.vehicle),
+    }
+
+
+def _computable(part: str, results: Iterator[CheckResult]) -> Iterator[CheckResult]:
     """Yield the results of a part, until numbers are too extreme to compute with."""
     try:
-        yield from part(m)
+        yield from results
     except (ArithmeticError, np.linalg.LinAlgError):
-        name = part.__name__.replace("_", " ")
-        yield noted(name, f"the {name} end here: the mission's numbers are too extreme for them", verdict=CLOSE)
+        yield noted(part, f"the {part} end here: the mission's numbers are too extreme for them", verdict=CLOSE)
 
 
 def worst_failures(results: Iterable[CheckResult]) -> Iterator[CheckResult]:

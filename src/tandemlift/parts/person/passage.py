@@ -9,15 +9,17 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from tandemlift.core.errors import CheckResult, judged
 from tandemlift.core.types import Array
-from tandemlift.missions.tables.mission import Mission
+from tandemlift.parts.contact.corridor import CorridorTable, WallTable
+from tandemlift.parts.mechanics.rigid_body import InitialTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.person.person_table import PersonTable, waypoints_from
 
 APART = 0.1  # m, between places on the path
 MOST = 4000  # places
@@ -32,16 +34,18 @@ class Places(NamedTuple):
     headings: Array
 
 
-def passage_checks(m: Mission) -> Iterator[CheckResult]:
-    """Compare the required distance from the walls with the smallest one on the path."""
-    places = places_of(m) if m.all_walls else None
+def passage_checks(
+    person: PersonTable, corridor: CorridorTable, walls: Sequence[WallTable], initial: InitialTable, vehicle: Vehicle
+) -> Iterator[CheckResult]:
+    """Compare the required distance from all walls, the corridor's too, with the smallest one on the path."""
+    places = places_of(person, corridor, initial) if walls else None
     if places is None:
         return
-    room, at = least_room(m, places)
-    guard = max(q.guard_radius for q in m.vehicle.quadrotors)
+    room, at = least_room(places, walls, vehicle)
+    guard = max(q.guard_radius for q in vehicle.quadrotors)
     x, y = places.centres[at]
     how = {"pull": "trailing behind its end", "two-hands": "rotated by two hands"}.get(
-        m.person.model, "with its heading kept"
+        person.model, "with its heading kept"
     )
     text = (
         f"led {how}, near x = {x:.3g} m, y = {y:.3g} m a quadrotor of radius {guard:g} m comes to {room:.3g} m from a "
@@ -51,38 +55,35 @@ def passage_checks(m: Mission) -> Iterator[CheckResult]:
     yield judged("passage", guard, room, "m", text, near=NEAR)
 
 
-def way_of(m: Mission) -> tuple[Array, list[float]]:
+def way_of(p: PersonTable, corridor: CorridorTable, initial: InitialTable) -> tuple[Array, list[float]]:
     """The path (n, 2) [m] of the steered point from the start, and the heading of each leg [rad]."""
-    p = m.person
-    points = [w.point for w in p.path] or list(m.corridor.centreline)
-    yaw = m.initial.euler[2]
+    (x, y, _), yaw, waypoints = initial.position, initial.euler[2], waypoints_from(p, corridor)
     grip = p.grip if p.model in ("pull", "hold") else 0.0
-    start = (m.initial.position[0] - grip * math.sin(yaw), m.initial.position[1] + grip * math.cos(yaw))
+    start = (x - grip * math.sin(yaw), y + grip * math.cos(yaw))
     headings, now = list[float](), yaw
-    for w in p.path:
+    for w in waypoints:
         now = now if w.heading is None else w.heading
         headings.append(now)
-    return np.array([start, *points]), headings or [yaw] * len(points)
+    return np.array([start, *[w.point for w in waypoints]]), headings
 
 
-def places_of(m: Mission) -> Places | None:
+def places_of(p: PersonTable, corridor: CorridorTable, initial: InitialTable) -> Places | None:
     """The path as places of the vehicle; None for a person whose path is not known in advance."""
-    p = m.person
     if p.model not in ("pull", "steer", "two-hands") or (p.model == "steer" and p.grip != 0.0):
         return None
-    way, headings = way_of(m)
+    way, headings = way_of(p, corridor, initial)
     legs = list(itertools.pairwise(way))
     lengths = [float(np.linalg.norm(b - a)) for a, b in legs]
     if not legs or sum(lengths) > MOST * APART:
         return None
-    points, turned = [way[:1]], [np.array([m.initial.euler[2]])]
+    points, turned = [way[:1]], [np.array([initial.euler[2]])]
     for (a, b), length, heading in zip(legs, lengths, headings, strict=True):
         n = max(math.ceil(length / APART), 1)
         share = np.arange(1, n + 1)[:, None] / n
         points.append(a + share * (b - a))
         turned.append(np.full(n, heading))
     if p.model == "pull":
-        return trailing(np.vstack(points), p.grip, m.initial.euler[2])
+        return trailing(np.vstack(points), p.grip, initial.euler[2])
     return Places(np.vstack(points), turning(np.concatenate(turned), p.speed))
 
 
@@ -112,23 +113,21 @@ def trailing(grips: Array, grip: float, yaw: float) -> Places | None:
     return Places(np.array(centres), np.array(headings))
 
 
-def quadrotors_at(m: Mission, places: Places) -> Array:
-    """The quadrotors' centres (n, N, 2) [m] at places."""
-    arms = Vehicle.from_settings(m.vehicle).lever_arms[:, :2]
+def quadrotors_at(places: Places, arms: Array) -> Array:
+    """The quadrotors' centres (n, N, 2) [m] at places; arms (N, 2) [m, body axes]."""
     c, s = np.cos(places.headings), np.sin(places.headings)
     R = np.stack([np.stack([c, -s], axis=-1), np.stack([s, c], axis=-1)], axis=-2)
     return places.centres[:, None, :] + np.einsum("nij,kj->nki", R, arms)
 
 
-def least_room(m: Mission, places: Places) -> tuple[float, int]:
+def least_room(places: Places, walls: Sequence[WallTable], vehicle: Vehicle) -> tuple[float, int]:
     """(The smallest distance from a wall to a quadrotor's centre, corrected for a smaller guard; its place)."""
-    walls = m.all_walls
     starts, ends = np.array([w.start for w in walls]), np.array([w.end for w in walls])
     along = ends - starts
-    p = quadrotors_at(m, places)[:, :, None, :] - starts
+    p = quadrotors_at(places, vehicle.lever_arms[:, :2])[:, :, None, :] - starts
     share = np.clip(np.sum(p * along, axis=-1) / np.maximum(np.sum(along * along, axis=-1), 1e-12), 0.0, 1.0)
     distance = np.linalg.norm(p - share[..., None] * along, axis=-1).min(axis=2)
-    guards = np.array([q.guard_radius for q in m.vehicle.quadrotors])
+    guards = np.array([q.guard_radius for q in vehicle.quadrotors])
     room = (distance + (guards.max() - guards)).min(axis=1)
     at = int(room.argmin())
     return float(room[at]), at

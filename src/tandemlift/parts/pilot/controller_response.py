@@ -13,14 +13,12 @@ import numpy as np
 from tandemlift.core.caching import cached
 from tandemlift.core.types import Array, flat, unflat
 from tandemlift.core.vector import ZERO, vec3
-from tandemlift.missions.tables.mission import Mission
 from tandemlift.parts.controllers import CONTROLLERS, control
 from tandemlift.parts.controllers.interface import NO_DISTURBANCE, ControllerTable, Measured
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 
 INPUTS = 5  # position, velocity, angles, rates, push: vectors
 CHANGE = 1e-6  # of an input or a memory, in its unit
@@ -51,17 +49,17 @@ class ControllerResponse(NamedTuple):
         return found.reshape(len(z), 4, INPUTS, 3)
 
 
-def controller_response(m: Mission) -> ControllerResponse | None:
-    """The response of a mission's controller; None if its law does not return numbers at hover."""
-    return _response(m.controller, CONTROLLERS[m.controller.name].start, m.vehicle, m.mission.step)
+def controller_response(controller: ControllerTable, vehicle: Vehicle, step: float) -> ControllerResponse | None:
+    """The response of a controller, sampled every step [s]; None if its law does not return numbers at hover."""
+    return _response(controller, CONTROLLERS[controller.name].start, vehicle, step)
 
 
 @cached
 def _response(
-    settings: ControllerTable, start: Callable[..., Any], table: VehicleTable, step: float
+    settings: ControllerTable, start: Callable[..., Any], vehicle: Vehicle, step: float
 ) -> ControllerResponse | None:
     try:
-        gains, memory = start(settings, Vehicle.from_settings(table), step)
+        gains, memory = start(settings, vehicle, step)
         here = np.array(flat(memory), dtype=float)
         read = 3 * INPUTS
         rows = [_answer(gains, memory, np.zeros(read), here)]

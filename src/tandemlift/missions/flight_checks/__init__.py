@@ -1,1 +1,0 @@
-"""Checks of a mission before its flight, by closed forms: a number, its limit, and the key to change."""

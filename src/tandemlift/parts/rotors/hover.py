@@ -1,0 +1,84 @@
+"""A hovering vehicle: its true weight, and the thrust and moments of its rotors."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.core.types import Array
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import PlantTable
+from tandemlift.parts.rotors.allocation import AllocationTable
+from tandemlift.parts.rotors.rotor_faults import FaultTable
+from tandemlift.parts.rotors.rotors import ActuatorsTable
+
+
+class HoverFacts(NamedTuple):
+    """A vehicle with its rotors, and the facts of its hover.
+
+    Attributes:
+        vehicle: the vehicle as the pilot assumes it.
+        plant: deviations of the real body from it.
+        actuators: model of the rotors.
+        allocation: distribution of a wrench over the rotors.
+        faults: all faults of rotors within the flight.
+    """
+
+    vehicle: Vehicle
+    plant: PlantTable
+    actuators: ActuatorsTable
+    allocation: AllocationTable
+    faults: tuple[FaultTable, ...]
+
+    @property
+    def mass(self) -> float:
+        """The true mass [kg]."""
+        return self.vehicle.mass * self.plant.mass_scale
+
+    @property
+    def payload_mass(self) -> float:
+        """The payload's mass in the joint forces [kg], which assign all of the difference in mass to it."""
+        return self.vehicle.payload.mass + (self.plant.mass_scale - 1.0) * self.vehicle.mass
+
+    @property
+    def weight(self) -> float:
+        """The true weight [N]."""
+        return self.vehicle.weight * self.plant.mass_scale
+
+    @property
+    def lift(self) -> float:
+        """The largest thrust of all rotors together [N]."""
+        return self.vehicle.max_thrust
+
+    @property
+    def faulty_lift(self) -> float:
+        """The largest thrust of all rotors together with all faults of the flight [N]."""
+        fleet = self.vehicle.quadrotors
+        return self.lift - sum(fleet[f.quadrotor - 1].max_thrust * (1.0 - f.efficiency) for f in self.faults)
+
+    @property
+    def lag(self) -> float:
+        """The mean lag of the rotors, up and down [s]."""
+        return sum(q.lag_up + q.lag_down for q in self.vehicle.quadrotors) / (2.0 * self.vehicle.count)
+
+    @property
+    def thrusts(self) -> Array:
+        """Thrusts of all rotors [N] by the allocation of the weight (N × 4)."""
+        return self.vehicle.allocation(self.allocation.weights)[:, 0].reshape(-1, 4) * self.weight
+
+    @property
+    def authority(self) -> Array:
+        """The largest moment [N m] about each body axis, either way, by the allocation's pseudo-inverse (3).
+
+        With thrusts f₀ in hover and the moment's column a of the inverse, the first rotor reaches a limit at the least
+        of (f_max − f₀)/a and f₀/(−a).
+        """
+        inverse = self.vehicle.allocation(self.allocation.weights)
+        most = np.repeat([q.max_thrust for q in self.vehicle.quadrotors], 4)
+        hover = inverse[:, 0] * self.weight
+        up, down = np.maximum(most - hover, 0.0)[:, None], np.maximum(hover, 0.0)[:, None]
+        column = inverse[:, 1:]
+        size = np.maximum(np.abs(column), 1e-12)
+        one, other = np.where(column > 0.0, up, down) / size, np.where(column > 0.0, down, up) / size
+        return np.minimum(one.min(axis=0), other.min(axis=0))
