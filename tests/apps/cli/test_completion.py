@@ -109,8 +109,8 @@ def program(folder, shipped):
     slow = dict.fromkeys(ALONE)
     code = f"import sys; sys.modules |= {slow!r}; sys.path.insert(0, {str(SOURCES)!r})\n"
     code += "from pathlib import Path\nfrom tandemlift.apps.cli.terminal import completion\n"
-        f"completion.shipped_text = Path({str(shipped)!r}).read_text\n"
-        "from tandemlift.apps.cli.main import main\nmain()\n"
+    code += f"completion.shipped_text = Path({str(shipped)!r}).read_text\n"
+    code += "from tandemlift.apps.cli.main import main\nmain()\n"
     path = folder / "bin" / "tandemlift"
     path.parent.mkdir()
     path.write_text(f"#!{sys.executable}\n{code}", "utf-8")
