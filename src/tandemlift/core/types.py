@@ -1,4 +1,9 @@
-"""Types that many modules use."""
+"""Types and constants that many modules use; nested values as flat arrays of numbers, and back.
+
+A law is written, and checked, as if its numbers were floats. NumPy arrays, JAX tracers, CasADi symbols and the symbols
+that are compiled behave like floats in it. A nested value is a NamedTuple of numbers and NamedTuples; its numbers are
+taken depth first.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +13,12 @@ from typing import Any, TypeAlias, cast
 import numpy as np
 from numpy.typing import NDArray
 
+GRAVITY = 9.81  # m/s², paper Table II
+NEVER = 1e18  # s
+
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 """Called with (units of work done, units in all)."""
-
 
 Number: TypeAlias = float
 """A number: a float, an array, a symbol, or a set of numbers where one law serves many of them."""
@@ -34,12 +41,6 @@ def is_symbol(value: Any) -> bool:
 def number(value: Any) -> Number:
     """A value as a float; a symbol unchanged."""
     return cast(Number, value) if is_symbol(value) else float(value)
-
-
-GRAVITY = 9.81  # m/s², paper Table II
-
-
-NEVER = 1e18  # s
 
 
 def is_value(x: Any) -> bool:
