@@ -36,7 +36,7 @@ class LoggedFlight(Protocol):
         """The tables of the resolved mission."""
 
     @property
-    def ending(self) -> Any:
+    def ending(self) -> object:
         """Why the flight ended early, or None."""
 
     @property
@@ -104,7 +104,7 @@ def column_names(name: str, channel: Channel, shape: tuple[int, ...]) -> list[st
     return ["_".join((name, *part)) for part in parts]
 
 
-def _part(dimension: str, label: Any) -> str:
+def _part(dimension: str, label: object) -> str:
     return f"{dimension}_{label}" if dimension in NUMBERED else str(label)
 
 

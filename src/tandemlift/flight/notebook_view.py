@@ -68,7 +68,7 @@ def _measured(metrics: dict[str, Any]) -> list[tuple[str, str]]:
     return rows
 
 
-def _numbers(value: Any, size: float) -> str:
+def _numbers(value: object, size: float) -> str:
     """A number, or one for each axis, in units of a size; "" if there is none."""
     values: Iterable[Any] = value if isinstance(value, (list, tuple)) else [value]
     if not all(isinstance(v, (int, float)) and math.isfinite(v) for v in values):

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import io
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tandemlift.core.types import Array
 from tandemlift.flight.data_frames import LoggedFlight
 from tandemlift.parts.contact.corridor import wall_tables
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 BLUE, VERMILLION, GREY = "#2a8bcc", "#e0701f", "#8c8c8c"  # visible on white and on black
 INK = "#123456"  # stands for the colour of the notebook's text
@@ -38,7 +41,7 @@ def thumbnail(flight: LoggedFlight) -> str:
     desired = flight.channels.get("reference_position")
     with matplotlib.rc_context(STYLE):
         figure = Figure(figsize=SIZE, layout="constrained")
-        panels: Any = figure.subplot_mosaic([["path", "push"], ["path", "error"]])
+        panels: dict[str, Axes] = figure.subplot_mosaic([["path", "push"], ["path", "error"]])
         _draw_path(panels["path"], flight, sound)
         _draw_over_time(panels["push"], time, _length(flight.channels.get("push_force")), "push", "N", VERMILLION)
         error = None if desired is None else _length(desired - position)
@@ -50,7 +53,7 @@ def thumbnail(flight: LoggedFlight) -> str:
     return svg[svg.index("<svg") :].replace(INK, "currentColor")
 
 
-def _draw_path(ax: Any, flight: LoggedFlight, sound: Any) -> None:
+def _draw_path(ax: Axes, flight: LoggedFlight, sound: Any) -> None:
     """Path, reference, walls, and the beam at start and end, to one scale."""
     path = flight.channels["position"][sound, :2]
     desired = flight.channels.get("reference_position")
@@ -89,7 +92,7 @@ def _walls(mission: dict[str, Any], around: Array) -> list[Array]:
     return [w for w in walls if (w.max(0) >= low).all() and (w.min(0) <= high).all()]
 
 
-def _draw_over_time(ax: Any, time: Array, values: Array | None, title: str, unit: str, color: str) -> None:
+def _draw_over_time(ax: Axes, time: Array, values: Array | None, title: str, unit: str, color: str) -> None:
     """A plot over time with the largest value written above it."""
     if values is None or not (sound := np.isfinite(values)).any():
         ax.set_title(f"{title}: not in this flight", loc="left")

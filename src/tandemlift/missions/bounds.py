@@ -11,18 +11,18 @@ from pydantic import BaseModel
 from tandemlift.core.errors import shown
 
 Model = type[BaseModel]
-WORDS = {float: "a number", int: "a whole number", bool: "true or false", str: "text in quotes"}
+WORDS: dict[object, str] = {float: "a number", int: "a whole number", bool: "true or false", str: "text in quotes"}
 LIMITS = {"gt": ">", "ge": "≥", "lt": "<", "le": "≤"}
 
 
-def table_in(annotation: Any) -> Model | None:
+def table_in(annotation: object) -> Model | None:
     """The table inside an annotation such as `tuple[Quadrotor, ...]`."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return annotation
     return next((t for t in map(table_in, get_args(annotation)) if t is not None), None)
 
 
-def allowed(annotation: Any, marks: Iterable[Any] = ()) -> str:
+def allowed(annotation: object, marks: Iterable[Any] = ()) -> str:
     """The allowed values of a key with this annotation, in words."""
     kind, parts = get_origin(annotation), [a for a in get_args(annotation) if a not in (type(None), Ellipsis)]
     if kind is Annotated:
@@ -43,7 +43,7 @@ def allowed(annotation: Any, marks: Iterable[Any] = ()) -> str:
     return f"{WORDS.get(annotation, otherwise)} {limits(marks)}".rstrip()
 
 
-def innermost(annotation: Any) -> tuple[Any, ...]:
+def innermost(annotation: object) -> tuple[Any, ...]:
     """The marks of the numbers in nested tuples."""
     while get_origin(annotation) is tuple:
         annotation = get_args(annotation)[0]
@@ -61,7 +61,7 @@ def limits(marks: Iterable[Any]) -> str:
     return " and ".join(f"{LIMITS[name]} {limit:g}" for name, limit in bounds(marks).items())
 
 
-def plain(annotation: Any) -> Any:
+def plain(annotation: object) -> object:
     """An annotation without its marks and without the None of a key that may be left out."""
     while get_origin(annotation) in (Annotated, Union, types.UnionType):
         annotation = get_args(annotation)[0]

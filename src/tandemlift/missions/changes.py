@@ -12,13 +12,13 @@ import numpy as np
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.files import parts_of
 from tandemlift.core.keys import PerAxis, is_number
-from tandemlift.missions.bounds import table_in
+from tandemlift.missions.bounds import Model, table_in
 from tandemlift.missions.tables.mission import Mission
 from tandemlift.parts.compliance.admittance import with_feel
 from tandemlift.parts.controllers import CONTROLLERS
 
 
-def _with(at: Any, parts: list[str], value: Any, key: str) -> Any:
+def _with(at: Any, parts: list[str], value: object, key: str) -> Any:
     """A table or list with the value at the path `parts` of it; `key` names the file and the whole path in messages."""
     part, *rest = parts
     if isinstance(at, list):
@@ -58,7 +58,7 @@ def _axis_by_axis(tables: Tables, parts: list[str]) -> Tables:
     return _with(tables, above, list(at) if isinstance(at, tuple) else [at] * axes.count, "")
 
 
-def _controller_of(table: Any) -> Any:
+def _controller_of(table: object) -> Model | None:
     """The model of a controller's settings, if the controller is known."""
     name = table.get("name") if isinstance(table, dict) else None
     return CONTROLLERS[name].settings if name in CONTROLLERS else None
@@ -74,13 +74,12 @@ def _without_feel(tables: Tables) -> Tables:
     return {**tables, "admittance": {name: value for name, value in kept.items() if name != "feel"}}
 
 
-def changed_tables(tables: Tables, key: Any, value: Any, source: str) -> Tables:
+def changed_tables(tables: Tables, key: object, value: Any, source: str) -> Tables:
     """Tables with a dotted key set; a number in it picks an entry of a list. NumPy's values become plain ones.
 
     A leaf that is given for all axes at once, such as `admittance.mass = 1.0`, has an entry for each axis, too.
     """
-    parts = parts_of(key) if isinstance(key, str) else [""]
-    if not all(parts):
+    if not isinstance(key, str) or not all(parts := parts_of(key)):
         raise InputError(f"{source}: {key!r} is not a dotted key such as controller.gains.xi")
     value = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else copy.deepcopy(value)
     if re.match(r"admittance\.(mass|damping)\b", key):

@@ -77,7 +77,7 @@ def _mission_of(tables: Tables, known: Checked | None) -> tuple[Any, list[Proble
     return mission, problems + more
 
 
-def _reused(new: Any, known: Checked, key: str) -> Any:
+def _reused(new: object, known: Checked, key: str) -> object:
     """A table, or a list of tables, in which objects checked before are replaced by their validated tables."""
     old, made = known.tables.get(key), getattr(known.mission, str(key), None)
     if isinstance(new, dict) and new is old and isinstance(made, BaseModel):
@@ -148,7 +148,7 @@ def _controller(table: Tables, tables: Tables) -> tuple[ControllerTable, list[Pr
     return checked or stand_in, problems
 
 
-def _validated(model: type[BaseModel], data: Any, tables: Any, prefix: Place) -> tuple[Any, list[Problem]]:
+def _validated(model: type[BaseModel], data: object, tables: object, prefix: Place) -> tuple[Any, list[Problem]]:
     try:
         return model.model_validate(data), []
     except ValidationError as error:

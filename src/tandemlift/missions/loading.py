@@ -17,7 +17,7 @@ from tandemlift.missions.tables.mission import Mission
 from tandemlift.parts.controllers import CONTROLLERS, Controller
 
 
-def _last_said_of(controller: str, folded: Sequence[Tables]) -> Any:
+def _last_said_of(controller: str, folded: Sequence[Tables]) -> object:
     """The table of a controller in the last of the tables that name it, or a table with only its name."""
     said = (t["controller"] for t in reversed(folded) if value_at(t, ("controller", "name")) == controller)
     return next(said, {"name": controller})

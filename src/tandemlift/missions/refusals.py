@@ -7,6 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple, get_args, get_origin
 
 from pydantic import ValidationError
+from pydantic.fields import FieldInfo
+from pydantic_core import ErrorDetails
 
 from tandemlift.core.errors import dotted, nearest, shown
 from tandemlift.missions.bounds import Model, allowed, plain, table_in
@@ -26,7 +28,7 @@ class Problem(NamedTuple):
 
 
 def problems_in(
-    model: Model, error: ValidationError, tables: Any, prefix: Place = (), whole: str = "a mission"
+    model: Model, error: ValidationError, tables: object, prefix: Place = (), whole: str = "a mission"
 ) -> list[Problem]:
     """The problems of the table at `prefix` in `tables`, one for each key; `whole` names the kind of file."""
     data = value_at(tables, prefix)
@@ -63,7 +65,7 @@ def _walk(model: Model, loc: Iterable[Any]) -> tuple[Place, Any, Any]:
     return tuple(place), field, table
 
 
-def _refusal(model: Model, problem: Any, data: Any, prefix: Place) -> tuple[Place, str]:
+def _refusal(model: Model, problem: ErrorDetails, data: object, prefix: Place) -> tuple[Place, str]:
     place, field, table = _walk(model, problem["loc"])
     if not (place or prefix):  # a rule between tables, whose text names the key itself
         return place, problem["msg"]
@@ -79,7 +81,7 @@ def _refusal(model: Model, problem: Any, data: Any, prefix: Place) -> tuple[Plac
     return place, f"{key}{value}: {rule}{_hint(problem, field, given)}"
 
 
-def _rule(problem: Any, field: Any, entry: bool) -> str:
+def _rule(problem: ErrorDetails, field: FieldInfo | None, entry: bool) -> str:
     """'must be …', from the annotation if that suffices, else from the validator."""
     if field is None or not problem["type"].startswith(BY_ANNOTATION):
         said = problem["msg"].removeprefix("Value error, ").removeprefix("Assertion failed, ")
@@ -90,7 +92,7 @@ def _rule(problem: Any, field: Any, entry: bool) -> str:
     return f"must be {allowed(field.annotation, field.metadata)}"
 
 
-def _hint(problem: Any, field: Any, given: Any) -> str:
+def _hint(problem: ErrorDetails, field: Any, given: object) -> str:
     kind = problem["type"]
     if isinstance(given, str) and kind == "literal_error":
         options = get_args(plain(field.annotation))
@@ -106,7 +108,7 @@ def _hint(problem: Any, field: Any, given: Any) -> str:
     return ""
 
 
-def _unknown_key(model: Model, problem: Any, data: Any, prefix: Place, whole: str) -> tuple[Place, str]:
+def _unknown_key(model: Model, problem: ErrorDetails, data: object, prefix: Place, whole: str) -> tuple[Place, str]:
     *above, name = problem["loc"]
     _, _, table = _walk(model, above)
     names, where = list(table.model_fields), (*prefix, *above)

@@ -86,7 +86,7 @@ def _facts(field: FieldInfo) -> Schema:
     return found
 
 
-def _leaf(annotation: Any, marks: Iterable[Any] = ()) -> Schema:
+def _leaf(annotation: object, marks: Iterable[Any] = ()) -> Schema:
     """The schema of a value with this annotation."""
     kind = get_origin(annotation)
     parts = [part for part in get_args(annotation) if part not in (type(None), Ellipsis)]
@@ -108,7 +108,7 @@ def _leaf(annotation: Any, marks: Iterable[Any] = ()) -> Schema:
     return {"type": TYPES[annotation], **{KEYWORDS[name]: limit for name, limit in bounds(marks).items()}}
 
 
-def _spread(mark: Any, annotation: Any) -> Schema:
+def _spread(mark: object, annotation: object) -> Schema:
     """The schema of a key given per axis: a list, or a shorter form that its mark accepts."""
     whole = _leaf(annotation)
     if not getattr(mark, "single", True):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Iterator
-from typing import Any, NamedTuple, get_origin
+from typing import NamedTuple, get_origin
 
 from pydantic.fields import FieldInfo
 
@@ -35,12 +35,12 @@ class Key(NamedTuple):
         return f"{words}; {self.facts.rule}" if self.facts.rule else words
 
     @property
-    def default(self) -> Any:
+    def default(self) -> object:
         """The default as plain numbers, one for all axes if they are equal; None if there is no default."""
         return None if self.field.is_required() else compact(self.field, self.field.default)
 
     @property
-    def example(self) -> Any:
+    def example(self) -> object:
         """The value to show: the key's example, else its default."""
         return self.default if self.facts.example is None else self.facts.example
 
@@ -66,7 +66,7 @@ class Section(NamedTuple):
         return [(first.partition("`: ")[2] or first).removesuffix("."), *others]
 
 
-def compact(field: FieldInfo, value: Any) -> Any:
+def compact(field: FieldInfo, value: object) -> object:
     """A value as lists, or as one number if all axes have the same."""
     if not isinstance(value, tuple):
         return value

@@ -65,7 +65,7 @@ def _second(section: Section, differing: dict[str, Any]) -> Iterator[str]:
             yield _statement(key, key.example)
 
 
-def _statement(key: Key, value: Any) -> str:
+def _statement(key: Key, value: object) -> str:
     return f"{key.name.rpartition('.')[2]} = {written(value)}"
 
 

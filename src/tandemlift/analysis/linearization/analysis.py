@@ -6,6 +6,7 @@ import re
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tandemlift.analysis.linearization.linear_model import LinearModel
 from tandemlift.core.types import Array
@@ -80,7 +81,7 @@ def _largest(fields: list[str], shares: Array) -> tuple[tuple[str, float], ...]:
     return tuple(item for item in ordered[:MOST_NAMES] if item[1] >= LEAST_SHARE)
 
 
-def frequency_response(model: LinearModel, frequencies: Array) -> Array:
+def frequency_response(model: LinearModel, frequencies: Array) -> NDArray[np.complex128]:
     """C (e^{jωT} − A)⁻¹ B + D (F, p, m) at frequencies (F,) [Hz], up to half of the sample rate."""
     unit = np.eye(len(model.A))
     turns = np.exp(2j * np.pi * np.asarray(frequencies) * model.step)

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -67,24 +67,28 @@ def once_rounded(a: float, b: float, c: float) -> float:
 VALUE: dict[str, Callable[..., Any]] = {**OPERATIONS, "fma": once_rounded}
 
 
-def _sum(a: Any, b: Any) -> Any:
+Row: TypeAlias = Array | None
+"""The derivative of a node by every seed; None if it depends on none."""
+
+
+def _sum(a: Row, b: Row) -> Row:
     return b if a is None else a if b is None else a + b
 
 
-def _difference(a: Any, b: Any) -> Any:
+def _difference(a: Row, b: Row) -> Row:
     return a if b is None else -b if a is None else a - b
 
 
-def _scaled(row: Any, factor: float) -> Any:
+def _scaled(row: Row, factor: float) -> Row:
     return None if row is None else row * factor
 
 
-def _quotient(x: Sequence[Any], d: Sequence[Any], v: Any) -> Any:
+def _quotient(x: Sequence[float], d: Sequence[Row], v: float) -> Row:
     top = _difference(d[0], _scaled(d[1], v))
     return None if top is None else top / np.float64(x[1])
 
 
-def _root(x: Sequence[Any], d: Sequence[Any], v: float) -> Any:
+def _root(x: Sequence[float], d: Sequence[Row], v: float) -> Row:
     """Of a root at 0 whose argument has no derivative either, as that of a sum of squares, 0 is taken."""
     if d[0] is None or (v == 0.0 and not d[0].any()):
         return d[0]
@@ -119,7 +123,7 @@ class Sides(NamedTuple):
     distance: float
 
 
-def meet(x: Sequence[float], d: Sequence[Any], distance: float) -> bool:
+def meet(x: Sequence[float], d: Sequence[Row], distance: float) -> bool:
     """Whether two branches of a selection have one value at an edge at a distance; `d`: their derivatives."""
     if x[0] == x[1]:
         return True
@@ -151,16 +155,16 @@ class Derivative:
         self.values |= {n: v for n, v in other.values.items() if n not in changed}
         self.rows |= {n: row for n, row in other.rows.items() if n not in changed}
 
-    def bind(self, kind: str, values: Sequence[float], rows: Sequence[Any] | None = None) -> None:
+    def bind(self, kind: str, values: Sequence[float], rows: Sequence[Row] | None = None) -> None:
         """Set the inputs of a kind: their values and derivatives; without derivatives they depend on no seed."""
         self._inputs[kind] = values, rows
 
-    def fix_row(self, node: int, row: Any) -> None:
+    def fix_row(self, node: int, row: Row) -> None:
         """Replace the derivative of a node, as if the node were an input."""
         self.compute([node])
         self.rows[node] = row
 
-    def add_row(self, node: int, row: Any) -> None:
+    def add_row(self, node: int, row: Row) -> None:
         """Add to the derivative of a node, as if an input were added to its value."""
         self.compute([node])
         self.rows[node] = _sum(self.rows[node], row)

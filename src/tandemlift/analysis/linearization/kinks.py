@@ -12,6 +12,7 @@ from tandemlift.analysis.linearization.derivative import CURVED, Derivative, Sid
 from tandemlift.analysis.linearization.period import LinearizationPlan, PeriodDerivative
 from tandemlift.analysis.linearization.step_derivative import StepDerivative
 from tandemlift.compiler.tracer import LEAVES
+from tandemlift.core.types import Array
 
 PACKAGE = Path(__file__).parents[2]
 SAME = 1e-9  # relative, of directions; and of the entries of two models to their largest
@@ -45,7 +46,7 @@ class Edge(NamedTuple):
     """
 
     step: int
-    normal: Any
+    normal: Array | None
     distance: float
     nodes: dict[int, bool]
 
@@ -194,7 +195,7 @@ def differs_here(r: LinearizationPlan, node: int, edge: Edge, d: StepDerivative)
     return not np.array_equal(one, other)
 
 
-def alike(a: Any, b: Any, within: Any) -> bool:
+def alike(a: Array, b: Array, within: Array) -> bool:
     """Whether arrays agree within a tolerance; NaN agrees with nothing."""
     return bool(np.all(np.abs(a - b) <= within))
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tandemlift.analysis.linearization.kinks import Kink
 from tandemlift.analysis.linearization.variables import Variable
@@ -142,7 +143,7 @@ class LinearModel:
                 partial.write_text(json.dumps(whole, ensure_ascii=False), "utf-8")
 
 
-def reachable(steps: Any, start: Any) -> Any:
+def reachable(steps: NDArray[np.bool_], start: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Which states (n,) are reached from those of `start` (n,) where `steps` (n, n) lead from columns to rows."""
     found = start.copy()
     while True:

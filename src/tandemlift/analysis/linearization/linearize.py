@@ -25,7 +25,7 @@ from tandemlift.analysis.linearization.step_graph import step_graph
 from tandemlift.analysis.linearization.variables import Outputs, outputs_from, state_variable
 from tandemlift.core.errors import InputError, shown, unknown
 from tandemlift.core.types import Array, flat, unflat
-from tandemlift.core.vector import Absent
+from tandemlift.core.vector import Absent, Quat
 from tandemlift.missions import Mission
 from tandemlift.parts.mechanics.push import push_moment
 from tandemlift.parts.rotors.rotor_lag import by_direction
@@ -120,7 +120,7 @@ def linearization_plan(
             if name not in BODY_CHANNELS:
                 raise unknown("output of the body", name, BODY_CHANNELS)
     chosen = outputs_from(graph.sample, outputs, BODY_OUTPUTS if of == "body" else LOOP_OUTPUTS)
-    attitude = _flight_state(point).state.attitude
+    attitude = _attitude(point)
     columns = input_columns(plan, inputs, of, attitude)
     nodes = [graph.outputs[i] for i in chosen.columns]
     cut = graph.thrusts if of == "body" else []
@@ -130,9 +130,9 @@ def linearization_plan(
     return LinearizationPlan(point, graph, choice, columns, nodes, delayed, _steps(period, steps)), chosen
 
 
-def _flight_state(point: OperatingPoint) -> Any:
+def _attitude(point: OperatingPoint) -> Quat:
     like = point.plan.model.flight_state
-    return unflat(point.numbers[: len(flat(like))], like)
+    return unflat(point.numbers[: len(flat(like))], like).state.attitude
 
 
 def sensor_period(sensors: Any) -> int:
@@ -172,7 +172,9 @@ def _check_finite(r: LinearizationPlan, made: PeriodDerivative) -> None:
     raise InputError("no derivative at this point: choose another time")
 
 
-def _model(r: LinearizationPlan, made: PeriodDerivative, chosen: Outputs, of: str, kinks: Any) -> LinearModel:
+def _model(
+    r: LinearizationPlan, made: PeriodDerivative, chosen: Outputs, of: str, kinks: Sequence[Kink]
+) -> LinearModel:
     plan, names = r.point.plan, r.graph.names
     late = [state_variable(names[r.delayed[i].number], ago) for i, ago in r.waiting]
     return LinearModel(
@@ -201,7 +203,7 @@ def shown_lags(lags: list[tuple[float, float]]) -> str:
 
 def _inputs_at(r: LinearizationPlan, made: PeriodDerivative) -> Array:
     plan, t = r.point.plan, r.point.k * r.point.plan.dt
-    attitude = _flight_state(r.point).state.attitude
+    attitude = _attitude(r.point)
     moment = push_moment(push_sum(plan.tables, t), attitude)
     values = operating_values(r.inputs, given_at(plan.tables, t, plan.dt), r.point.numbers.tolist(), moment)
     thrusts = made.steps[0].nodes.values_of(r.graph.thrusts)

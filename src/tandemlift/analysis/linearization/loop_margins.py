@@ -18,6 +18,7 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tandemlift.analysis.linearization.analysis import Mode, frequency_response, modes_of
 from tandemlift.analysis.linearization.linear_model import LinearModel
@@ -49,7 +50,7 @@ class OpenLoop(NamedTuple):
     """
 
     w: Array
-    L: Any
+    L: NDArray[np.complexfloating]
     stable: bool
 
 
@@ -114,7 +115,7 @@ def _without_errors(sensors: dict[str, Any]) -> dict[str, Any]:
     """Sensors without noise, bias, drift and misalignment."""
     wrong = ("noise", "bias", "drift", "misalignment")
 
-    def clean(name: str, value: Any) -> Any:
+    def clean(name: str, value: object) -> object:
         return 0.0 if name.endswith(wrong) and not isinstance(value, dict) else value
 
     kept = {
@@ -149,7 +150,9 @@ def open_loop(mission: Mission) -> OpenLoop:
     w = np.geomspace(LOWEST, min(HIGHEST, 0.9 * math.pi / model.step), POINTS)
     T, h, s, eye = calm.mission.step, model.step, 1j * w, np.eye(4)
     held = (np.expm1(-s * T) * h) / (np.expm1(-s * h) * T)  # an offset acts for a sample, a rotor's thrust for a step
-    S = eye + (frequency_response(in_axes, w / (2.0 * math.pi)) - eye) * held[:, None, None]
+    S: NDArray[np.complexfloating] = (
+        eye + (frequency_response(in_axes, w / (2.0 * math.pi)) - eye) * held[:, None, None]
+    )
     return OpenLoop(w, np.linalg.inv(S) - eye, radius <= 1.0 + ON_CIRCLE and is_calm(model))
 
 
@@ -171,7 +174,7 @@ def slowest_modes(mission: Mission, lag: float, count: int = 5) -> list[Mode]:
     return sorted((mode for mode in modes if mode.frequency > 0.0), key=lambda mode: mode.damping)[:count]
 
 
-def rotors_response(w: Array, delay: float, lag: float) -> Any:
+def rotors_response(w: Array, delay: float, lag: float) -> NDArray[np.complexfloating]:
     """G (F) of rotors with a delay and a lag [s] at frequencies [rad/s]."""
     return np.exp(-1j * w * delay) / (1.0 + 1j * w * lag)
 
@@ -199,12 +202,12 @@ def largest(stable: Callable[[float], bool]) -> float:
     return 0.5 * (low + high)
 
 
-def axis_margins(w: Array, L: Any) -> list[AxisMargins]:
+def axis_margins(w: Array, L: NDArray[np.complexfloating]) -> list[AxisMargins]:
     """Margins of each axis of a loop (F, 4, 4) with the others closed."""
     return [margins_of(axis, w, single_loop(L, i)) for i, axis in enumerate(AXES)]
 
 
-def single_loop(L: Any, i: int) -> Any:
+def single_loop(L: NDArray[np.complexfloating], i: int) -> NDArray[np.complexfloating]:
     """The loop of axis i (F) with the others closed: L_ii − L_ir (I + L_rr)⁻¹ L_ri."""
     rest = [j for j in range(4) if j != i]
     others = np.eye(3) + L[:, rest][:, :, rest]
@@ -212,7 +215,7 @@ def single_loop(L: Any, i: int) -> Any:
     return L[:, i, i] - np.sum(L[:, i][:, rest] * back, axis=1)
 
 
-def margins_of(axis: str, w: Array, L: Any) -> AxisMargins:
+def margins_of(axis: str, w: Array, L: NDArray[np.complexfloating]) -> AxisMargins:
     """Gain and phase margins of one loop; one that is stable only because its gain is large has a least gain."""
     size, phase = np.log(np.abs(L)), np.unwrap(np.angle(L))
     gain, least_gain, least, crossover = math.inf, 0.0, math.nan, math.nan

@@ -7,8 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.linearization.derivative import Derivative, Sides
+from tandemlift.analysis.linearization.derivative import Derivative, Row, Sides
 from tandemlift.analysis.linearization.step_graph import StepGraph
+from tandemlift.compiler.tracer import Symbol
 from tandemlift.core.types import Array
 from tandemlift.parts.rotors.normal_equations import GAMMA
 from tandemlift.simulation.loop_code.traced_step import LimitProblem, TracedSolver
@@ -41,7 +42,7 @@ class SolverMargin(NamedTuple):
 
     rotor: int
     value: float
-    row: Any
+    row: Array
 
 
 class StepDerivative:
@@ -114,14 +115,20 @@ class StepDerivative:
         d.bind("solved", values, rows)
 
 
-def solved(solver: TracedSolver, problem: Any, problem_rows: Any, search: Any, search_rows: Any) -> tuple[Any, Any]:
+def solved(
+    solver: TracedSolver,
+    problem: Sequence[float],
+    problem_rows: Sequence[Row],
+    search: Sequence[float],
+    search_rows: Sequence[Row],
+) -> tuple[list[float], list[Row]]:
     """(Working set and thrusts, their derivatives) of the solution of the limit solver.
 
     The search runs as in flight. Its whole steps on the active set are then repeated from the solution: their fixed
     point is the optimum with the held rotors fixed, and so is its derivative.
     """
 
-    def step(roots: Any, now: Any) -> tuple[Any, Any]:
+    def step(roots: Sequence[Symbol], now: tuple[Sequence[float], Sequence[Row]]) -> tuple[list[float], list[Row]]:
         d = Derivative(solver.graph)
         d.bind("problem", problem, problem_rows)
         d.bind("search", *now)
@@ -141,14 +148,16 @@ def solved(solver: TracedSolver, problem: Any, problem_rows: Any, search: Any, s
     return now[0][:size], now[1][:size]
 
 
-def margins_of(n: int, problem: Any, problem_rows: Any, found: Any, found_rows: Any) -> list[SolverMargin]:
+def margins_of(
+    n: int, problem: Sequence[float], problem_rows: Sequence[Row], found: Sequence[float], found_rows: Sequence[Row]
+) -> list[SolverMargin]:
     """The margins at the solution: of a free rotor to its limits [N], of a held one how hard it is held [weighted].
 
     The problem's numbers are W B (4 × n), W (4), the wanted wrench (4), the thrusts without limits (n), the limits (n).
     """
     size = max([len(row) for row in (*problem_rows, *found_rows) if row is not None], default=0)
 
-    def both(values: Any, rows: Any, part: slice) -> tuple[Array, Array]:
+    def both(values: Sequence[float], rows: Sequence[Row], part: slice) -> tuple[Array, Array]:
         dense = [np.zeros(size) if row is None else row for row in rows[part]]
         return np.array(values[part]), np.array(dense).reshape(-1, size)
 

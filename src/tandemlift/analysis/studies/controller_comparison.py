@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.types import Progress
+from tandemlift.core.types import Array, Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
 from tandemlift.missions.loading import MissionTemplate
@@ -198,7 +198,7 @@ def scores(flight: Flight, part: ScoredPart) -> dict[str, Any]:
         }
 
 
-def _finite(value: Any) -> Any:
+def _finite(value: Array | np.float64) -> list[float] | float | None:
     """A number or a list of them; None if one is not finite."""
     return value.tolist() if np.all(np.isfinite(value)) else None
 

@@ -231,7 +231,7 @@ def _write(entries: Sequence[Entry], folder: Path, name: str, engine: str, *, ke
     write_comparison(entries, folder / "compare.html", folder / FIGURES if keep else None)
 
 
-def _write_json(found: Any, path: Path) -> None:
+def _write_json(found: object, path: Path) -> None:
     with atomic_write(path) as partial:
         partial.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", "utf-8")
 

@@ -6,7 +6,6 @@ import signal
 import sys
 import warnings
 from collections.abc import Mapping
-from typing import Any
 
 import click
 
@@ -39,7 +38,9 @@ class Commands(click.Group):
         """The verbs as they were added."""
         return list(self.commands)
 
-    def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
         """As click does; a misspelt verb is answered with the list of verbs and the nearest one."""
         verb = args[0] if args else ""
         if verb and not ctx.resilient_parsing and not verb.startswith("-") and self.get_command(ctx, verb) is None:
@@ -121,7 +122,7 @@ def engines() -> None:
 _shown: set[str] = set()
 
 
-def _show_warning(message: Warning | str, *_: Any, **__: Any) -> None:
+def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
     if str(message) not in _shown:
         _shown.add(str(message))
         click.echo(f"warning: {message}", err=True)

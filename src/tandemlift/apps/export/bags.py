@@ -20,6 +20,7 @@ from tandemlift.apps.export.messages import SECOND, MessageTypes, Transforms, ev
 from tandemlift.apps.export.topics import DIAGNOSTICS, MISSION, TF, TF_STATIC, topics_from
 from tandemlift.core.errors import extra
 from tandemlift.core.phases import PHASE_NAMES
+from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -64,7 +65,7 @@ def streams_from(flight: Flight, types: MessageTypes) -> list[TopicStream]:
     ]
 
 
-def _made(stamps: list[int], rows: Any, make: Callable[[int, Any], Any]) -> Iterator[tuple[int, Any]]:
+def _made(stamps: list[int], rows: Array, make: Callable[[int, Any], Any]) -> Iterator[tuple[int, Any]]:
     """The messages of a topic."""
     return ((at, make(at, row)) for at, row in zip(stamps, rows.tolist(), strict=True))
 

@@ -76,7 +76,7 @@ def _rule(message: str, field: str, kind: type[NumberedMessage]) -> dict[str, An
     return {"count": count, "min": limits["ge"], "max": limits["le"], "wrong": wrong}
 
 
-def _innermost_bounds(annotation: Any) -> dict[str, float]:
+def _innermost_bounds(annotation: object) -> dict[str, float]:
     """The first bounds anywhere in an annotation."""
     for part in get_args(annotation):
         found = bounds([part]) if hasattr(part, "metadata") else _innermost_bounds(part)
@@ -154,7 +154,7 @@ def _absent(plan: FlightPlan) -> dict[str, str]:
     return {key: ONLY_SERVER.format(what=key) for key in CHOICES} | lost
 
 
-def _refusal(plan: FlightPlan, key: str, value: Any) -> str:
+def _refusal(plan: FlightPlan, key: str, value: object) -> str:
     """Why a value of a key is refused in flight."""
     try:
         scheduled_change(plan, changed(plan.mission, key, value), key, 0, RAMP)

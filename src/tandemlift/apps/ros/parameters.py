@@ -53,7 +53,7 @@ class Parameters:
                 yield parameter["key"], parameter["value"]
         yield RATIO, damping_ratio(now)
 
-    def _set(self, key: str, value: Any) -> None:
+    def _set(self, key: str, value: object) -> None:
         known = dict(self._values())
         try:
             if key not in known:
@@ -84,7 +84,7 @@ def damping_ratio(mission: Mission) -> list[float]:
     return [d / (2.0 * math.sqrt(m * k)) if k > 0.0 else 0.0 for m, d, k in axes]
 
 
-def damping_of(mission: Mission, ratio: Any) -> list[float]:
+def damping_of(mission: Mission, ratio: object) -> list[float]:
     """The damping [N s/m] of each axis that has a damping ratio; an axis without stiffness keeps its own.
 
     Raises:

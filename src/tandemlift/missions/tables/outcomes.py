@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 from pydantic import Field
 
@@ -112,11 +112,11 @@ class Promise(NamedTuple):
     `rms_distance` is None where it is left out; see `rms_promised`.
     """
 
-    distance: Any
-    rms_distance: Any
-    heading: Any
-    tilt: Any
-    settling_time: Any
+    distance: float
+    rms_distance: float | None
+    heading: float
+    tilt: float
+    settling_time: float
 
     def rms_promised(self, guidance: str) -> float:
         """The RMS distance that a mission with this guidance promises [m]: by default, not above the distance."""

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tandemlift.core.caching import cached
 from tandemlift.core.types import Array, flat, unflat
@@ -40,7 +41,7 @@ class ControllerResponse(NamedTuple):
     C: Array
     D: Array
 
-    def at(self, z: Any) -> Any:
+    def at(self, z: NDArray[np.complex128]) -> NDArray[np.complex128] | Array:
         """The response (w, 4, 5, 3) at points z (w,) of the discrete plane."""
         found = np.broadcast_to(self.D, (len(z), *self.D.shape))
         if len(self.A):
@@ -73,7 +74,7 @@ def _response(
     return ControllerResponse(J[4:, read:], J[4:, :read], J[:4, read:], J[:4, :read])
 
 
-def _answer(gains: Any, memory: Any, y: Array, numbers: Array) -> Array:
+def _answer(gains: object, memory: object, y: Array, numbers: Array) -> Array:
     """(Thrust, moments, memory after) for a small motion and push."""
     position, velocity, angles, rates, push = map(vec3, y.reshape(INPUTS, 3).tolist())
     state = State(position, velocity, quaternion_from_euler(angles), rates)

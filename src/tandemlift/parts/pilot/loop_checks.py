@@ -24,9 +24,10 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tandemlift.core.errors import CheckResult, judged
 from tandemlift.core.types import GRAVITY, Array
@@ -80,7 +81,7 @@ class PushFeedback(NamedTuple):
     moment_lead: float
     bandwidth: float
 
-    def compensated(self, s: Any, lead: float) -> Any:
+    def compensated(self, s: NDArray[np.complexfloating], lead: float) -> NDArray[np.complexfloating]:
         """The compensated fraction of a push [1] at s [rad/s], with a lead time [s]."""
         return (1.0 + lead * s) / (1.0 + s / self.bandwidth) ** 2
 
@@ -175,7 +176,7 @@ def reading_delays(s: SensorsTable, state: str, step: float) -> ReadingDelays:
     return ReadingDelays(step + s.delay + 0.5 * s.interval, beyond)
 
 
-def open_loop(loop: ControlLoop, w: Array, K: Any) -> Any:
+def open_loop(loop: ControlLoop, w: Array, K: NDArray[np.complex128] | Array) -> NDArray[np.complex128]:
     """The loop (w, 4, 4) in accelerations at frequencies w [rad/s] without delay and lag; K (w, 4, 5, 3)."""
     s, hover, o, push = 1j * w, loop.hover, loop.observer, loop.push
     vehicle, scale = hover.vehicle, np.diag(np.sqrt(hover.plant.inertia_scale))
@@ -201,7 +202,7 @@ def open_loop(loop: ControlLoop, w: Array, K: Any) -> Any:
     return (feedback + Q[:, :, None] * moved) / (1.0 - Q * M[:, None])[:, :, None]
 
 
-def eigenvalues_by_axis(L: Any) -> Any:
+def eigenvalues_by_axis(L: NDArray[np.complex128]) -> NDArray[np.complex128]:
     """The eigenvalues (4, w) of a loop (w, 4, 4), each followed from its axis at the highest frequency."""
     own = np.einsum("wii->wi", L)
     mixed = np.abs(L - own[:, None] * np.eye(4)).max()
@@ -217,7 +218,7 @@ def eigenvalues_by_axis(L: Any) -> Any:
     return found.T
 
 
-def delay_to_crossing(w: Array, L: Any) -> tuple[float, float]:
+def delay_to_crossing(w: Array, L: NDArray[np.complex128]) -> tuple[float, float]:
     """(The smallest delay [s] with which a loop passes through −1, the frequency of this [rad/s])."""
     size, phase = np.log(np.abs(L)), np.unwrap(np.angle(L))
     best, crossover = math.inf, math.nan
@@ -230,7 +231,7 @@ def delay_to_crossing(w: Array, L: Any) -> tuple[float, float]:
     return best, crossover
 
 
-def excess_turns(w: Array, L: Any) -> float:
+def excess_turns(w: Array, L: NDArray[np.complex128]) -> float:
     """The angle of 1 + L about 0 [rad] beyond that of a stable loop, from the highest to the lowest frequency.
 
     A loop whose numbers are too extreme to compute counts as stable.

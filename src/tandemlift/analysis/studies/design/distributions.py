@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from collections.abc import Sequence
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from tandemlift.core.errors import extra
@@ -40,7 +42,7 @@ class _OneByOne(Distribution):
     """A distribution whose values need one number each."""
 
     @abstractmethod
-    def at(self, u: Array) -> Any:
+    def at(self, u: Array) -> Sequence[object] | np.ndarray:
         """Values (n,) at points u (n,)."""
 
     def values(self, u: Array) -> list[Any]:
@@ -49,7 +51,7 @@ class _OneByOne(Distribution):
         return [list(row) for row in zip(*parts, strict=True)] if self.count else parts[0]
 
 
-def _plain(values: Any) -> list[Any]:
+def _plain(values: Sequence[object] | np.ndarray) -> list[Any]:
     return values.tolist() if isinstance(values, np.ndarray) else list(values)
 
 
@@ -142,7 +144,7 @@ class Integer(_OneByOne):
     low: int = key(..., "1", "lowest value")
     high: int = key(..., "1", "highest value")
 
-    def at(self, u: Array) -> Any:
+    def at(self, u: Array) -> NDArray[np.int64]:
         """Values (n,) at points u (n,)."""
         return np.minimum(self.low + np.floor((self.high - self.low + 1) * u).astype(np.int64), self.high)
 

@@ -26,7 +26,7 @@ def drawn_keys(tables: Tables) -> Drawn:
     return by_key(((place, _distribution(given, tables, ("draw", *place))) for place, given in leaves), "draw")
 
 
-def _distribution(given: Any, tables: Tables, place: Place) -> Distribution:
+def _distribution(given: object, tables: Tables, place: Place) -> Distribution:
     where, known = key_at(place), ", ".join(DISTRIBUTIONS)
     name = given.get("distribution") if isinstance(given, dict) else None
     if name is None:

@@ -51,7 +51,7 @@ def grid_axes(tables: Tables) -> dict[str, list[Any]]:
     return by_key(((place, _axis(tables, place, given)) for place, given in leaves), "grid")
 
 
-def _axis(tables: Tables, place: Place, given: Any) -> list[Any]:
+def _axis(tables: Tables, place: Place, given: object) -> list[Any]:
     where = f"grid.{key_at(place)}"
     if isinstance(given, dict) and given:
         return _range(tables, ("grid", *place)).values

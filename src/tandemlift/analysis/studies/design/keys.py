@@ -69,7 +69,7 @@ def with_keys(said: Mapping[str, str], keys: Iterable[str], table: str) -> dict[
     return found
 
 
-def columns_of(key: str, value: Any) -> Iterator[tuple[str, Any]]:
+def columns_of(key: str, value: object) -> Iterator[tuple[str, Any]]:
     """A value as scalar columns: the entries of a list by their numbers, those of a table by their names."""
     if isinstance(value, Mapping):
         for name, part in value.items():

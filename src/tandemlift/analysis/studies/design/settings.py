@@ -45,7 +45,7 @@ def _some(values: tuple[Any, ...]) -> tuple[Any, ...]:
     return values
 
 
-def _plain(value: Any, place: str = "") -> Any:
+def _plain(value: object, place: str = "") -> object:
     """What TOML and JSON can hold of a value, with NumPy's numbers and tuples as plain ones."""
     if isinstance(value, Mapping):
         return {str(key): _plain(inner, f"{place}.{key}" if place else str(key)) for key, inner in value.items()}

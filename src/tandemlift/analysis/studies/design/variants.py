@@ -22,6 +22,7 @@ from tandemlift.missions.files import Layer
 from tandemlift.missions.loading import MissionTemplate, read_tables
 from tandemlift.missions.recording import hold_recording
 from tandemlift.parts.controllers import CONTROLLERS, controller, file_of, load_controller
+from tandemlift.parts.controllers.registry import Controller
 from tandemlift.parts.controllers.user_controller import controller_text, run_controller
 
 RECORDING = ("person", "recording")
@@ -111,14 +112,14 @@ def _variant(mission: str, chosen: str | None, folder: Path) -> Variant:
     return Variant(loaded.mission.name, name, "compiled", tables, file, _recording(tables))
 
 
-def _controller(chosen: str, folder: Path) -> Any:
+def _controller(chosen: str, folder: Path) -> Controller:
     if chosen.endswith(".py") or "/" in chosen:
         return load_controller(folder / chosen)
     _check_known(chosen, "study.controllers")
     return controller(chosen)
 
 
-def _check_known(name: Any, key: str) -> None:
+def _check_known(name: object, key: str) -> None:
     """Refuse the name of a controller that is not registered, and say how a study loads one."""
     if isinstance(name, str) and name not in CONTROLLERS:
         error = unknown("controller", name, sorted(CONTROLLERS))

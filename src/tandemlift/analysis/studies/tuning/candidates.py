@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tandemlift.analysis.studies.design.settings import REFUSED
 from tandemlift.analysis.studies.tuning.draws import Draw
@@ -41,7 +42,7 @@ class Trial(NamedTuple):
     values: tuple[Array, ...] = ()
 
     @property
-    def bad(self) -> Any:
+    def bad(self) -> NDArray[np.bool_]:
         """Mask (draws,) of bad outcomes."""
         return np.array([outcome in FAILURES or outcome in (REFUSED, NO_NUMBER, FOUND) for outcome in self.outcomes])
 

@@ -28,7 +28,7 @@ class Goal(NamedTuple):
     """
 
     name: str
-    target: Any = None
+    target: float | Sequence[float] | None = None
     targets: Mapping[str, Any] = {}
 
     @property
@@ -127,7 +127,7 @@ def check_goals(goals: Sequence[Goal], flown: Sequence[Metrics]) -> None:
                 raise InputError(f"--minimize {goal.name}: the target has {len(target)} numbers, the metric {count}")
 
 
-def _is_numeric(value: Any) -> bool:
+def _is_numeric(value: object) -> bool:
     values = value if isinstance(value, list) else [value]
     return bool(values) and all(is_number(v) for v in values)
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from tandemlift.analysis.studies.tuning.candidates import Cost
 from tandemlift.analysis.studies.tuning.draws import Draw
 from tandemlift.analysis.studies.tuning.holdout import Evidence, as_table
-from tandemlift.analysis.studies.tuning.parameters import value_of
+from tandemlift.analysis.studies.tuning.parameters import Tunable, value_of
 from tandemlift.analysis.studies.tuning.task import Task, Values
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import atomic_write
@@ -172,7 +172,7 @@ def present_values(task: Task) -> Values:
     return tuple(found)
 
 
-def _bounds(p: Any) -> dict[str, Any]:
+def _bounds(p: Tunable) -> dict[str, Any]:
     return {"low": p.low, "high": p.high, "scale": "log" if p.is_log else "linear"}
 
 
@@ -190,7 +190,7 @@ def _places(keys: Iterable[str], *, whole: bool) -> Iterable[Place]:
     return [place for place in found if not any(place[:i] in found for i in range(1, len(place)))]
 
 
-def _put(tables: Tables, place: Place, value: Any) -> None:
+def _put(tables: Tables, place: Place, value: object) -> None:
     *above, last = map(str, place)
     for part in above:
         tables = tables.setdefault(part, {})

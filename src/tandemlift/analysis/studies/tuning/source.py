@@ -37,7 +37,7 @@ class MissionSource:
         return self._template.mission({key: value for changes in more for key, value in changes.items()})
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: object) -> object:
     """A value as TOML and JSON have it: lists in place of tuples and arrays."""
     if isinstance(value, (np.ndarray, np.generic)):
         return value.tolist()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -129,6 +129,6 @@ def _shapes() -> dict[str, Any]:
     return summary(one, one, 1.0)
 
 
-def _size(goal: Goal, metrics: Any) -> int:
+def _size(goal: Goal, metrics: Mapping[str, Any]) -> int:
     value = metrics.get(goal.metric)
     return len(value) if isinstance(value, list) and goal.place is None else 1

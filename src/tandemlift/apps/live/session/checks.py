@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.apps.live.session import refusal_texts as texts
 from tandemlift.apps.live.wire.scene import SceneVehicle
-from tandemlift.core.algebra import sqrt, where
+from tandemlift.core.algebra import Number, sqrt, where
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, PHASE_NAMES
 from tandemlift.core.vector import ZERO, Vec3, dot
@@ -35,9 +35,9 @@ class TouchRule(NamedTuple):
         tare_end: when a tare at a set time ends [s]; 0 without one.
     """
 
-    reach: Any
-    tare_duration: Any
-    tare_end: Any
+    reach: Number
+    tare_duration: Number
+    tare_end: Number
 
 
 def touch_rule(mission: Mission, vehicle: SceneVehicle) -> TouchRule:
@@ -52,7 +52,7 @@ def touch_rule(mission: Mission, vehicle: SceneVehicle) -> TouchRule:
     return TouchRule(reach, 0.0, start + tare.tare_duration)
 
 
-def touch_refusal(rule: TouchRule, at: Any, hover_time: Any, point: Vec3) -> Any:
+def touch_refusal(rule: TouchRule, at: Number, hover_time: Number, point: Vec3) -> Number:
     """Why a push is refused, as a number; `ALLOWED` if it is not.
 
     Args:

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.core.algebra import absolute, maximum, where
+from tandemlift.core.algebra import Number, absolute, maximum, where
 from tandemlift.core.phases import GUIDED, LAND, LIFT
 from tandemlift.core.types import Array, is_value, leaves
 from tandemlift.core.vector import Quat, Vec3, cross, dot
@@ -40,7 +40,7 @@ USED = {"reference_euler", "push_moment", "phase"}.union(*CHANNELS.values())
 Components = tuple[Any, ...]  # of a channel or of a field: numbers, arrays (T,) or symbols
 
 
-def channel_columns(layout: Any) -> dict[str, NDArray[np.intp]]:
+def channel_columns(layout: object) -> dict[str, NDArray[np.intp]]:
     """The columns of a sample that hold each channel which `field_values` reads; `layout`: of the sample."""
     row = np.arange(leaves(layout), dtype=np.float64)[None, :]
     return {name: at.astype(np.intp).ravel() for name, at in channels_of(layout, row) if name in USED}
@@ -54,9 +54,9 @@ def components_of(channel: Array) -> Components:
 class PhaseTimes(NamedTuple):
     """When a scheduled flight begins and ends to lift, and begins to land [s]."""
 
-    lift_start: Any
-    lift_end: Any
-    land_start: Any
+    lift_start: Number
+    lift_end: Number
+    land_start: Number
 
 
 def phase_times(phases: Mapping[str, Any]) -> PhaseTimes:
@@ -66,7 +66,7 @@ def phase_times(phases: Mapping[str, Any]) -> PhaseTimes:
     return PhaseTimes(start, end, AGES if land is None else land)
 
 
-def field_values(channels: Mapping[str, Components], time: Any, phases: PhaseTimes) -> dict[str, Components]:
+def field_values(channels: Mapping[str, Components], time: Number | Array, phases: PhaseTimes) -> dict[str, Components]:
     """The values of the fields, component by component, 0 where they are not a number.
 
     Args:
@@ -84,22 +84,22 @@ def field_values(channels: Mapping[str, Components], time: Any, phases: PhaseTim
     return {field: tuple(map(_number_or_zero, parts)) for field, parts in values.items()}
 
 
-def fields_of_samples(layout: Any) -> Callable[[Any, Any, PhaseTimes], dict[str, Components]]:
+def fields_of_samples(layout: object) -> Callable[[Any, Any, PhaseTimes], dict[str, Components]]:
     """The function from a sample laid out like this, its time [s] and the phases to the values of the fields."""
     columns = channel_columns(layout)
 
-    def fields_of(sample: Any, time: Any, phases: PhaseTimes) -> dict[str, Components]:
+    def fields_of(sample: Any, time: Number, phases: PhaseTimes) -> dict[str, Components]:
         numbers = list(_numbers(sample))
         return field_values({name: tuple(numbers[i] for i in at) for name, at in columns.items()}, time, phases)
 
     return fields_of
 
 
-def frame_of_samples(layout: Any) -> Callable[[Any, Any, PhaseTimes], Components]:
+def frame_of_samples(layout: object) -> Callable[[Any, Any, PhaseTimes], Components]:
     """The same with all values in one row."""
     fields_of = fields_of_samples(layout)
 
-    def frame(sample: Any, time: Any, phases: PhaseTimes) -> Components:
+    def frame(sample: Any, time: Number, phases: PhaseTimes) -> Components:
         return tuple(part for parts in fields_of(sample, time, phases).values() for part in parts)
 
     return frame
@@ -131,7 +131,7 @@ def points_of(forces: Array, moments: Array, attitudes: Array) -> Array:
     return np.stack(point_of(Vec3(*forces.T), Vec3(*moments.T), Quat(*attitudes.T)), axis=1)
 
 
-def _number_or_zero(x: Any) -> Any:
+def _number_or_zero(x: Number) -> Number:
     return where(absolute(x) >= 0.0, x, 0.0)
 
 
@@ -141,7 +141,7 @@ def _numbers(value: Any) -> Iterator[Any]:
         yield from _numbers(part) if is_value(part) else (part,)
 
 
-def _phase_by_clock(time: Any, phases: PhaseTimes) -> Any:
+def _phase_by_clock(time: Number | Array, phases: PhaseTimes) -> Number | Array:
     """The phase of a scheduled flight."""
     lifting = where(time >= phases.lift_start, where(time < phases.lift_end, LIFT, GUIDED), GUIDED)
     return where(time >= phases.land_start, LAND, lifting)

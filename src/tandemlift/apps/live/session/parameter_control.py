@@ -36,7 +36,7 @@ class ParameterControl:
         self._first, self._lock = first, lock
         self.turn = threading.RLock()
 
-    def set(self, flight: RecordedFlight, key: str, value: Any) -> list[Answer]:
+    def set(self, flight: RecordedFlight, key: str, value: object) -> list[Answer]:
         """Set a parameter; what to say of it.
 
         Raises:
@@ -83,7 +83,7 @@ class ParameterControl:
                 flight.change(due, TARE, start)
         return f"from {start:g} s to {start + flight.now.estimator.tare_duration:g} s"
 
-    def _check(self, key: str, value: Any) -> None:
+    def _check(self, key: str, value: object) -> None:
         """Refuse an unknown key, or a value out of bounds."""
         if key in CHOICES:
             return
@@ -112,7 +112,7 @@ class ParameterControl:
         now = value_of(tables_of(flight.now), key)
         return [ChangedMessage(type="changed", key=key, value=now, duration=duration)]
 
-    def _change(self, flight: RecordedFlight, key: str, value: Any, duration: float) -> None:
+    def _change(self, flight: RecordedFlight, key: str, value: object, duration: float) -> None:
         """Prepare a change beside the flight, and let it begin."""
         with self.turn:
             if flight.over:

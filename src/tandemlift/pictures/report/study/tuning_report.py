@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.analysis.studies.tuning.candidates import Cost
+from tandemlift.analysis.studies.tuning.parameters import Tunable
 from tandemlift.analysis.studies.tuning.result import MISSION_FILE, Tuning
 from tandemlift.core.errors import shown
 from tandemlift.core.files import versions
@@ -144,7 +145,7 @@ def _value(value: object) -> str:
     return escape(shown(value)) if isinstance(value, (bool, str)) else number(value)
 
 
-def _span(p: Any) -> str:
+def _span(p: Tunable) -> str:
     if p.choices:
         return escape(", ".join(map(shown, p.choices)))
     return f"{number(p.low)} to {number(p.high)}"
