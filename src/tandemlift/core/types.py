@@ -7,8 +7,8 @@ taken depth first.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, TypeAlias, cast
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Self, TypeAlias, TypeVar, cast, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,10 +23,40 @@ Progress = Callable[[int, int], None]
 Number: TypeAlias = float
 """A number: a float, an array, a symbol, or a set of numbers where one law serves many of them."""
 
-PerRotor: TypeAlias = Any
+if TYPE_CHECKING:
+
+    class NumberSet(float):
+        """What `vector.each` makes: numbers that a law treats as one, and that can also be counted and picked."""
+
+        def __new__(cls, *values: Number) -> Self:
+            """A set of these numbers."""
+
+        def __len__(self) -> int: ...
+        def __iter__(self) -> Iterator[Number]: ...
+        @overload
+        def __getitem__(self, place: int) -> Number: ...
+        @overload
+        def __getitem__(self, place: slice) -> Sequence[Number]: ...
+        def __getitem__(self, place: int | slice) -> Number | Sequence[Number]: ...
+        def __add__(self, other: Number) -> NumberSet: ...
+        def __radd__(self, other: Number) -> NumberSet: ...
+        def __sub__(self, other: Number) -> NumberSet: ...
+        def __rsub__(self, other: Number) -> NumberSet: ...
+        def __mul__(self, other: Number) -> NumberSet: ...
+        def __rmul__(self, other: Number) -> NumberSet: ...
+        def __truediv__(self, other: Number) -> NumberSet: ...
+        def __rtruediv__(self, other: Number) -> NumberSet: ...
+        def __neg__(self) -> NumberSet: ...
+else:
+    NumberSet = tuple
+
+N = TypeVar("N", Number, NumberSet)
+"""One number for all, or a set of them."""
+
+PerRotor: TypeAlias = NumberSet
 """A set with a number for each rotor, `vector.each(4 N)`: number j of quadrotor i, both from 0, is field 4 i + j."""
 
-PerQuadrotor: TypeAlias = Any
+PerQuadrotor: TypeAlias = NumberSet
 """A set with a number for each quadrotor, `vector.each(N)`."""
 
 Condition: TypeAlias = bool

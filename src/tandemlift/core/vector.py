@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import functools
 import operator
-from collections.abc import Callable
-from typing import Any, NamedTuple, TypeVar
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Generic, NamedTuple, TypeGuard, TypeVar
 
 from tandemlift.core.law import Absent as Absent
 from tandemlift.core.law import law
-from tandemlift.core.types import layout_and_numbers, number
+from tandemlift.core.types import Number, NumberSet, layout_and_numbers, number
 
 C = TypeVar("C", bound=type)
+T = TypeVar("T")
 V = TypeVar("V", bound=tuple[Any, ...])
 
 
@@ -181,10 +182,10 @@ def mat3(rows: Any) -> Mat3:
     return Mat3(x, y, z)
 
 
-_sets: dict[int, Any] = {}
+_sets: dict[int, type[NumberSet]] = {}
 
 
-def each(count: int) -> Any:
+def each(count: int) -> type[NumberSet]:
     """The class of a set of `count` values, one for each rotor or each quadrotor of a vehicle.
 
     Value j of quadrotor i (both from 0) of a set of four a quadrotor is field 4 i + j. A `Vec3` of three sets holds a
@@ -200,17 +201,17 @@ def _new_set(count: int) -> Any:
     return componentwise(cls)
 
 
-def set_of(values: Any) -> Any:
+def set_of(values: Sequence[Number] | NumberSet) -> NumberSet:
     """A set of values; a set that is one symbol is one already."""
     return values if is_rolled(values) else each(len(values))(*values)
 
 
-def is_rolled(value: Any) -> bool:
+def is_rolled(value: object) -> TypeGuard[NumberSet]:
     """Whether a value is a set that is one symbol (`compiler.tracer.graph`)."""
     return bool(getattr(value, "rolled", 0))
 
 
-def is_set(value: Any) -> bool:
+def is_set(value: object) -> TypeGuard[NumberSet]:
     """Whether a value is a set of numbers or symbols."""
     return isinstance(value, tuple) and getattr(type(value), "is_set", False)
 
@@ -229,22 +230,22 @@ def spread(values: Any) -> Vec3:
 
 
 @linear
-class Quarters(NamedTuple):
-    """Values that every quadrotor has four of (rotors, feet), as four sets with one for each quadrotor."""
+class Quarters(NamedTuple, Generic[T]):
+    """Values that every quadrotor has four of (rotors, feet), as four, each of sets with one for each quadrotor."""
 
-    first: Any
-    second: Any
-    third: Any
-    fourth: Any
+    first: T
+    second: T
+    third: T
+    fourth: T
 
 
-def quarters(v: Any) -> Quarters:
+def quarters(v: NumberSet) -> Quarters[NumberSet]:
     """The four sets of a set of four a quadrotor."""
     return Quarters(*[set_of(v[i::4]) for i in range(4)])
 
 
-def total(v: Any) -> Any:
-    """The sum of the values of a set."""
+def total(v: Iterable[Number]) -> Number:
+    """The sum of the values of a set, or of the components of a vector."""
     return functools.reduce(operator.add, v)
 
 
@@ -255,7 +256,7 @@ def cross(a: Vec3, b: Vec3) -> Vec3:
 
 
 @law
-def dot(a: tuple[Any, ...], b: tuple[Any, ...]) -> Any:
+def dot(a: V | NumberSet, b: V | NumberSet) -> Number:
     """Sum of the products of corresponding fields (vectors, quaternions, sets)."""
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):

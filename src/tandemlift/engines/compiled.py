@@ -31,7 +31,7 @@ from tandemlift.engines.compiled_contact import (
 from tandemlift.engines.models.parts_layout import parts_layout_from
 from tandemlift.engines.models.scene import Scene
 from tandemlift.engines.models.surroundings import floor_from, walls_from
-from tandemlift.parts.contact.feet import Floor
+from tandemlift.parts.contact.feet import Floor, FootGrip
 from tandemlift.parts.contact.touches import Touches
 from tandemlift.parts.contact.walls import NearWalls, Walls
 from tandemlift.parts.mechanics.loads import PartLoads, PerfectReadings, perfect_readings, readings_with_load
@@ -62,7 +62,7 @@ class BodyStep(NamedTuple):
 
     state: State
     readings: PerfectReadings
-    grip: Quarters | Absent
+    grip: Quarters[FootGrip] | Absent
     touches: Touches | Absent
 
 
@@ -99,7 +99,7 @@ def readings_in(
 def first_motion(
     plant: CompiledPlant,
     s: State,
-    grip: Quarters,
+    grip: Quarters[FootGrip],
     near: NearWalls,
     thrusts: PerRotor,
     air: Any,
@@ -114,7 +114,7 @@ def first_motion(
 def advance(
     plant: CompiledPlant,
     s: State,
-    grip: Quarters | Absent,
+    grip: Quarters[FootGrip] | Absent,
     near: NearWalls | Absent,
     thrusts: PerRotor,
     air: PartLoads | Absent,
@@ -141,7 +141,7 @@ def advance(
 def readings_at_rest(
     plant: CompiledPlant,
     s: State,
-    grip: Quarters | Absent,
+    grip: Quarters[FootGrip] | Absent,
     near: NearWalls | Absent,
     thrusts: PerRotor,
     hand: PushSamples[Push],

@@ -44,8 +44,8 @@ class FlightPlan:
         self.dt = mission.mission.step
         self.model, self.given, self.tables, self.delays, self.seeds = assembled_flight(mission)
         if interactive:
-            rotors = each(4 * len(mission.vehicle.quadrotors))
-            nothing = CallerInput(ZERO, ZERO, rotors(*[0.0] * len(rotors._fields)), 0.0)
+            rotors = 4 * len(mission.vehicle.quadrotors)
+            nothing = CallerInput(ZERO, ZERO, each(rotors)(*[0.0] * rotors), 0.0)
             self.given = self.given._replace(external=nothing)
         if engine_named(engine).pushable:
             self.given = self.given._replace(outside=OutsidePush(ZERO, ZERO))

@@ -44,7 +44,7 @@ class RotorClearance(NamedTuple):
 class BeamClearance(NamedTuple):
     """The smallest distance of the beam [m]: of its ends (a set), and along its length."""
 
-    ends: PerQuadrotor
+    ends: Number
     length: Number
 
 

@@ -60,7 +60,7 @@ class Floor(NamedTuple):
     tangential_stiffness: Number
     tangential_damping: Number
     radius: Number
-    feet: Quarters
+    feet: Quarters[Vec3]
     extent: Vec3
     reach: Number
     hull: Hull | Absent
@@ -111,7 +111,7 @@ def foot_at(floor: Floor, s: State, R: Mat3, spin: Vec3, f: Vec3) -> Foot:
 
 
 @law
-def feet_at(floor: Floor, s: State, R: Mat3) -> Quarters:
+def feet_at(floor: Floor, s: State, R: Mat3) -> Quarters[Foot]:
     """The four feet of every quadrotor; R of the state's attitude."""
     spin, feet = apply(R, s.rates), floor.feet
     return Quarters(
@@ -140,7 +140,7 @@ def slide_grip(floor: Floor, foot: Foot, grip: FootGrip) -> FootGrip:
 
 
 @law
-def feet_load(floor: Floor, grip: Quarters, frame: PartsLayout, s: State) -> PartLoad:
+def feet_load(floor: Floor, grip: Quarters[FootGrip], frame: PartsLayout, s: State) -> PartLoad:
     """Load of the floor on every quadrotor, as sets: force, and moment about each quadrotor's centre of mass."""
     R = rotation_from_quaternion(s.attitude)
     a, b, c, d = feet_at(floor, s, R)
@@ -156,7 +156,7 @@ def feet_load(floor: Floor, grip: Quarters, frame: PartsLayout, s: State) -> Par
 
 
 @law
-def grips_after_step(floor: Floor, grip: Quarters, s: State) -> Quarters:
+def grips_after_step(floor: Floor, grip: Quarters[FootGrip], s: State) -> Quarters[FootGrip]:
     """The memory after a step that ends in state `s`: feet in the air and sliding feet get new anchors."""
     a, b, c, d = feet_at(floor, s, rotation_from_quaternion(s.attitude))
     return Quarters(
@@ -253,7 +253,7 @@ def sinkage_of(floor: Floor, weight: float) -> float:
     return weight / (floor.stiffness * 4 * len(floor.feet.first.x))
 
 
-def start_foot_grip(floor: Floor, s: State) -> Quarters:
+def start_foot_grip(floor: Floor, s: State) -> Quarters[FootGrip]:
     """The memory of feet whose anchors are where the feet are in state `s`."""
     none = floor.feet.first.x * 0.0
     return grips_after_step(floor, Quarters(*[FootGrip(none, none, none)] * 4), s)

@@ -124,10 +124,11 @@ T = TypeVar("T", bound=tuple[Any, ...])
 
 
 @law
-def in_one_set(several: T, *others: T) -> T:
+def in_one_set(several: T, *others: Any) -> T:
     """Nested values of a set and of single contacts, as values of one set."""
     if is_set(several):
-        return set_of([*several, *others])
+        joined: Any = set_of([*several, *others])
+        return joined
     return type(several)(*[in_one_set(*parts) for parts in zip(several, *others, strict=True)])
 
 

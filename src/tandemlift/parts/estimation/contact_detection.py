@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from tandemlift.core.algebra import chosen, maximum, sqrt, where
 from tandemlift.core.law import choice, law
-from tandemlift.core.types import Number
+from tandemlift.core.types import Number, PerQuadrotor
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, dot
 from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.estimation.contact_evidence import (
@@ -89,7 +89,7 @@ class KnownSurroundings(NamedTuple):
 
 
 @law
-def world_forces(s: State, f: SideForces) -> Vec3:
+def world_forces(s: State, f: SideForces[PerQuadrotor]) -> Vec3:
     """Horizontal forces of sets [N] in world axes."""
     return apply(rotation_from_quaternion(s.attitude), Vec3(f.x, f.y, f.x * 0.0))
 
@@ -101,7 +101,7 @@ def in_world(s: State, x: Number, y: Number) -> Vec3:
 
 
 @law
-def rise_time(x: LowPassState, y: LowPassState, f: SideForces) -> Number:
+def rise_time(x: LowPassState[Number], y: LowPassState[Number], f: SideForces[Number]) -> Number:
     """A force over its slope [s]."""
     return sqrt((f.x * f.x + f.y * f.y) / maximum(x.rate * x.rate + y.rate * y.rate, TINY))
 
@@ -156,10 +156,8 @@ def begun(
     g, number = k.geometry, k.numbers
     on_beam = where(part < 0.0, 1.0, 0.0)
     of_guard = SideForces(picked(number, part, d.lasting.x), picked(number, part, d.lasting.y))
-    rates = m.outside._replace(
-        x=LowPassState(0.0, picked(number, part, m.outside.x.rate)),
-        y=LowPassState(0.0, picked(number, part, m.outside.y.rate)),
-    )
+    slope_x = LowPassState(0.0, picked(number, part, m.outside.x.rate))
+    slope_y = LowPassState(0.0, picked(number, part, m.outside.y.rate))
     mapped = where(part < 0.0, beam.matched, picked(number, part, guards.matched))
     off = Vec3(picked(number, part, guards.offset.x), picked(number, part, guards.offset.y), 0.0)
     force = force_on(k, d, part, s)
@@ -167,7 +165,7 @@ def begun(
     along = where(
         part < 0.0, where(beam.matched > 0.0, beam.along, y), picked(number, part, g.quadrotors.y) - g.payload.y
     )
-    rise = where(part < 0.0, rise_time(m.push.x, m.push.y, d.push), rise_time(rates.x, rates.y, of_guard))
+    rise = where(part < 0.0, rise_time(m.push.x, m.push.y, d.push), rise_time(slope_x, slope_y, of_guard))
     axis, radius = axis_of(k, part, along, s), radius_of(k, part)
     return ContactEstimate(part, force, axis - normal * radius, along, normal, rise, mapped)
 

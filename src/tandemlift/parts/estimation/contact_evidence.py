@@ -23,11 +23,11 @@ is a known wall at the place and the force points away from it, a slower rise is
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Generic, NamedTuple
 
 from tandemlift.core.algebra import greatest, maximum, minimum, where
 from tandemlift.core.law import elementwise, law
-from tandemlift.core.types import Number, PerQuadrotor
+from tandemlift.core.types import N, Number, PerQuadrotor
 from tandemlift.core.vector import Vec3, total
 from tandemlift.parts.estimation.contact_map import BeamMatch, GuardMatch, TouchGeometry
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, external_forces
@@ -57,13 +57,13 @@ class ContactDetector(NamedTuple):
     numbers: PerQuadrotor
 
 
-class ForceBand(NamedTuple):
+class ForceBand(NamedTuple, Generic[N]):
     """Memory of a horizontal force, of numbers or sets: low-passed along x and y, and its slow means."""
 
-    x: LowPassState
-    y: LowPassState
-    mean_x: Number
-    mean_y: Number
+    x: LowPassState[N]
+    y: LowPassState[N]
+    mean_x: N
+    mean_y: N
 
 
 class EvidenceState(NamedTuple):
@@ -73,11 +73,11 @@ class EvidenceState(NamedTuple):
     for which the motion has not confirmed a force.
     """
 
-    outside: ForceBand
-    joints: ForceBand
-    momentum: ForceBand
-    push: ForceBand
-    steady: SideForces
+    outside: ForceBand[PerQuadrotor]
+    joints: ForceBand[PerQuadrotor]
+    momentum: ForceBand[Number]
+    push: ForceBand[Number]
+    steady: SideForces[PerQuadrotor]
     steepest: Number
     doubt: Number
 
@@ -85,11 +85,11 @@ class EvidenceState(NamedTuple):
 class Deviations(NamedTuple):
     """The deviations from the slow means [N, body axes]: d, j (of sets), T and p; `lasting`: d from the steady mean."""
 
-    outside: SideForces
-    lasting: SideForces
-    joints: SideForces
-    momentum: SideForces
-    push: SideForces
+    outside: SideForces[PerQuadrotor]
+    lasting: SideForces[PerQuadrotor]
+    joints: SideForces[PerQuadrotor]
+    momentum: SideForces[Number]
+    push: SideForces[Number]
 
 
 class PushReading(NamedTuple):
@@ -101,7 +101,7 @@ class PushReading(NamedTuple):
 
 
 @law
-def force_band_step(k: ContactDetector, m: ForceBand, x: Number, y: Number, hold: Number, dt: Number) -> ForceBand:
+def force_band_step(k: ContactDetector, m: ForceBand[N], x: N, y: N, hold: Number, dt: Number) -> ForceBand[N]:
     """The memory of a force after a step; while `hold` is 1, its slow means stay."""
     after_x, after_y = low_pass_step(k.fast, m.x, x), low_pass_step(k.fast, m.y, y)
     rate = k.slow_rate * dt * (1.0 - hold)
@@ -114,7 +114,7 @@ def force_band_step(k: ContactDetector, m: ForceBand, x: Number, y: Number, hold
 
 
 @law
-def deviation(m: ForceBand) -> SideForces:
+def deviation(m: ForceBand[N]) -> SideForces[N]:
     """A force less its slow mean [N]."""
     return SideForces(m.x.value - m.mean_x, m.y.value - m.mean_y)
 
@@ -127,7 +127,7 @@ def deviations(m: EvidenceState) -> Deviations:
 
 
 @law
-def restarted(m: ForceBand, restart: Number) -> ForceBand:
+def restarted(m: ForceBand[N], restart: Number) -> ForceBand[N]:
     """A memory whose slow means are the present force if it is to `restart` (1)."""
     return m._replace(
         mean_x=m.mean_x + (m.x.value - m.mean_x) * restart, mean_y=m.mean_y + (m.y.value - m.mean_y) * restart
@@ -165,7 +165,7 @@ def on_map(square: Number, matched: Number, least: Number) -> Number:
 
 
 @law
-def square_of(f: SideForces) -> Number:
+def square_of(f: SideForces[N]) -> N:
     """The square of a horizontal force [N²]."""
     return f.x * f.x + f.y * f.y
 
@@ -208,7 +208,7 @@ def touched_guard(k: ContactDetector, d: Deviations, map_match: GuardMatch, sure
 
 
 @law
-def steepest_push(k: ContactDetector, m: EvidenceState, p: SideForces) -> Number:
+def steepest_push(k: ContactDetector, m: EvidenceState, p: SideForces[Number]) -> Number:
     """Square of the greatest slope of a push [N²/s²] since it exceeds the threshold, or 0 below."""
     slope = m.push.x.rate * m.push.x.rate + m.push.y.rate * m.push.y.rate
     return where(p.x * p.x + p.y * p.y > k.threshold * k.threshold, maximum(m.steepest, slope), 0.0)

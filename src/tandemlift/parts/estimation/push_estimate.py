@@ -134,7 +134,7 @@ def inertial_force(k: PushEstimator, specific_force: Vec3, rates: Vec3, angular:
 
 
 @law
-def external_forces(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces:
+def external_forces(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces[PerQuadrotor]:
     """The external horizontal force on every quadrotor [N], body axes."""
     a, w = imu.specific_force, imu.rates
     turn = cross(cross(k.quadrotors, w), w) - cross(k.quadrotors, angular)
@@ -144,14 +144,14 @@ def external_forces(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideFor
 
 
 @law
-def less_mean(k: PushEstimator, outside: SideForces) -> SideForces:
+def less_mean(k: PushEstimator, outside: SideForces[PerQuadrotor]) -> SideForces[PerQuadrotor]:
     """These forces less their mean over the quadrotors [N]."""
     x, y = outside
     return SideForces(add_to_each(x, -total(x) * k.share), add_to_each(y, -total(y) * k.share))
 
 
 @law
-def sides(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces:
+def sides(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces[PerQuadrotor]:
     """The external horizontal force on every quadrotor, less its mean [N], body axes."""
     return less_mean(k, external_forces(k, imu, angular))
 
@@ -165,7 +165,7 @@ def point_of_application(k: PushEstimator, force: Vec3, moment: Vec3) -> Number:
 
 
 @law
-def disagreement(k: PushEstimator, x: Number, y: Number) -> Number:
+def disagreement(k: PushEstimator, x: PerQuadrotor, y: PerQuadrotor) -> Number:
     """The horizontal force [N] by which one joint sensor alone would have to be wrong to explain these `SideForces`."""
     return sqrt(maximum((total(x * x) + total(y * y)) * k.alone, TINY))
 

@@ -7,22 +7,22 @@ of the joints' force along gravity cannot be distinguished from an error of the 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple
 
 from tandemlift.core.algebra import maximum, where
 from tandemlift.core.law import law
-from tandemlift.core.types import Number, number
+from tandemlift.core.types import N, Number, NumberSet, number
 from tandemlift.core.vector import Vec3, dot
 
 TINY = 1e-24
 """N² or (m/s²)²: far below what any sensor shows; guards roots and divisions."""
 
 
-class SideForces(NamedTuple):
+class SideForces(NamedTuple, Generic[N]):
     """Force along body x and y on every quadrotor [N], less its mean over them (sets)."""
 
-    x: Number
-    y: Number
+    x: N
+    y: N
 
 
 class TareSums(NamedTuple):
@@ -34,7 +34,7 @@ class TareSums(NamedTuple):
     moment: Vec3
     weight: Number
     square: Number
-    sides: SideForces
+    sides: SideForces[NumberSet]
 
 
 class Tare(NamedTuple):
@@ -43,12 +43,12 @@ class Tare(NamedTuple):
     mass: Number
     force: Vec3
     moment: Vec3
-    sides: SideForces
+    sides: SideForces[NumberSet]
 
 
 @law
 def summed(
-    sums: TareSums, begun: Number, taken: Number, f: Vec3, a: Vec3, moment: Vec3, unequal: SideForces
+    sums: TareSums, begun: Number, taken: Number, f: Vec3, a: Vec3, moment: Vec3, unequal: SideForces[NumberSet]
 ) -> TareSums:
     """The sums with this sample if it is `taken` (1), or as they were (0); none before the tare has `begun` (0)."""
     return TareSums(

@@ -67,9 +67,9 @@ class PartsLayout(NamedTuple):
     joints: Vec3
     mass: PerQuadrotor
     inertia: Vec3
-    x: Quarters
-    y: Quarters
-    torque: Quarters
+    x: Quarters[PerQuadrotor]
+    y: Quarters[PerQuadrotor]
+    torque: Quarters[PerQuadrotor]
 
 
 class PerfectReadings(NamedTuple):

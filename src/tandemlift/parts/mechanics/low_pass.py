@@ -9,13 +9,13 @@ from typing import Generic, NamedTuple, TypeVar
 
 from tandemlift.core.algebra import exp
 from tandemlift.core.law import elementwise, law
-from tandemlift.core.types import Number
+from tandemlift.core.types import Number, NumberSet
 from tandemlift.core.vector import Vec3
 
 REST = 1e-200  # of any unit: negligible, and lost in the rounding of numbers above 1e-184
 
 
-V = TypeVar("V", Number, Vec3)  # a set counts as a number
+V = TypeVar("V", Number, NumberSet, Vec3)
 
 
 class LowPass(NamedTuple):

@@ -115,8 +115,8 @@ def _unlimited(how: ConstrainedAllocation, u: Wrench) -> PerRotor:
 
 
 @law
-def limits_at(how: ConstrainedAllocation, left: PerRotor, t: Number) -> PerRotor:
-    """The largest thrust of every rotor at time t [s] that the pilot expects [N]; `left`: of a detected loss."""
+def limits_at(how: ConstrainedAllocation, left: Number, t: Number) -> PerRotor:
+    """The largest thrust of every rotor at time t [s] that the pilot expects [N]; `left`: of a detected loss, or 1."""
     return how.limits * efficiency_at(how.known, t) * left
 
 

@@ -16,6 +16,7 @@ from tandemlift.core.vector import Absent, Quarters, Quat
 from tandemlift.engines.compiled import BodyStep, advance
 from tandemlift.engines.compiled_contact import CompiledPlant
 from tandemlift.engines.compiled_touches import touches_in
+from tandemlift.parts.contact.feet import FootGrip
 from tandemlift.parts.contact.touches import Touches, of_turning_rotors
 from tandemlift.parts.mechanics.push import Push, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
@@ -75,7 +76,7 @@ class FlightState(NamedTuple):
     state: State
     memory: PilotMemory
     wind: TurbulenceState | Absent
-    grip: Quarters | Absent
+    grip: Quarters[FootGrip] | Absent
     near: Any
     touches: Touches | Absent
     sensing: SensorState | FaultySensorsState | Absent

@@ -283,7 +283,7 @@ def limit_thrusts(owner: Any, pilot: Any, held: Any, output: Any, t: Any) -> Any
     how, decision = pilot.allocation, output.decision
     wished = decision.thrusts
     limits = owner.trace(limits_at)(how, owner.trace(left_of)(pilot.detection, held.detection), t)
-    outside = total(owner.trace(outside_limits)(wished, limits)) > 0.0
+    outside: Any = total(owner.trace(outside_limits)(wished, limits)) > 0.0
     problem, plain, before = (
         BoundedProblem(how.rows, how.weights, decision.command.wrench, wished, limits),
         AllocationState(wished * 0.0, wished),
