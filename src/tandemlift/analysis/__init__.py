@@ -1,1 +1,1 @@
-"""What is computed about missions and flights: linear models, studies, tuning."""
+"""Analyses of missions and flights: linear models, studies, tuning."""

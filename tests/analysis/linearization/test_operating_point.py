@@ -28,15 +28,15 @@ def test_the_default_point_of_a_mission_is_after_its_tare(name):
 def test_a_push_is_heard_at_the_default_point_and_the_model_says_so():
     model = tl.linearize(load_mission("iris"))
     assert model.time == pytest.approx(12.5)
-    assert "Tare: over, the push is heard." in model.assumptions
+    assert "Tare: over, pushes are used." in model.assumptions
     inside = tl.linearize(load_mission("iris"), 10.0)
-    assert "Tare: not over for 2 s, no push is heard." in inside.assumptions
-    assert any("the push is heard once the tare is over, in 2 s" in kink.text for kink in inside.kinks)
+    assert "Tare: not over for 2 s, pushes are ignored." in inside.assumptions
+    assert any("pushes are used once the tare is over, in 2 s" in kink.text for kink in inside.kinks)
 
 
 def test_a_tare_in_hover_is_waited_for():
     model = tl.linearize(load_mission("iris", {"estimator.tare": "hover", "supervision.model": "on"}))
-    assert "Tare: over, the push is heard." in model.assumptions
+    assert "Tare: over, pushes are used." in model.assumptions
 
 
 def test_without_a_tare_the_point_is_where_it_was():

@@ -38,7 +38,7 @@ def test_a_check_that_fails_says_the_bound_and_ends_with_3_if_strict(tmp_path):
     assert call(*arguments)[0] == 0
     code, text, _ = call(*arguments, "--strict")
     assert code == 3
-    assert "fails: the answer to 1 N along x begins with 7.19 m/s²" in text
+    assert "fails: the response to 1 N along x begins with 7.19 m/s²" in text
     assert "allow it at least 1.2 s for 1.2 m/s" in text
 
 

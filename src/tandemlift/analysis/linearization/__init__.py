@@ -1,1 +1,1 @@
-"""The closed step, or the body alone, as a linear model: matrices, names and units of a mission at a time."""
+"""Linear models of the closed step, or of the body alone, of a mission at a time: matrices, names and units."""

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from tandemlift.analysis.linearization.linear_model import LinearModel
 from tandemlift.core.types import Array
 
-DEADBEAT = 1e-6  # of an eigenvalue, below which what it describes is over after a step or a few
+DEADBEAT = 1e-6  # of an eigenvalue, below which its mode decays within a few steps
 ROUNDING = 1e-9  # of log z
 MOST_NAMES = 3
 LEAST_SHARE = 0.1
@@ -22,9 +22,9 @@ class Mode(NamedTuple):
     """An eigenvalue z of a discrete model, a pair of conjugates once, and s = log(z) / step.
 
     Attributes:
-        z: with an imaginary part that is not below 0.
+        z: the eigenvalue with nonnegative imaginary part.
         s: [1/s]; its real part is the rate of decay, its imaginary part the frequency [rad/s].
-        states: those that take part, without components, each with its share; the largest first.
+        states: participating states, without components, each with its share; the largest first.
     """
 
     z: complex
@@ -33,7 +33,7 @@ class Mode(NamedTuple):
 
     @property
     def frequency(self) -> float:
-        """Of the oscillation [Hz]."""
+        """The frequency of the oscillation [Hz]."""
         return self.s.imag / (2.0 * np.pi)
 
     @property
@@ -43,12 +43,12 @@ class Mode(NamedTuple):
 
     @property
     def time_constant(self) -> float:
-        """In which the mode decays to 1/e [s]; below 0 for one that grows, infinite for one that stays."""
+        """The time in which the mode decays to 1/e [s]; below 0 if it grows, infinite if it is constant."""
         return -1.0 / self.s.real if self.s.real else float("inf")
 
 
 class Modes(NamedTuple):
-    """The modes of a model, the slowest first; and how many more are over after a few steps."""
+    """The modes of a model, the slowest first; and the number of further ones that decay within a few steps."""
 
     modes: tuple[Mode, ...]
     deadbeat: int

@@ -1,4 +1,4 @@
-"""Delay lines of a flight between steps: what is under way is part of the state of a linear model."""
+"""Delay lines of a flight between steps: delayed values are part of the state of a linear model."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tandemlift.simulation.plan import FlightPlan
 
 
 class DelayedNumber(NamedTuple):
-    """A number that is delayed: its place in the flight, its column in the delay lines, how many values are under way.
+    """A delayed number: its place in the flight, its column in the delay lines, the number of values under way.
 
     A number of the flight is the value that has arrived. Value j under way, from 1 on, was written j steps ago.
     """

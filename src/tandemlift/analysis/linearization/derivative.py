@@ -1,8 +1,8 @@
 """Values of a graph's nodes with their derivatives, node by node: forward differentiation in double precision.
 
 A node's derivative is a row with an entry for each seed; None where the node depends on no seed. Rounding to an
-integer, comparisons and truths have none. A selection has that of the branch that is chosen. A sensor's resolution is
-taken as a straight line: its steps have the slope 0 almost everywhere, and nothing would depend on the sensor.
+integer, comparisons and truths have none. A selection has that of the selected branch. A sensor's quantization is
+replaced by a straight line, because the derivative of a staircase is 0 almost everywhere.
 
 The elementary functions split a double into exponent and mantissa by its bits. So an integer made of the bits of x
 carries dx / x: a change of the exponent alone keeps it, and `bitcast_f` multiplies it by the new number.
@@ -22,16 +22,16 @@ from tandemlift.compiler.tracer.valued_graph import OPERATIONS
 from tandemlift.core.types import Array
 from tandemlift.parts.sensors.noise_bias_drift import displayed
 
-ROUNDS = 2.0**52  # adding a constant at least so large rounds to an integer
+ROUNDS = 2.0**52  # adding a constant of at least this size rounds to an integer
 ROUNDED = 1e-9  # relative, of values that are equal
-CURVED = 100.0  # by how much more than its derivative says a value changes on a short way
+CURVED = 100.0  # excess of a value's change on a short distance over that of its derivative
 LARGEST = 1e150  # of a factor whose product is split exactly
 SMOOTH = ("fadd", "fsub", "fmul", "fdiv", "fneg", "fabs", "fma", "sqrt", "bitcast_f")
 FIRST_ONLY = ("bitcast_i", "add", "sub")  # of the bits of a number
 
 
 def is_rounding(graph: Graph, node: int) -> bool:
-    """Whether a sum rounds to an integer, by a constant so large that no digit after the point is left."""
+    """Whether a sum rounds to an integer, by adding a constant so large that no fraction remains."""
     op, args = graph.ops[node], graph.args[node]
     if op not in ("fadd", "fma") or graph.laws[node] is displayed.scalar:
         return False
@@ -89,7 +89,7 @@ def _quotient(x: Sequence[float], d: Sequence[Row], v: float) -> Row:
 
 
 def _root(x: Sequence[float], d: Sequence[Row], v: float) -> Row:
-    """Of a root at 0 whose argument has no derivative either, as that of a sum of squares, 0 is taken."""
+    """The derivative of a root; 0 at 0 if the argument has none either, as for a sum of squares."""
     if d[0] is None or (v == 0.0 and not d[0].any()):
         return d[0]
     return d[0] * (0.5 / np.float64(v))
@@ -132,11 +132,11 @@ def meet(x: Sequence[float], d: Sequence[Row], distance: float) -> bool:
 
 
 class Derivative:
-    """The values of nodes of a graph and their derivatives, computed when they are first asked for.
+    """The values of nodes of a graph and their derivatives, computed on first use.
 
     Args:
         graph: without large sets.
-        sides: taken instead of those that hold.
+        sides: used instead of the actual ones.
 
     Attributes:
         values: of the nodes computed so far, by node.
@@ -151,7 +151,7 @@ class Derivative:
         self._truths: dict[int, bool] = {}  # that choose derivatives, where they are not those that choose values
 
     def reuse(self, other: Derivative, changed: set[int]) -> None:
-        """Take over what another one has computed, but for nodes that have changed."""
+        """Copy the results of another one, except for changed nodes."""
         self.values |= {n: v for n, v in other.values.items() if n not in changed}
         self.rows |= {n: row for n, row in other.rows.items() if n not in changed}
 

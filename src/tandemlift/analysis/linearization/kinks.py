@@ -1,4 +1,4 @@
-"""Kinks: comparisons and absolute values on whose edge a point is, where the derivative differs on the other side."""
+"""Kinks: comparisons and absolute values at whose edge a point lies, so that the derivative jumps there."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tandemlift.core.types import Array
 PACKAGE = Path(__file__).parents[2]
 SAME = 1e-9  # relative, of directions; and of the entries of two models to their largest
 SMALL = 1e-3  # relative change of an entry that is no kink
-MOST = 100  # edges that are looked at
+MOST = 100  # edges that are examined
 UPWARD = ("ogt", "oge")
 EQUAL = ("oeq", "une")
 
@@ -26,10 +26,10 @@ class Kink(NamedTuple):
     """An edge at the point.
 
     Attributes:
-        law: which compares, or takes the absolute value.
-        file: where it stands, with its first line.
+        law: with the comparison or absolute value.
+        file: of the law, with its first line.
         distance: the smallest change of one state or input, in its unit, that leads to the edge; 0 on it.
-        text: all of it in words.
+        text: a sentence with all of this.
     """
 
     law: str
@@ -55,7 +55,7 @@ def kinks_near(r: LinearizationPlan, made: PeriodDerivative, tolerance: float) -
     """The kinks at a point.
 
     Args:
-        r: what was differentiated.
+        r: the request.
         made: its derivative.
         tolerance: the largest distance of a kink.
     """
@@ -70,7 +70,7 @@ def kinks_near(r: LinearizationPlan, made: PeriodDerivative, tolerance: float) -
             by_law.setdefault(law_name(r.graph.graph.laws[min(edge.nodes)]), []).append(edge.distance)
     found = [kink_of(*law, distances) for law, distances in by_law.items()]
     if len(nearest) > MOST:
-        found.append(Kink("", "", 0.0, f"{len(nearest) - MOST} further edges were not looked at"))
+        found.append(Kink("", "", 0.0, f"{len(nearest) - MOST} further edges were not examined"))
     margins = sorted([one for d in made.steps for one in near_margins(d, tolerance)], key=lambda one: -one[1])
     return found + ([solver_kink(dict(margins))] if margins else [])
 
@@ -98,7 +98,7 @@ def edges_of(r: LinearizationPlan, step: int, d: StepDerivative, tolerance: floa
 
 
 def compared(r: LinearizationPlan, d: StepDerivative) -> Iterator[tuple[int, float, Any, bool]]:
-    """What decides by a number's sign: (node, number, its derivative, whether the node is true where it is above 0)."""
+    """Decisions by a number's sign: (node, number, its derivative, whether the node is true if it is above 0)."""
     g, rows, values = r.graph.graph, d.nodes.rows, d.nodes.values
     deciding = deciding_nodes(r)
     for node in deciding:

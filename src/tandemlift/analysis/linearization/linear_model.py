@@ -1,4 +1,4 @@
-"""A linear model: matrices, names and units, the point, what was assumed; its files, and python-control's form."""
+"""A linear model: matrices, names and units, point, assumptions; its files, and its form for python-control."""
 
 from __future__ import annotations
 
@@ -51,9 +51,9 @@ class LinearModel:
         step: sample time [s]: one step of the mission, or the common period of its sensors.
         time: of the point in the mission [s].
         point: values of states, inputs and outputs.
-        assumptions: what the model leaves out or holds fixed, a sentence each.
+        assumptions: omissions and quantities held fixed, a sentence each.
         kinks: comparisons on whose edge the point is: the model differs on the other side.
-        left_out: for each number of the flight's state that is no state of the model, why.
+        left_out: the reason for each number of the flight's state that is no state of the model.
         mission: name of the mission.
         of: "loop" or "body".
     """
@@ -108,7 +108,7 @@ class LinearModel:
         return control.ss(self.A, self.B, self.C, self.D, self.step, name=f"{self.mission} {self.of}", **names)
 
     def save(self, path: str | Path) -> None:
-        """Write the model to a file, whole or not at all.
+        """Write the model to a file atomically.
 
         A .npz file holds the matrices, `x0`, `u0`, `y0`, `x1`, `step`, `time`, and the names and units of `states`,
         `inputs` and `outputs` (rows of two texts); `about` is JSON of the rest. A .json file holds all of it.
@@ -144,7 +144,7 @@ class LinearModel:
 
 
 def reachable(steps: NDArray[np.bool_], start: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Which states (n,) are reached from those of `start` (n,) where `steps` (n, n) lead from columns to rows."""
+    """The states (n,) reached from those of `start` (n,), if `steps` (n, n) lead from columns to rows."""
     found = start.copy()
     while True:
         more = found | steps[:, found].any(axis=1)

@@ -58,18 +58,18 @@ def linearize(
         flight: a mission, which is flown to the time `at` with the compiled body; or a simulation as it stands.
         at: time of the point [s]. By default the end of the first calm after the lift: just before the first push,
             fault or landing, or before a person begins, else the mission's end; and 0.5 s after the tare, if that
-            takes longer, as no push is heard before. None for a simulation.
+            takes longer, because earlier pushes are ignored. None for a simulation.
         of: "loop" for pilot and body together; "body" for the body alone, whose inputs are the rotor thrusts.
         inputs: names of inputs: `push_force` [N, world axes, at the centre of mass], `push_moment` [N m, body axes],
             `disturbance_force` [N, world axes], `disturbance_moment` [N m, body axes], `wind_velocity` [m/s, world
             axes] with wind, `rotor_thrusts` [N] of the body alone. By default all. Only on request: `thrust_offsets`
-            [N] of the loop, what is added to the thrust of each rotor that is real.
+            [N] of the loop, added to the thrust of each real rotor.
         outputs: names of channels; by default those of the motion, the references, thrusts and joint loads.
         steps: steps of one period; by default the common period of all sensors, 1 without sensors.
         kink_tolerance: the largest distance of the point from a kink that is reported, in the unit of a state or input.
 
     Returns:
-        The model; see `LinearModel`, and docs/reference/linearize.md for what it assumes.
+        The model; see `LinearModel`, and docs/reference/linearize.md for its assumptions.
 
     Raises:
         InputError: an argument is not allowed; the flight is lost before `at`; the controller is plain Python; the step
@@ -92,7 +92,7 @@ def linearize(
 
 
 def _known_kinks(point: OperatingPoint) -> Iterator[Kink]:
-    """What the model leaves out that is no edge in the step: the rotors' lag by direction, the push during the tare."""
+    """Kinks that are no edges in the step: the rotors' lag by direction, the push during the tare."""
     lags, left = averaged_lags(point.plan.mission), tare_left(point.plan, point.numbers, point.k * point.plan.dt)
     if lags:
         name, file = law_name(by_direction.scalar)
@@ -101,14 +101,14 @@ def _known_kinks(point: OperatingPoint) -> Iterator[Kink]:
         )
     if left > 0.0:
         file = "parts/estimation/push_estimate.py"
-        text = f"estimate in {file}: the push is heard once the tare is over, in {left:.3g} s, not before"
+        text = f"estimate in {file}: pushes are used once the tare is over, in {left:.3g} s, and ignored before"
         yield Kink("estimate", file, left, text)
 
 
 def linearization_plan(
     point: OperatingPoint, of: str, inputs: Sequence[str] | None, outputs: Sequence[str] | None, steps: int | None
 ) -> tuple[LinearizationPlan, Outputs]:
-    """What is differentiated about a point, and its outputs; arguments as for `linearize`.
+    """The request of a derivative about a point, with its outputs; arguments as for `linearize`.
 
     Raises:
         InputError: an argument is not allowed.
@@ -212,7 +212,7 @@ def _inputs_at(r: LinearizationPlan, made: PeriodDerivative) -> Array:
 
 
 def assumptions(r: LinearizationPlan, made: PeriodDerivative, of: str) -> list[str]:
-    """What a model leaves out or holds fixed, a sentence each."""
+    """The omissions of a model and quantities held fixed, a sentence each."""
     plan, x = r.point.plan, r.graph.traced.templates
     said = ["Inputs are held over the sample time; outputs are at its start, the rotor thrusts act until its end."]
     speed = np.abs(made.x1 - made.x0)[3:6].max() / (r.steps * plan.dt)
@@ -220,13 +220,13 @@ def assumptions(r: LinearizationPlan, made: PeriodDerivative, of: str) -> list[s
     if not isinstance(plan.given.noise, Absent) and len(flat(plan.given.noise)):
         said.append("Noise is 0 from the point on; the flight to the point has it.")
     if not isinstance(plan.model.sensors, Absent):
-        said.append("The resolution of sensors is taken as a straight line.")
+        said.append("The quantization of sensors is replaced by a straight line.")
     lags, left = averaged_lags(plan.mission), tare_left(plan, r.point.numbers, r.point.k * plan.dt)
     if of == "loop" and lags:
         said.append(f"The rotors' lag is the mean of up and down, {shown_lags(lags)}: noise drives them both ways.")
     if of == "loop" and left > -math.inf:
         said.append(
-            f"Tare: {'over, the push is heard' if left <= 0.0 else f'not over for {left:.3g} s, no push is heard'}."
+            f"Tare: {'over, pushes are used' if left <= 0.0 else f'not over for {left:.3g} s, pushes are ignored'}."
         )
     if r.steps > 1:
         t = r.point.k * plan.dt

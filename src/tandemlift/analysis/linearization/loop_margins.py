@@ -1,11 +1,11 @@
-"""The loops of a mission as linear models, cut at the rotors: margins, and the delay and the lag that they bear.
+"""The loops of a mission as linear models, cut at the rotors: margins, and the tolerated delay and lag.
 
-The mission is flown calmly to a hover after its tare, with rotors that neither delay nor lag: no noise, no wind, no
-push, nobody. There the closed step is linearized with offsets d of the thrusts as inputs. The wrench that acts is
-w = S d, so the loop is L = S⁻¹ − I (4 × 4: thrust, roll, pitch, yaw). What the real rotors do multiplies it: L G with
+The mission is flown to a hover after its tare, with rotors without delay and lag, and without noise, wind, pushes and
+person. There the closed step is linearized with offsets d of the thrusts as inputs. The resulting wrench is w = S d, so
+the loop is L = S⁻¹ − I (4 × 4: thrust, roll, pitch, yaw). The real rotors multiply it: L G with
 G = e^(−jωT)/(1 + jωτ), τ the mean of the lags up and down.
 
-Delay T and lag τ change the number of unstable poles by the turns of det(I + L G)/det(I + L) about 0 (Nyquist); without
+Delay T and lag τ change the number of unstable poles by the winding of det(I + L G)/det(I + L) about 0; without
 both, the poles are the eigenvalues of the model.
 """
 
@@ -31,13 +31,13 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 AXES = ("z", "roll", "pitch", "yaw")
 LOWEST, HIGHEST, POINTS = 0.1, 3000.0, 240  # rad/s
 LIFT, SETTLED = 4.0, 2.0  # s, of the calm flight's lift, and after it and after the tare
-WAITS = (0.0, 20.0)  # s, beyond that, for a vehicle that calms down slowly
-NO_KINK = -1.0  # a distance: none is looked for
+WAITS = (0.0, 20.0)  # s, in addition, for a vehicle that settles slowly
+NO_KINK = -1.0  # a distance: disables the search for kinks
 ON_CIRCLE = 1e-6  # beyond 1, of an eigenvalue that does not grow
 FASTER = 10.0  # times the largest speed of the rotors, so that no thrust is limited
 RESTING = 0.02  # m/s and rad/s, of a calm hover
 FIRST, MOST = 1e-4, 100.0  # s, the shortest and the longest delay and lag that are tried
-RELATIVE = 1e-4  # accuracy of what is found
+RELATIVE = 1e-4  # accuracy of the results
 
 
 class OpenLoop(NamedTuple):
@@ -59,10 +59,10 @@ class AxisMargins(NamedTuple):
 
     Attributes:
         axis: "z", "roll", "pitch" or "yaw".
-        gain: by which the loop's gain may grow, a factor above 1; infinite if it never matters.
-        least_gain: to which it may fall, a factor below 1; 0 if it never matters.
-        phase: the least that is left at a crossing of |L| = 1 [deg]; NaN without a crossing.
-        crossover: of that crossing [rad/s].
+        gain: factor above 1 by which the loop's gain may grow; infinite without a limit.
+        least_gain: factor below 1 to which it may fall; 0 without a limit.
+        phase: the smallest margin at a crossing of |L| = 1 [deg]; NaN without a crossing.
+        crossover: frequency of that crossing [rad/s].
     """
 
     axis: str
@@ -73,7 +73,7 @@ class AxisMargins(NamedTuple):
 
     @property
     def nearest_gain(self) -> float:
-        """That of both limits of the gain which the smaller change reaches, a factor."""
+        """The limit of the gain that the smaller change reaches, a factor."""
         return self.least_gain if 1.0 / self.gain <= self.least_gain else self.gain
 
 
@@ -81,9 +81,9 @@ def calm_tables(mission: Mission, *, lag: float | None, wait: float) -> tuple[di
     """(The tables of a mission that hovers calmly, the time at which it does [s]).
 
     Args:
-        mission: what is to be made calm.
+        mission: the original.
         lag: of all rotors [s], with the mission's delay; None for rotors without delay and lag.
-        wait: for how much longer it hovers until then [s].
+        wait: additional hover time until then [s].
     """
     t = tables_of(mission)
     for name in ("pushes", "requests", "changes", "faults", "sensor_faults", "walls"):
@@ -125,7 +125,7 @@ def _without_errors(sensors: dict[str, Any]) -> dict[str, Any]:
 
 
 def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.0) -> tuple[Mission, float]:
-    """(A mission that hovers calmly, when); arguments as for `calm_tables`."""
+    """(A mission that hovers calmly, the time [s]); arguments as for `calm_tables`."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", FlightWarning)
         tables, at = calm_tables(mission, lag=lag, wait=wait)
@@ -190,7 +190,7 @@ def is_stable(loop: OpenLoop, delay: float, lag: float) -> bool:
 
 
 def largest(stable: Callable[[float], bool]) -> float:
-    """The smallest number above 0 at which what is stable at 0 no longer is, by bisection; infinite beyond `MOST`."""
+    """The smallest number above 0 at which stability is lost, by bisection; infinite beyond `MOST`."""
     low, high = 0.0, FIRST
     while stable(high):
         low, high = high, 1.5 * high

@@ -54,10 +54,10 @@ LOOP_CHECKS = (
 
 
 def check(mission: Mission) -> tuple[CheckResult, ...]:
-    """All checks of a mission: closed forms, settings that do not fit, and its loops by their linear model.
+    """All checks of a mission: closed forms, inconsistent settings, and its loops by their linear model.
 
     Args:
-        mission: flown calmly to a hover, to be linearized there.
+        mission: flown to a hover without disturbances, to be linearized there.
 
     Returns:
         A result for each check; its verdict is "ok", "close" or "fails"; or the one that is "refused".
@@ -67,7 +67,7 @@ def check(mission: Mission) -> tuple[CheckResult, ...]:
 
 
 def loop_results(mission: Mission) -> Iterator[CheckResult]:
-    """Margins of the loops, and what delay and lag they bear."""
+    """Check the margins of the loops, and their tolerated delay and lag."""
     try:
         loop = open_loop(mission)
     except InputError as error:
@@ -88,7 +88,7 @@ def loop_results(mission: Mission) -> Iterator[CheckResult]:
 
 
 def delay_and_lag_limits(loop: OpenLoop, delay: float, lag: float) -> Iterator[CheckResult]:
-    """The delay that the loop bears with the rotors' lag, and the lag with their delay."""
+    """Check the delay that the loop tolerates with the rotors' lag, and the lag with their delay."""
     bears_lag, bears_delay = is_stable(loop, 0.0, lag), is_stable(loop, delay, 0.0)
     if bears_lag:
         most = 1e3 * largest(lambda x: is_stable(loop, x, lag))

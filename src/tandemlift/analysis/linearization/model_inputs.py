@@ -27,7 +27,7 @@ SPREAD, HAND = 3, 12  # of a `PointPush`: where Σ F rᵀ begins, and its number
 
 
 class InputColumn(NamedTuple):
-    """An input: what it is, and the derivatives of the step's numbers by it, as (kind, index, derivative)."""
+    """An input: its description, and the derivatives of the step's numbers by it, as (kind, index, derivative)."""
 
     variable: Variable
     seeds: tuple[tuple[str, int, float], ...]

@@ -1,4 +1,4 @@
-"""The point about which a flight is linearized: a mission flown to a time, or a simulation as it stands."""
+"""The point about which a flight is linearized: a mission flown to a time, or a simulation in its present state."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def calm_time(mission: Mission) -> float:
 
 
 def tare_left(p: FlightPlan, numbers: Array, t: float) -> float:
-    """The time [s] until the tare of a flight at time t [s] is over, -inf without one: before, no push is heard."""
+    """The time [s] until the tare of a flight at time t [s] is over, -inf without one; before, pushes are ignored."""
     m, e = p.mission, p.mission.estimator
     if m.pilot.push == "truth" or (e.tare == "at-time" and e.tare_start is None):
         return -math.inf
@@ -73,14 +73,14 @@ def is_noisy(mission: Mission) -> bool:
 
 
 def averaged_lags(mission: Mission) -> list[tuple[float, float]]:
-    """The lags of each rotor up and down [s] that a linear model takes in the mean; none where they are alike."""
+    """The lags of each rotor up and down [s] that a linear model takes in the mean; none where they are equal."""
     lags = [(q.lag_up, q.lag_down) for q in mission.vehicle.quadrotors for _ in range(4)]
     differ = any(up != down for up, down in lags) and mission.actuators.model == "rotors"
     return lags if differ and is_noisy(mission) else []
 
 
 def with_mean_lag(point: OperatingPoint) -> OperatingPoint:
-    """A point whose rotors lag alike up and down, where noise drives them both ways within the sample time."""
+    """A point whose rotors have equal lags up and down, if noise drives them both ways within the sample time."""
     p, lags, numbers = point.plan, averaged_lags(point.plan.mission), point.numbers.copy()
     if not lags:
         return point
@@ -173,7 +173,7 @@ def _check(plan: FlightPlan) -> None:
 
 
 def _point(stepper: Stepper, k: int) -> OperatingPoint:
-    """The flight before step k; the surroundings are those that the step would find, so only its sample is taken."""
+    """The flight before step k, with the surroundings of that step, of which only the sample is taken."""
     external = np.zeros_like(stepper.external) if stepper.external.size else None
     stepper.step(k, final=True, external=external)
     ring = stepper.memory.ring

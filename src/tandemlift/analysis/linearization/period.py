@@ -16,10 +16,10 @@ from tandemlift.core.types import Array, leaves
 
 
 class LinearizationPlan(NamedTuple):
-    """What is differentiated.
+    """The request of a derivative.
 
     Attributes:
-        point: where.
+        point: about which.
         graph: of a step.
         choice: the states.
         inputs: of the model.
@@ -75,7 +75,7 @@ class _Lines:
             self.rows[i].append(row)
 
     def shift(self, numbers: Array, rows: dict[int, Array]) -> None:
-        """Exchange what a step has written for what arrives."""
+        """Exchange the written values of a step for the arriving ones."""
         for one, values, under_way in zip(self.delayed, self.values, self.rows, strict=True):
             if one.under_way:
                 values.insert(0, numbers[one.number])

@@ -20,7 +20,7 @@ RESTING = ("opening", "repeated", "ended")
 
 
 class StepSeeds(NamedTuple):
-    """What a step depends on.
+    """The inputs of a step and their derivatives.
 
     Attributes:
         flight: all numbers of the flight.
@@ -38,7 +38,7 @@ class StepSeeds(NamedTuple):
 
 
 class SolverMargin(NamedTuple):
-    """How far a rotor's thrust is from being held at a limit, or from being released, and the derivative of that."""
+    """The distance of a rotor's thrust from being held at a limit, or released, and its derivative."""
 
     rotor: int
     value: float
@@ -51,7 +51,7 @@ class StepDerivative:
     Args:
         graph: of the step.
         x: its inputs.
-        sides: truths and signs that are taken instead of those that hold.
+        sides: truths and signs that are used instead of the actual ones.
         known: the derivative with these inputs without `sides`, and its nodes that may change with them.
 
     Attributes:
@@ -151,7 +151,7 @@ def solved(
 def margins_of(
     n: int, problem: Sequence[float], problem_rows: Sequence[Row], found: Sequence[float], found_rows: Sequence[Row]
 ) -> list[SolverMargin]:
-    """The margins at the solution: of a free rotor to its limits [N], of a held one how hard it is held [weighted].
+    """The margins at the solution: of a free rotor to its limits [N], of a held one its gradient [weighted].
 
     The problem's numbers are W B (4 × n), W (4), the wanted wrench (4), the thrusts without limits (n), the limits (n).
     """

@@ -1,7 +1,7 @@
-"""The graph of a step, never rolled, as derivatives need it: with pushes at points, and which numbers are states.
+"""The unrolled graph of a step for derivatives, with pushes at points, and the selection of states.
 
 A number of the flight is a state of the linear model if its derivative can reach the body's state or an output, over
-any number of steps. What acts only by comparisons has no derivative, and flags and counters are discrete.
+any number of steps. Numbers that act only by comparisons have no derivative, and flags and counters are discrete.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ FROM_TABLES = (("near",), ("person", "leg"))  # the nearest walls and the leg of
 
 
 class StateChoice(NamedTuple):
-    """Which numbers of a flight are states.
+    """The selection of a flight's numbers as states.
 
     Attributes:
         kept: their indices in the flight, in order.
         carried: the numbers whose values the following steps need, states among them.
-        left_out: for each other number, why it is none.
+        left_out: the reason for each other number.
         smooth: nodes by which derivatives pass.
     """
 
@@ -84,7 +84,7 @@ class StepGraph:
         }
 
     def sources(self, kind: str, index: int, *, every: bool) -> list[int]:
-        """The nodes of which an input within the step is made; `every`: also those that decide which."""
+        """The nodes that form an input within the step; `every`: also the conditions that select them."""
         x = self.traced
         if kind == "moved":
             made = [part[index].node for part in (x.body_in_contact, x.body_in_free_air) if part]

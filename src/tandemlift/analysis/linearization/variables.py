@@ -15,7 +15,7 @@ from tandemlift.flight.channels import channel_of
 from tandemlift.flight.data_frames import column_names
 from tandemlift.simulation.results import channels_of
 
-OWN = ("state.", "memory.")  # prefixes that say nothing: the body's state, the pilot's memory
+OWN = ("state.", "memory.")  # prefixes without information: the body's state, the pilot's memory
 COMPONENT = re.compile(r"(\.([wxyz]|r\d+))+$")
 PER_SET = re.compile(r"\.r\d+$")
 RADIANS, RATE, ANGULAR = "rad", "rad/s", "rad/s^2"
@@ -136,7 +136,7 @@ def state_variable(path: str, steps_ago: int = 0) -> Variable:
 
 
 class Outputs(NamedTuple):
-    """The chosen columns of a sample, and what they are."""
+    """The chosen columns of a sample, and their variables."""
 
     columns: tuple[int, ...]
     variables: tuple[Variable, ...]

@@ -1,1 +1,1 @@
-"""Many flights: studies from a file, tuning, feel, comparisons."""
+"""Analyses by many flights: studies from a file, tuning, feel, comparisons."""

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 CHANNEL = "flight."  # begins the name of a kept channel's column
 CODED = ("mission", "controller", "engine", "case", "outcome", "finding_kinds")  # few different texts in many rows
-ABOUT = "tandemlift."  # begins what a file says of itself
+ABOUT = "tandemlift."  # prefix of a file's metadata
 THREADS = 4  # that read files; PyArrow reads without Python
 MARK = b"PAR1"  # begins and ends a whole Parquet file
 
@@ -62,7 +62,7 @@ def columns_in(files: Iterable[ChunkFile]) -> tuple[str, ...]:
 
 
 def about(file: ChunkFile) -> dict[str, str]:
-    """What a file says of itself: study, chunk, sources and version of tandemlift."""
+    """The metadata of a file: study, chunk, sources and version of tandemlift."""
     said = {key.decode(): value.decode() for key, value in _opened(file).about.items()}
     return {key.removeprefix(ABOUT): value for key, value in said.items() if key.startswith(ABOUT)}
 
@@ -120,7 +120,7 @@ def _joined(parts: Sequence[pyarrow.Table], name: str) -> pyarrow.ChunkedArray:
 
 
 def _common_type(kinds: Iterable[pyarrow.DataType]) -> pyarrow.DataType:
-    """The type that holds values of several: numbers if they are, else texts; numbers of none."""
+    """The common type of several types: numbers if all are, else texts; numbers for none."""
     import pyarrow
 
     numbers = all(pyarrow.types.is_integer(kind) or pyarrow.types.is_floating(kind) for kind in kinds)

@@ -1,8 +1,8 @@
-"""The answer of an admittance to a push that begins at once, lasts, and ends at once: M v' + C v + K x = F.
+"""The response of an admittance to a rectangular push in closed form: M v' + C v + K x = F.
 
-F is the force beyond the gate. Without stiffness v(t) = F/C (1 − exp(−t/τ)), τ = M/C, and let go it stops within v τ.
-With a spring, x tends to F/K: with a = C/(2 M) and w² = K/M − a², which may be negative,
-x = F/K − e^(−a t) (x₁ cos(w t) + (v₁ + a x₁) sin(w t)/w) for what is left at the start, x₁ and v₁.
+F is the force beyond the gate. Without stiffness v(t) = F/C (1 − exp(−t/τ)), τ = M/C; once released it stops within v
+τ. With a spring, x tends to F/K: with a = C/(2 M) and w² = K/M − a², which may be negative, x = F/K − e^(−a t) (x₁
+cos(w t) + (v₁ + a x₁) sin(w t)/w) for initial deviations x₁ and v₁.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 
 AXES = ("x", "y", "z")
 YAW = "yaw"
-FORCE, MOMENT = 1.0, 0.5  # N, N m: the standard push where the mission does not say one
-ABOVE = 2.0  # times the threshold, which the standard push has at least
+FORCE, MOMENT = 1.0, 0.5  # N, N m: the standard push if the mission has none
+ABOVE = 2.0  # times the threshold, the smallest standard push
 
 
 class AxisFeel(NamedTuple):
@@ -32,7 +32,7 @@ class AxisFeel(NamedTuple):
         damping: C [N s/m].
         stiffness: K [N/m].
         threshold: up to which a push is ignored [N].
-        subtracts_threshold: whether only what exceeds the threshold acts.
+        subtracts_threshold: whether only the excess over the threshold acts.
         push: the standard push [N].
     """
 
@@ -46,29 +46,29 @@ class AxisFeel(NamedTuple):
 
     @property
     def beyond(self) -> float:
-        """The force that acts [N] under the standard push."""
+        """The acting force [N] under the standard push."""
         return self.push - (self.threshold if self.subtracts_threshold else 0.0)
 
     @property
     def acceleration(self) -> float:
-        """With which the answer begins [m/s²]."""
+        """The initial acceleration of the response [m/s²]."""
         return self.beyond / self.mass
 
     @property
     def final_speed(self) -> float:
-        """To which a lasting push leads [m/s]; 0 with a spring, infinite without damping."""
+        """The speed under a lasting push [m/s]; 0 with a spring, infinite without damping."""
         if self.stiffness > 0.0:
             return 0.0
         return self.beyond / self.damping if self.damping > 0.0 else math.inf
 
     @property
     def time_constant(self) -> float:
-        """M/C [s]: how late the answer is, too; infinite without damping."""
+        """M/C [s], also the lag of the response; infinite without damping."""
         return self.mass / self.damping if self.damping > 0.0 else math.inf
 
     @property
     def time(self) -> float:
-        """Until 95 % of the final speed [s]; with a spring, until its motion has faded to 5 %."""
+        """The time until 95 % of the final speed [s]; with a spring, until its motion has decayed to 5 %."""
         if self.stiffness == 0.0:
             return LN_20 * self.time_constant
         half = 0.5 * self.damping / self.mass
@@ -77,12 +77,12 @@ class AxisFeel(NamedTuple):
 
     @property
     def stop_distance(self) -> float:
-        """From letting go at the final speed until rest [m]."""
+        """The distance from the release at the final speed until rest [m]."""
         return self.final_speed * self.time_constant if self.stiffness == 0.0 else 0.0
 
 
 def axes_of(m: Mission) -> tuple[AxisFeel, ...]:
-    """The axes of a mission's admittance; with yaw where interactive guidance yields in yaw.
+    """The axes of a mission's admittance; with yaw if interactive guidance is compliant in yaw.
 
     The standard push is the force of `[admittance.feel]`, else 1 N (0.5 N m in yaw), and at least twice the threshold.
     """

@@ -45,7 +45,7 @@ class ScoredPart(NamedTuple):
 
 
 class Entrant(NamedTuple):
-    """A controller in a comparison: its name, and its mission, or why it cannot fly the mission."""
+    """A controller in a comparison: its name, and its mission, or the reason why it cannot fly."""
 
     name: str
     mission: Mission | None
@@ -53,7 +53,7 @@ class Entrant(NamedTuple):
 
 
 class Entry(NamedTuple):
-    """The result of a controller: its flight, or why it did not fly."""
+    """The result of a controller: its flight, or the reason why there is none."""
 
     name: str
     flight: Flight | None
@@ -90,7 +90,7 @@ def entrants(name: str, changes: Mapping[str, Any], chosen: Sequence[Controller]
 
 
 def _own_mission(name: str, changes: Mapping[str, Any], others: Mapping[str, Any]) -> Mission:
-    """The mission with its own controller; a key of another one is refused with where to give it.
+    """The mission with its own controller; keys of another one are rejected, with the right place for them.
 
     Args:
         name: of the mission.
@@ -171,7 +171,7 @@ def scored(flight: Flight, part: ScoredPart) -> Mask:
 
 
 def moving_axes(flights: Iterable[Flight], part: ScoredPart) -> list[bool]:
-    """For x, y, z: whether the position error of any flight exceeds the physical resolution in a part."""
+    """Flags for x, y, z: whether any flight's position error exceeds the physical resolution in a part."""
     errors = [np.abs(f["position_error"][scored(f, part)]) for f in flights]
     return [any(np.any(error[:, i] >= LEAST["position_max_error_m"]) for error in errors) for i in range(3)]
 
@@ -190,7 +190,7 @@ def scores(flight: Flight, part: ScoredPart) -> dict[str, Any]:
     if not mask.any():
         return {"position_rmse_m": None, "position_max_error_m": None, "effort_n_m": None}
     error, moment = flight["position_error"][mask], flight["moment"][mask]
-    with np.errstate(invalid="ignore", over="ignore"):  # a flight that diverged may hold anything
+    with np.errstate(invalid="ignore", over="ignore"):  # a diverged flight may have any values
         return {
             "position_rmse_m": _finite(np.sqrt(np.mean(error**2, axis=0))),
             "position_max_error_m": _finite(np.abs(error).max()),
@@ -204,7 +204,7 @@ def _finite(value: Array | np.float64) -> list[float] | float | None:
 
 
 def run_of(flight: Flight) -> dict[str, Any]:
-    """Scores of a whole flight: rotor saturation, number of findings, time per step, and why it failed."""
+    """Scores of a whole flight: rotor saturation, number of findings, time per step, and the reason of a failure."""
     metrics = flight.metrics()
     return {
         "rotor_saturated_share": metrics["rotor_saturated_share"],
@@ -215,7 +215,7 @@ def run_of(flight: Flight) -> dict[str, Any]:
 
 
 def best_of(values: Sequence[float | None], least: float) -> list[bool]:
-    """Which values are best: those less than `least` above the lowest; none if all known values are.
+    """Flags of the best values: those less than `least` above the lowest; none if all known values are.
 
     Args:
         values: one for each controller, or None.
@@ -227,7 +227,7 @@ def best_of(values: Sequence[float | None], least: float) -> list[bool]:
 
 
 def controller_summary(name: str) -> str:
-    """What a controller is, in a sentence; "" for one that is not registered, such as a file of one's own."""
+    """The summary of a controller; "" for one that is not registered, such as a user's file."""
     return CONTROLLERS[name].summary if name in CONTROLLERS else ""
 
 

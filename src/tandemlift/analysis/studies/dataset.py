@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import xarray
 
 WHO = ("mission", "controller", "engine")
-SHAPED = (*WHO, "case", "draw", "seed", "row")  # columns that the dimensions say
+SHAPED = (*WHO, "case", "draw", "seed", "row")  # columns that are given by the dimensions
 
 
 def to_xarray(plan: StudyPlan, table: pyarrow.Table, varied: pyarrow.Table) -> xarray.Dataset:
@@ -24,7 +24,7 @@ def to_xarray(plan: StudyPlan, table: pyarrow.Table, varied: pyarrow.Table) -> x
     Args:
         plan: of the study.
         table: columns of all rows, to be variables.
-        varied: the columns `seed` and what varies, of all rows.
+        varied: the columns `seed` and the varied ones, of all rows.
     """
     with extra("xarray", "to_xarray"):
         import xarray

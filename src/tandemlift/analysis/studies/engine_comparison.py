@@ -15,7 +15,7 @@ from tandemlift.missions import Mission
 from tandemlift.simulation.many import fly_each
 
 QUANTITIES = {"position": "m", "attitude": "rad", "joint_force": "N", "joint_torque": "N m", "push_estimate": "N"}
-SETTLED = 0.1  # s, from which on joints are compared: some engines first correct joint errors of a fast start
+SETTLED = 0.1  # s, start of the comparison of joints: some engines first correct joint errors of a fast start
 
 
 def fly_in(mission: Mission, engines: Sequence[str], progress: Progress | None = None) -> dict[str, Flight]:
@@ -75,7 +75,7 @@ def largest_differences(flight: Flight, first: Flight) -> dict[str, float]:
 
 
 def engine_summary(name: str) -> str:
-    """What an engine is, in a sentence."""
+    """The description of an engine in a sentence."""
     return ENGINES[name].summary
 
 

@@ -1,4 +1,4 @@
-"""What the keys of a mission feel like: its axes under the standard push, and the checks."""
+"""The feel of a mission: its axes under the standard push, and the checks."""
 
 from __future__ import annotations
 
@@ -61,14 +61,14 @@ def feel_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
 
 
 def limit_checks(k: AxisFeel, speed: float, acceleration: float) -> Iterator[CheckResult]:
-    """Final speed and first acceleration along x, y or z against the limits of interactive guidance [m/s], [m/s²]."""
+    """Compare final speed and initial acceleration with the limits of interactive guidance."""
     yield judged(
         "speed",
         k.final_speed,
         speed,
         "m/s",
         f"{k.push:g} N along {k.axis} lead to {k.final_speed:.3g} m/s, and compliance.max_speed is {speed:g} m/s: the "
-        "push feels weaker than the numbers say; ask for less speed, or raise compliance.max_speed",
+        "push feels weaker than specified; lower the desired speed, or raise compliance.max_speed",
         subject=k.axis,
     )
     yield judged(
@@ -76,7 +76,7 @@ def limit_checks(k: AxisFeel, speed: float, acceleration: float) -> Iterator[Che
         k.acceleration,
         acceleration,
         "m/s²",
-        f"the answer to {k.push:g} N along {k.axis} begins with {k.acceleration:.3g} m/s², and "
+        f"the response to {k.push:g} N along {k.axis} begins with {k.acceleration:.3g} m/s², and "
         f"compliance.max_acceleration is {acceleration:g} m/s²: it comes late; {_slower(k, acceleration)}",
         subject=k.axis,
         near=0.0,
@@ -84,19 +84,19 @@ def limit_checks(k: AxisFeel, speed: float, acceleration: float) -> Iterator[Che
 
 
 def _slower(k: AxisFeel, most: float) -> str:
-    """The bound on the time for a speed, by the largest acceleration that there can be [m/s²]."""
+    """A remedy: the bound on the time for a speed, by the largest possible acceleration [m/s²]."""
     if most <= 0.0 or not 0.0 < k.final_speed < math.inf:
-        return "ask for less"
+        return "lower the speed"
     speed, time = most * k.time / LN_20, LN_20 * k.final_speed / most
     most_speed = f"at most {speed:.2g} m/s in {k.time:.2g} s"
-    return f"allow it at least {time:.2g} s for {k.final_speed:.3g} m/s, or ask for {most_speed}"
+    return f"allow it at least {time:.2g} s for {k.final_speed:.3g} m/s, or choose {most_speed}"
 
 
 REMEDY = "raise the threshold, tare (estimator.tare_start), or lower the drift and bias of sensors.joints"
 
 
 def drift_check(drift: SensorDrift, noise: float, joints: int, threshold: float) -> CheckResult:
-    """Noise of the push [N] and drift of all joints' sensors against the smallest threshold [N]."""
+    """Compare noise and drift of the joint sensors with the smallest threshold; in yaw, drift alone."""
     value = NOISE_SIGMAS * noise + DRIFT_SIGMAS * drift.force * math.sqrt(joints)
     text = (
         f"noise and drift {drift.why} make {value:.3g} N of the measured push, and admittance.threshold = "
@@ -143,7 +143,7 @@ def rotor_checks(
         angle = f", {math.atan2(needed, GRAVITY):.2g} rad of tilt," if k.axis != "z" else ""
         text = (
             f"under {k.push:g} N along {k.axis} the rotors must add {needed:.3g} m/s²{angle} to the push, and thrust "
-            f"and tilt give {limit:.3g} m/s²: the vehicle cannot answer so; {_slower(k, limit + k.push / mass)}"
+            f"and tilt give {limit:.3g} m/s²: the vehicle cannot respond so fast; {_slower(k, limit + k.push / mass)}"
         )
         yield judged("rotors", needed, limit, "m/s²", text, subject=k.axis)
 
@@ -159,17 +159,17 @@ def _yaw_check(hover: HoverFacts, k: AxisFeel, most: float) -> CheckResult:
 
 
 def stop_check(room: float, axes: Sequence[AxisFeel]) -> CheckResult:
-    """The way until it stops after the hand lets go, against the room beside the person's way [m]."""
+    """Compare the stopping distance after the release with the room beside the person's path."""
     slowest = max(axes[:2], key=lambda k: k.stop_distance)
     text = (
         f"let go at {slowest.final_speed:.3g} m/s along {slowest.axis} it stops within {slowest.stop_distance:.3g} m, "
-        f"and {max(room, 0.0):.3g} m are free beside the person's way: late hands touch; ask for less speed or time"
+        f"and {max(room, 0.0):.3g} m are free beside the person's path: late hands touch a wall; lower speed or time"
     )
     return judged("stop", slowest.stop_distance, room, "m", text)
 
 
 def flown_checks(p: PushedAxis) -> Iterator[CheckResult]:
-    """What the flight of an axis under the standard push shows."""
+    """Checks of the flight of an axis under the standard push."""
     axis, unit = p.feel.axis, "rad/s" if p.feel.axis == YAW else "m/s"
     if p.difference is None:
         text = f"under {p.feel.push:g} {'N m' if axis == YAW else 'N'} along {axis}: {p.flight.failure}"
@@ -191,12 +191,12 @@ HEADS = ("push", "moves from", "final speed", "95 % after", "overshoot", "lag", 
 
 
 class FeelStudy(NamedTuple):
-    """What a mission's admittance feels like.
+    """The feel of a mission's admittance.
 
     Attributes:
-        mission: that was asked about.
+        mission: the examined one.
         pushed: each axis under the standard push, by closed form and flown.
-        checks: each with its number, its limit, and what to do.
+        checks: each with its number, limit and remedy.
     """
 
     mission: Mission
@@ -271,9 +271,9 @@ def _both(ideal: float | None, real: float | None, unit: str) -> str:
 
 
 def gate_text(study: FeelStudy) -> str:
-    """What the smallest force that moves the vehicle does, along x, in a sentence."""
+    """The effect of the smallest force that moves the vehicle, along x, in a sentence."""
     k, m = study.pushed[0].feel, study.mission
-    acts = "only what exceeds it acts" if k.subtracts_threshold else "beyond it the whole force acts"
+    acts = "only the excess acts" if k.subtracts_threshold else "beyond it the whole force acts"
     if m.pilot.guidance != "interactive":
         return f"A push must exceed {k.threshold:g} N; {acts}."
     release, dwell = k.threshold * m.compliance.release_fraction, 1e3 * m.compliance.dwell

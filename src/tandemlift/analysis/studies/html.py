@@ -20,7 +20,7 @@ def percent(value: float) -> str:
 
 
 def study_html(name: str, rows: int, count: int, varied: Sequence[str], outcomes: pyarrow.Table) -> str:
-    """Name and size of a study, what varies, and how often each outcome came, with its interval.
+    """Name and size of a study, varied keys, and the share of each outcome with its interval.
 
     Args:
         name: of the study.

@@ -16,7 +16,7 @@ CONFIDENCE = 0.95
 
 
 class Share(NamedTuple):
-    """How many of some rows have a property, with the interval of its probability."""
+    """The number of rows with a property, with the interval of its probability."""
 
     number: int
     total: int
@@ -30,7 +30,7 @@ class Share(NamedTuple):
 
 
 class IntervalEstimate(NamedTuple):
-    """A number with its interval; NaN where there is too little to form it."""
+    """A number with its interval; NaN if there is too little data."""
 
     value: float
     low: float
@@ -106,7 +106,7 @@ def quantile(values: Array, at: float = 0.5, confidence: float = CONFIDENCE) -> 
     return IntervalEstimate(float(np.quantile(ordered, at)), low, high)
 
 
-LOW_IS_BAD = ("clearance_min_m", "thrust_min_after_10s_n")  # of all others, high values are bad
+LOW_IS_BAD = ("clearance_min_m", "thrust_min_after_10s_n")  # high values are bad for all others
 NO_METRICS = (
     *("row", "mission", "controller", "engine", "case", "draw", "seed", "steps"),
     *("outcome", "reason", "findings", "finding_kinds", "events"),
@@ -135,7 +135,7 @@ class Quantity(NamedTuple):
 
     @property
     def combined(self) -> str:
-        """How entries become one number, in words; "" for a single one."""
+        """The reduction of entries to one number, in words; "" for a single one."""
         if len(self.columns) == 1:
             return ""
         return "root of the sum of squares of its entries" if "rmse" in self.name else "its entry farthest from zero"
@@ -179,13 +179,13 @@ def _metrics(columns: Sequence[str]) -> dict[str, tuple[str, ...]]:
 
 
 def usual_quantities(columns: Sequence[str]) -> list[Quantity]:
-    """What a report shows if nobody says, as far as there are columns: tracking, clearance, effort of a person."""
+    """The default quantities of a report, as far as there are columns: tracking, clearance, effort of a person."""
     found = _metrics(columns)
     return [quantity_named(name, columns) for name in (*TRACKING, *EFFORTS, CLEARANCE) if name in found]
 
 
 def telling(quantities: Sequence[Quantity], is_known: Callable[[str], bool]) -> list[Quantity]:
-    """Of the usual quantities the ones that say something: one of tracking, the clearance, one of effort.
+    """The informative ones of the usual quantities: one of tracking, the clearance, one of effort.
 
     Args:
         quantities: from `usual_quantities`.

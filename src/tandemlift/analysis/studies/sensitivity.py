@@ -1,7 +1,7 @@
-"""What a quantity depends on: Sobol' indices of rows sampled for them, else estimates from the rows as they are.
+"""Sensitivity of a quantity: Sobol' indices from rows sampled for them, else estimates from other rows.
 
-A first-order index is the share of a quantity's variance that an input explains alone, a total one the share in which
-it takes part; a second-order index is what two explain together beyond what each does alone. Rows of
+A first-order index is the share of a quantity's variance that an input explains alone, a total index the share in which
+it participates; a second-order index is the share that two explain together beyond each alone. Rows of
 `sampling = "saltelli"` give all of them (Saltelli et al. 2010, 10.1016/j.cpc.2009.09.018). Any other independent draws
 give first-order indices (RBD-FAST: Tarantola et al. 2006, 10.1016/j.ress.2005.06.003). SALib estimates both, with
 intervals by resampling. Spearman's rank correlation says in which direction an input acts.
@@ -24,8 +24,8 @@ from tandemlift.analysis.studies.study_rows import RowGroup, StudyRows
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
 
-FEWEST = 100  # rows of a first-order estimate from rows as they are: ten for each of its ten harmonics
-MOST = 40_000  # rows that estimates from rows as they are use, drawn at random from more
+FEWEST = 100  # rows of a first-order estimate from other rows: ten for each of its ten harmonics
+MOST = 40_000  # rows that estimates from other rows use, drawn at random from more
 RESAMPLES = (40, 200)  # least and most
 MOST_RESAMPLED = 2_500_000  # rows, or base points, times resamples: memory and time
 SALTELLI = "Sobol' indices of a Saltelli design"
@@ -33,12 +33,12 @@ RBD_FAST = "first-order indices by RBD-FAST"
 
 
 class Sensitivity(NamedTuple):
-    """What a quantity depends on.
+    """The sensitivity of a quantity.
 
     Attributes:
-        method: how the indices were estimated.
-        rows: how many rows they come from.
-        left_out: how many rows had no value, and were left out.
+        method: of the estimate of the indices.
+        rows: number of rows used.
+        left_out: number of rows without a value.
         first: first-order index of each input.
         total: total index of each input; empty if the rows do not give them.
         second: second-order index of each pair of inputs; empty if the rows do not give them.
@@ -61,12 +61,12 @@ class Sensitivity(NamedTuple):
 
 
 def analyse(inputs: Mapping[str, Array], values: Array, sampling: str = "random", seed: int = 1) -> Sensitivity:
-    """Estimate what a quantity depends on.
+    """Estimate the sensitivity of a quantity to its inputs.
 
     Args:
         inputs: drawn numbers (n,) by name: independent of each other, in the order of the draws.
         values: the quantity (n,) in the same order; NaN where a row has none.
-        sampling: how they were drawn, as in `study.sampling`.
+        sampling: of the inputs, as in `study.sampling`.
         seed: of the resampling; above 0.
 
     Raises:
@@ -139,7 +139,7 @@ def _as_they_are(inputs: Mapping[str, Array], values: Array, rows: NDArray[np.in
 
 
 def _resamples(rows: int) -> int:
-    """How often so many rows are resampled."""
+    """The number of resamples for that many rows."""
     return int(np.clip(MOST_RESAMPLED // rows, *RESAMPLES))
 
 
@@ -161,7 +161,7 @@ def _rank_correlation(x: Array, y: Array) -> float:
 
 
 def influence(rows: StudyRows, group: RowGroup, values: Array) -> Sensitivity:
-    """What a quantity depends on in the rows of a group.
+    """The sensitivity of a quantity in the rows of a group.
 
     Of a Saltelli design, the mean over grid points and seeds of each draw is analysed. Otherwise each row is, with the
     columns of the grid as further inputs, because draws are the same at all of its points.
@@ -172,7 +172,7 @@ def influence(rows: StudyRows, group: RowGroup, values: Array) -> Sensitivity:
         values: the quantity (rows,) of all rows; NaN where there is none.
 
     Raises:
-        InputError: why the rows do not say it.
+        InputError: the rows do not allow an estimate; with the reason.
     """
     draw, found = rows.draw[group.places], values[group.places]
     drawn = rows.drawn

@@ -1,7 +1,7 @@
-"""The standard push as it is flown: filters, delays, limits and rotors included, in a calm hover away from all walls.
+"""Flights under the standard push, with filters, delays, limits and rotors, in calm hover away from all walls.
 
 The hand rises within about 0.05 s: a row of Gaussian pushes, whose sum is even between its ends. A moment is a couple
-of two hands across the beam, which turns with the answer of the closed form.
+of two hands across the beam, which rotates with the response of the closed form.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ AT_LIMIT = 1e-3  # of the largest thrust, within which a rotor is at a limit
 
 
 class Answer(NamedTuple):
-    """Numbers of an answer to the standard push; in yaw rad in place of m. None where there is no such number.
+    """Numbers of a response to the standard push; in yaw rad in place of m. None if a number does not exist.
 
     Attributes:
         final_speed: at the end of the push [m/s].
@@ -64,7 +64,7 @@ class PushedAxis(NamedTuple):
         ideal: the closed form's numbers.
         real: the flight's.
         flight: that was flown.
-        kept: the samples of it that count (all of its samples).
+        kept: flags of its samples that count.
     """
 
     feel: AxisFeel
@@ -79,7 +79,7 @@ class PushedAxis(NamedTuple):
 
     @property
     def difference(self) -> float | None:
-        """The largest difference between both speeds [m/s]; None of a flight that ended early."""
+        """The largest difference between both speeds [m/s]; None if the flight ended early."""
         return None if self.flight.ending else float(np.abs(self.closed - self.flown).max())
 
     @property
@@ -109,12 +109,12 @@ def pushed_axes(m: Mission, progress: Progress | None = None) -> tuple[PushedAxi
 
 
 def hold_of(k: AxisFeel) -> float:
-    """For how long an axis is pushed [s]: until it is at its final speed."""
+    """The duration of the push along an axis [s]: until it has its final speed."""
     return min(max(LEAST_HOLD, HOLD * k.time), MOST_HOLD)
 
 
 def start_of(m: Mission) -> float:
-    """When the vehicle hovers, tared, at rest [s]."""
+    """The time at which the vehicle hovers at rest after the tare [s]."""
     lifted = m.phases.lift_start + m.phases.lift_duration + m.compliance.spin_up_time
     tare = m.estimator.tare_duration
     if m.estimator.tare == "hover":
@@ -148,7 +148,7 @@ def push_mission(m: Mission, k: AxisFeel, start: float, end: float) -> Mission:
     }
     tables.pop("person", None)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)  # how it flies is seen in the flight
+        warnings.simplefilter("ignore", FlightWarning)  # warnings are not needed: the flight is examined
         return check(merge(tables, changes), f"{m.mission.name}, pushed along {k.axis}")
 
 
@@ -193,7 +193,7 @@ def _ideal(k: AxisFeel) -> Answer:
 
 
 def answer_of(k: AxisFeel, time: Array, speed: Array, hold: float) -> Answer:
-    """The numbers of a flown answer.
+    """The numbers of a flown response.
 
     Args:
         k: the axis.

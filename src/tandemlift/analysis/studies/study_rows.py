@@ -1,4 +1,4 @@
-"""The rows of a study in memory, as far as a report needs them: labels as codes, what varied, and some quantities."""
+"""The rows of a study in memory, for a report: labels as codes, varied columns, and some quantities."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Labels(NamedTuple):
 
 
 class RowGroup(NamedTuple):
-    """The rows of one mission, controller, engine and case: what tells it from the others, and their places."""
+    """The rows of one mission, controller, engine and case: the distinguishing labels, and their places."""
 
     name: str
     places: Places
@@ -40,7 +40,7 @@ class StudyRows:
 
     Args:
         study: loaded; one row at least is there.
-        metrics: names of the quantities to take, besides outcomes; by default what suits the missions.
+        metrics: names of the quantities, besides outcomes; by default those that suit the missions.
 
     Attributes:
         study: the same.
@@ -48,7 +48,7 @@ class StudyRows:
         labels: mission, controller, engine, case, outcome and finding_kinds of each row.
         varied: columns that vary, numbers (rows,); of texts the numbers of their names.
         texts: the names of those columns that are texts, by their numbers.
-        quantities: what was chosen.
+        quantities: the chosen ones.
         values: of each quantity (rows,); NaN where a row was refused or its flight failed: what was measured until a
             flight was stopped compares with nothing.
 
@@ -109,12 +109,12 @@ class StudyRows:
 
     @cached_property
     def drawn(self) -> dict[str, Array]:
-        """The point of each draw of the plan (draws,), by what it decides: see `Study.drawn_points`."""
+        """The point of each draw of the plan (draws,), by the drawn number: see `Study.drawn_points`."""
         return self.study.drawn_points()
 
     @cached_property
     def finding_counts(self) -> dict[str, NDArray[np.bool_]]:
-        """For each kind of finding that a row has, which rows have it (rows,); the most frequent first."""
+        """Flags (rows,) of the rows with each kind of finding, the most frequent kind first."""
         codes, names = self.labels["finding_kinds"]
         kinds = dict.fromkeys(kind for name in names for kind in name.split(",") if kind)
         found = {k: np.isin(codes, [i for i, name in enumerate(names) if k in name.split(",")]) for k in kinds}

@@ -1,4 +1,4 @@
-"""A study that was flown, or a part of it: its rows as a table, and the mission of each."""
+"""The rows of a flown study, or of a part of it, as a table, and the mission of each."""
 
 from __future__ import annotations
 
@@ -38,10 +38,10 @@ BAD = (*FAILURES, REFUSED)
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """The rows of a study that are flown so far. Nothing is read before it is asked for.
+    """The rows of a study that are flown so far; data are read on access.
 
     Attributes:
-        folder: where its files are.
+        folder: of its files.
         plan: of all of its rows.
         files: with the rows that there are, in their order.
     """
@@ -67,7 +67,7 @@ class Study:
 
     @property
     def settings(self) -> StudySettings:
-        """What the study file says."""
+        """The tables of the study file."""
         return self.plan.settings
 
     @property
@@ -77,12 +77,12 @@ class Study:
 
     @property
     def varied(self) -> tuple[str, ...]:
-        """The columns of what varies from row to row: keys of the grid, then those of the draws."""
+        """The columns that vary from row to row: keys of the grid, then those of the draws."""
         return self.plan.varied
 
     @property
     def grid(self) -> tuple[str, ...]:
-        """The columns of what varies on a grid."""
+        """The columns that vary on a grid."""
         return tuple(name for key, values in self.plan.grid.items() for name, _ in columns_of(key, values[0]))
 
     @property
@@ -154,11 +154,11 @@ class Study:
         """The rows as a grid: a dimension for each key of `[grid]`, and for all else of which there are several.
 
         These are `mission`, `controller` and `engine` (or `variant`, if not each flies with each), `case`, `draw` and
-        `seed`. What was drawn is a coordinate along `draw`; metrics and outcomes are variables. A key whose values are
+        `seed`. Drawn values are coordinates along `draw`; metrics and outcomes are variables. A key whose values are
         lists counts them along its dimension.
 
         Args:
-            columns: variables; by default all that were measured, without the texts of findings and events.
+            columns: variables; by default all results, without the texts of findings and events.
 
         Raises:
             InputError: rows are missing, so that there is no full grid, there is no such column, or xarray is not
@@ -210,7 +210,7 @@ class Study:
         return [found[n] for n in wanted]
 
     def drawn_points(self) -> dict[str, Array]:
-        """The point of each draw (draws,) in the unit cube, by what it decides: a key, or one number of it.
+        """The point of each draw (draws,) in the unit cube, by the drawn number: a key, or one number of it.
 
         A drawn value is a rising function of its point; points of different keys are independent.
         """
@@ -226,7 +226,7 @@ class Study:
 
 
 def _names(key: str, distribution: Distribution) -> list[str]:
-    """What the numbers of a drawn key are called: the key, its entries, or length and direction of a vector."""
+    """The names of a drawn key's numbers: the key, its entries, or length and direction of a vector."""
     if isinstance(distribution, Horizontal):
         return [f"{key} (length)", f"{key} (direction)"]
     return [key] if distribution.count is None else [f"{key}.{i}" for i in range(distribution.count)]
@@ -236,7 +236,7 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
     """Load a study that was flown, or the part of it that is flown so far.
 
     Args:
-        folder: of the study. It may be in the middle of its flights: `study.missing` says how many rows are to come.
+        folder: of the study. It may be in the middle of its flights: `study.missing` is the number of missing rows.
 
     Raises:
         InputError: the folder holds no study, a file is damaged, or PyArrow is not installed (extra: study).

@@ -71,6 +71,6 @@ def _ranked(rows: StudyRows, quantity: Quantity, most: int) -> Places:
 
 
 def reasons(rows: StudyRows, worst: list[WorstRow]) -> list[dict[str, Any]]:
-    """What the table says of the worst rows: outcome, reason, kinds of findings, seed and what varied."""
+    """The columns of the worst rows: outcome, reason, kinds of findings, seed and varied keys."""
     columns = ["outcome", "reason", "finding_kinds", "seed", *[n for n in rows.study.varied if n in rows.varied]]
     return rows.study.rows([int(rows.number[row.place]) for row in worst], columns)

@@ -68,7 +68,7 @@ def test_a_chunk_whose_worker_ends_is_flown_by_another_one(twelve, plan, tmp_pat
 
 
 def test_a_chunk_that_ends_whatever_worker_flies_it_is_named_and_the_others_stay(plan, tmp_path):
-    with pytest.raises(InputError, match=r"^rows 8 to 11: whatever worker flies them ends"):
+    with pytest.raises(InputError, match=r"^rows 8 to 11 end every worker that runs them"):
         run(plan, tmp_path, WorkersThatEnd({8: 100}))
     done = len(files_of(tmp_path))
     assert 2 <= done < 12

@@ -55,7 +55,7 @@ def test_processes_and_threads_of_any_executor_give_the_same_rows(twelve, tmp_pa
 def test_an_executor_whose_process_is_killed_is_refused_and_the_rest_stays(tmp_path):
     with spawned(1) as processes:
         pid = processes.submit(os.getpid).result()
-        with pytest.raises(InputError, match=r"^the executor has ended: .*What is flown stays"):
+        with pytest.raises(InputError, match=r"^the executor has ended: .*Finished rows are kept"):
             fly(LONGER, tmp_path, executor=processes, progress=lambda done, _: done and os.kill(pid, signal.SIGKILL))
     assert 1 <= len(files_of(tmp_path)) < 12
 

@@ -1,1 +1,1 @@
-"""What a study flies: its file, what varies, and the rows that follow from it."""
+"""The design of a study: its file, varied keys, and rows."""

@@ -20,11 +20,11 @@ from tandemlift.core.types import Array
 
 
 class Distribution(Table):
-    """What all distributions have: how many numbers are drawn, and whether they multiply the mission's own value."""
+    """The common keys of all distributions."""
 
     numbers: ClassVar[int] = 1  # that one value needs
     count: Annotated[int, Field(ge=1, le=100)] | None = key(
-        None, "1", "draw a list of so many independent values", unset="one value"
+        None, "1", "draw a list of this many independent values", unset="one value"
     )
     relative: bool = key(False, None, "whether the value multiplies the mission's own")
 

@@ -1,4 +1,4 @@
-"""What is drawn at random: the distribution of each key of `[draw]`, and random persons."""
+"""Random draws: the distribution of each key of `[draw]`, and random persons."""
 
 from __future__ import annotations
 

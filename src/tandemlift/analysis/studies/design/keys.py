@@ -51,12 +51,12 @@ def changes_in(tables: Mapping[str, Any], where: str = "set") -> dict[str, Any]:
 
 
 def with_keys(said: Mapping[str, str], keys: Iterable[str], table: str) -> dict[str, str]:
-    """The keys that a study says, by the table that says them, with those of one more table, which is applied last.
+    """The keys that a study sets, each with its table, extended by one more table, which is applied last.
 
-    That table may say more of a key ([draw] pushes.0.force of [set] pushes), but may not replace what was said.
+    That table may refine a key ([draw] pushes.0.force of [set] pushes), but may not replace a value.
 
     Raises:
-        InputError: a key is said already, or would replace one that is.
+        InputError: a key is set already, or would replace one that is.
     """
     found = dict(said)
     for key in keys:

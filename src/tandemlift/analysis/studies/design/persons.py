@@ -1,4 +1,4 @@
-"""Random persons: how the numbers of a person are drawn about those of the mission.
+"""Random persons, whose numbers are drawn about those of the mission.
 
 Gains, arm, speed and lag are those of the mission times independent factors of 0.7 to 1.3. The visual delay is 0.1 s to
 0.3 s (in steps of 20 ms, so that blocks fill), the tremor up to 0.1 N, the grip anywhere on the beam. A wind of up to
@@ -34,10 +34,10 @@ def random_person() -> Drawn:
 
 
 def check_has_person(mission: Mission) -> None:
-    """Check that somebody pushes in a mission.
+    """Check that a mission has a person.
 
     Raises:
-        InputError: nobody does.
+        InputError: it has none.
     """
     if mission.person.model == "none":
         raise InputError(
@@ -46,6 +46,6 @@ def check_has_person(mission: Mission) -> None:
 
 
 def person_changes(mission: Mission, drawn: dict[str, Any]) -> dict[str, Any]:
-    """The changes of a mission that make a drawn person push in it."""
+    """The changes of a mission for a drawn person."""
     changes = {key: value for key, value in drawn.items() if key != GRIP or mission.person.model == "steer"}
     return {"mission.duration": LONGER * mission.mission.duration, **changes}

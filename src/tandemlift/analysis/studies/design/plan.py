@@ -1,4 +1,4 @@
-"""The plan of a study: how many rows it has, and what each flies."""
+"""The plan of a study: its number of rows, and the changes of each."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class StudyPlan:
             raise InputError(f"the study has {self.count:.3g} rows ({self.sizes}); it must have at most {MAX_ROWS:.0e}")
 
     def _said(self) -> dict[str, str]:
-        """The keys that the study says, each by its table; a case may say anew those of `[set]`."""
+        """The keys that the study sets, each with its table; a case may replace those of `[set]`."""
         names = [case.name for case in self.settings.cases]
         if len(set(names)) < len(names):
             raise InputError(f"cases: names {', '.join(names)} must be without repetition")
@@ -94,7 +94,7 @@ class StudyPlan:
         return said
 
     def _add_persons(self, said: Mapping[str, str]) -> None:
-        """Draw persons, too, apart from what the study says of them."""
+        """Draw persons, too, except for keys that the study sets."""
         for variant in self.variants:
             check_has_person(variant.template(self.common).mission({}))
         self.persons = {key: distribution for key, distribution in random_person().items() if key not in said}
@@ -102,7 +102,7 @@ class StudyPlan:
 
     @property
     def sizes(self) -> str:
-        """What the number of rows is the product of, in words."""
+        """The factors of the number of rows, in words."""
         axes = [(len(values), f"of {key}") for key, values in self.grid.items()]
         counts = [
             (len(self.variants), "missions, controllers and engines"),
@@ -197,7 +197,7 @@ class StudyPlan:
 
     @cached_property
     def varied(self) -> tuple[str, ...]:
-        """The columns of what varies from row to row, in order: keys of the grid and of the draws."""
+        """The columns that vary from row to row, in order: keys of the grid and of the draws."""
         columns: dict[str, None] = {}
         per_variant = self.count // len(self.variants)
         for variant in range(len(self.variants)):
@@ -226,7 +226,7 @@ class StudyPlan:
                 raise InputError(self._refused(variant, per_variant == 1, refusals))
 
     def _refused(self, variant: int, alone: bool, refusals: Sequence[str]) -> str:
-        """That rows of a variant are refused, and why the first one is."""
+        """The message that rows of a variant are refused, with the reason of the first."""
         many = "the only row" if alone else f"each of the first {len(refusals)} rows"
         if len({each.controller for each in self.variants}) == 1:
             return f"{many} is refused: {refusals[0]}"

@@ -1,4 +1,4 @@
-"""Points in the unit cube: draw number i is the same point however many are asked for at once."""
+"""Points in the unit cube: draw number i is the same point whatever the number of points requested at once."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def point_count(sampling: Sampling, draws: int, dimensions: int) -> int:
     """Number of points that `draws` stands for.
 
     Raises:
-        InputError: the number does not suit the way of sampling.
+        InputError: the number does not suit the sampling.
     """
     if sampling in ("sobol", "saltelli") and draws & (draws - 1):
         lower = 1 << (draws.bit_length() - 1)

@@ -1,4 +1,4 @@
-"""The tables of a study file, apart from what varies: `[study]`, `[[cases]]` and `[keep]`."""
+"""The tables of a study file, except for varied keys: `[study]`, `[[cases]]` and `[keep]`."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def _some(values: tuple[Any, ...]) -> tuple[Any, ...]:
 
 
 def _plain(value: object, place: str = "") -> object:
-    """What TOML and JSON can hold of a value, with NumPy's numbers and tuples as plain ones."""
+    """A value as plain TOML and JSON data, with NumPy's numbers and tuples converted."""
     if isinstance(value, Mapping):
         return {str(key): _plain(inner, f"{place}.{key}" if place else str(key)) for key, inner in value.items()}
     if isinstance(value, (np.ndarray, np.generic)):
@@ -71,7 +71,7 @@ Count = Annotated[int, Field(ge=1, le=MAX_ROWS)]
 
 
 class StudyTable(Table):
-    """`[study]`: what flies, and how many random draws there are."""
+    """`[study]`: missions, controllers and engines, and the number of random draws."""
 
     name: Name = key(..., None, "name of the study; its folder is out/NAME", example="gusts")
     missions: Annotated[Names, AfterValidator(_some)] = key(
@@ -93,7 +93,7 @@ class StudyTable(Table):
     sampling: Sampling = key(
         "random",
         None,
-        "how the points are chosen",
+        "sampling of the points",
         choices={
             "random": "independent",
             "sobol": "scrambled Sobol' sequence",
@@ -132,12 +132,12 @@ class CaseTable(Table):
     name: Annotated[str, AfterValidator(_words)] = key(..., None, "name of the case", example="calm")
     set: MissionKeys = key({}, None, "changes of the mission, as in `[set]`")
     targets: dict[str, Any] = key(
-        {}, None, "for `tandemlift tune`: what metrics should come to in this case, by their names in metrics.json"
+        {}, None, "for `tandemlift tune`: targets of metrics in this case, by their names in metrics.json"
     )
 
 
 class KeepTable(Table):
-    """`[keep]`: what of each flight goes into the table."""
+    """`[keep]`: data of each flight that goes into the table."""
 
     metrics: Names = key((), None, "metrics by their names in metrics.json; empty: all", example=[])
     channels: Names = key((), None, "channels to keep of some flights, such as position", example=[])

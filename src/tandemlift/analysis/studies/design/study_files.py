@@ -1,4 +1,4 @@
-"""Study files: from TOML, or from tables, to a plan; every refusal names the key, the value and what is allowed."""
+"""Study files: from TOML, or from tables, to a plan; every error names the key, the value and the allowed values."""
 
 from __future__ import annotations
 

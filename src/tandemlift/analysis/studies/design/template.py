@@ -1,8 +1,8 @@
-"""A commented study file; it is a study as it stands."""
+"""A commented study file that can be flown as it is."""
 
 TEMPLATE = """\
 # A study of tandemlift: many flights in one table. `tandemlift study FILE.toml` flies it, `--dry-run` counts it first.
-# Rows are: missions x controllers x engines x cases x grid points x draws x seeds. What is left out has its default.
+# Rows are: missions x controllers x engines x cases x grid points x draws x seeds. Omitted keys have their defaults.
 # Only [study] with name and missions is required. docs/reference/studies.md explains every table.
 
 [study]
@@ -40,7 +40,7 @@ plant.inertia_scale = {distribution = "uniform", low = 0.9, high = 1.1, count = 
 # pushes.0.force.0 = {distribution = "choice", among = [1.0, 2.0, 4.0]}
 # mission.seed = {distribution = "integer", low = 0, high = 999}
 
-[keep]                          # what of each flight goes into the table
+[keep]                          # data of each flight that goes into the table
 metrics = []                    # names in metrics.json; empty: all
 channels = []                   # channels of some flights, such as ["position", "push_estimate"]:
 rows = []                       #   of these rows,

@@ -1,4 +1,4 @@
-"""The variants of a study: each mission with each controller in each engine, with all files that they need in them.
+"""The variants of a study: each mission with each controller in each engine, with all files that they need.
 
 A variant can be sent to another machine and kept in the folder of the study: it holds the mission's tables, the source
 of a user's controller and the bytes of a recording.
@@ -29,7 +29,7 @@ RECORDING = ("person", "recording")
 
 
 def variant_from(said: Mapping[str, Any]) -> Variant:
-    """A variant from what JSON makes of it."""
+    """A variant from its JSON form."""
     files: dict[str, Any] = {key: tuple(said[key]) for key in ("controller_file", "recording")}
     return Variant(said["mission"], said["controller"], said["engine"], said["tables"], **files)
 
@@ -120,7 +120,7 @@ def _controller(chosen: str, folder: Path) -> Controller:
 
 
 def _check_known(name: object, key: str) -> None:
-    """Refuse the name of a controller that is not registered, and say how a study loads one."""
+    """Reject the name of a controller that is not registered, with the way in which a study loads one."""
     if isinstance(name, str) and name not in CONTROLLERS:
         error = unknown("controller", name, sorted(CONTROLLERS))
         raise InputError(f"{key}: {error} For one of your own, name its file in study.controllers.")

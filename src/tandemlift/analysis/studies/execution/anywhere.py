@@ -1,4 +1,4 @@
-"""Flying a study wherever it is to be flown: threads, an executor, or Dask."""
+"""Flies a study by threads, an executor, or Dask."""
 
 from __future__ import annotations
 
@@ -39,20 +39,20 @@ def fly_study(
         cluster: local:N for N processes of this machine, under Dask.
         part: of the chunks to fly.
         progress: called with (rows flown, rows of the part).
-        say: prints a line: the address of Dask's dashboard, or how to go on after Ctrl-C.
+        say: prints a line: the address of Dask's dashboard, or how to continue after Ctrl-C.
 
     Returns:
         Number of chunks flown.
 
     Raises:
-        InputError: it cannot be flown there, or it cannot be written; what is done
-            stays.
+        InputError: it cannot be flown there, or it cannot be written; finished
+            chunks are kept.
     """
     try:
         with _workers(threads, executor, scheduler, cluster, say) as workers:
             return run_chunks(StudyWork(plan, folder.names()), folder.files, workers, part, progress)
     except KeyboardInterrupt:
-        say(f"stopped: what is flown stays in {folder.path}; start the same study again to go on")
+        say(f"stopped: finished rows are kept in {folder.path}; start the same study again to continue")
         raise
 
 

@@ -1,7 +1,7 @@
-"""The Parquet file of a chunk, with checksums: a file that is damaged, or is that of other rows, is not read.
+"""The Parquet file of a chunk, with checksums: a damaged file, or one of other rows, is rejected.
 
 Parquet's own checksums leave out the headers of pages and the footer. So each column has a checksum here, and these,
-the footer and the name of the chunk have one together. They stand before the footer, where no reader of Parquet looks:
+the footer and the name of the chunk have one together. They precede the footer, where readers ignore them:
 
     columns | checksum of each column, and their number | checksum of what is beside it, and of the name | footer
 """
@@ -27,7 +27,7 @@ ENDING = 8  # bytes of the length of the footer, and of the mark
 
 
 class DamagedFile(InputError):
-    """A file is not as it was written for its chunk."""
+    """The error of a file whose content differs from that written for its chunk."""
 
     def __init__(self, path: Path, why: object) -> None:
         again = "Run the study again: it makes this file anew, and keeps the others"
@@ -35,7 +35,7 @@ class DamagedFile(InputError):
 
 
 def write_checked(table: pyarrow.Table, path: Path) -> None:
-    """Write the file of a chunk, whole or not at all.
+    """Write the file of a chunk atomically.
 
     Args:
         table: of its rows, at least one.
@@ -79,7 +79,7 @@ class CheckedFile:
     Attributes:
         names: of the columns.
         rows: how many there are.
-        about: what the file says of itself.
+        about: the metadata of the file.
 
     Raises:
         DamagedFile: the file is not as it was written for this chunk.
@@ -97,7 +97,7 @@ class CheckedFile:
         self.names, self.rows, self.about = schema.names, self._parquet.metadata.num_rows, schema.metadata or {}
 
     def _checked_end(self) -> tuple[int, bytes]:
-        """Where the columns end, and their checksums."""
+        """The end of the columns, and their checksums."""
         size = self._file.size()
         footer = size - ENDING - _footer_size(self._bytes(size - ENDING, size))
         number = int.from_bytes(self._bytes(footer - SIZE - NUMBER, footer - SIZE), "little")
@@ -125,7 +125,7 @@ class CheckedFile:
                 raise DamagedFile(self._path, f"column {name} is not as it was written")
 
     def read(self, names: Collection[str]) -> pyarrow.Table:
-        """Those of these columns that there are as a PyArrow table; errors as of `check`, and an OSError."""
+        """The existing ones of these columns as a PyArrow table; errors as of `check`, and an OSError."""
         known = set(self.names)
         here = [name for name in names if name in known]
         self.check(set(here))

@@ -1,4 +1,4 @@
-"""A chunk of work: rows of a study, with all that another machine needs to fly them; and its name."""
+"""Chunks of rows of a study, with all data that another machine needs to fly them; and their names."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ class Chunk(NamedTuple):
     """Rows first ≤ number < last of a study.
 
     Attributes:
-        name: of the file of its results: the hash of its missions, seeds, what is kept, and the sources.
+        name: of the file of its results: the hash of its missions, seeds, `[keep]` and the sources.
         first: number of the first row.
         last: number after the last row.
-        rows: what each row flies.
+        rows: the plan of each row.
         variants: of these rows, by their numbers.
-        keep: what goes into the table.
+        keep: the data for the table.
     """
 
     name: str
@@ -44,7 +44,7 @@ class Chunk(NamedTuple):
 
 @functools.cache
 def sources_digest() -> str:
-    """Digest of the sources of this package that decide how a flight goes; equal for a checkout and its wheel."""
+    """Digest of the package's sources that affect a flight; equal for a checkout and its wheel."""
     files = {path.relative_to(PACKAGE).as_posix(): path for path in PACKAGE.rglob("*.py")}
     digest = hashlib.sha256()
     for name in sorted(filter(_decides, files)):
@@ -58,7 +58,7 @@ def _decides(name: str) -> bool:
 
 
 def study_digest(contents: Mapping[str, Any]) -> str:
-    """Digest of all that the file of a study's plan says, but the digest: settings, missions, sources and the rest."""
+    """Digest of a study's plan file without the digest: settings, missions, sources and the rest."""
     said = {key: value for key, value in contents.items() if key != "digest"}
     return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
 

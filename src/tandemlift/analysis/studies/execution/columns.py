@@ -20,7 +20,7 @@ from tandemlift.flight.channels import DERIVED
 from tandemlift.flight.record import Flight
 
 Columns = dict[str, list[Any]]
-Result = tuple[StudyRow, Mapping[str, Any] | None, str]  # a row, its metrics, or why it was refused
+Result = tuple[StudyRow, Mapping[str, Any] | None, str]  # a row, its metrics, or the reason of its refusal
 
 ALWAYS = ("outcome", "failure", "findings", "events")  # metrics with columns of their own
 NOT_KEPT = ("wall_s",)  # not reproducible
@@ -29,12 +29,12 @@ WHOLE = ("row", "draw", "seed", "steps")  # columns of whole numbers
 
 
 def columns_of_rows(chunk: Chunk, results: Sequence[Result], flights: Mapping[int, Flight]) -> Columns:
-    """The columns of a chunk's table; what a row does not have is None.
+    """The columns of a chunk's table; missing values of a row are None.
 
     Args:
         chunk: whose rows these are.
         results: of its rows, in order.
-        flights: those of which channels are kept, by the row's number.
+        flights: those with kept channels, by the row's number.
     """
     rows = [_row(chunk, *result) for result in results]
     for number, flight in flights.items():
@@ -68,7 +68,7 @@ def _row(chunk: Chunk, row: StudyRow, metrics: Mapping[str, Any] | None, refusal
         "events": json.dumps(metrics["events"]),
     }
     for name in _kept(chunk.keep.metrics, metrics):
-        if metrics[name] is not None:  # whether it is one number or a list is known of the others
+        if metrics[name] is not None:  # the other rows determine whether it is one number or a list
             found |= columns_of(name, metrics[name])
     return found
 
@@ -87,12 +87,12 @@ def _channels(flight: Flight, names: Sequence[str]) -> dict[str, Array]:
 
 
 def write_columns(columns: Columns, path: Path, about: Mapping[str, str]) -> None:
-    """Write a table as a Parquet file with checksums, whole or not at all.
+    """Write a table atomically as a Parquet file with checksums.
 
     Args:
         columns: from `columns_of_rows`.
         path: of the file, called by the name of its chunk.
-        about: what the file says of itself.
+        about: the metadata of the file.
 
     Raises:
         InputError: the file cannot be written: no space left, or no right to.

@@ -1,6 +1,6 @@
 """Dask (`distributed`) as workers: those of a scheduler that runs already, or processes of this machine.
 
-`running` decides which chunk is handed over when.
+`running` decides the order of the chunks.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ if TYPE_CHECKING:
 PATIENCE = 10.0  # s, within which a scheduler must answer
 SETTINGS = {
     "distributed.scheduler.allowed-failures": 10,  # workers that may end while they fly a chunk, until it is given back
-    "distributed.deploy.lost-worker-timeout": "20 s",  # until a process that does not come back is given up
+    "distributed.deploy.lost-worker-timeout": "20 s",  # until a process that does not restart is given up
 }
 COUNTED = 5.0  # s, after which the workers are counted again
 MOST_PROCESSES = 1024
 WITHOUT_INTERRUPT = "import signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\n"  # Ctrl-C is for the study alone
-LOST = "the connection to the Dask scheduler is lost; what is flown stays: start the study again"
+LOST = "the connection to the Dask scheduler is lost; finished rows are kept: start the study again"
 Say = Callable[[str], None]
 
 
@@ -43,7 +43,7 @@ class DaskWorkers:
 
     Args:
         client: of the scheduler.
-        mend: called now and then; brings back workers that ended.
+        mend: called at intervals; restarts workers that ended.
     """
 
     def __init__(self, client: Client, mend: Callable[[], None] = lambda: None) -> None:
@@ -82,7 +82,7 @@ class DaskWorkers:
 
 @contextmanager
 def _connected(client: Client) -> Iterator[None]:
-    """Within it, whatever fails because the client has lost its scheduler is told as that."""
+    """A context that reports every failure due to a lost scheduler as such."""
     from distributed.comm import CommClosedError
 
     try:
@@ -95,7 +95,7 @@ def _connected(client: Client) -> Iterator[None]:
 
 @contextmanager
 def _silent() -> Iterator[None]:
-    """Within it, what Dask has to say of a scheduler that it has lost is not logged: that is one line, from here."""
+    """A context without Dask's logs of a lost scheduler, which is reported here in one line."""
     from distributed.client import ClosedClientError
     from distributed.utils import silence_logging_cmgr
 
@@ -161,7 +161,7 @@ def _address_in(file: str) -> str:
 
 
 async def _answer(address: str) -> None:
-    """Wait for the answer of a scheduler. A client itself waits forever for a program that listens and is silent."""
+    """Wait for the answer of a scheduler; a client alone would wait forever for a silent program."""
     from distributed import Security
     from distributed.core import rpc
 
@@ -195,7 +195,7 @@ def cluster_workers(processes: int, say: Say) -> Iterator[DaskWorkers]:
 
 
 def _mend(cluster: LocalCluster, processes: int) -> None:
-    """Start processes anew that Dask has given up: it does so with one that is killed while it starts."""
+    """Restart processes that Dask has given up, as it does with one that is killed while it starts."""
     from distributed import Status
 
     for name, nanny in list(cluster.workers.items()):
@@ -219,7 +219,7 @@ def processes_of(cluster: str) -> int:
 
 
 def check_sources(client: Client) -> None:
-    """Check that all workers that a scheduler has now can fly what is sent to them.
+    """Check that all present workers of a scheduler can fly the study.
 
     Raises:
         InputError: one has other sources, or lacks a package.

@@ -1,4 +1,4 @@
-"""What a study will take, from a few of its flights."""
+"""The estimated cost of a study, from a few of its flights."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tandemlift.analysis.studies.execution.flying import fly_chunk
 
 
 class StudyEstimate(NamedTuple):
-    """What a study will take: rows, chunks, computing time of one thread [s], and bytes of all its files."""
+    """The cost of a study: rows, chunks, computing time of one thread [s], and bytes of all its files."""
 
     rows: int
     chunks: int
@@ -24,7 +24,7 @@ class StudyEstimate(NamedTuple):
 
 
 def estimate(plan: StudyPlan) -> StudyEstimate:
-    """What a study will take, from the first block of each variant, flown twice: the first time compiles."""
+    """Estimate the cost of a study from the first block of each variant, flown twice, as the first compiles."""
     per_variant = plan.count // len(plan.variants)
     seconds, size, chunks = 0.0, 0.0, chunk_count(plan)
     with tempfile.TemporaryDirectory() as folder:

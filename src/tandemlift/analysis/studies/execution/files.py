@@ -1,4 +1,4 @@
-"""The files of chunks: one Parquet file each, written whole or not at all; one that is there is flown."""
+"""The files of chunks: one Parquet file each, written atomically; a chunk with a file is finished."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tandemlift.analysis.studies.execution.columns import Columns, write_columns
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import __version__
 
-LEFT_OVER = 3600.0  # s, after which a half-written file, or a claim, is nobody's
+LEFT_OVER = 3600.0  # s, after which a half-written file, or a claim, is abandoned
 
 
 class ChunkFiles:
@@ -20,18 +20,18 @@ class ChunkFiles:
 
     Args:
         path: of the folder.
-        about: what every file says of itself, beside its chunk and the version.
+        about: the metadata of every file, beside its chunk and the version.
     """
 
     def __init__(self, path: Path, about: Mapping[str, str]) -> None:
         self.path, self._about = path, dict(about)
 
     def file(self, name: str) -> Path:
-        """The file of a chunk's results, be it there or not."""
+        """The path of a chunk's results, whether it exists or not."""
         return self.path / f"{name}.parquet"
 
     def is_flown(self, name: str) -> bool:
-        """Whether a chunk's file is there, as it was written; a damaged one is written anew when the chunk is flown.
+        """Whether a chunk has an intact file; a damaged one is replaced when the chunk is flown.
 
         Raises:
             InputError: there is a file that this process cannot read.
@@ -48,9 +48,9 @@ class ChunkFiles:
         return True
 
     def claim(self, name: str) -> bool:
-        """Say that a chunk is flown here; False if a process says so already, or said so and was killed.
+        """Claim a chunk; False if another process has claimed it, even if that was killed.
 
-        Processes that share the folder take each other's claims as advice: they fly other chunks first.
+        Processes that share the folder treat each other's claims as advice: they fly other chunks first.
 
         Raises:
             InputError: the folder cannot be written to.
@@ -64,7 +64,7 @@ class ChunkFiles:
         return True
 
     def release(self, name: str) -> None:
-        """Take back that a chunk is flown here."""
+        """Withdraw the claim of a chunk."""
         with contextlib.suppress(OSError):
             self._claim_file(name).unlink()
 
@@ -72,7 +72,7 @@ class ChunkFiles:
         return self.path / f".{name}.claim"
 
     def write(self, name: str, columns: Columns) -> None:
-        """Write the results of a chunk, whole or not at all.
+        """Write the results of a chunk atomically.
 
         Raises:
             InputError: the file cannot be written.

@@ -1,4 +1,4 @@
-"""Flying a chunk: from its rows to the columns of its table."""
+"""Flies a chunk: from its rows to the columns of its table."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def fly_chunk(chunk: Chunk) -> Columns:
 
 
 class _Result:
-    """A row, its mission, and its metrics or why it was refused."""
+    """A row, its mission, and its metrics or the reason of its refusal."""
 
     def __init__(self, row: StudyRow, template: MissionTemplate) -> None:
         self.row, self.refusal = row, ""
@@ -55,7 +55,7 @@ class _Result:
 
 
 def _flown(results: Sequence[_Result], chunk: Chunk, keep: Keep) -> list[Any]:
-    """The flights or metrics of rows that have missions, or why they are refused; the same to the last bit again."""
+    """The flights or metrics of rows with missions, or the reasons of their refusals; bit-identical when repeated."""
     missions = [result.mission for result in results if result.mission is not None]
     engines = [chunk.variants[result.row.variant].engine for result in results]
     return fly_each(missions, engines, keep=keep, threads=1, refusals=True)

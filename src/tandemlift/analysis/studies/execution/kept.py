@@ -1,4 +1,4 @@
-"""What a study keeps of its flights, checked before anything flies."""
+"""Check of the data that a study keeps, before any flight."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def check_kept(plan: StudyPlan) -> None:
     """Check that each metric and channel that `[keep]` names comes from some flight of a study.
 
     Raises:
-        InputError: none has it; the message says what there is.
+        InputError: none has it; the message lists the existing ones.
     """
     keep = plan.settings.keep
     if not keep.metrics and not keep.channels:

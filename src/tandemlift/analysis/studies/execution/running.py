@@ -1,7 +1,7 @@
-"""Flying the chunks of a study, or of other work, one by one on workers; those that are flown already are left out.
+"""Flies the chunks of a study, or of other work, one by one on workers, and skips finished ones.
 
-Nothing but the files of finished chunks says what is done. So a study can be stopped, killed, started again and spread
-over processes and machines that share a folder, and gives the same rows.
+Only the files of finished chunks record progress. A study can thus be stopped, killed, restarted and distributed over
+processes and machines that share a folder, and gives the same rows.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress
 
 WAITING = 2  # chunks handed over for each worker, so that none waits
-BEAT = 1.0  # s, after which progress is told although no chunk has ended
+BEAT = 1.0  # s, after which progress is reported although no chunk has ended
 MOST_LOST = 5  # times that a chunk is handed over again because its worker ended
 
 
 class StudyPart(NamedTuple):
-    """Part `number` of `parts`, from 1: every so many chunks."""
+    """Part `number` of `parts`, from 1: every `parts`-th chunk."""
 
     number: int = 1
     parts: int = 1
@@ -52,7 +52,7 @@ class Work(Protocol):
 
     @property
     def names(self) -> Sequence[str]:
-        """Of all chunks; that of a chunk says all that decides its rows."""
+        """The names of all chunks; a name depends on all data that determine its rows."""
         ...
 
     def size(self, i: int) -> int:
@@ -60,7 +60,7 @@ class Work(Protocol):
         ...
 
     def task(self, i: int) -> Task:
-        """What flies chunk i, on any worker."""
+        """The function that flies chunk i, on any worker."""
         ...
 
 
@@ -91,7 +91,7 @@ def run_chunks(
 
     Args:
         work: the chunks.
-        files: receive what is flown.
+        files: receive the results.
         workers: fly the chunks.
         part: of the chunks to fly.
         progress: called with (rows flown, rows of the part), at least every second or so.
@@ -100,13 +100,13 @@ def run_chunks(
         Number of chunks flown.
 
     Raises:
-        InputError: a chunk cannot be flown or written; those that are done stay.
+        InputError: a chunk cannot be flown or written; finished ones are kept.
     """
     return _Run(work, files, workers, part, progress).run()
 
 
 class _Run:
-    """A run over the chunks of a part: those to do, those that others do, and those that are handed over."""
+    """A run over the chunks of a part: those to do, those of other processes, and those handed over."""
 
     def __init__(
         self, work: Work, files: ChunkFiles, workers: Workers, part: StudyPart, progress: Progress | None
@@ -159,7 +159,7 @@ class _Run:
         self.claimed.discard(i)
 
     def _next(self) -> int | None:
-        """The next chunk to fly: those that other processes say they fly come last, for these may have been killed."""
+        """The next chunk to fly; those claimed by other processes, which may have been killed, come last."""
         while self.todo:
             i = self.todo.popleft()
             if not self.files.claim(self.names[i]):
@@ -197,7 +197,7 @@ class _Run:
         if self.lost[i] > MOST_LOST:
             first = sum(map(self.work.size, range(i)))
             raise InputError(
-                f"rows {first} to {first + self.work.size(i) - 1}: whatever worker flies them ends: {error} "
-                "What else is flown stays"
+                f"rows {first} to {first + self.work.size(i) - 1} end every worker that runs them: {error} "
+                "All other results are kept"
             )
         self._submit(i)

@@ -1,4 +1,4 @@
-"""The folder of a study: what it flies, and one Parquet file for each chunk that was flown."""
+"""The folder of a study: its plan, and one Parquet file for each finished chunk."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class StudyFolder:
         self.files = ChunkFiles(path / CHUNKS, {"study": self.digest, "sources": self.sources})
 
     def plan(self) -> StudyPlan:
-        """The plan, from what the folder holds alone."""
+        """The plan, from the folder alone."""
         variants = [variant_from(said) for said in self._said["variants"]]
         return StudyPlan(checked_settings(self._said["settings"], str(self.path / PLAN)), variants)
 
@@ -59,7 +59,7 @@ def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
     """The folder of a study, made if it is not there.
 
     Raises:
-        InputError: what is to be kept does not exist, or the folder holds another study or cannot be written to.
+        InputError: a kept metric or channel does not exist, or the folder holds another study or cannot be written to.
     """
     with extra("study", "a study"):  # before anything flies
         import pyarrow  # noqa: F401
@@ -79,7 +79,7 @@ def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
 
 
 def _contents(plan: StudyPlan) -> dict[str, Any]:
-    """What the file of a plan says; the digest of all else in it is that of the study."""
+    """The content of a plan's file; the study's digest is that of all other content."""
     contents = {
         "format": FORMAT,
         "sources": sources_digest(),
@@ -116,7 +116,7 @@ def _plan_in(path: Path) -> dict[str, Any]:
     if made_by != FORMAT:
         raise InputError(f"{path}: the study was made by another version of tandemlift; fly it again")
     if digest != study_digest(said):
-        again = "Remove this file and start the study again: what is flown stays"
+        again = "Remove this file and start the study again: finished rows are kept"
         raise InputError(f"{path / PLAN} is damaged, or was edited: it does not fit its digest. {again}")
     return said
 

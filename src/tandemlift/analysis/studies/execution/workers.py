@@ -1,7 +1,7 @@
-"""What flies the chunks of a study: threads of this process, or any executor of `concurrent.futures`.
+"""Workers that fly the chunks of a study: threads of this process, or any executor of `concurrent.futures`.
 
 Another process receives a chunk as bytes, together with the digest of its sources, and compares that digest before it
-unpacks them. So it needs this package alone: no file of the study, and no package that reads or writes its table.
+unpacks them. It needs this package alone: no file of the study, and no package that reads or writes its table.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ Task = Callable[[], Columns]  # flies a chunk; can be pickled
 
 
 class Workers(Protocol):
-    """What flies chunks."""
+    """The interface of workers."""
 
     @property
     def count(self) -> int:
-        """How many chunks are flown at the same time; at least 1."""
+        """The number of chunks flown at the same time; at least 1."""
         ...
 
     def submit(self, task: Task) -> Future[Any]:
@@ -43,7 +43,7 @@ class Workers(Protocol):
         ...
 
     def is_lost(self, error: BaseException) -> bool:
-        """Whether an error says that a worker ended, so that another one can fly its chunk."""
+        """Whether an error means that a worker ended, so that another one can fly its chunk."""
         ...
 
 
@@ -103,7 +103,7 @@ class ExecutorWorkers:
 
 
 def _ended(error: Exception) -> InputError:
-    return InputError(f"the executor has ended: {error} What is flown stays; start the study again to go on")
+    return InputError(f"the executor has ended: {error} Finished rows are kept; start the study again to continue")
 
 
 def fly_packed(sources: str, task: bytes) -> bytes:
@@ -128,13 +128,13 @@ def other_sources(worker: str, there: str, here: str) -> OtherSources:
     """The error for a worker with sources of another digest."""
     return OtherSources(
         f"worker {worker}: its tandemlift has the sources {there}, this study those with digest {here}; "
-        "install the same version on both. What is flown stays"
+        "install the same version on both. Finished rows are kept"
     )
 
 
 @contextmanager
 def thread_workers(count: int) -> Iterator[ThreadWorkers]:
-    """Threads of this process; on an error, or Ctrl-C, they are left behind without waiting for their chunks."""
+    """Threads of this process; after an error or Ctrl-C, their chunks are not waited for."""
     pool = ThreadPoolExecutor(count, "study")
     try:
         yield ThreadWorkers(pool, count)

@@ -1,1 +1,1 @@
-"""Tuning: the numbers and words of a mission that make some metrics small, found by search over many flights."""
+"""Tuning: search over many flights for the numbers and words of a mission that minimize some metrics."""

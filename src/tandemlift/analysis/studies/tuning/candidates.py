@@ -1,4 +1,4 @@
-"""Candidates flown on draws, and what they cost: bad outcomes first, then the goals."""
+"""Candidates flown on draws, and their costs: bad outcomes first, then the goals."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ Changes = dict[str, Any]
 
 
 class Trial(NamedTuple):
-    """What became of a candidate on some draws.
+    """The results of a candidate on some draws.
 
     Attributes:
         outcomes: of each draw; also "refused", "no number" where a goal has none, or "findings" where these are bad.
-        reasons: why a draw was refused, "" for others.
+        reasons: of a draw's refusal, "" for others.
         flown: fraction of the mission that was flown, (draws,).
-        metrics: of each draw; none of one that was refused.
+        metrics: of each draw; none for a refused one.
         values: for each goal (draws, components), NaN where the outcome is bad.
     """
 
@@ -87,7 +87,7 @@ def repeated(trial: Trial, more: int) -> Trial:
 
 
 class Cost(NamedTuple):
-    """Number of bad outcomes, and what the goals come to over all other draws; of all bad, the fraction not flown."""
+    """Number of bad outcomes, and the goals' ratio over all other draws; if all are bad, the fraction not flown."""
 
     bad: int
     ratio: float
@@ -130,7 +130,7 @@ def fly_candidates(
 
 
 def _loaded(source: MissionSource, *changes: Changes) -> Mission | InputError:
-    """A mission, or why it is refused."""
+    """A mission, or the reason of its refusal."""
     try:
         return source.load(*changes)
     except InputError as error:
@@ -138,7 +138,7 @@ def _loaded(source: MissionSource, *changes: Changes) -> Mission | InputError:
 
 
 def _trial(rows: Sequence[tuple[Any, Mapping[str, Any] | InputError]]) -> Trial:
-    """A trial from missions and their metrics, or why there are none."""
+    """A trial from missions and their metrics, or from the reasons of refusals."""
     refusals = [str(found) if isinstance(found, InputError) else "" for _, found in rows]
     metrics = [{} if isinstance(found, InputError) else found for _, found in rows]
     outcomes = [found.get("outcome", REFUSED) for found in metrics]

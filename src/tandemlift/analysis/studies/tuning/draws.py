@@ -1,7 +1,7 @@
-"""The flights on which candidates are compared: the rows of a study, which all candidates fly alike.
+"""The flights on which candidates are compared: the rows of a study, which are the same for all candidates.
 
-The study that is used where no file is given has another seed of noise, wind and tremor in each draw, and modest errors
-of what a pilot does not know: mass within 3 %, inertia within 10 % about each axis; 0.5 to 1.5 times wind, turbulence
+The default study has another seed of noise, wind and tremor in each draw, and modest errors of values that are unknown
+to the pilot: mass within 3 %, inertia within 10 % about each axis; 0.5 to 1.5 times wind, turbulence
 and disturbance, where the mission has them; 0.8 to 1.25 times the lags of rotors, where it has them, and 0.8, 1 or 1.2
 times their delay.
 """
@@ -96,11 +96,11 @@ def _named(study: Study) -> str:
 
 
 def default_study(mission: Mission, source: MissionSource, count: int, seed: int) -> dict[str, Any]:
-    """The tables of a study that draws what the pilot of a mission does not know; what its changes set is not drawn.
+    """The tables of a study that draws values unknown to the pilot of a mission, except for changed keys.
 
     Args:
-        mission: as it is, with its changes.
-        source: where it comes from.
+        mission: with its changes.
+        source: of the mission.
         count: number of draws.
         seed: of the draws.
     """

@@ -1,4 +1,4 @@
-"""The front of several goals: what cannot be improved in one without loss in another."""
+"""The Pareto front of several goals: candidates that cannot be improved in one goal without loss in another."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ MOST = 12  # points that are shown, and flown on holdout draws
 
 
 def front_of(tried: Sequence[CandidateResult], chosen: Values) -> tuple[FrontPoint, ...]:
-    """The candidates that no other one beats, in the order of their first goal; at most `MOST`, evenly spread.
+    """The candidates that no other one dominates, in the order of their first goal; at most `MOST`, evenly spread.
 
-    The chosen one is among them, unless another one beats it.
+    The chosen one is among them, unless another one dominates it.
     """
     ranks = np.array([[cost.rank for cost in t.apart] for t in tried])
     kept: list[int] = []

@@ -1,4 +1,4 @@
-"""What a search makes small: metrics of a flight, each over its target or over its present value."""
+"""The goals of a search: metrics of a flight to minimize, each over its target or over its present value."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.keys import is_number
 from tandemlift.core.types import Array
 
-LARGER = {"clearance_min_m"}  # metrics of which more is better: their inverse is made small
-LEAST = 1e-2  # of the largest component of a metric: smaller present values are measured against this
+LARGER = {"clearance_min_m"}  # metrics of which more is better: their inverse is minimized
+LEAST = 1e-2  # of the largest component of a metric: the scale of smaller present values
 CAP = 1e6  # largest ratio, of a metric that must be large and is not
 Metrics = Mapping[str, Any]
 
 
 class Goal(NamedTuple):
-    """A metric to make small, or one component of it.
+    """A metric to minimize, or one component of it.
 
     Attributes:
-        name: as it was asked for, such as `position_rmse_m` or `position_rmse_m.0`.
+        name: as specified, such as `position_rmse_m` or `position_rmse_m.0`.
         target: the value that counts as one, a number or one for each component; None for the present value.
         targets: those of some cases, by name of the case.
     """
@@ -39,7 +39,7 @@ class Goal(NamedTuple):
 
     @property
     def place(self) -> int | None:
-        """Which component of a metric that is a list; None for all of them."""
+        """The component of a metric that is a list; None for all of them."""
         last = self.name.rpartition(".")[2]
         return int(last) if last.isdigit() else None
 
@@ -76,7 +76,7 @@ def goals_from(asked: str | Goal | Mapping[str, Any] | Iterable[str | Goal]) -> 
     """Goals from names, or from names with their targets.
 
     Raises:
-        InputError: there is none, one is asked for twice, or a target is not a positive number.
+        InputError: there is none, one is given twice, or a target is not a positive number.
     """
     if isinstance(asked, Mapping):
         goals = [Goal(name, target) for name, target in asked.items()]
@@ -84,7 +84,7 @@ def goals_from(asked: str | Goal | Mapping[str, Any] | Iterable[str | Goal]) -> 
         given: Iterable[str | Goal] = [asked] if isinstance(asked, (str, Goal)) else asked
         goals = [Goal(one) if isinstance(one, str) else one for one in given]
     if not goals:
-        raise InputError("--minimize: needs a metric to make small, such as position_rmse_m")
+        raise InputError("--minimize: needs a metric, such as position_rmse_m")
     for goal in goals:
         if sum(other.name == goal.name for other in goals) > 1:
             raise InputError(f"--minimize {goal.name}: is given twice")
@@ -133,7 +133,7 @@ def _is_numeric(value: object) -> bool:
 
 
 def scales_of(goal: Goal, cases: Sequence[str], present: Array) -> Array:
-    """What values of a goal are measured against, (draws, components).
+    """The scales of a goal's values (draws, components).
 
     It is the target, that of the draw's case if there is one; else, for each component, the median of the present
     values over all draws that have one, and one where no draw has any.

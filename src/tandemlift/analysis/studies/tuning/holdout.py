@@ -1,4 +1,4 @@
-"""Old against new on draws that the search never saw: paired, so that what is alike in both cancels."""
+"""Paired comparison of old and new values on draws that the search never used."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ class Comparison(NamedTuple):
 
     Attributes:
         label: its name.
-        old: median and worst of the old values, over draws that went well with them.
-        new: those of the new values, over draws that went well with these.
-        difference: median of new minus old, one for each draw that went well with both.
+        old: median and worst of the old values, over draws without a bad outcome.
+        new: those of the new values, likewise.
+        difference: median of new minus old, over draws without a bad outcome of either.
         interval: of that median, with 95 % confidence; None for fewer than six draws.
         improved: fraction of these draws in which it improved.
     """
@@ -35,7 +35,7 @@ class Comparison(NamedTuple):
 
 
 class Evidence(NamedTuple):
-    """What holdout draws say of the new values against the old ones.
+    """The comparison of the new values with the old ones on holdout draws.
 
     Attributes:
         old: the old values flown.
@@ -44,7 +44,7 @@ class Evidence(NamedTuple):
         comparisons: one for each component of each goal.
         score: the interval of the median difference of the draws' scores, new minus old; None for few draws.
         better: whether the new values are better.
-        words: why, in a sentence.
+        words: the reason, in a sentence.
     """
 
     old: Trial
@@ -63,7 +63,7 @@ def median_interval(values: Array) -> tuple[float, float] | None:
 
 
 def evidence_of(old: Trial, new: Trial, goals: Sequence[Goal], scales: Sequence[Array], aim: Aim) -> Evidence:
-    """What two trials on the same draws say.
+    """Compare two trials on the same draws.
 
     The new values are better if fewer outcomes are bad, or, of as many, if their cost is lower; where the cost is a
     mean, the whole interval of the median difference of the draws' scores must be below zero too.

@@ -1,4 +1,4 @@
-"""Optimisers: each asks for candidates, and is told what they cost, as often as its budget allows."""
+"""Optimisers: each proposes candidates and receives their costs, until its budget is spent."""
 
 from __future__ import annotations
 
@@ -24,27 +24,27 @@ class Optimiser(Protocol):
 
     @property
     def size(self) -> int:
-        """How many candidates it asks for at a time."""
+        """The number of candidates that it proposes at a time."""
 
     @property
     def ended(self) -> str:
-        """Why it asks for no more candidates; "" while it does."""
+        """The reason why it proposes no more candidates; "" while it does."""
 
     @property
     def centre(self) -> Point | None:
-        """The point about which it asks for candidates, if it has one."""
+        """The point about which it proposes candidates, if it has one."""
 
     def ask(self) -> list[Point]:
         """The next candidates: a value for each parameter, within its bounds."""
 
     def tell(self, points: Sequence[Point], costs: Array) -> None:
-        """Costs (candidates, goals) of the candidates that were asked for last; smaller is better."""
+        """Receive the costs (candidates, goals) of the last candidates; smaller is better."""
 
 
 class EvolutionStrategy:
-    """CMA-ES: samples of a normal distribution that moves, grows and turns towards the better half of them.
+    """CMA-ES: samples of a normal distribution that moves, grows and rotates towards the better half of them.
 
-    At first the components of one vector mostly change together, because gains that are too high are so on all axes.
+    At first the components of one vector mostly change together, because gains are usually too high on all axes.
 
     Source: Hansen, The CMA Evolution Strategy: A Tutorial, arXiv 1604.00772; by the package `cma`. It uses nothing of a
     cost but the order of candidates.
@@ -76,7 +76,7 @@ class EvolutionStrategy:
 
     @property
     def ended(self) -> str:
-        """Why it asks for no more candidates; "" while it does."""
+        """The reason why it proposes no more candidates; "" while it does."""
         reasons = self._strategy.stop()
         return f"converged ({', '.join(sorted(reasons))})" if reasons else ""
 
@@ -95,7 +95,7 @@ class EvolutionStrategy:
         return tuple(c.value(float(x)) for c, x in zip(self._coordinates, inside, strict=True))
 
     def tell(self, points: Sequence[Point], costs: Array) -> None:
-        """Learn from the costs (candidates, 1) of the candidates that were asked for last."""
+        """Learn from the costs (candidates, 1) of the last candidates."""
         self._strategy.tell(self._asked, [float(cost) for cost in costs[:, 0]])
 
 

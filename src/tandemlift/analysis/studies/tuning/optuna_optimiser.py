@@ -37,7 +37,7 @@ class ParzenEstimator:
         optuna.logging.set_verbosity(optuna.logging.WARNING)
         self.parameters = tuple(parameters)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # that parts of Optuna are called experimental is no news to the user
+            warnings.simplefilter("ignore")  # hide warnings that parts of Optuna are experimental
             sampler = optuna.samplers.TPESampler(seed=seed, multivariate=True, constant_liar=True)
             self._study = optuna.create_study(directions=["minimize"] * goals, sampler=sampler)
         self._spaces = {p.name: _space(optuna, p) for p in parameters}
@@ -52,7 +52,7 @@ class ParzenEstimator:
         return [tuple(trial.params[p.name] for p in self.parameters) for trial in self._asked]
 
     def tell(self, points: Sequence[Point], costs: Array) -> None:
-        """Learn from the costs (candidates, goals) of the candidates that were asked for last."""
+        """Learn from the costs (candidates, goals) of the last candidates."""
         for trial, cost in zip(self._asked, costs, strict=True):
             self._study.tell(trial, [float(c) for c in cost])
 

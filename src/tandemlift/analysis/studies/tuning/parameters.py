@@ -1,7 +1,7 @@
-"""What a search changes: numbers and words of a mission, each with its present value and where it may lie.
+"""The parameters of a search: numbers and words of a mission, each with its present value and range.
 
 A positive number is searched by its logarithm, within a factor of its present value and the bounds of its key. Every
-other number is searched as it is: a negative one within ten times its size, zero within one of it. A vector is one
+other number is searched linearly: a negative one within ten times its size, zero within one of it. A vector is one
 number for each component. A word, or true and false, is a choice.
 """
 
@@ -20,10 +20,10 @@ from tandemlift.core.keys import is_number
 from tandemlift.missions import Mission
 from tandemlift.missions.bounds import bounds, innermost, plain
 
-DIGITS = 3  # of a number as it is flown
+DIGITS = 3  # of a flown number
 LIMITS = {"a", "max_tilt", "velocity_i_limit", "rate_i_limit", "integral_limit", "tracking"}
 """Keys of controllers that are limits or exponents, and no gains: they stay, unless they are named."""
-JUDGING = ("mission", "outcome", "crash", "findings", "promise")  # tables that say what is flown and how it is judged
+JUDGING = ("mission", "outcome", "crash", "findings", "promise")  # tables that define the flight and its assessment
 LINEAR_SPAN = 10.0  # times the size of a negative number
 Range = Sequence[Any] | None
 Value = float | int | bool | str
@@ -34,7 +34,7 @@ class Tunable(NamedTuple):
 
     Attributes:
         key: dotted key of the mission.
-        place: which component of a vector; None for a key of one value.
+        place: component of a vector; None for a key of one value.
         present: its value now; of a key without one, the middle of its range.
         low: its lowest value.
         high: its highest value.
@@ -58,7 +58,7 @@ class Tunable(NamedTuple):
         return self.key if self.place is None else f"{self.key}.{self.place}"
 
     def as_flown(self, value: Any) -> Any:
-        """A value as it is flown: a choice unchanged, a number with three digits, within its bounds."""
+        """The flown value: a choice unchanged, a number with three digits, within its bounds."""
         if self.choices:
             return value
         if self.is_whole:
@@ -111,15 +111,15 @@ def parameters_of(mission: Mission, ranges: Mapping[str, Range], factor: float) 
         for leaf, place in _matching(asked, leaves):
             found |= {p.name: p for p in _parameters(leaf, limits, factor) if place in (None, p.place)}
     if not found:
-        raise InputError(f"controller {mission.controller.name!r} has no gains; name what to search by --parameter")
+        raise InputError(f"controller {mission.controller.name!r} has no gains; name the parameters by --parameter")
     return tuple(found.values())
 
 
 def _matching(asked: str, leaves: Mapping[str, _Leaf]) -> list[tuple[_Leaf, int | None]]:
-    """The leaves that a key, a table or a pattern means, with the component if it names one."""
+    """The leaves of a key, a table or a pattern, with the component if it names one."""
     if asked.split(".")[0] in JUDGING:
         raise InputError(
-            f"--parameter {asked}: [{asked.split('.')[0]}] says what is flown and how it is judged, so it stays"
+            f"--parameter {asked}: [{asked.split('.')[0]}] defines the flight or its assessment, so it stays"
         )
     if asked in leaves:
         return [(leaves[asked], None)]

@@ -22,7 +22,7 @@ MISSION_FILE, EVIDENCE_FILE = "tuned.toml", "evidence.json"
 
 
 class FrontPoint(NamedTuple):
-    """A candidate that no other one beats in all goals: its values, and its costs for each goal alone.
+    """A candidate that no other one dominates: its values, and its costs for each goal alone.
 
     `costs` are those on the draws of the search, `holdout` those on holdout draws, if it was flown there.
     """
@@ -33,13 +33,13 @@ class FrontPoint(NamedTuple):
 
 
 class Tuning(NamedTuple):
-    """What a search has found.
+    """The result of a search.
 
     Attributes:
-        task: by what candidates were judged.
+        task: the task of the search.
         optimiser: "cma" or "optuna".
         seed: of the search and of its draws.
-        budget: candidates that were allowed.
+        budget: number of candidates allowed.
         draws: on which candidates were compared.
         holdout: draws that the search never saw.
         old: the present values.
@@ -48,10 +48,10 @@ class Tuning(NamedTuple):
         history: the cost of every candidate in the order of the search, the present values first.
         apart: the same for each goal alone.
         records: the candidates that were better than all before them, with their numbers in the history.
-        ended: why the search ended.
+        ended: the reason for the end of the search.
         is_finished: whether it was not interrupted.
-        evidence: what holdout draws say; None of a search that was interrupted.
-        front: of several goals, what cannot be improved in one without loss in another; else empty.
+        evidence: the comparison on holdout draws; None after an interrupted search.
+        front: the Pareto front of several goals; else empty.
     """
 
     task: Task
@@ -88,11 +88,11 @@ class Tuning(NamedTuple):
 
     @property
     def is_better(self) -> bool:
-        """Whether holdout draws say that the new values are better."""
+        """Whether the new values are better on holdout draws."""
         return self.evidence is not None and self.evidence.better
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
-        """Write the mission and the evidence into a folder, each file whole or not at all; returns the mission's path.
+        """Write the mission and the evidence atomically into a folder, and return the mission's path.
 
         Raises:
             InputError: the folder cannot be made.
@@ -123,7 +123,7 @@ class Tuning(NamedTuple):
         )
 
     def as_table(self) -> dict[str, Any]:
-        """All of it as JSON: what was searched and how, the values, the history, the evidence, the front."""
+        """The result as JSON: task, optimiser, values, history, evidence, front."""
         task = self.task
         names = [p.name for p in task.parameters]
         return {
@@ -164,7 +164,7 @@ class Tuning(NamedTuple):
 
 
 def present_values(task: Task) -> Values:
-    """The present values of a task's parameters, to the last digit."""
+    """The present values of a task's parameters, exactly."""
     found = []
     for p in task.parameters:
         value = value_of(task.mission, p.key)

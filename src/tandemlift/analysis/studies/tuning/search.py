@@ -1,4 +1,4 @@
-"""A search in progress: candidates asked for, flown, and told what they cost, until the budget is spent."""
+"""A search in progress: proposes candidates, flies them, and reports their costs, until the budget is spent."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ class CandidateResult(NamedTuple):
 
 
 class TuningSearch:
-    """All that was tried, the present values first, and the best of it.
+    """All candidates, the present values first, and the best of them.
 
     Args:
-        task: by what candidates are judged.
+        task: the task of the search.
         draws: on which they fly.
         budget: most candidates to try.
-        present: the present values, and what became of them.
+        present: the present values, and their results.
         progress: called after each population.
     """
 
@@ -63,11 +63,11 @@ class TuningSearch:
         return tuple(found)
 
     def run(self, optimiser: Optimiser, *, is_front: bool) -> None:
-        """Search until the budget is spent, the search converges, or Ctrl-C, which keeps what there is.
+        """Search until the budget is spent, the search converges, or Ctrl-C, which keeps the results so far.
 
         Args:
             optimiser: that asks for candidates.
-            is_front: whether it is told a cost for each goal, and not one for all together.
+            is_front: whether it receives a cost for each goal, and not one for all together.
         """
         try:
             while not self.ended:

@@ -1,4 +1,4 @@
-"""The choice among the best candidates: on more draws than the search has, because the best of many was also lucky."""
+"""The choice among the best candidates, on more draws than in the search, because the best of many is biased."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ EARLY, LAST = 4, 4  # a quarter of the draws first; then the best four fly the o
 def choose(search: TuningSearch, optimiser: Optimiser, draws: Sequence[Draw]) -> tuple[Values, tuple[Cost, Cost]]:
     """The best of the best candidates, and the costs of the present values and of its own, on draws for the choice.
 
-    The finalists are the candidates of the lowest cost, those that were the best in their time, which are often farther
-    from where flights fail, and the point about which the search was trying in the end.
+    The finalists are the candidates of the lowest cost, those that were the best at some time, which are often farther
+    from failures, and the final centre of the search.
 
     Args:
         search: after the search.
-        optimiser: that asked for the candidates.
-        draws: that neither the search nor the evidence flies.
+        optimiser: that proposed the candidates.
+        draws: used neither in the search nor for the evidence.
     """
     task, present = search.task.for_draws(draws), search.tried[0]
     ranked = sorted(search.tried[1:], key=lambda tried: tried.cost.rank)

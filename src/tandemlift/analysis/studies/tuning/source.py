@@ -1,4 +1,4 @@
-"""Where the missions of a search come from."""
+"""The source of the missions of a search."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class MissionSource:
 
 
 def _plain(value: object) -> object:
-    """A value as TOML and JSON have it: lists in place of tuples and arrays."""
+    """A value in the form of TOML and JSON: lists in place of tuples and arrays."""
     if isinstance(value, (np.ndarray, np.generic)):
         return value.tolist()
     if isinstance(value, Mapping):

@@ -1,4 +1,4 @@
-"""A task of tuning: by what candidates are judged."""
+"""A task of tuning: parameters, goals and the cost of candidates."""
 
 from __future__ import annotations
 
@@ -32,15 +32,15 @@ FIRST = 4  # draws in which a candidate must not always fail to be flown on the 
 
 
 class Task(NamedTuple):
-    """What a search is for.
+    """The task of a search.
 
     Attributes:
-        source: where missions come from.
-        mission: the mission as it is.
-        parameters: what is searched.
-        goals: what is made small.
+        source: of missions.
+        mission: the original.
+        parameters: those that are searched.
+        goals: metrics to minimize.
         sizes: components of each goal.
-        scales: what each goal is measured against, the same for every draw but for targets of cases.
+        scales: of each goal, equal for all draws except for targets of cases.
         aim: "mean" or "worst".
         threads: that fly; None for one for each processor.
         strict: whether a flight with findings is bad.
@@ -66,7 +66,7 @@ class Task(NamedTuple):
         return [self.judged(trial).measured(self.goals, self.sizes) for trial in trials]
 
     def judged(self, trial: Trial) -> Trial:
-        """A trial by what this task calls bad."""
+        """A trial by this task's definition of a bad outcome."""
         return trial.strictly() if self.strict else trial
 
     def fly_while_hopeful(self, candidates: Sequence[Changes], draws: Sequence[Draw]) -> list[Trial]:
@@ -101,7 +101,7 @@ def _of_case(goal: Goal, case: str, scales: Array) -> Array:
 
 
 def started(task: Task, draws: Sequence[Draw]) -> tuple[Task, Trial]:
-    """The task with sizes and scales of its goals, from the present values flown on all draws; and how these fare.
+    """The task with sizes and scales of its goals, from the present values flown on all draws; and their trial.
 
     Raises:
         InputError: no draw can be flown, or a goal is unknown or has no number.

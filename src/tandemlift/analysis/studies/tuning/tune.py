@@ -28,7 +28,7 @@ MOST_DRAWS = 1_000_000
 
 
 class How(NamedTuple):
-    """How to search and to compare; see `tune`."""
+    """Options of search and comparison; see `tune`."""
 
     parameters: Iterable[str] | Mapping[str, Range] = ()
     draws: int | Study = 8
@@ -50,7 +50,7 @@ def tune(
     progress: TuneProgress | None = None,
     **how: Any,
 ) -> Tuning:
-    """Search values of a mission that make metrics small, and fly them on holdout draws against the present ones.
+    """Search values of a mission that minimize metrics, and compare them with the present ones on holdout draws.
 
     A bad outcome counts first: of two candidates, the one with fewer draws that fail, are refused or have no number for
     a goal is better, whatever the goals say. Then the goals count, each over its target or its present value. Ctrl-C
@@ -58,27 +58,27 @@ def tune(
 
     Args:
         mission: name of a built-in mission, or path of a TOML file.
-        goals: metrics to make small, by their names in metrics.json, of lists also one component, such as
+        goals: metrics to minimize, by their names in metrics.json, of lists also one component, such as
             "position_rmse_m.2"; or a table of such names with their targets.
         changes: changes of the mission by dotted key, before the search.
         controller: name of another controller than the mission's.
         progress: called after each population; by default, a notebook shows a bar.
         how: any of
 
-            parameters: dotted keys, tables or patterns of what to search, with a range [low, high] or a list of words
+            parameters: dotted keys, tables or patterns of searched values, with a range [low, high] or a list of words
             for each if it is a table; by default the gains of the controller.
             draws: the study whose rows compare candidates, as file or tables, or the number of draws of
             `default_study`; 8.
             holdout: number of draws on which old and new are compared in the end; 200.
             budget: most candidates to try; by default 60 populations; with 0 only the present values fly.
-            optimiser: "cma", or "optuna" for choices and for the front of several goals; by default what suits.
+            optimiser: "cma", or "optuna" for choices and for the front of several goals; by default the suitable one.
             aim: whether the "mean" over draws counts, or the "worst"; the mean.
             seed: of search and draws; 0.
             threads: that fly; by default one for each processor.
             strict: whether a flight with findings counts as a bad outcome.
 
     Returns:
-        What was found, whether it is better or not.
+        The result, whether it is better or not.
 
     Raises:
         InputError: bad input, a package is missing, or no draw can be flown.
@@ -136,7 +136,7 @@ def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: T
 
 
 def _with_evidence(found: Tuning) -> Tuning:
-    """The result with what holdout draws say of the new values and of the front; unfinished if Ctrl-C comes."""
+    """The result with the comparison on holdout draws, also of the front; unfinished after Ctrl-C."""
     task = found.task.for_draws(found.holdout)
     front = [task.changes(point.values) for point in found.front]
     try:
@@ -169,7 +169,7 @@ def _optimiser(kind: str, task: Task, seed: int, *, step: float) -> Optimiser:
 
 
 def _drawn(mission: Mission, source: MissionSource, how: How) -> DrawSource:
-    """Where draws come from: the study that is given, or the default one."""
+    """The source of draws: the given study, or the default one."""
     given = how.draws
     if not isinstance(given, int):
         return DrawSource(given, mission.mission.name, source.changes)
@@ -183,7 +183,7 @@ def _check_count(option: str, count: int) -> None:
 
 
 def _check_apart(draws: Sequence[Draw], parameters: Sequence[Tunable]) -> None:
-    """Refuse draws that change what is searched."""
+    """Reject draws that change a searched key."""
     for key in sorted({key for draw in draws for key in draw.changes}):
         for p in parameters:
             if f"{p.key}.".startswith(f"{key}.") or key.startswith(f"{p.key}."):
