@@ -35,11 +35,11 @@ def test_built_in_missions_pass_what_the_rotors_and_limits_say(name):
             "iris",
             {"vehicle.payload.mass": 2.2, "admittance.mass": 0.1},
             ("rotors", "z"),
-            "the vehicle cannot answer so",
+            "the vehicle cannot respond so fast",
         ),
         ("iris", {"compliance.yaw.inertia": 0.3}, ("rotors", "yaw"), "leave out compliance.yaw.inertia"),
         ("zigzag", {"corridor.width": 2.2}, ("passage", ""), "touches it"),
-        ("zigzag", {"admittance.feel": {"speed": 1.2, "time": 3.0}}, ("stop", ""), "ask for less speed or time"),
+        ("zigzag", {"admittance.feel": {"speed": 1.2, "time": 3.0}}, ("stop", ""), "lower speed or time"),
     ],
     ids=lambda x: "".join(x) if isinstance(x, tuple) else "",
 )
