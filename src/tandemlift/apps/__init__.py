@@ -1,1 +1,1 @@
-"""What people start: the command line, the live page, ROS, exports, Gazebo."""
+"""Applications: the command line, the live page, ROS, exports, Gazebo."""

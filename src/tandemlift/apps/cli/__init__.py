@@ -1,1 +1,1 @@
-"""The command line; `main` is where it begins."""
+"""The command line, with its entry point in `main`."""

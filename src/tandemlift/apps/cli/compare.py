@@ -68,7 +68,7 @@ def compare(
 
     The mission's own controller flies with the mission's settings, every other one with its defaults. Keys of
     `controller` given by --set apply to the mission's own controller only. Wall times are those of one flight each, and
-    change with what else the machine does.
+    depend on the machine's load.
 
     \b
     Examples:
@@ -91,7 +91,7 @@ def compare(
     Exit code:
       0   all flights were flown; findings are on standard error, a line each
       2   bad input: one message, nothing is written
-      3   a flight crashed, diverged or did not lift: its row says why; everything is written; with --strict,
+      3   a flight crashed, diverged or did not lift: its row has the reason; everything is written; with --strict,
           also a flight with findings
     """
     if engines is not None:
@@ -197,7 +197,7 @@ def _print_rows(heads: Sequence[str], rows: Sequence[tuple[str, list[str], str]]
 
 
 def _print_tables(name: str, entries: Sequence[Entry]) -> None:
-    """Print a table for each part of the mission; the first also says which flights diverged or were refused."""
+    """Print a table for each part of the mission; the first also names flights that diverged or were refused."""
     from tandemlift.analysis.studies.controller_comparison import moving_axes, parts_of
 
     flights = {e.name: e.flight for e in entries if e.flight}

@@ -51,7 +51,7 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
     _, saved = flight_file(flight_or_mission)
     if settings and (saved or not model):
         raise InputError(
-            "--set is for a mission that is written to FILE.sdf or FILE.xml; a saved flight stays as it was"
+            "--set is for a mission that is written to FILE.sdf or FILE.xml; a saved flight cannot be changed"
         )
     if not saved and not model:
         raise InputError(f"{flight_or_mission} is no saved flight: give flight.npz or the folder of a run")

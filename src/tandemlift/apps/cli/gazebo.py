@@ -71,7 +71,7 @@ def gazebo(
     Exit code:
       0   the flight was flown; findings are on standard error, a line each
       2   bad input: one message, nothing is written
-      3   crashed, diverged, interrupted or not lifted: what was flown is written; with --strict, also findings
+      3   crashed, diverged, interrupted or not lifted: the flight so far is written; with --strict, also findings
     """
     if by_hand and (fast or pictures):
         raise InputError(
@@ -145,7 +145,7 @@ def _fly_by_hand(mission: Mission, window: bool) -> tuple[Flight, Photographs]:
 
 @contextmanager
 def _stop_signals() -> Iterator[Callable[[], bool]]:
-    """A function that tells whether SIGINT or SIGTERM has arrived; neither interrupts a step."""
+    """A function that returns whether SIGINT or SIGTERM has arrived; neither interrupts a step."""
     received: list[int] = []
     before = {s: signal.signal(s, lambda number, _: received.append(number)) for s in (signal.SIGINT, signal.SIGTERM)}
     try:

@@ -61,7 +61,7 @@ def linearize(
     """Fly MISSION to a time, and print the linear model of its step there: modes, kinks, assumptions.
 
     The model is x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k), of deviations from the flight. Its derivatives are
-    exact. Sensors that are slower than the step are part of it: one sample is their common period.
+    exact. The sample time is the common period of all sensors.
 
     \b
     Examples:
@@ -113,11 +113,11 @@ def _print_modes(connected: LinearModel, count: int) -> None:
         return
     modes = _modes(connected)
     echo(f"  modes, the slowest {min(count, len(modes.modes))} of {len(modes.modes)}:")
-    echo("    time constant  frequency  damping    |z|     states that take part")
+    echo("    time constant  frequency  damping    |z|     participating states")
     for mode in modes.modes[:count]:
         echo(f"    {_line(mode)}")
     if modes.deadbeat:
-        echo(f"    {modes.deadbeat} more are over after a few samples")
+        echo(f"    {modes.deadbeat} more decay within a few samples")
 
 
 def _modes(model: LinearModel) -> Modes:
@@ -166,7 +166,7 @@ def _draw(connected: LinearModel, path: Path) -> None:
 def check(mission: str, settings: tuple[str, ...], controller: str | None, strict: bool, file: str | None) -> None:
     """Check MISSION before its flight: each number with its limit and margin, and the margins of its control loops.
 
-    What fails by a closed form is warned of whenever the mission is loaded. The loops are those of a calm hover, by a
+    Loading the mission warns of checks that fail by a closed form. The loops are those of a calm hover, by a
     linear model: phase and gain margins of each axis, and the delay and the lag of the rotors at which they oscillate.
 
     \b
@@ -186,7 +186,7 @@ def check(mission: str, settings: tuple[str, ...], controller: str | None, stric
 
     chosen = None if controller is None else chosen_controller(controller)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)  # the table says the same
+        warnings.simplefilter("ignore", FlightWarning)  # the table has the same
         loaded = load(mission, settings, chosen)
     results = checked(loaded)
     print_checks(results)

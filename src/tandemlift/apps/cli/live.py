@@ -48,7 +48,7 @@ def live(
     """Fly MISSION in real time, and push it by hand in a page of the browser.
 
     MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file. The default is zigzag, the
-    paper's corridor. The mission's own pushes and person are left out: only you push. The page is served on this
+    paper's corridor. The mission's own pushes and person are omitted: only you push. The page is served on this
     machine only, unless --host says otherwise. Ctrl-C ends the flight.
 
     \b
@@ -92,7 +92,7 @@ def check_live_installed() -> None:
 
 
 def serve_until_interrupt(server: PageServer, what: str, *, browser: bool) -> None:
-    """Serve a page until Ctrl-C; print `what` it shows and its address, and open it in a browser if asked to."""
+    """Serve a page until Ctrl-C; print `what` it shows and its address, and optionally open it in a browser."""
     from tandemlift.apps.live.server import serve_until_stopped
 
     def opened(address: str) -> None:

@@ -41,7 +41,7 @@ class Commands(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As click does; a misspelt verb is answered with the list of verbs and the nearest one."""
+        """Resolve a verb as click does; for a misspelt one, raise an error with all verbs and the nearest one."""
         verb = args[0] if args else ""
         if verb and not ctx.resilient_parsing and not verb.startswith("-") and self.get_command(ctx, verb) is None:
             verbs = self.list_commands(ctx)
@@ -132,7 +132,7 @@ def main() -> None:
     """Run the command line: bad input ends with one message and exit code 2, never with a traceback."""
     warnings.simplefilter("always", FlightWarning)
     warnings.showwarning = _show_warning
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: what was started is ended too
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: child processes are ended too
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="replace")  # a terminal that lacks a character shows '?'
     handle_interrupts()

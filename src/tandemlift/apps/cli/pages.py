@@ -1,4 +1,4 @@
-"""Pages that need no server: `tandemlift replay --html`, a saved flight; `tandemlift page`, which flies by itself."""
+"""Pages without a server: `tandemlift replay --html` for a saved flight; `tandemlift page`, which flies by itself."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:
       2   bad input: one message, nothing is written
     """
     if not out and not html:
-        raise InputError("say where the page goes: --html FILE for one file, --out DIR for a web server")
+        raise InputError("give the place of the page: --html FILE for one file, --out DIR for a web server")
     one_file = html_path("--html", html) if html else None
     folder = _folder(out) if out else None
     from tandemlift.apps.live import pages

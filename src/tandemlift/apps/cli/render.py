@@ -26,7 +26,7 @@ PICTURE_OPTIONS, ANIMATION_OPTIONS = ("--time",), ("--from", "--to", "--fps", "-
 @click.command()
 @click.argument("flight_or_mission", shell_complete=FLIGHTS_AND_MISSIONS)
 @click.option("--out", metavar="FILE", help="FILE.png, FILE.gif or FILE.mp4.  [default: picture.png beside the flight]")
-@click.option("--time", type=float, help="Time of the picture [s].  [default: when the push is strongest]")
+@click.option("--time", type=float, help="Time of the picture [s].  [default: that of the strongest push]")
 @click.option("--from", "start", type=float, help="Start of the animation [s].")
 @click.option("--to", "end", type=float, help="End of the animation [s].")
 @click.option("--fps", type=float, help="Frames per second of the animation, 1 to 50.  [default: 20]")
@@ -78,7 +78,7 @@ def render(
 
 
 def _check_options(path: Path, given: list[str]) -> None:
-    """Refuse options that do not fit the kind of file, and what cannot be drawn here, before anything is flown.
+    """Reject options that do not fit the kind of file, and kinds that cannot be drawn here, before any flight.
 
     Raises:
         InputError: an option does not fit the kind of file, the kind is unknown, or nothing here can draw it.

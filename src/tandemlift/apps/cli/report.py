@@ -35,14 +35,14 @@ BAGS = (".bag", ".mcap")
     "metrics",
     multiple=True,
     metavar="METRIC",
-    help="Show this metric of a study, such as position_rmse_m. Can be repeated.  [default: what suits its missions]",
+    help="Show this metric of a study, such as position_rmse_m. Can be repeated.  [default: as suits its missions]",
 )
 def report(flight: str, out: str | None, no_figures: bool, style: str | None, metrics: tuple[str, ...]) -> None:
     """Draw the figures and write the report of a saved flight, of a bag or of a study.
 
     FLIGHT is flight.npz or its folder, or a bag of ROS 1 (.bag) or ROS 2 (.mcap, or its folder) with the topics of
     docs/reference/export.md: an exported one, or one recorded during a flight by `rosbag record` or `ros2 bag record`.
-    Or it is the folder of a study, which may still fly: docs/reference/studies.md says what its report shows.
+    Or it is the folder of a study, which may still fly: docs/reference/studies.md describes its report.
 
     \b
     Examples:
@@ -74,7 +74,7 @@ def report(flight: str, out: str | None, no_figures: bool, style: str | None, me
 
 
 def _is_study(path: Path) -> bool:
-    """Whether a folder is that of a study, be it damaged."""
+    """Whether a folder is that of a study, even if it is damaged."""
     from tandemlift.analysis.studies.execution.store import PLAN, STUDY
 
     return (path / PLAN).is_file() or (path / STUDY).is_file()
@@ -131,7 +131,7 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
     """Put the figures and tables of the paper beside ours, in one PDF.
 
     The missions `paper` and `zigzag` are flown, and `paper` once more for each setting that the paper leaves open, with
-    another choice. The PDF needs the package typst: pip install 'tandemlift[paper]'. Without it, all else is written.
+    another choice. The PDF needs the package typst: pip install 'tandemlift[paper]'. Without it, the rest is written.
 
     \b
     Examples:
@@ -148,7 +148,7 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
 
     \b
     Exit code:
-      0   all was written
+      0   everything was written
       2   bad input, or no typst: one message
     """
     from tandemlift.pictures.report.paper.files import typeset, write_paper_files
@@ -186,7 +186,7 @@ def _command(out: str, style: str | None, no_pdf: bool) -> str:
 
 
 def fly_paper() -> PaperFlights:
-    """Fly what the report shows, with a progress bar."""
+    """Fly the missions of the report, with a progress bar."""
     from tandemlift.missions import load_mission
     from tandemlift.pictures.report.paper.contents import open_settings
     from tandemlift.pictures.report.paper.document import PaperFlights

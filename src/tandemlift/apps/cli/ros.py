@@ -45,7 +45,7 @@ def ros(
     """Fly MISSION in real time as a ROS node that messages push.
 
     MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file. The default is zigzag, the
-    paper's corridor. The mission's own pushes and person are left out: messages on /tandemlift/push push the vehicle.
+    paper's corridor. The mission's own pushes and person are omitted: messages on /tandemlift/push push the vehicle.
     ROS 1 needs rospy and a running roscore. ROS 2 needs no installed ROS, only pip install 'tandemlift[ros2]'.
     docs/how-to/ros.md describes topics, services and parameters. Ctrl-C ends the flight.
 
@@ -60,7 +60,7 @@ def ros(
     Exit code:
       0   ended by Ctrl-C, by ROS, or after an hour of flight
       2   bad input: one message, nothing is flown
-      3   crashed, diverged or interrupted, or ROS 1's master is gone: what was flown is saved, if --save asks for it
+      3   crashed, diverged or interrupted, or ROS 1's master is gone: the flight so far is saved with --save
     """
     from tandemlift.apps.ros.node import middleware_for, version_for
     from tandemlift.apps.ros.ros1 import folder as package
@@ -106,7 +106,7 @@ def _split_arguments(words: tuple[str, ...]) -> tuple[str, list[str]]:
 def _fly_and_save(
     session: Session, middleware: Middleware, rate: float, what: str, save: str | None, *, rviz: bool
 ) -> list[str]:
-    """Fly until the flight ends, and save what was flown, whatever has ended it; why it failed, if it did."""
+    """Fly until the flight ends, and save it whatever the reason; return the reason of a failure, if any."""
     try:
         end = _fly(session, middleware, rate, what, rviz=rviz)
     except BaseException:
@@ -142,7 +142,7 @@ def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rv
 
 
 def _shut_down(middleware: Middleware) -> list[str]:
-    """Disconnect from ROS; what is to be said of it if it is gone."""
+    """Disconnect from ROS; return a message if it is gone."""
     try:
         middleware.shutdown()
     except OSError as error:

@@ -37,7 +37,7 @@ NOT_KNOWN = "   not known"
 @click.command()
 @click.argument("mission", required=False, shell_complete=MISSIONS)
 @click.option("--from", "study", metavar="STUDY", help="Fly a row of a study instead: its folder, with --row.")
-@click.option("--row", type=click.IntRange(min=0), help="The row of the study, as its table and its report number it.")
+@click.option("--row", type=click.IntRange(min=0), help="Number of the row, as in the study's table and report.")
 @click.option(
     "--engine",
     shell_complete=names("engine"),
@@ -81,7 +81,7 @@ def run(
       mission.toml   the mission with every key; `tandemlift run` flies it again
       flight.npz     all channels; read it with tl.Flight.load or NumPy
       metrics.json   the metrics in SI units, computed from every step; as tables metrics.csv and metrics.tex (LaTeX)
-      findings.json  what went badly, with time, place and number, and what to do
+      findings.json  findings with time, place, number and remedy
       figures/       reference, path, tracking, inputs, interaction, joints; and push, disturbance, rotors,
                      surroundings, corridor where the mission has such parts (PNG and PDF)
       report.html    all of it on one page that needs no network
@@ -90,7 +90,7 @@ def run(
     Exit code:
       0   the flight was flown; findings are on standard error, a line each
       2   bad input: one message, nothing is written
-      3   crashed, diverged, interrupted or not lifted: what was flown is written; with --strict, also findings
+      3   crashed, diverged, interrupted or not lifted: the flight so far is written; with --strict, also findings
     """
     began = time.perf_counter()
     chosen = None if controller is None else chosen_controller(controller)
@@ -115,7 +115,7 @@ def _selected(
     controller: Controller | None,
     engine: str | None,
 ) -> tuple[Mission, str | None, str]:
-    """The mission to fly, its engine and the name of its results: a mission by name, or a row of a study by its place.
+    """The mission to fly, its engine and the name of its results: a mission by name, or a row of a study by number.
 
     Raises:
         InputError: there is no such mission, study, row or engine.
@@ -195,7 +195,7 @@ def print_summary(flight: Flight) -> None:
 
 
 def _list(values: list[float | None] | None, digits: int, scale: float = 1.0) -> str:
-    """Numbers side by side, '' where there are none."""
+    """Numbers side by side; '' if there are none."""
     if not values or any(v is None for v in values):
         return ""
     return "  ".join(f"{round(v * scale, digits) + 0.0:8.{digits}f}" for v in values if v is not None)

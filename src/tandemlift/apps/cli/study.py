@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     help="Metric that the report shows. Can be repeated.",
 )
 @click.option("--no-report", is_flag=True, help="Write no report.")
-@click.option("--dry-run", is_flag=True, help="Fly a few rows only, and say what all would take.")
+@click.option("--dry-run", is_flag=True, help="Fly a few rows only, and estimate time and size of all.")
 @click.option("--template", is_flag=True, help="Print a commented study file.")
 def study(
     file: str | None,
@@ -60,8 +60,7 @@ def study(
 ) -> None:
     """Fly the study in FILE: many missions, in one table.
 
-    A study that was stopped goes on where it was when it is started again: what its folder already holds is not flown
-    again.
+    A stopped study continues when it is started again: finished rows in its folder are not flown again.
 
     \b
     Examples:
@@ -73,16 +72,16 @@ def study(
 
     \b
     Files in the folder of the study:
-      study.toml      what it flies
+      study.toml      the study
       study.json      the same, with all missions and controllers
       chunks/         the table: tl.load_study, or any reader of Parquet files
-      report.html     outcomes, distributions, maps, the worst rows; `tandemlift report DIR` writes it anew
+      report.html     outcomes, distributions, maps, the worst rows; `tandemlift report DIR` writes it again
 
     \b
     Exit code:
       0    the study, or its part, is flown
-      2    bad input: one message; what is flown stays
-      130  stopped by Ctrl-C; what is flown stays
+      2    bad input: one message; finished rows are kept
+      130  stopped by Ctrl-C; finished rows are kept
     """
     if template:
         from tandemlift.analysis.studies.design.template import TEMPLATE
@@ -139,7 +138,7 @@ def _bytes(size: float) -> str:
 
 
 def _print_outcomes(folder: Path, metrics: tuple[str, ...], *, report: bool) -> None:
-    """Print how the flights ended, and where the table is; write the report of a whole study."""
+    """Print the outcomes of the flights and the place of the table; write the report of a whole study."""
     from tandemlift.analysis.studies.design.settings import REFUSED
     from tandemlift.analysis.studies.quantities import share
     from tandemlift.analysis.studies.table import load_study

@@ -1,4 +1,4 @@
-"""`tandemlift tune`: search values of a mission that make metrics small, and compare them on holdout draws."""
+"""`tandemlift tune`: search values of a mission that minimize metrics, and compare them on holdout draws."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ FILES = ("tuned.toml", "evidence.json", "tune.html")
     required=True,
     metavar="METRIC[=TARGET]",
     shell_complete=names("metric"),
-    help="Metric to make small, by its name in metrics.json, or one component: position_rmse_m.2. Can be repeated.",
+    help="Metric to minimize, by its name in metrics.json, or one component: position_rmse_m.2. Can be repeated.",
 )
 @click.option(
     "--parameter",
@@ -52,15 +52,15 @@ FILES = ("tuned.toml", "evidence.json", "tune.html")
     multiple=True,
     metavar="KEY[=RANGE]",
     shell_complete=keys,
-    help="What to search: a dotted key, a table or a pattern, and [low, high] or a list of words. Can be repeated."
+    help="Value to search: a dotted key, a table or a pattern, and [low, high] or a list of words. Can be repeated."
     "  [default: the controller's gains]",
 )
 @click.option("--draws", default="8", show_default=True, metavar="N|FILE", help="Flights that compare candidates.")
 @click.option("--holdout", default=200, show_default=True, help="Flights that compare old and new in the end.")
 @click.option("--budget", type=int, metavar="N", help="Candidates to try.  [default: 60 populations]")
 @click.option("--optimiser", metavar="cma|optuna", help="[default: cma; optuna for choices and several goals]")
-@click.option("--aim", default="mean", show_default=True, metavar="mean|worst", help="What of all draws counts.")
-@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of search and draws.")
+@click.option("--aim", default="mean", show_default=True, metavar="mean|worst", help="Which of all draws counts.")
+@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Seed of search and draws.")
 @click.option("--threads", type=click.IntRange(min=1), help="Threads that fly.  [default: one for each processor]")
 @click.option(
     "--controller",
@@ -81,10 +81,10 @@ def tune(
     out: str | None,
     **how: Any,
 ) -> None:
-    """Search values of MISSION that make metrics small, then fly old and new on draws that the search never saw.
+    """Search values of MISSION that minimize metrics, then compare old and new on draws that the search never used.
 
     Every candidate flies the same draws. A bad outcome counts first; then the metrics, each over its target, or over
-    its present value. docs/how-to/tuning.md says how.
+    its present value. docs/how-to/tuning.md has the details.
 
     \b
     Examples:
@@ -96,7 +96,7 @@ def tune(
     \b
     Files in the results folder (other files there are left alone):
       tuned.toml     the mission with the new values; `tandemlift run` flies it
-      evidence.json  what was searched, every cost, and old against new on every holdout draw
+      evidence.json  task, every cost, and old against new on every holdout draw
       tune.html      all of it on one page that needs no network
       figures/       cost over candidates; old and new on holdout draws; the front (PNG and PDF)
 
@@ -194,7 +194,7 @@ def _write(found: Tuning, folder: Path) -> None:
 
 
 def _print(found: Tuning, folder: Path) -> None:
-    """Print what was done, old against new, and where the files are."""
+    """Print the result, old against new, and the places of the files."""
     from tandemlift.pictures.report.study.tuning_report import cost_words, what_was_done
 
     echo(f"{found.name}: {what_was_done(found)}")
@@ -237,7 +237,7 @@ FEEL_FILES = ("feel.json", "feel.html", "feel.png", "feel.pdf")
 @style_option
 @click.option("--strict", is_flag=True, help="Exit with code 3 if a check fails.")
 def feel(mission: str, settings: tuple[str, ...], out: str | None, strict: bool) -> None:
-    """Show what a push does with the keys of MISSION, and check whether the vehicle can respond so.
+    """Show the response to a push with the keys of MISSION, and check whether the vehicle can respond so.
 
     A standard push along each axis, by the closed form of the admittance and flown. `tandemlift tune` searches for
     better keys.

@@ -48,7 +48,7 @@ def streams_from(flight: Flight, types: MessageTypes) -> list[TopicStream]:
     """Everything of a flight that goes into a bag.
 
     Raises:
-        InputError: the flight lacks what a bag needs.
+        InputError: the flight lacks a channel that a bag needs.
     """
     vehicle = Vehicle.from_mission(flight.mission)
     topics, stamps = topics_from(flight, vehicle), [stamp(t) for t in flight.time.tolist()]
@@ -71,7 +71,7 @@ def _made(stamps: list[int], rows: Array, make: Callable[[int, Any], Any]) -> It
 
 
 def events_from(flight: Flight) -> list[tuple[float, str]]:
-    """When [s] what happened: phases and alarms, and why the flight was stopped.
+    """Times [s] and texts of events: phases and alarms, and the reason if the flight was stopped.
 
     Without a supervision, which sees every step, the phases are those of the samples.
     """
@@ -110,7 +110,7 @@ def write_mcap(flight: Flight, path: Path) -> None:
 
 
 def _qos(latched: bool) -> list[Any]:
-    """What a ROS 2 player offers: reliable; late subscribers get the last message of a latched topic."""
+    """The quality of service of a ROS 2 player: reliable; late subscribers get the last message if latched."""
     from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 
     durability = QosDurability.TRANSIENT_LOCAL if latched else QosDurability.VOLATILE
@@ -140,7 +140,7 @@ def write_bag(flight: Flight, path: Path) -> None:
 
 
 def _frame_that_ros_reads(chunk: bytes) -> bytes:
-    """A chunk in LZ4, as ROS 1's own decompressor wants it: blocks apart, with a checksum and without a size."""
+    """A chunk in LZ4 for ROS 1's own decompressor: independent blocks, with a checksum and without a size."""
     import lz4.frame
 
     return lz4.frame.compress(chunk, block_linked=False, content_checksum=True, store_size=False)

@@ -1,4 +1,4 @@
-"""Where things are in an exported flight: names of frames, and vectors from one to another, for all samples at once."""
+"""Frames of an exported flight: their names, and transformation of vectors, for all samples at once."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ WORLD, BASE, ALIGNED, PAYLOAD = "world", "base_link", "base_world", "payload"
 
 
 class Frame(NamedTuple):
-    """A frame: its name, its parent, where its origin is, and its axes."""
+    """A frame: its name, parent, origin and axes."""
 
     name: str
     parent: str
@@ -29,12 +29,12 @@ FRAMES = (
     Frame(BASE, WORLD, "centre of mass of the vehicle", "body: x forward, y left along the beam, z up (ROS REP 103)"),
     Frame(ALIGNED, WORLD, "centre of mass of the vehicle", "as `world`: for forces in world axes"),
     Frame(PAYLOAD, BASE, "centre of mass of the payload", "body"),
-    Frame("joint_1", BASE, "where that quadrotor is fixed to the payload; `joint_2` and so on likewise", "body"),
+    Frame("joint_1", BASE, "joint of that quadrotor on the payload; `joint_2` and so on likewise", "body"),
 )
 
 
 def fixed(vehicle: Vehicle) -> Iterator[tuple[str, Array]]:
-    """The frames that are fixed in `base_link`, and where: origin (3) [m], body axes."""
+    """The frames that are fixed in `base_link`, with their origins (3) [m], body axes."""
     payload = 0.0 - vehicle.center_of_mass
     yield PAYLOAD, payload
     for i, quadrotor in enumerate(vehicle.quadrotors, 1):

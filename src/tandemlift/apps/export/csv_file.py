@@ -1,7 +1,7 @@
 """A flight as a table: a row for each sample, a column for each number of each channel.
 
 A column is called `channel[unit].component`, such as `position[m].x`; a channel of one number has no component. Numbers
-are written with as many digits as bring the same float64 back.
+are written with enough digits to restore the same float64.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from tandemlift.flight.record import Flight
 
 
 def components(channel: Channel, count: int) -> Sequence[str]:
-    """What a channel's columns are called: axes, angles, a quaternion's w, x, y, z; quadrotor and rotor, or axis.
+    """The names of a channel's columns: axes, angles, a quaternion's w, x, y, z; quadrotor and rotor, or axis.
 
     Args:
-        channel: what it holds.
-        count: how many columns it has.
+        channel: its description.
+        count: its number of columns.
     """
     if channel.per == "rotor" and channel.width == 1:
         return [f"{1 + i // 4}.{1 + i % 4}" for i in range(count)]

@@ -25,7 +25,7 @@ class MessageTypes:
     Args:
         class_of: the class of a type by that name, such as `geometry_msgs/Wrench`.
         numbered: whether a header begins with a number, as in ROS 1.
-        numbers: what makes of numbers what a field of several numbers takes.
+        numbers: converts numbers for a field of several numbers.
     """
 
     def __init__(
@@ -149,7 +149,7 @@ NUMBERS: dict[str, Numbers] = {
 
 
 def message_maker(types: MessageTypes, topic: About) -> Maker:
-    """What makes the messages of a topic."""
+    """The function that makes the messages of a topic."""
     return MAKERS[topic.kind](types, topic)
 
 
@@ -164,14 +164,14 @@ class Transforms:
         self._unturned = types.quaternion((1.0, 0.0, 0.0, 0.0))
 
     def moving(self, stamp: int, v: Sequence[float]) -> Any:
-        """Where the vehicle is in the world, from position and attitude: in body axes and in the world's."""
+        """The vehicle's pose in the world, from position and attitude: in body axes and in the world's."""
         place, header = self._types.Vector(*v[:3]), self._header(stamp)
         turned = self._Transform(place, self._types.quaternion(v[3:7]))
         level = self._Transform(place, self._unturned)
         return self._TFMessage([self._Stamped(header, BASE, turned), self._Stamped(header, ALIGNED, level)])
 
     def fixed(self, stamp: int, places: Sequence[tuple[str, Array]]) -> Any:
-        """Where its parts are in the vehicle."""
+        """The places of the parts in the vehicle."""
         Vector, Transform, header = self._types.Vector, self._Transform, self._base(stamp)
         return self._TFMessage(
             [self._Stamped(header, name, Transform(Vector(*at.tolist()), self._unturned)) for name, at in places]
@@ -179,7 +179,7 @@ class Transforms:
 
 
 def event_maker(types: MessageTypes) -> Callable[[int, str], Any]:
-    """What makes a message of `/diagnostics` from an event: its time [ns] and what happened."""
+    """The function that makes a message of `/diagnostics` from an event's time [ns] and text."""
     Many, Status = types["diagnostic_msgs/DiagnosticArray"], types["diagnostic_msgs/DiagnosticStatus"]
     header = types.headers("")
 
@@ -191,7 +191,7 @@ def event_maker(types: MessageTypes) -> Callable[[int, str], Any]:
 
 
 def status_maker(types: MessageTypes) -> Callable[[int, bool, str, Mapping[str, str]], Any]:
-    """What makes one from how a flight goes: time [ns], whether it is well, a summary, and more by name."""
+    """The function that makes one from a flight's state: time [ns], whether it is well, a summary, values by name."""
     Many, Status = types["diagnostic_msgs/DiagnosticArray"], types["diagnostic_msgs/DiagnosticStatus"]
     header, Value = types.headers(""), types["diagnostic_msgs/KeyValue"]
 

@@ -1,4 +1,4 @@
-"""A flight from a bag: one that `export` wrote, or one that was recorded of our topics while it was flown.
+"""Reads a flight from a bag: one that `export` wrote, or a recording of our topics during a flight.
 
 Samples are those of `/tandemlift/odometry`, by the stamps of its messages. Of another topic a sample has the message of
 the same stamp, or else, if that was lost, the last one before it.
@@ -38,7 +38,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 
 BASE = f"{ROOT}/odometry"
 VALUES = f"{ROOT}/pilot"
-PILOT_SAYS = "tandemlift: pilot"  # the name in diagnostics of what happens
+PILOT_SAYS = "tandemlift: pilot"  # the name of events in diagnostics
 Stamped = dict[int, Any]  # messages by their stamps [ns]
 
 
@@ -58,7 +58,7 @@ def read_bag(path: str | os.PathLike[str]) -> Flight:
         said = _messages(path)
     except InputError:
         raise
-    except Exception as error:  # whatever a file of any content can do to its reader
+    except Exception as error:  # all errors that arbitrary content can cause in the reader
         raise InputError(f"{path}: cannot be read as a bag ({error})") from error
     if not said[BASE]:
         there = ", ".join(sorted(t for t in said if said[t])) or "none"
@@ -76,12 +76,12 @@ def _flight(path: Path, said: dict[str, Stamped]) -> Flight:
     if missing:
         raise InputError(f"{path}: lacks the topics of {', '.join(missing)}, which every flight has")
     flight = Flight(time, {name: channels[name] for name in CHANNELS if name in channels}, mission, {})
-    topics_from(flight, vehicle)  # complains of what is not whole
+    topics_from(flight, vehicle)  # reports incomplete data
     return Flight(time, flight.channels, mission, _metrics(flight, _events(said[DIAGNOSTICS.name], int(stamps[0]))))
 
 
 def _mission(path: Path, said: Stamped) -> dict[str, Any]:
-    """The mission as it was in the end."""
+    """The final mission."""
     if not said:
         raise InputError(f"{path}: has no {MISSION.name}, the mission that was flown")
     try:
@@ -93,7 +93,7 @@ def _mission(path: Path, said: Stamped) -> dict[str, Any]:
 
 
 def _messages(path: Path) -> dict[str, Stamped]:
-    """The messages of all topics that are read, by topic; of those without a stamp, by when they came."""
+    """The messages of all topics that are read, by topic; those without a stamp by their arrival."""
     found: dict[str, Stamped] = defaultdict(dict)
     for topic, at, message in _opened(path):
         header = getattr(message, "header", None)
@@ -171,7 +171,7 @@ def _numbers(recipe: Recipe, message: Any) -> list[float]:
 
 
 def _events(said: Stamped, first: int) -> list[list[Any]]:
-    """When [s] what happened: phases, refusals and alarms."""
+    """Times [s] and texts of events: phases, refusals and alarms."""
     return [
         [round((stamp - first) / SECOND, 6), status.message]
         for stamp in sorted(said)
@@ -182,7 +182,7 @@ def _events(said: Stamped, first: int) -> list[list[Any]]:
 
 
 def _metrics(flight: Flight, events: list[list[Any]]) -> dict[str, Any]:
-    """What can be said from samples alone; None where there are none."""
+    """The metrics that follow from samples alone; None if there are none."""
     error, late = flight["position_error"], flight.time >= LATE
     after = error[late] if flight.time[-1] > LATE else error[:0]
 

@@ -1,4 +1,4 @@
-"""How a topic is made of a flight's channels, and how its numbers become these channels again."""
+"""Recipes that make topics of a flight's channels, and these channels again of the topics' numbers."""
 
 from __future__ import annotations
 
@@ -74,12 +74,12 @@ class Source:
         return values
 
     def width(self, name: str) -> int:
-        """How many columns a channel must have."""
+        """The number of columns that a channel must have."""
         return CHANNELS[name].columns(self.vehicle.count, self.vehicle.rotor_count)
 
 
 class MeasuredPose(NamedTuple):
-    """What turns numbers of messages back into channels: the attitudes (T, 4) of the vehicle meanwhile, and itself."""
+    """The data that turn numbers of messages back into channels: the vehicle and its attitudes (T, 4)."""
 
     attitude: Array
     vehicle: Vehicle
@@ -89,7 +89,7 @@ Back = Callable[[Array, MeasuredPose], dict[str, Array]]
 
 
 class Recipe(NamedTuple):
-    """How a topic is made of channels, and these of it.
+    """A recipe for a topic of channels, and for the channels of a topic.
 
     Attributes:
         name: below the root.
@@ -99,7 +99,7 @@ class Recipe(NamedTuple):
         rows: the numbers of each message (T, n) from the channels.
         back: the channels by name from these numbers; of a joint, its part of them.
         labels: of these numbers, where the message names them.
-        meaning: in a few words, for docs/reference/topics.md.
+        meaning: a short description for docs/reference/topics.md.
     """
 
     name: str

@@ -1,7 +1,7 @@
 """The topics of an exported flight: name, message type, frame, and the numbers of every message.
 
 A topic whose channels a flight does not have is left out, unless every flight has them. Names are below `/tandemlift/`;
-`/tf`, `/tf_static` and `/diagnostics` are where ROS tools look for them.
+`/tf`, `/tf_static` and `/diagnostics` have the names that ROS tools expect.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ SOMETIMES = (
     force("push/filtered", "push_filtered").described(
         "after the low-pass filter of interactive guidance, less its bias; a force alone"
     ),
-    point_on_beam("push/point", "push_point_estimate").described("where on the beam the push acts"),
+    point_on_beam("push/point", "push_point_estimate").described("place of the push on the beam"),
     wrench("disturbance", "disturbance_force", "disturbance_moment").described("estimate of the disturbance observer"),
     odometry("measured/odometry", "measured_").described("readings of motion measurement and gyroscope"),
     as_recorded("measured/imu", IMU, PAYLOAD, "measured_rates", "measured_specific_force").described(
@@ -106,11 +106,11 @@ JOINTS = (
 )
 ELSEWHERE = {"euler"}.union(*(recipe.needs for recipe in (*ALWAYS, *SOMETIMES)), *(names[1:3] for names in JOINTS))
 PILOT = tuple(name for name in CHANNELS if name not in ELSEWHERE)
-"""Channels without a topic of their own, which topic `pilot` has by their names; `euler` is what `attitude` is."""
+"""Channels without a topic of their own, which topic `pilot` has by their names; `euler` repeats `attitude`."""
 
 
 def all_recipes(has: Container[str], vehicle: Vehicle) -> Iterator[Recipe]:
-    """How all topics of a flight of these channels are made: what every flight has, and what else it has."""
+    """The recipes of a flight with these channels: those of every flight, and further ones."""
     yield from ALWAYS
     numbers = range(1, vehicle.count + 1)
     true, measured = ([joint_wrench(i, *names).described(what) for i in numbers] for *names, what in JOINTS)
@@ -121,7 +121,7 @@ def all_recipes(has: Container[str], vehicle: Vehicle) -> Iterator[Recipe]:
 
 
 def recipes_for(flight: Flight, vehicle: Vehicle) -> list[Recipe]:
-    """How all topics of a flight are made that have a message for each sample; their names are whole."""
+    """The recipes of all topics with a message for each sample, by their full names."""
     rotors = tuple(f"rotor_{1 + i // 4}_{1 + i % 4}" for i in range(vehicle.rotor_count))
     return [
         r._replace(name=f"{ROOT}/{r.name}", labels=r.labels or (rotors if r.kind == ROTORS else ()))

@@ -1,4 +1,4 @@
-"""A flight as a file of other tools: a ROS 2 bag (MCAP), a ROS 1 bag, or a table (CSV); a mission as a model of others.
+"""Writes a flight as a ROS 2 bag (MCAP), a ROS 1 bag or a table (CSV); a mission as a model of other simulators.
 
 Both bags hold the same topics, `topics.py`; a table holds every channel. A mission becomes a world of Gazebo (SDF) or a
 MuJoCo model (MJCF). The same flight or mission gives the same bytes, with the same versions of the packages that write
@@ -26,7 +26,7 @@ ENDINGS = f"must end in {OF_FLIGHT}, or for a mission in {OF_MISSION}"
 
 
 def export(what: Flight | Mission, path: str | os.PathLike[str], *, plugin: int | str | None = None) -> Path:
-    """Write a flight or a mission to a file whose ending tells the format; it appears whole or not at all.
+    """Write a flight or a mission atomically to a file whose ending selects the format.
 
     Args:
         what: a flight, also one that diverged; or a mission. Of a flight, a world and a model are those of its mission.
@@ -58,7 +58,7 @@ def ending_from(path: Path) -> str:
     """The ending of a file's name, in small letters.
 
     Raises:
-        InputError: it is of no format that there is.
+        InputError: it belongs to no known format.
     """
     ending = path.suffix.lower()
     if ending not in (*FORMATS, WORLD, MODEL):
@@ -70,13 +70,13 @@ def is_model(path: Path) -> bool:
     """Whether a file of this name is a model of a mission, or else data of a flight.
 
     Raises:
-        InputError: its ending is of no format that there is.
+        InputError: its ending belongs to no known format.
     """
     return ending_from(path) in (WORLD, MODEL)
 
 
 def _writer(what: Flight | Mission, path: Path, plugin: int | str | None) -> Callable[[Path], None]:
-    """What writes it to a path.
+    """The function that writes it to a path.
 
     Raises:
         InputError: it cannot be such a file.

@@ -1,4 +1,4 @@
-"""From a page's text to the flight and back: read, checked against who holds the beam, applied, answered."""
+"""Handles a page's messages: reads them, checks who holds the beam, applies them to the flight, and answers."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ log = logging.getLogger(__name__)
 
 
 class LiveFlight(Protocol):
-    """A flight that goes on while people watch; its methods may be called from any thread.
+    """A flight that continues while people watch; its methods may be called from any thread.
 
     There is a scene, a frame and a status from the beginning, also while the flight is still being prepared.
 
@@ -44,10 +44,10 @@ class LiveFlight(Protocol):
 
     @property
     def scene(self) -> FlightScene:
-        """What a page must know before frames mean anything."""
+        """The description that a page needs to interpret frames."""
 
     def start(self) -> None:
-        """Begin to prepare and to fly, in a thread of its own."""
+        """Begin to prepare and to fly, in its own thread."""
 
     def stop(self) -> None:
         """End that thread, at once."""
@@ -56,13 +56,13 @@ class LiveFlight(Protocol):
         """The latest frame."""
 
     def status(self) -> FlightStatus:
-        """The state of the flight in words, and how it keeps up with the clock."""
+        """The state of the flight in words, and its pace relative to the clock."""
 
     def apply(self, message: PageMessage) -> Sequence[Answer]:
-        """Do what a message says; what to answer to its sender, or to all if parameters have changed.
+        """Apply a message; return the answer to its sender, or to all if parameters have changed.
 
         Raises:
-            InputError: it cannot be done; the text says why.
+            InputError: it cannot be done; the text has the reason.
         """
 
     def release(self) -> None:
@@ -73,7 +73,7 @@ class Dispatcher:
     """Passes messages of viewers to a flight, and its answers to viewers.
 
     Args:
-        flight: what is flown.
+        flight: the flight.
         viewers: all who watch, and who of them holds the beam.
     """
 
@@ -83,7 +83,7 @@ class Dispatcher:
         self._tasks = set[asyncio.Task[None]]()
 
     def receive(self, viewer: Viewer, text: str | bytes) -> None:
-        """Handle a text of a viewer, or say why it is refused."""
+        """Handle a text of a viewer, or send the reason of its refusal."""
         try:
             message = read_message(text)
             if isinstance(message, GrabMessage):
@@ -106,10 +106,10 @@ class Dispatcher:
             task.cancel()
 
     def _apply(self, message: PageMessage) -> Sequence[Answer]:
-        """What the flight answers.
+        """The answer of the flight.
 
         Raises:
-            Refusal: it cannot do what the message says.
+            Refusal: it cannot apply the message.
         """
         try:
             return self._flight.apply(message)

@@ -1,4 +1,4 @@
-"""The functions of values that a page calls in the module of its mission: each is the one that a session calls."""
+"""The functions that a page calls in the module of its mission; a session calls the same ones."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def page_functions(plan: FlightPlan) -> Sequence[ValuesFunction]:
 
 
 def flight_parts(plan: FlightPlan) -> tuple[Any, ...]:
-    """What an ending is formed from; `ENDING_PARTS` are their paths."""
+    """The inputs of an ending; `ENDING_PARTS` are their paths."""
     return tuple(functools.reduce(getattr, path, plan.model) for path in ENDING_PARTS)
 
 

@@ -1,6 +1,6 @@
-"""What a page must know of a flight beside its module: the scene, the mission, parameters with bounds, and texts.
+"""The manifest of a page's flight beside its module: scene, mission, parameters with bounds, and texts.
 
-`web/src/flight/manifest.ts` says the same in TypeScript.
+`web/src/flight/manifest.ts` has the same definition in TypeScript.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ OWN = ("type", "seq")  # fields that the page writes by itself
 
 
 def message_rules() -> dict[str, dict[str, dict[str, Any]]]:
-    """By message and field: how many numbers (0 if they are not named one by one), their bounds, and the refusal."""
+    """By message and field: count of numbers (0 if they are not named separately), their bounds, and the refusal."""
     found = {}
     for name, kind in PAGE_MESSAGES.items():
         rules = {field: _rule(name, field, kind) for field in kind.model_fields if field not in OWN}
@@ -93,7 +93,7 @@ STATUS_EVERY = RATE // 4  # frames
 
 
 def page_manifest(plan: FlightPlan) -> dict[str, Any]:
-    """What a page is told of a mission that was made interactive."""
+    """The manifest of a mission that was made interactive."""
     mission = plan.mission
     scene = scene_of(mission, ENGINE)
     rule = checks.touch_rule(mission, scene["vehicle"])
@@ -144,7 +144,7 @@ def _tunable(plan: FlightPlan, shown: SceneParameter) -> dict[str, Any]:
 
 
 def _absent(plan: FlightPlan) -> dict[str, str]:
-    """The parameters that a mission does not have, and why they are refused."""
+    """The parameters that a mission does not have, with the reasons of refusal."""
     present = {shown["key"] for shown in parameters_of(plan.mission, plan.mission)}
     lost = {
         key: _refusal(plan, keys_of(plan.mission, key)[0], bounds_of(parameter, plan.mission)[1])
@@ -155,7 +155,7 @@ def _absent(plan: FlightPlan) -> dict[str, str]:
 
 
 def _refusal(plan: FlightPlan, key: str, value: object) -> str:
-    """Why a value of a key is refused in flight."""
+    """The reason for which a value of a key is refused in flight."""
     try:
         scheduled_change(plan, changed(plan.mission, key, value), key, 0, RAMP)
     except InputError as error:
@@ -177,7 +177,7 @@ def _pacing() -> dict[str, float]:
 
 
 def _endings(plan: FlightPlan) -> dict[str, Any]:
-    """By number the outcome of an ending and its text; by the place in the state what is said if that is not finite."""
+    """Outcome and text of each ending by number; the texts of non-finite values by their place in the state."""
     known = {str(int(k.number)): _ending(k.outcome, k.quantity, limit_of(plan, k.number)) for k in ENDINGS}
     parts = [_ending(ENDING_OF[DIVERGED].outcome, part, NOT_FINITE) for part in State._fields]
     return {"by_number": known, "not_finite": parts}

@@ -1,8 +1,8 @@
-"""Flights that a page carries: a mission's module, and what the page is told of it, packed into one file each.
+"""Flights of a page: a mission's module and its manifest, packed into one file each.
 
     size of the manifest (4 bytes, little endian) | manifest (JSON) | module (WebAssembly)     compressed by gzip
 
-A page refuses a flight whose checksum is another one than its index says.
+A page rejects a flight whose checksum differs from that in its index.
 """
 
 from __future__ import annotations

@@ -43,7 +43,7 @@ def with_data(html: str, element: str) -> str:
 
 
 def with_policy(html: str, policy: str) -> str:
-    """A page with a policy of what it may load."""
+    """A page with a policy of loading."""
     return _once(r"<head\b[^>]*>", f'<head><meta http-equiv="Content-Security-Policy" content="{policy}">', html)
 
 
@@ -53,7 +53,7 @@ def in_one_file(html: str, files: Mapping[str, bytes], policy: str) -> str:
     Args:
         html: the page, with its data.
         files: of the page, by path.
-        policy: what it may load; `{script}` stands for the hash of the script.
+        policy: of loading; `{script}` stands for the hash of the script.
     """
     script = _inside(page_text(files, "/page.js"))
     style = re.sub(r"</(style)", r"<\\/\1", page_text(files, "/page.css"), flags=re.I)

@@ -28,7 +28,7 @@ from tandemlift.apps.live.wire.server_messages import SceneMessage
 
 STATUS_EVERY = RATE // 4  # frames
 MAX_VIEWERS = 16
-DISMISSED = 5.0  # s, for which a page that was disconnected for flooding keeps its place: coming back is not free
+DISMISSED = 5.0  # s, for which a page that was disconnected for flooding keeps its place
 SEND_BUFFER = 16_384  # bytes that the system may hold back for a page; more would be outdated when it arrives
 
 strangers = logging.getLogger(f"{__name__}.sockets")  # invalid requests; logged only where a handler is attached
@@ -41,7 +41,7 @@ class PageServer:
 
     Args:
         files: content by path, as `page_files` gives it.
-        flight: what is flown live; None to serve files only.
+        flight: the live flight; None to serve files only.
         host: to bind to; if it is not this machine's own, the address holds a random token.
         port: to bind to, 0 for any that is free.
     """

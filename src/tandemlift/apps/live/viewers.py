@@ -28,7 +28,7 @@ BEHIND = 4_096  # bytes not yet taken by the network, beyond which a viewer is b
 LOST = 1_000_000  # bytes, beyond which it is cut off: it reads nothing at all
 MAX_MESSAGES = 2_000  # a second; a page sends about a hundred
 FAREWELL = 1.0  # s, for pages to close their connections
-MAX_REFUSALS = 20  # that are told in a second
+MAX_REFUSALS = 20  # that are reported in a second
 REFUSED = 10  # messages that a refused one counts as: a page is refused at the rate of its pictures, at most
 MAX_WORK = 0.05  # s of the processor in a second; the messages of a page take a hundredth of a second
 
@@ -85,7 +85,7 @@ class Viewer:
             broadcast([self.connection], what if isinstance(what, str) else text_of(what))
 
     def refuse(self, refusal: Refusal) -> None:
-        """Say why a message is refused; a few times a second at most."""
+        """Send the reason of a refused message; a few times a second at most."""
         self._begin_second()
         self._messages += REFUSED - 1
         self._refusals += 1
@@ -110,7 +110,7 @@ class Viewer:
             self._work += thread_time() - began
 
     def rest(self) -> float:
-        """How long to wait until its next message is read [s], so that one page leaves time for the others."""
+        """The wait until its next message is read [s], so that one page leaves time for the others."""
         return 0.0 if self._work < MAX_WORK else 1.0 - time.monotonic() % 1.0
 
     def _begin_second(self) -> None:
@@ -181,7 +181,7 @@ class Viewers:
             viewer.send(message)
 
     def admits(self, viewer: Viewer, message: PageMessage) -> bool:
-        """Whether a message may go on to the flight: all of the holder's, of others those that do not touch the beam.
+        """Whether a message is passed to the flight: all of the holder's, of others those that do not touch the beam.
 
         Raises:
             Refusal: it needs the beam, and another viewer holds it.
@@ -195,7 +195,7 @@ class Viewers:
         return True
 
     def note(self, viewer: Viewer, message: PageMessage) -> None:
-        """Note who holds the beam after a message that was applied."""
+        """Update the holder of the beam after an applied message."""
         if isinstance(message, ReleaseMessage):
             self.let_go()
         elif isinstance(message, GrabMessage):
@@ -206,7 +206,7 @@ class Viewers:
 
 
 async def dismiss(connection: ServerConnection) -> None:
-    """Close the connection of a page that sends too much, which may not even read why."""
+    """Close the connection of a page that sends too much, which may not read the reason."""
     try:
         async with asyncio.timeout(FAREWELL):
             await connection.close(1008, "too many messages, or too many that are refused")

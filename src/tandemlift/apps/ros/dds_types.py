@@ -21,12 +21,12 @@ Default = Callable[[], Any]
 
 
 def missing_packages() -> list[str]:
-    """Which packages of the extra `ros2` are not installed; nothing is imported."""
+    """The packages of the extra `ros2` that are not installed; nothing is imported."""
     return [name for name in PACKAGES if importlib.util.find_spec(name) is None]
 
 
 def check_installed() -> None:
-    """Refuse to go on without what the extra `ros2` installs.
+    """Check that the extra `ros2` is installed.
 
     Raises:
         InputError: a package is missing.
@@ -66,7 +66,7 @@ class DdsTypes:
         return dataclasses.dataclass(made)
 
     def _field(self, about: Any) -> tuple[Any, Default]:
-        """The type of a field, and what makes its value where none is given."""
+        """The type of a field, and the factory of its default."""
         kind, what = int(about[0]), about[1]
         if kind == SINGLE:
             python = PYTHON.get(what[0])

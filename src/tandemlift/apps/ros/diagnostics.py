@@ -16,7 +16,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.simulation.results import describe_event
 from tandemlift.simulation.touches import contact_codes
 
-AGAIN = 1.0  # s, before the same words are said again
+AGAIN = 1.0  # s, before the same words are repeated
 MOST = 100  # events that wait
 Notify = Callable[[str], None]
 
@@ -25,7 +25,7 @@ class FlightDiagnostics:
     """The events and the state of a flight, as messages.
 
     Args:
-        middleware: what publishes them.
+        middleware: publishes them.
     """
 
     def __init__(self, middleware: Middleware) -> None:
@@ -46,7 +46,7 @@ class FlightDiagnostics:
             self._waiting.append((time.time_ns(), what))
 
     def flush(self) -> None:
-        """Publish what waits."""
+        """Publish the waiting events."""
         while self._waiting:
             at, what = self._waiting.popleft()
             self._channel.publish(self._event(at, what))

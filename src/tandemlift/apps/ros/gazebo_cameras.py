@@ -1,7 +1,7 @@
-"""The four views of the paper's Figure 9: where cameras stand in Gazebo, and when their pictures are taken.
+"""The four views of the paper's Figure 9: places of the cameras in Gazebo, and times of their pictures.
 
-They show the vehicle standing at the start, on its way, at the end of the way, and landed. A flight of the same mission
-in the compiled engine tells where it will be at these times.
+They show the vehicle standing at the start, on its path, at the end of the path, and landed. A flight of the same
+mission in the compiled engine gives its places at these times.
 """
 
 from __future__ import annotations

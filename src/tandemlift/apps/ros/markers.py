@@ -62,13 +62,13 @@ class MarkerWriter:
         return marker
 
     def text(self, number: int, stamp: int, at: Array, words: str, color: str, height: float) -> Any:
-        """Words that face who looks."""
+        """Words that face the viewer."""
         marker = self._mark(number, TEXT, stamp, at, UNTURNED, (0.0, 0.0, height), color, 1.0)
         marker.text = words
         return marker
 
     def nothing(self, number: int) -> Any:
-        """What takes a marker away."""
+        """A message that removes a marker."""
         return self._Marker(header=self._header(0), ns=self._name, id=number, action=DELETE)
 
     def _mark(

@@ -1,4 +1,4 @@
-"""What the node needs of a middleware: to publish, to subscribe, to serve requests, and to keep parameters."""
+"""The interface of a middleware: to publish, to subscribe, to serve requests, and to keep parameters."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 from tandemlift.apps.export.messages import MessageTypes
 
-Answer = tuple[bool, str]  # whether it is done, and what there is to say
+Answer = tuple[bool, str]  # whether it is done, and a message
 
 
 class TopicPublisher(Protocol):

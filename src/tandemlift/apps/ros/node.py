@@ -31,11 +31,11 @@ PATIENCE = 0.1  # s, for a sample
 
 
 class FlightNode:
-    """Publishes a session's flight, and passes on what comes from the middleware.
+    """Publishes a session's flight, and passes messages of the middleware to it.
 
     Args:
-        session: what is flown; not yet started.
-        middleware: what publishes and receives.
+        session: the flight; not yet started.
+        middleware: publishes and receives.
         rate: of samples [Hz].
 
     Raises:
@@ -98,7 +98,7 @@ class FlightNode:
             self._keeper.join()
 
     def publish(self) -> bool:
-        """Publish what has been flown since the last time, and whatever else is due; whether there was a sample."""
+        """Publish new samples and whatever else is due; return whether there was a sample."""
         taken = self._queue.take(PATIENCE)
         if taken:
             self._publish(taken)

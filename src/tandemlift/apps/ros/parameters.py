@@ -31,7 +31,7 @@ class Parameters:
     Args:
         session: whose settings they are.
         middleware: where they are kept.
-        notify: called with what is refused.
+        notify: called with refusals.
     """
 
     def __init__(self, session: Session, middleware: Middleware, notify: Notify) -> None:

@@ -1,6 +1,6 @@
 """Pushes that come as messages: a wrench in a frame becomes a force at a point of the vehicle, until the next one.
 
-A push that the pilot does not follow is reported with the reason and with what to do.
+A push that the pilot does not follow is reported with reason and remedy.
 
 A dead-man's switch lets go 0.5 s of the flight after the last message. It is in the flight's own thread: it works
 whatever becomes of the middleware.
@@ -46,19 +46,19 @@ What = Literal["lift", "land", "stop"]
 
 
 class RequestServices:
-    """Asks a session's pilot.
+    """Passes requests to a session's pilot.
 
     Args:
-        session: whose pilot is asked.
+        session: that of the pilot.
         notify: called with what is refused.
-        nap: what waits for so long [s].
+        nap: waits for that long [s].
     """
 
     def __init__(self, session: Session, notify: Notify, nap: Callable[[float], None] = time.sleep) -> None:
         self._session, self._notify, self._nap = session, notify, nap
 
     def answer(self, what: str) -> Answer:
-        """Ask for one of `REQUESTS`: whether it is done or has begun, and what there is to say of it."""
+        """Make one of `REQUESTS`; return whether it is done or has begun, and a message."""
         try:
             if what == "tare":
                 answers = self._session.apply(TareMessage(seq=0))
@@ -81,7 +81,7 @@ class RequestServices:
         return self._session.status()["phase"]
 
     def _refusal(self, what: str) -> str:
-        """Why the pilot does not do it, and what to do."""
+        """The reason why the pilot does not do it, and the remedy."""
         refusal = getattr(self._session.refusals, what, None)
         return str(refusal) if refusal else f"{what}: the pilot stays in phase {self._phase()}; ask again"
 

@@ -20,7 +20,7 @@ NAME = "tandemlift"
 FOLDER = DATA / "ros"
 SHOWN = "tandemlift.rviz"
 OF_GAZEBO = {place.rpartition("/")[2] for place in PLACES}  # parameters of Gazebo's own below those of a node `NAME`
-OLD = {"builtin_interfaces/Time": "Time"}  # what has no message in ROS 1: of the package genpy
+OLD = {"builtin_interfaces/Time": "Time"}  # types without a message in ROS 1: of the package genpy
 
 
 class Ros1:
@@ -98,7 +98,7 @@ class Ros1:
         (self._rospy.logwarn if ": " in what else self._rospy.loginfo)("%s", what)
 
     def shutdown(self) -> None:
-        """Unregister from the master, and take away what the next flight would take for its parameters."""
+        """Unregister from the master, and remove values that the next flight would read as its parameters."""
         try:
             for key in () if self.over else self._own:
                 with self._master(), contextlib.suppress(KeyError):
@@ -108,7 +108,7 @@ class Ros1:
 
     @contextlib.contextmanager
     def _master(self) -> Iterator[None]:
-        """What is said of a master that does not answer."""
+        """The message about a master that does not answer."""
         try:
             yield
         except OSError as error:
@@ -148,7 +148,7 @@ def folder() -> Path:
 
 
 def start_rviz() -> subprocess.Popen[bytes]:
-    """Start RViz of ROS 1, with everything that there is to see.
+    """Start RViz of ROS 1 with all displays.
 
     Raises:
         InputError: it is not installed.

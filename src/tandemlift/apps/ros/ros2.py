@@ -90,7 +90,7 @@ class Ros2:
         self._services[name.rpartition("/")[2]] = answer
 
     def parameters(self) -> dict[str, Any]:
-        """What came on the topic of parameters since the last time."""
+        """The new values from the topic of parameters."""
         found, self._set = self._set, {}
         return found
 
@@ -168,7 +168,7 @@ class _Writer:
 
 
 def _qos(latched: bool, depth: int) -> Any:
-    """As ROS 2 offers and asks; a writer never waits for readers."""
+    """The quality of service of ROS 2; a writer never waits for readers."""
     from cyclonedds.qos import Policy, Qos
 
     return Qos(

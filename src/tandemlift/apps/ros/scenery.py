@@ -1,4 +1,4 @@
-"""What RViz shows: vehicle, floor and walls once, push and reference as they move."""
+"""The displays of RViz: vehicle, floor and walls once, push and reference as they move."""
 
 from __future__ import annotations
 

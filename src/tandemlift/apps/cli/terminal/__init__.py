@@ -1,1 +1,1 @@
-"""What all verbs of the command line share: output, notices, the folder of results."""
+"""Common parts of all verbs of the command line: output, notices, the folder of results."""

@@ -1,4 +1,4 @@
-"""The results of a mission's checks as a table, and what they say."""
+"""The results of a mission's checks as a table, and their texts."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ HEAD = ("check", "of", "value", "limit", "unit", "margin", "verdict")
 
 
 def print_checks(results: Sequence[CheckResult]) -> None:
-    """Print a row for each result, then a sentence for each that has one, then how many fail."""
+    """Print a row for each result, then the texts, then the number of failures."""
     rows = [HEAD, *[_row(result) for result in results]]
     widths = [max(len(row[i]) for row in rows) for i in range(len(HEAD))]
     for row, result in zip(rows, [None, *results], strict=True):

@@ -68,7 +68,7 @@ def _dotted(begun: str, end: str) -> list[CompletionItem]:
 
 
 def _paths(begun: str, endings: tuple[str, ...]) -> list[CompletionItem]:
-    """Folders, and files with some endings, whose path begins so; nothing of what cannot be read."""
+    """Folders, and files with some endings, whose path begins so, except for unreadable ones."""
     folder, name = os.path.split(begun)
     try:
         entries = sorted(Path(os.path.expanduser(folder) or ".").iterdir())

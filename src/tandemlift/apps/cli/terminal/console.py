@@ -26,7 +26,7 @@ AGAIN = 0.02  # s, until an interrupt that Python has swallowed is raised again
 
 
 def echo(text: str, *, nl: bool = True) -> None:
-    """Print to standard output; if it is closed (`| head`), go on without it."""
+    """Print to standard output; if it is closed (`| head`), continue without it."""
     try:
         click.echo(text, nl=nl)
     except BrokenPipeError:
@@ -85,7 +85,7 @@ class CompileNotices:
             self._print()
 
     def _print(self) -> None:
-        """Print what was compiled since the last line."""
+        """Print the number of loops compiled since the last line."""
         if self._running:
             return
         made, seconds, is_kept = self._made, self._seconds, self._is_kept

@@ -20,7 +20,7 @@ strict_option: Callable[[Any], Any] = click.option(
 
 
 def print_findings(flights: Iterable[tuple[str, Flight]]) -> int:
-    """Print a line for each finding of flights by name, on standard error; how many there are."""
+    """Print a line on standard error for each finding of flights by name; return their number."""
     count = 0
     for name, flight in flights:
         for finding in flight.findings:

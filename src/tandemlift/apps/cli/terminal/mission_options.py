@@ -1,4 +1,4 @@
-"""What commands that fly a mission have in common: options, and the mission, controller and settings that they name."""
+"""Common options of commands that fly a mission, and the loading of mission, controller and settings."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ after_crash_option = click.option(
     "--after-crash",
     type=click.FloatRange(min=0.0),
     metavar="SECONDS",
-    help="Fly on after a crash, rotors stopped, at most until the vehicle lies still: the key crash.fly_on.",
+    help="Continue after a crash with the rotors stopped, at most until the vehicle is at rest: the key crash.fly_on.",
 )
 
 
@@ -69,7 +69,7 @@ style_option, kept_style_option = (
 
 
 def with_after_crash(settings: tuple[str, ...], seconds: float | None) -> tuple[str, ...]:
-    """Settings of a mission with how long to fly on after a crash [s], if that is given."""
+    """Settings of a mission, with the time of flight after a crash [s], if that is given."""
     return settings if seconds is None else (*settings, f"crash.fly_on={seconds!r}")
 
 

@@ -1,1 +1,1 @@
-"""One flight in real time: its thread, the virtual hand, parameters that are changed in flight, and the recording."""
+"""One flight in real time: its thread, the virtual hand, parameter changes in flight, and the recording."""

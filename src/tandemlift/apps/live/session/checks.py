@@ -1,6 +1,6 @@
-"""What is allowed in flight: touching the vehicle, asking its pilot, taring its force sensors; and which rotors failed.
+"""Checks of requests in flight: touching the vehicle, requests to its pilot, taring force sensors; failed rotors.
 
-A tare in flight takes what the force sensors read in hover, without a push, as their bias.
+A tare in flight sets the bias of the force sensors to their readings in hover without a push.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ HOVER_TIME = ("memory", "guidance", "phase", "hover_time")  # of a flight's stat
 TARE_NOTICE = 1.0  # s, from the request until a tare begins: to prepare it, and to let go
 
 
-ALLOWED, TARED_IN_HOVER, TARED_UNTIL, BESIDE = 0.0, 1.0, 2.0, 3.0  # whether a push is, and else why not
+ALLOWED, TARED_IN_HOVER, TARED_UNTIL, BESIDE = 0.0, 1.0, 2.0, 3.0  # whether a push is allowed, else the reason
 
 
 class TouchRule(NamedTuple):
-    """When and where a vehicle may be pushed.
+    """Times and places at which a vehicle may be pushed.
 
     Attributes:
         reach: farthest point from the centre of mass [m].
@@ -41,7 +41,7 @@ class TouchRule(NamedTuple):
 
 
 def touch_rule(mission: Mission, vehicle: SceneVehicle) -> TouchRule:
-    """The rule of a mission as it is now."""
+    """The rule of the present mission."""
     tare, start = mission.estimator, mission.estimator.tare_start
     reach = max(_reaches(vehicle))
     if mission.pilot.push == "truth" or (tare.tare != "hover" and start is None):
@@ -53,7 +53,7 @@ def touch_rule(mission: Mission, vehicle: SceneVehicle) -> TouchRule:
 
 
 def touch_refusal(rule: TouchRule, at: Number, hover_time: Number, point: Vec3) -> Number:
-    """Why a push is refused, as a number; `ALLOWED` if it is not.
+    """The reason of a push's refusal, as a number; `ALLOWED` if it is not refused.
 
     Args:
         rule: of the mission as it is now.
@@ -117,14 +117,14 @@ def check_may_tare(flight: RecordedFlight, vehicle: SceneVehicle, phase: str) ->
 
 
 def tare_start_for(flight: RecordedFlight) -> float:
-    """When a tare that is requested now may begin [s].
+    """The earliest begin of a tare that is requested now [s].
 
     Raises:
         InputError: the mission has no tare, or begins it by itself.
     """
     mission = flight.now
     if mission.pilot.push == "truth":
-        raise InputError("tare: the pilot is given the true push, and reads no sensor that could be tared")
+        raise InputError("tare: the pilot receives the true push, and uses no sensor that could be tared")
     if mission.estimator.tare == "hover":
         raise InputError("tare: the pilot tares by itself, in steady hover (estimator.tare)")
     if mission.estimator.tare_start is None:

@@ -21,12 +21,12 @@ class FrameBuilder:
     """Builds the frames of a mission's flight.
 
     Args:
-        mission: what is flown.
+        mission: the flown one.
         engine: name of the body's engine.
         setup: of the same mission.
 
     Attributes:
-        scene: what a page must know before frames mean anything.
+        scene: the description that a page needs to interpret frames.
     """
 
     def __init__(self, mission: Mission, engine: str, setup: FlightSetup) -> None:

@@ -52,7 +52,7 @@ def components_of(channel: Array) -> Components:
 
 
 class PhaseTimes(NamedTuple):
-    """When a scheduled flight begins and ends to lift, and begins to land [s]."""
+    """The times at which a scheduled flight begins and ends its lift, and begins to land [s]."""
 
     lift_start: Number
     lift_end: Number

@@ -16,7 +16,7 @@ REQUEST_TIME = 0.2  # s, for which a request to lift or to land is held
 
 
 def grip_offset(attitude: Quat, point: Vec3) -> Vec3:
-    """From where a cursor takes hold to the centre of mass [m, world]; `point`: where, in body axes."""
+    """The vector from a cursor's grip to the centre of mass [m, world]; `point`: the grip, in body axes."""
     return -apply(rotation_from_quaternion(attitude), point)
 
 
@@ -24,7 +24,7 @@ class HandControl:
     """Moves the hand of a flight. Callers hold the flight's lock.
 
     Args:
-        flight: whose hand it is.
+        flight: that of the hand.
         vehicle: which points may be touched.
 
     Attributes:
@@ -34,7 +34,7 @@ class HandControl:
     def __init__(self, flight: RecordedFlight, vehicle: SceneVehicle) -> None:
         self._flight, self._vehicle, self.seq = flight, vehicle, 0
         self._offset = ZERO  # m, added to targets
-        self._requests: dict[str, int] = {}  # until which step each is held
+        self._requests: dict[str, int] = {}  # last step of each
 
     def grab(self, m: GrabMessage, attitude: Callable[[], Quat]) -> None:
         """Take hold of the beam at a point, or at the centre of mass; `attitude`: of the vehicle, if it is needed.

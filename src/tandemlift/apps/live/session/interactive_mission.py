@@ -26,7 +26,7 @@ def interactive_mission(mission: Mission) -> Mission:
 
 
 def with_whole_rotors(now: Mission, first: Mission) -> Mission:
-    """The mission as it is now, with the rotor faults of the first one."""
+    """The present mission, with the rotor faults of the first one."""
     return now.model_copy(update={"faults": first.faults})
 
 

@@ -1,4 +1,4 @@
-"""Real time: how many steps are due by the clock, and what would keep the flight from them."""
+"""Real time: the number of steps due by the clock, and the thread that takes them."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ NEVER = 10**9  # collections of young garbage for each of the old
 
 
 class Pacer:
-    """Says how many steps are due.
+    """Computes the number of due steps.
 
     Args:
         dt: of a step [s].
 
     Attributes:
-        speed: flight time over wall time, as asked for.
+        speed: requested flight time over wall time.
         paused: whether time stands still.
         behind: flight time that is due [s].
-        most_behind: the most that was due since this was last set to 0 [s].
+        most_behind: the largest due time since this was last set to 0 [s].
         forgotten: flight time that was due and will never be flown [s].
         began: the time of day from which on time is counted [ns]; None before.
     """
@@ -79,10 +79,10 @@ class RealTimeThread:
     """A thread that prepares a flight, then takes its steps as they are due.
 
     Args:
-        pacer: says how many are due.
+        pacer: computes the due steps.
         lock: held while steps are taken.
         prepare: whether the flight can be flown; called once, in the thread.
-        fly: takes at most so many steps; how many it took.
+        fly: takes at most that many steps, and returns their number.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""Changes of a flight while it goes on: parameters set and restored, rotors stopped, sensors tared.
+"""Changes in flight: parameters set and restored, rotors stopped, sensors tared.
 
 Each change is prepared beside the flight, one after the other; the flight does not wait for it.
 """
@@ -18,7 +18,7 @@ from tandemlift.missions import Mission, tables_of
 from tandemlift.missions.changes import MISSING
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
-RAMP = 0.5  # s, within which a parameter goes to its new value
+RAMP = 0.5  # s, within which a parameter changes to its new value
 
 
 class ParameterControl:
@@ -37,7 +37,7 @@ class ParameterControl:
         self.turn = threading.RLock()
 
     def set(self, flight: RecordedFlight, key: str, value: object) -> list[Answer]:
-        """Set a parameter; what to say of it.
+        """Set a parameter; return a message about it.
 
         Raises:
             InputError: there is no such parameter, or the value is out of bounds or cannot be taken in flight.
@@ -46,7 +46,7 @@ class ParameterControl:
         return self._set_to(flight, key, [value] * len(keys_of(self._first, key)))
 
     def restore(self, flight: RecordedFlight, key: str | None) -> list[Answer]:
-        """Set a parameter, or all, back to the first mission; what to say of it, refusals among it."""
+        """Set a parameter, or all, back to the first mission; return messages, refusals among them."""
         answers: list[Answer] = []
         for one in [*CHOICES, *BY_KEY] if key is None else [key]:
             try:

@@ -10,11 +10,11 @@ from tandemlift.apps.live.wire.server_messages import FlightStatus
 
 
 class Preparation:
-    """How far the preparation of a flight is.
+    """The progress of a flight's preparation.
 
     Attributes:
-        step: what is being done.
-        failure: why the mission cannot be flown; "" unless that is so.
+        step: the present task.
+        failure: the reason why the mission cannot be flown, or "".
     """
 
     def __init__(self) -> None:
@@ -40,5 +40,5 @@ class Preparation:
 
     @property
     def refusal(self) -> str:
-        """Why every message is refused."""
+        """The reason for which every message is refused."""
         return f"the flight cannot be flown: {self.failure}" if self.failure else "the flight is still being prepared"

@@ -1,4 +1,4 @@
-"""Why a message of a page is refused: the texts, with the places of their values in braces.
+"""The texts of refused messages of a page, with placeholders in braces.
 
 A session fills them in. So does the page that flies without a server: it is given these texts (`apps.live.offline`).
 """

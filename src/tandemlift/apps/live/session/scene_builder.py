@@ -50,9 +50,9 @@ def scene_of(
     """The scene of a mission.
 
     Args:
-        mission: what is flown.
+        mission: the flown one.
         engine: name of the body's engine.
-        parameters: what may be changed in flight.
+        parameters: those that may be changed in flight.
         spring: the virtual hand by which a page pulls.
     """
     vehicle = Vehicle.from_settings(mission.vehicle)

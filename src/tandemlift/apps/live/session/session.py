@@ -40,17 +40,17 @@ log = logging.getLogger(__name__)
 
 
 class Session:
-    """Flies a mission in real time; `server.LiveFlight` says what a server needs of it.
+    """Flies a mission in real time, as a `server.LiveFlight`.
 
     Args:
-        mission: what is flown, without its pushes and its person.
+        mission: the flown one, without its pushes and its person.
         engine: name of the body's engine.
         out: folder of saved flights, each in a folder of its name.
 
     Attributes:
-        is_ready: whether the flight is compiled; until then the vehicle is shown where it stands.
+        is_ready: whether the flight is compiled; until then the vehicle is shown at its start.
         watchers: called after every step, in the flight's thread.
-        pacer: how the flight keeps up with the clock.
+        pacer: the pace of the flight.
 
     Raises:
         InputError: the mission cannot be flown interactively, or cannot be built.
@@ -112,7 +112,7 @@ class Session:
         return True
 
     def _fly(self, steps: int) -> int:
-        """Fly some steps, at most to the end of the flight; how many."""
+        """Fly some steps, at most to the end of the flight; return their number."""
         before = self._flight.step
         try:
             while self._flight.step < before + steps and not self._flight.over and not self._failed:
@@ -129,11 +129,11 @@ class Session:
             log.exception("the flight ended by an error")
         return self._flight.step - before
 
-    # what is shown
+    # displayed values
 
     @property
     def scene(self) -> FlightScene:
-        """What a page must know, with the parameters as they are."""
+        """The scene with the present parameters."""
         now = self._flight.now if self.is_ready else self._mission
         p, scene = now.person, self._frames.scene.copy()
         scene["threshold"] = list(now.admittance.threshold)
@@ -156,7 +156,7 @@ class Session:
         return dict(channels_of(self._flight.layout, self._flight.sample[None, :].copy()))
 
     def status(self) -> FlightStatus:
-        """The state of the flight in words, and how it keeps up; before it flies, what is being prepared."""
+        """The state of the flight in words, and its pace; before it flies, the progress of its preparation."""
         if not self.is_ready:
             return self._preparation.status()
         with self._lock:
@@ -167,7 +167,7 @@ class Session:
 
     @property
     def refusals(self) -> Refusals:
-        """What would be refused right now: to lift, to land, to follow a push; and why, and what to do."""
+        """The refusals that would apply now, with reasons and remedies."""
         with self._lock:
             return refusals_now(self._flight, self._failed)
 
@@ -177,7 +177,7 @@ class Session:
     # messages
 
     def apply(self, message: page.PageMessage) -> list[Answer]:
-        """Do what a message says; what to answer.
+        """Apply a message; return the answers.
 
         Raises:
             InputError: it cannot be done; the text says why.

@@ -1,4 +1,4 @@
-"""The status of a flight in progress: its state in words, how it keeps up, and what would be refused now."""
+"""The status of a flight in progress: its state in words, its pace, and the refusals that would apply now."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class FlightFindings:
             self._numbers = flight.numbers()
 
     def formed(self) -> list[StatusFinding]:
-        """The findings as of the last look; the flight may go on meanwhile."""
+        """The findings at the last update; the flight may continue meanwhile."""
         flight, numbers = self._of, self._numbers
         if flight and numbers is not None:
             self._numbers = None
@@ -46,7 +46,7 @@ class FlightFindings:
 
 
 def phase_of(flight: RecordedFlight, number: int, failed: bool) -> str:
-    """The phase of a flight by its number, or how it ended; `failed`: by an error."""
+    """The phase of a flight by its number, or its ending; `failed`: by an error."""
     if failed:
         return "failed"
     if flight.ending:
@@ -60,7 +60,7 @@ def phase_after(ending: Ending) -> str:
 
 
 def refusals_now(flight: RecordedFlight, failed: bool) -> Refusals:
-    """What would be refused right now, and why; `failed`: whether the flight has ended by an error."""
+    """The refusals that would apply now; `failed`: whether the flight has ended by an error."""
     if failed:
         return refusals_for("error")
     if flight.over:
@@ -69,7 +69,7 @@ def refusals_now(flight: RecordedFlight, failed: bool) -> Refusals:
 
 
 def scene_ending(ending: Ending | None, place: Iterable[float]) -> SceneEnding | None:
-    """Why and where [m, world] a flight was stopped before its end, as a page is told of it; None if it was not."""
+    """Reason and place [m, world] of a flight stopped before its end, for a page; None if it was not."""
     if ending is None:
         return None
     at = [float(x) for x in place]
@@ -78,7 +78,7 @@ def scene_ending(ending: Ending | None, place: Iterable[float]) -> SceneEnding |
 
 
 def in_sentences(refusals: Refusals) -> StatusRefusals:
-    """Refusals as a page is told of them."""
+    """Refusals in the form of a page's message."""
     lift, land, push = (str(refusal or "") for refusal in refusals)
     return StatusRefusals(lift=lift, land=land, push=push)
 

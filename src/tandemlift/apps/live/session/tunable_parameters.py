@@ -106,7 +106,7 @@ def _choices(mission: Mission, first: Mission) -> Iterator[SceneParameter]:
 
 
 def _is_tunable(mission: Mission, key: str) -> bool:
-    """Whether a mission has what a key is about."""
+    """Whether a mission has the part of a key."""
     absent = {
         "wind": mission.wind.model == "none",
         "sensors": mission.sensors.model == "none",

@@ -1,4 +1,4 @@
-"""Reading what a page sends: a message, or a refusal that names the key, the value and what is allowed."""
+"""Reading a page's messages; refusals name the key, the value and the allowed values."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _ANY: TypeAdapter[Any] = TypeAdapter(Annotated[PageMessage, Field(discriminator=
 
 
 class Refusal(InputError):
-    """A message that is refused: `what` it was about; the text says why."""
+    """A refused message: `what` is its subject; the text has the reason."""
 
     def __init__(self, what: str, reason: str) -> None:
         super().__init__(reason)
@@ -49,13 +49,13 @@ def read_message(text: str | bytes) -> PageMessage:
 
 
 def subject_of(message: PageMessage) -> str:
-    """What a message is about, in a word or two."""
+    """The subject of a message, in a word or two."""
     key = getattr(message, "key", None)
     return f"{message.type} {key}" if key else message.type
 
 
 def _refusal(text: str) -> Refusal:
-    """Why a text is no message."""
+    """The reason why a text is no message."""
     try:
         data = from_json(text)
     except ValueError as error:  # at a place that the error names
