@@ -93,9 +93,9 @@ class Compliance(NamedTuple):
 class ComplianceState(NamedTuple):
     """Memory: the push [N] after the first low-pass, the dead-band's, the force [N] after the second; T_r, and T_d."""
 
-    filtered: LowPassState
+    filtered: LowPassState[Vec3]
     band: DeadBandState[Vec3]
-    output: LowPassState
+    output: LowPassState[Vec3]
     position: Vec3
     velocity: Vec3
     acceleration: Vec3

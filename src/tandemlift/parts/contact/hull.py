@@ -16,7 +16,7 @@ with v the sliding velocity. Thus k δ is a spring, the rest dissipates, and con
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 from tandemlift.core.algebra import absolute, greatest, least, minimum, sqrt
 from tandemlift.core.arrays import array
 from tandemlift.core.law import choice, elementwise, law
-from tandemlift.core.types import Array, Condition, Number, number
+from tandemlift.core.types import Array, Condition, Number, NumberSet, number
 from tandemlift.core.vector import (
     ZERO,
     Absent,
@@ -52,8 +52,8 @@ class Ellipsoids(NamedTuple):
     """Shapes that meet the floor, as sets: centre from the system's centre of mass [m, body axes], r and c [m]."""
 
     center: Vec3
-    radius: Any
-    half_thickness: Any
+    radius: NumberSet
+    half_thickness: NumberSet
 
 
 class Hull(NamedTuple):
@@ -79,7 +79,7 @@ class FloorContact(NamedTuple):
     """Contact of shapes, as sets, world axes: lowest point from the system's centre of mass [m], N [N], force [N]."""
 
     arm: Vec3
-    normal: Any
+    normal: NumberSet
     force: Vec3
 
 

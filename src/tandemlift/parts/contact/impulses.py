@@ -20,7 +20,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from tandemlift.core.algebra import chosen, greatest, least, maximum, minimum, sqrt, where
 from tandemlift.core.law import choice, elementwise, law
-from tandemlift.core.types import Number
+from tandemlift.core.types import Number, NumberSet
 from tandemlift.core.vector import (
     Absent,
     Vec3,
@@ -61,8 +61,8 @@ class Approach(NamedTuple):
 
     normal: Vec3
     lever: Vec3
-    mobility: Any
-    least: Any
+    mobility: NumberSet
+    least: NumberSet
 
 
 class WallImpulses(NamedTuple):
@@ -140,18 +140,18 @@ def struck(c: WallContact, force: Number, arm: Vec3) -> WallContact:
 
 
 @law
-def struck_spheres(pair: ContactPair | Absent, forces: Sequence[Number]) -> Any:
+def struck_spheres(pair: ContactPair | Absent, forces: Sequence[NumberSet]) -> Any:
     """Spheres that press on two walls by forces [N]; `Absent` of `Absent`."""
     return type(pair)(*[struck(c, force, -c.offset) for c, force in zip(pair, forces, strict=True)])
 
 
 @choice(absent="contact")
-def struck_beam(contact: BeamContact | Absent, forces: Sequence[Number], center: Vec3) -> BeamContact | Absent:
+def struck_beam(contact: BeamContact | Absent, forces: NumberSet, center: Vec3) -> BeamContact | Absent:
     """A beam, by its centre [m, world axes], that presses on walls by forces [N]: of its ends, and of its length."""
 
 
 @struck_beam.register(BeamContact)
-def _struck_beam(contact: BeamContact, forces: Sequence[Number], center: Vec3) -> BeamContact:
+def _struck_beam(contact: BeamContact, forces: NumberSet, center: Vec3) -> BeamContact:
     ends, *single = contact
     return BeamContact(
         struck(ends, set_of(forces[:2]), translated(-center, ends.place)),

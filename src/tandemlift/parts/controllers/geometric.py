@@ -156,7 +156,7 @@ def wanted_angular_acceleration(k: Geometric, R: Mat3, rates: Vec3, desired: Att
 
 
 @law
-def filtered_force(k: Geometric, memory: LowPassState, u: Vec3) -> tuple[Derivatives, LowPassState]:
+def filtered_force(k: Geometric, memory: LowPassState[Vec3], u: Vec3) -> tuple[Derivatives, LowPassState[Vec3]]:
     """(the filtered force [N] with its derivatives, the new memory)."""
     w, up = k.bandwidth, Vec3(u.x, u.y, maximum(u.z, k.min_upward))
     acceleration = (up - memory.value) * (w * w) - memory.rate * (2.0 * w)
@@ -165,8 +165,8 @@ def filtered_force(k: Geometric, memory: LowPassState, u: Vec3) -> tuple[Derivat
 
 @control.register(Geometric)
 def geometric(
-    k: Geometric, memory: LowPassState, measured: Measured, reference: Reference
-) -> tuple[Command, LowPassState]:
+    k: Geometric, memory: LowPassState[Vec3], measured: Measured, reference: Reference
+) -> tuple[Command, LowPassState[Vec3]]:
     """The whole controller at one sample."""
     state, target = measured.state, reference.trajectory
     position_error, velocity_error = target.position - state.position, target.velocity - state.velocity
@@ -180,7 +180,7 @@ def geometric(
 
 
 @register("geometric", GeometricSettings)
-def start(s: GeometricSettings, vehicle: Vehicle, step: float) -> tuple[Geometric, LowPassState]:
+def start(s: GeometricSettings, vehicle: Vehicle, step: float) -> tuple[Geometric, LowPassState[Vec3]]:
     """Geometric tracking control on SE(3), on rotation matrices (Lee, Leok and McClamroch)."""
     weight = vehicle.mass * GRAVITY
     gains = Geometric(

@@ -86,7 +86,7 @@ class PIDStageState(NamedTuple):
     """Memory of a PID: the integral term, and the filtered error."""
 
     integral: Vec3
-    error: LowPassState
+    error: LowPassState[Vec3]
 
 
 class PID(NamedTuple):

@@ -106,8 +106,8 @@ class ObserverState(NamedTuple):
     residuals are the corrections besides them.
     """
 
-    thrust: LowPassState
-    moment: LowPassState
+    thrust: LowPassState[Number]
+    moment: LowPassState[Vec3]
     velocity: Vec3
     rates: Vec3
     acceleration: Vec3
@@ -170,7 +170,9 @@ def observer_step(
 
 
 @law
-def expected(k: DisturbanceObserver, memory: ObserverState, thrusts: PerRotor) -> tuple[LowPassState, LowPassState]:
+def expected(
+    k: DisturbanceObserver, memory: ObserverState, thrusts: PerRotor
+) -> tuple[LowPassState[Number], LowPassState[Vec3]]:
     """(the modelled rotors' thrust, moment) after a step under these commands, each with its rate."""
     u = wrench(k.effect, thrusts)
     return low_pass_step(k.thrust, memory.thrust, u.thrust), low_pass_step(k.moment, memory.moment, u.moment)

@@ -64,8 +64,8 @@ class ConfirmationState(NamedTuple):
     """Memory: speeds of the rotors as modelled [rad/s]; r [N] and its moment about z [N·m], low-passed; their zeros."""
 
     speeds: PerRotor | Absent
-    rest: LowPassState
-    turning: LowPassState
+    rest: LowPassState[Vec3]
+    turning: LowPassState[Number]
     force_zero: Zero[Vec3]
     turning_zero: Zero[Number]
 

@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike
 from tandemlift.core.algebra import clip, maximum, sqrt, where
 from tandemlift.core.arrays import array
 from tandemlift.core.law import law
-from tandemlift.core.types import Number, PerQuadrotor, number
+from tandemlift.core.types import Number, NumberSet, PerQuadrotor, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, cross, each, spread, total, vec3
 from tandemlift.parts.estimation.tare import TINY, SideForces, TareSums, summed, tare_fields, tare_of
 from tandemlift.parts.estimation.wind_compensation import (
@@ -83,10 +83,10 @@ class PushEstimatorState(NamedTuple):
     rates: Vec3
     angular: Vec3
     sums: TareSums
-    force: LowPassState
-    moment: LowPassState
-    x: LowPassState
-    y: LowPassState
+    force: LowPassState[Vec3]
+    moment: LowPassState[Vec3]
+    x: LowPassState[NumberSet]
+    y: LowPassState[NumberSet]
     wind: PayloadDragState | Absent
 
 

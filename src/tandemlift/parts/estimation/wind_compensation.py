@@ -38,7 +38,7 @@ class PayloadDragState(NamedTuple):
 
     sum: Vec3
     count: Number  # type: ignore[assignment]  # hides a method of tuples
-    force: LowPassState
+    force: LowPassState[Vec3]
 
 
 @choice(absent=(ZERO, "memory"))

@@ -104,7 +104,7 @@ class HandGuidanceState(NamedTuple):
     compliance: ComplianceState
     tank: EnergyTankState | Absent
     heading: YawState | Absent
-    moment: LowPassState
+    moment: LowPassState[Vec3]
     following: FollowingState
     supervision: SupervisionState | Absent
     contact: ContactReactionState | Absent

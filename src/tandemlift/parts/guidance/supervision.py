@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from tandemlift.core.algebra import maximum, where
 from tandemlift.core.law import Absent, choice, elementwise, law
 from tandemlift.core.phases import HOLD, IDLE, STOPPED
-from tandemlift.core.types import Number, PerRotor
+from tandemlift.core.types import Number, NumberSet, PerRotor
 from tandemlift.core.vector import Vec3, total
 from tandemlift.parts.guidance.fault_detection import (
     HOLDS,
@@ -65,14 +65,14 @@ class Supervision(NamedTuple):
     recovery_time: Number
     blind_descent_depth: Number
     blind_descent_acceleration: Number
-    slots: PerRotor
+    slots: NumberSet
 
 
 class EventLog(NamedTuple):
     """Memory of events: their times [s] and codes, sets; their number; the last code, and the failed check in it."""
 
-    time: Any
-    code: Any
+    time: NumberSet
+    code: NumberSet
     count: Any  # a tuple's `count` is a method
     last: Number
     failed_check: Number

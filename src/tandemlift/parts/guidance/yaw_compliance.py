@@ -70,9 +70,9 @@ class YawCompliance(NamedTuple):
 class YawState(NamedTuple):
     """Memory: the moment [N·m] after each low-pass, the dead-band's; ψ_r [rad], its rate and acceleration."""
 
-    filtered: LowPassState
+    filtered: LowPassState[Number]
     band: DeadBandState[Number]
-    output: LowPassState
+    output: LowPassState[Number]
     angle: Number
     rate: Number
     acceleration: Number

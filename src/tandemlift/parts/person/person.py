@@ -74,9 +74,9 @@ class PersonState(NamedTuple):
     view: PersonView
     index: Any
     leg: PathLeg
-    place: LowPassState
-    couple: LowPassState
-    grasp: LowPassState
+    place: LowPassState[Vec3]
+    couple: LowPassState[Number]
+    grasp: LowPassState[Number]
     trim: Vec3
     dwelled: Number
     begun: Number

@@ -7,13 +7,13 @@ holds until the next request about it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 from tandemlift.core.algebra import maximum, minimum, where
 from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import NonNegative, Table, key
 from tandemlift.core.law import choice, elementwise, law
-from tandemlift.core.types import NEVER, Number
+from tandemlift.core.types import NEVER, Number, NumberSet
 from tandemlift.core.vector import Absent, each, total
 
 
@@ -68,11 +68,11 @@ UNKNOWN_STATUS = VehicleStatus(0.0, 0.0, 0.0)
 class RequestSchedule(NamedTuple):
     """Requests at times [s], sets: 1 where one is to lift, to land, to stop; the change of `enabled` by each."""
 
-    time: Any
-    lift: Any
-    land: Any
-    stop: Any
-    change: Any
+    time: NumberSet
+    lift: NumberSet
+    land: NumberSet
+    stop: NumberSet
+    change: NumberSet
     enabled: Number
 
 
@@ -141,7 +141,7 @@ def start_requests(tables: Sequence[RequestTable]) -> RequestSchedule | Absent:
     spare = -len(requests) % PADDED
     cls = each(len(requests) + spare)
 
-    def column(values: list[float], rest: float = 0.0) -> Any:
+    def column(values: list[float], rest: float = 0.0) -> NumberSet:
         return cls(*values, *[rest] * spare)
 
     lift, land, stop = ([float(r.action == what) for r in requests] for what in ("lift", "land", "stop"))

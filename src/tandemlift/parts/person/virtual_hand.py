@@ -63,9 +63,9 @@ class VirtualHandState(NamedTuple):
     `holding` is 1 if it held the grip at the last step.
     """
 
-    place: LowPassState
-    grasp: LowPassState
-    force: LowPassState
+    place: LowPassState[Vec3]
+    grasp: LowPassState[Number]
+    force: LowPassState[Vec3]
     holding: Number
     lift: Number
     land: Number
@@ -78,7 +78,7 @@ HAND_RELEASED = VirtualHandInput(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0, 1.0)
 
 
 @law
-def start_place(h: VirtualHandInput, m: VirtualHandState, here: Vec3, velocity: Vec3) -> LowPassState:
+def start_place(h: VirtualHandInput, m: VirtualHandState, here: Vec3, velocity: Vec3) -> LowPassState[Vec3]:
     """The place of the hand before a step: the last one until it is released, else that of the grip, moving along."""
     kept = where(h.held > m.holding, 0.0, where(m.holding + m.grasp.value > OPEN, 1.0, 0.0))
     fresh = 1.0 - kept

@@ -20,11 +20,11 @@ just after the lift, and while a floor supports the vehicle. One lost rotor is l
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra import maximum, minimum, where
 from tandemlift.core.law import Absent, choice, elementwise, law
-from tandemlift.core.types import GRAVITY, Number, PerRotor
+from tandemlift.core.types import GRAVITY, Number, NumberSet, PerRotor
 from tandemlift.core.vector import Mat3, Vec3, each, total
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import PushedState, apply_inertia, gyroscopic
@@ -60,8 +60,8 @@ class RotorLossDetection(NamedTuple):
     quick: LowPass
     bias_filter: LowPass
     scatter_filter: LowPass
-    scatter: Any
-    bound: Any
+    scatter: NumberSet
+    bound: NumberSet
     trial: PerRotor
     numbers: PerRotor
     rules: DecisionRules
@@ -70,12 +70,12 @@ class RotorLossDetection(NamedTuple):
 class DetectionState(NamedTuple):
     """Memory: low-passes of modelled thrusts, momentum and other loads; mean and scatter of the residual."""
 
-    rotors: LowPassState
-    thrusts: LowPassState
-    momentum: LowPassState
-    others: LowPassState
-    mean: LowPassState
-    scatter: LowPassState
+    rotors: LowPassState[PerRotor]
+    thrusts: LowPassState[PerRotor]
+    momentum: LowPassState[NumberSet]
+    others: LowPassState[NumberSet]
+    mean: LowPassState[NumberSet]
+    scatter: LowPassState[NumberSet]
     verdict: DecisionState
 
 
@@ -121,7 +121,7 @@ def confirmed(k: RotorLossDetection, verdict: DecisionState, t: Number) -> Numbe
 
 
 @law
-def residual(k: RotorLossDetection, m: DetectionState, pilot_input: PushedState) -> Any:
+def residual(k: RotorLossDetection, m: DetectionState, pilot_input: PushedState) -> NumberSet:
     """The force along body z [N] and the moment [N·m, body axes] that modelled rotors do not explain, as a set."""
     upright = maximum(body_z_axis(pilot_input.state.attitude).z, UPRIGHT)
     made, p, o = wrench(k.effect, m.thrusts.value), m.momentum.rate, m.others.value
@@ -152,7 +152,7 @@ def followed(
 
 
 @law
-def weighed(k: RotorLossDetection, thrusts: PerRotor, weights: Any) -> Mixer:
+def weighed(k: RotorLossDetection, thrusts: PerRotor, weights: NumberSet) -> Mixer:
     """The residual that the loss of each rotor leaves, by rows, each over the variance of its component."""
     b, w = k.effect, weights
     return Mixer(
@@ -161,7 +161,7 @@ def weighed(k: RotorLossDetection, thrusts: PerRotor, weights: Any) -> Mixer:
 
 
 @law
-def evidence_for(k: RotorLossDetection, thrusts: PerRotor, off: Any, weights: Any) -> PerRotor:
+def evidence_for(k: RotorLossDetection, thrusts: PerRotor, off: NumberSet, weights: NumberSet) -> PerRotor:
     """E of every rotor, from the residual less its mean and one over the variances of its components; a set."""
     s, b = weighed(k, thrusts, weights), k.effect
     fit = s.thrust * off[0] + s.roll * off[1] + s.pitch * off[2] + s.yaw * off[3]
@@ -182,13 +182,13 @@ def kept_or(value: Number, other: Number, active: Number) -> Number:
 
 
 @law
-def flies_free(k: RotorLossDetection, r: Any, active: Number) -> Number:
+def flies_free(k: RotorLossDetection, r: NumberSet, active: Number) -> Number:
     """1 if the vehicle flies and no floor supports it, else 0; r: the residual."""
     return where(r[0] > SUPPORTED * GRAVITY * k.mass, 0.0, active)
 
 
 @law
-def explained_by(k: RotorLossDetection, verdict: DecisionState, thrusts: PerRotor) -> Any:
+def explained_by(k: RotorLossDetection, verdict: DecisionState, thrusts: PerRotor) -> NumberSet:
     """The residual that the loss of the rotor declared lost leaves; a set of four."""
     missing = wrench(k.effect, verdict.lost * thrusts)
     return FOUR(-missing.thrust, -missing.moment.x, -missing.moment.y, -missing.moment.z)

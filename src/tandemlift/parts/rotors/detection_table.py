@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Annotated, Any, Literal
+from collections.abc import Iterable, Iterator
+from typing import Annotated, Literal
 
 import numpy as np
 
 from tandemlift.core.arrays import largest
 from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import BELIEVED, Bandwidth, Fraction, NonNegative, PerAxis, Positive, Scale, Table, key
-from tandemlift.core.types import number
+from tandemlift.core.types import NumberSet, number
 from tandemlift.core.vector import Absent, each
 from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass
 from tandemlift.parts.mechanics.rigid_body import InitialTable, inertia_value
@@ -98,7 +98,7 @@ def _rules(d: DetectionTable) -> DecisionRules:
     )
 
 
-def _four(values: Any) -> Any:
+def _four(values: Iterable[float]) -> NumberSet:
     return FOUR(*map(number, values))
 
 
