@@ -1,1 +1,1 @@
-"""What people look at: figures, pictures and films of flights, reports."""
+"""Figures, pictures and films of flights, and reports."""

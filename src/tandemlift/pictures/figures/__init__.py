@@ -1,1 +1,1 @@
-"""The figures of a flight: each file says what its figure shows and draws it; `registry` lists them."""
+"""The figures of a flight: each file describes and draws one; `registry` lists them."""

@@ -20,7 +20,7 @@ from tandemlift.pictures.figures.drawing.style import COMPONENTS, GREY, INK, col
 
 CAPTION = Caption(
     "Disturbance",
-    "The disturbance observer’s estimate of what acts on the vehicle besides rotors, weight and person: force in "
+    "The disturbance observer’s estimate of the loads on the vehicle besides rotors, weight and person: force in "
     "world axes, moment in body axes. Bottom, with a sliding-mode controller: the estimation error divided by λ₂, the "
     "largest of the three axes of position and of attitude; the control law’s guarantee requires it to be below 1. "
     "Grey: a person guides the vehicle.",

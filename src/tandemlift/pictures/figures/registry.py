@@ -1,6 +1,6 @@
 """The figures of a flight, in their order. Each is a file with a caption, the flights that have it, and `draw(flight)`.
 
-The drawing library is loaded when the figures are asked for, not when this file is imported.
+The drawing library is loaded on first use, not when this file is imported.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def save_figure(figure: Figure, path: Path) -> Path:
 def save_figures(
     flight: Flight, folder: str | os.PathLike[str], progress: Progress | None = None, *, style: str | None = None
 ) -> list[Path]:
-    """Draw every figure that a flight has and write it as NAME.png and NAME.pdf; a file appears whole or not at all.
+    """Draw every figure that a flight has and write it atomically as NAME.png and NAME.pdf.
 
     Args:
         flight: a flight, also one that diverged or has few samples.

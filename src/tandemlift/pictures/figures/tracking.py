@@ -1,6 +1,6 @@
-"""How the vehicle tracks: desired and actual orientation, position and velocity, and the normalised errors.
+"""Tracking of the vehicle: desired and actual orientation, position and velocity, and the normalised errors.
 
-The desired orientation is what the attitude law tracks; orientation is in degrees, position and velocity are in world
+The desired orientation is the attitude law's reference; orientation is in degrees, position and velocity are in world
 axes. Each error is divided by its largest absolute value, which the legend gives.
 """
 # paper: fig6

@@ -1,6 +1,6 @@
 """Pictures and animations of a flight, drawn off screen by VTK.
 
-`stage` knows where everything of a flight is, `studio` draws it from a camera, and `film` writes files.
+`stage` computes the places of all parts of a flight, `studio` draws them from a camera, and `film` writes files.
 """
 
 from tandemlift.engines.models.camera import Camera, camera_of

@@ -35,7 +35,7 @@ LARGEST, MOST = 3840 * 2160, 3000  # largest number of pixels of a picture, and 
 
 @dataclass(frozen=True)
 class Shot:
-    """What to draw of a flight.
+    """The settings of a film.
 
     Args:
         time: of a picture [s]; by default the time of the strongest push, or the end of a flight without push.
@@ -225,7 +225,7 @@ class Animation:
 
 
 def render(flight: Flight, out: str | os.PathLike[str], shot: Shot = SHOT, progress: Progress | None = None) -> Path:
-    """Write a picture (.png) or an animation (.gif, .mp4) of a flight; the file appears whole or not at all.
+    """Write a picture (.png) or an animation (.gif, .mp4) of a flight atomically.
 
     Args:
         flight: to draw; it may have diverged.

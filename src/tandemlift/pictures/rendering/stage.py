@@ -1,4 +1,4 @@
-"""Where everything of a flight is at any time: the vehicle, its path, the push, the walls and the floor."""
+"""The places of all parts of a flight at any time: the vehicle, its path, the push, the walls and the floor."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ FINE = 2  # a picture is drawn with so many times its pixels each way, and then 
 SPINNING = 40.0  # rad/s, drawn speed of the blades; at the true speed they would alias
 SHAFT = 0.022  # m, radius of an arrow
 LAYER = 4e-4  # height of shadow, grid and path, one above the other, over the floor / distance of the vehicle
-WINDOWS = {  # what draws without a display: a library, and VTK's window for it
+WINDOWS = {  # drawing without a display: a library, and VTK's window for it
     "libEGL.so.1": "vtkEGLRenderWindow",
     "libOSMesa.so.8": "vtkOSOpenGLRenderWindow",
     "libOSMesa.so.6": "vtkOSOpenGLRenderWindow",
@@ -137,7 +137,7 @@ class Studio:
             self._add_painted(name, lines, width)
 
     def _add_painted(self, name: str, painted: Painted, width: float | None = None) -> None:
-        """Add a surface, or lines of a width [pixels]; what has the same name goes."""
+        """Add a surface, or lines of a width [pixels], in place of one with the same name."""
         mesh = self._pv.PolyData(painted.points, **{"lines" if width else "faces": painted.cells})
         mesh["colors"] = painted.colors.round().astype(np.uint8)
         self._add_coloured(mesh, name=name, lighting=False, line_width=self._dots(width or 1.0))

@@ -37,7 +37,7 @@ class TableColumn(NamedTuple):
     """A column of a table.
 
     Attributes:
-        heading: what it is.
+        heading: its title.
         unit: in which it is shown.
         name: of the score; `LEAST` has its smallest physical difference; without one no value is bold.
         scale: shown units for each SI unit.
@@ -136,7 +136,7 @@ def html_figures(drawn: Mapping[str, Figure], captions: Mapping[str, Caption], f
 
 
 def html_setup(flight: Flight, without: Sequence[str] = ()) -> str:
-    """What was flown, but for some parts of it."""
+    """The set-up of the flights, without some parts."""
     rows = [
         f'<tr><th scope="row">{escape(what)}</th><td>{escape(said)}</td></tr>'
         for what, said in setup_rows(flight)
@@ -146,7 +146,7 @@ def html_setup(flight: Flight, without: Sequence[str] = ()) -> str:
 
 
 def versions_of(flight: Flight) -> str:
-    """What a flight was flown with, but for its engine."""
+    """The set-up of a flight, without its engine."""
     return ", ".join(f"{name} {version}" for name, version in flight.version.items() if name != "engine")
 
 
@@ -163,7 +163,7 @@ def _settings(flights: Mapping[str, Flight]) -> str:
 
 
 def write_comparison(entries: Sequence[Entry], path: str | os.PathLike[str], figures: Path | None = None) -> Path:
-    """Write a comparison of controllers as one HTML file without references; it appears whole or not at all.
+    """Write a comparison of controllers atomically as one HTML file without references.
 
     Args:
         entries: from `compare`; at least one has flown.

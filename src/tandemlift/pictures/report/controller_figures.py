@@ -56,7 +56,7 @@ COLOURS = (BLUE, VERMILLION, GREEN, INK, ORANGE, PURPLE, SKY, GREY)
 LEAST_SPAN = 2e3 * LEAST["position_max_error_m"]  # mm, of an axis of errors
 LEAST_THRUST = 0.02  # N, of an axis of thrusts
 NARROW = 0.38  # of the flight, the least width of a column
-BANDS = 300  # stretches of time into which what the rotors give is drawn
+BANDS = 300  # stretches of time in which rotor thrusts are drawn
 
 
 def look(place: int) -> dict[str, Any]:
@@ -70,7 +70,7 @@ def _settled(flights: Mapping[str, Flight]) -> Sequence[Flight]:
 
 
 def _errors(flight: Flight, part: ScoredPart) -> Array:
-    """Errors of position (T, 3) [mm] in a part, NaN on the floor, as what stands there is not controlled."""
+    """Errors of position (T, 3) [mm] in a part, NaN on the floor, where the vehicle is not controlled."""
     inside = (flight.time >= part.first) & (flight.time < part.last)
     return 1e3 * np.where(scored(flight, part)[inside, None], flight["position_error"][inside], np.nan)
 
@@ -156,7 +156,7 @@ def _beyond_the_start(flight: Flight) -> Array:
 
 
 def _range(flight: Flight) -> str:
-    """What a panel spans in words, as each has a scale of its own."""
+    """The span of a panel in words, as each has its own scale."""
     low, high = (f"{value:.3g}".replace("-", "−") for value in extent(_beyond_the_start(flight)))
     return f"{low} to {high} N" + (f", {flight.ending.outcome}" if flight.ending else "")
 

@@ -49,7 +49,7 @@ def _engines(flights: Mapping[str, Flight]) -> str:
 
 
 def write_engines(flights: Mapping[str, Flight], path: str | os.PathLike[str], figures: Path | None = None) -> Path:
-    """Write one mission in several engines as one HTML file without references; it appears whole or not at all.
+    """Write one mission in several engines atomically as one HTML file without references.
 
     Args:
         flights: by engine, from `engine_comparison.fly_in`.

@@ -1,4 +1,4 @@
-"""The findings of a flight as a part of its report: under the verdict, in words, with what to do."""
+"""The findings of a flight as a part of its report: under the verdict, in words, with remedies."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ from tandemlift.pictures.report.setup_section import setup_rows
 if TYPE_CHECKING:
     from tandemlift.pictures.figures.drawing.figure import Caption
 
-DASH = "–"  # what could not be formed
+DASH = "–"  # a value that could not be computed
 NO_BREAK = "\u00a0"
 SCREEN = 0.45  # CSS pixels for a dot of print: figures are read at arm's length
 WIDE = 600  # CSS pixels from where a figure scrolls sideways on a narrow screen instead of shrinking
@@ -99,13 +99,13 @@ def _metrics(metrics: Mapping[str, Any]) -> str:
 
 
 def _events(events: Iterable[tuple[float, str]]) -> str:
-    """What happened, a line each; nothing without a supervision."""
+    """The events, a line each; nothing without supervision."""
     lines = "".join(f"<li>{at:.2f} s: {escape(what)}</li>" for at, what in events)
     return f"\n<p>Phases and alarms:</p>\n<ul>{lines}</ul>" if lines else ""
 
 
 def _verdict(flight: Flight) -> str:
-    """Where the flight ended against where it should have, or why it was stopped."""
+    """The final position with its reference, or the reason if the flight was stopped."""
     if flight.failure:
         what, _, why = flight.failure.partition(": ")
         return f'<p class="verdict failed"><strong>{escape(what).capitalize()}</strong>: {escape(why)}.</p>'
@@ -127,7 +127,7 @@ def _length(metres: float) -> str:
 
 
 def _pngs(flight: Flight, figures: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> dict[str, Path]:
-    """The PNG files of a flight's figures by name, of those that there are."""
+    """The existing PNG files of a flight's figures by name."""
     names = (VIEWS, *figures_for(flight))
     if isinstance(figures, (str, os.PathLike)):
         found = {name: Path(figures) / f"{name}.png" for name in names}
@@ -137,7 +137,7 @@ def _pngs(flight: Flight, figures: str | os.PathLike[str] | Iterable[str | os.Pa
 
 
 def _engine(flight: Flight) -> str:
-    """Which engine the body lived in, of flights that say so."""
+    """The engine of the body, if the flight records it."""
     name = flight.version.get("engine")
     return f"Flown in engine <b>{escape(name)}</b>" if name else "Engine unknown"
 
@@ -184,7 +184,7 @@ def write_report(
     figures: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
     path: str | os.PathLike[str],
 ) -> Path:
-    """Write the report of a flight as one HTML file without references; it appears whole or not at all.
+    """Write the report of a flight atomically as one HTML file without references.
 
     Args:
         flight: a flight, also one that diverged.

@@ -8,7 +8,7 @@ import unicodedata
 from collections.abc import Iterable, Sequence
 
 NOTHING = r"\multicolumn{2}{c}{--}"
-NUMBER = "r@{}l"  # the column of a number: what is before its point, and the rest
+NUMBER = "r@{}l"  # the column of a number: the part before its point, and the rest
 SPECIAL = {
     "\\": r"\textbackslash{}",
     "~": r"\textasciitilde{}",
@@ -29,7 +29,7 @@ LETTERS = frozenset("ÀÁÂÃÄÅÆÇÈÉÊËÌÍÎÏÑÒÓÔÕÖØÙÚÛÜÝß�
 
 
 def latex_text(text: str) -> str:
-    """A text in which nothing is a command; what stands in backquotes is set as code."""
+    """A text without commands; text in backquotes is set as code."""
     parts = [_escaped(part) for part in text.split("`")]
     return "".join(rf"\texttt{{{part}}}" if i % 2 else part for i, part in enumerate(parts))
 
@@ -69,7 +69,7 @@ def latex_table(columns: str, head: Sequence[str], rows: Iterable[Sequence[str]]
         columns: as LaTeX takes them.
         head: cells of the first row, already in LaTeX.
         rows: cells of the others, in LaTeX; a number fills two columns.
-        note: what the table shows, for who reads the file.
+        note: description of the table for readers of the file.
     """
     lines, said = [], note.translate(dict.fromkeys(map(ord, "\r\n"), " "))
     for row in rows:

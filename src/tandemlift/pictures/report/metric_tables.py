@@ -81,7 +81,7 @@ def metrics_as_latex(flights: MetricsByColumn, note: str) -> str:
 
 
 def write_metric_tables(flights: MetricsByColumn, folder: Path, stem: str, note: str) -> None:
-    """Write STEM.csv and STEM.tex into a folder; each appears whole or not at all."""
+    """Write STEM.csv and STEM.tex atomically into a folder."""
     for kind, text in (("csv", metrics_as_csv(flights)), ("tex", metrics_as_latex(flights, note))):
         with atomic_write(folder / f"{stem}.{kind}") as partial:
             partial.write_text(text, "utf-8")

@@ -29,12 +29,12 @@ def _environment() -> Environment:
 
 
 def write_page(path: str | os.PathLike[str], template: str, **values: object) -> Path:
-    """Write a page; it appears whole or not at all.
+    """Write a page atomically.
 
     Args:
         path: of the HTML file; its folder is made if it does not exist.
         template: its name in data/report, without its ending.
-        values: what the template asks for.
+        values: of the template's variables.
 
     Returns:
         The path.

@@ -1,4 +1,4 @@
-"""What a flight was flown with, in words: vehicle, pilot, rotors, sensors, and what was around, from its mission."""
+"""The set-up of a flight in words, from its mission: vehicle, pilot, rotors, sensors, and surroundings."""
 
 from __future__ import annotations
 

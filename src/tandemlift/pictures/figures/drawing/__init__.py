@@ -1,1 +1,1 @@
-"""What figures are drawn with: style, panels, scenes, and the outlines of vehicle, floor and walls."""
+"""Tools for drawing figures: style, panels, scenes, and the outlines of vehicle, floor and walls."""

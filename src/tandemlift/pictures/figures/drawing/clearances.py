@@ -58,7 +58,7 @@ def clearances(flight: Flight) -> Clearances:
 
 
 def grips(flight: Flight) -> Array | None:
-    """Where the person of [person] holds the payload (T, 3) [m, world axes], or None without one."""
+    """The place at which the person of [person] holds the payload (T, 3) [m, world axes], or None without one."""
     person = flight.mission.get("person", {"model": "none"})
     if person["model"] in ("none", "virtual-hand"):
         return None

@@ -1,4 +1,4 @@
-"""What the file of a figure has besides its drawing: a caption, and which flights have the figure."""
+"""The interface of a figure's file besides its drawing: a caption, and the flights that have the figure."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class FlightFigure(Protocol):
 
     @property
     def CAPTION(self) -> Caption:
-        """What the figure shows, in words."""
+        """The caption."""
 
     @property
     def IN_FLIGHTS(self) -> Callable[[Flight], bool]:

@@ -66,7 +66,7 @@ DARK = Palette(
 
 
 class FigureStyle(NamedTuple):
-    """How figures look.
+    """The style of figures.
 
     Attributes:
         name: of the style.

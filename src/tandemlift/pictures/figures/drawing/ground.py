@@ -35,7 +35,7 @@ def floor_height(flight: Flight) -> float | None:
 
 
 def clearance(flight: Flight, height: float) -> Array:
-    """How high the lowest sole is (T) over a floor at a height [m]."""
+    """The height of the lowest sole (T) over a floor at a height [m]."""
     soles = _soles(Vehicle.from_mission(flight.mission)).reshape(-1, 3)
     below = body_to_world(flight["attitude"])[:, 2] @ soles.T
     return flight["position"][:, 2] + below.min(axis=1) - height

@@ -87,7 +87,7 @@ def legend_above(figure: Figure, handles: Sequence[Any], names: Sequence[str], p
         legend.remove()
 
 
-MOST = 8  # quadrotors: what a page holds
+MOST = 8  # quadrotors that fit on a page
 HIGH, LOW = 1.3, 0.95  # in: of a row of panels where there are few, and where there are many
 FEW = 4  # rows
 

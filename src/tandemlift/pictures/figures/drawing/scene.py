@@ -25,7 +25,7 @@ UP = np.array([-np.sin(ELEVATION) * np.cos(AZIMUTH), -np.sin(ELEVATION) * np.sin
 NEAR = np.cross(RIGHT, UP)
 
 CELLS = 14  # at most, along the longest side
-TOUCHING = np.array([0.05, 0.3, 0.3])  # of a cell: what stands out of the box by less does not lengthen it
+TOUCHING = np.array([0.05, 0.3, 0.3])  # of a cell: smaller excesses over the box do not lengthen it
 TALLEST = 5.2  # in
 ROOM = np.array([0.4, 0.3, 0.5, 0.36])  # in, for labels around text of `TEXT`: left, bottom, right, top
 
@@ -39,7 +39,7 @@ class Scene3D:
     """A figure with a box of space in it, wide enough for points (n, 3) [m, world axes].
 
     Args:
-        points: what is to be seen.
+        points: to be visible.
         floor: height of a floor that is there [m], on which the box stands; else its floor is but a place for shadows.
 
     Attributes:

@@ -16,13 +16,13 @@ ROUNDING = 1e-9  # m, rad, m/s: errors below this are the arithmetic's, not the 
 
 
 def drawable(values: Array) -> Array:
-    """The values with NaN, which leaves a gap in a line, in place of what cannot be drawn."""
+    """The values with NaN, which leaves a gap in a line, in place of values that cannot be drawn."""
     with np.errstate(invalid="ignore"):
         return np.where(np.abs(values) < DRAWABLE, values, np.nan)
 
 
 def decimate(values: Array, buckets: int = BUCKETS) -> Indices:
-    """Which samples of a series (T,) to draw: the lowest and highest of each of `buckets` stretches, and both ends.
+    """The samples of a series (T,) to draw: the lowest and highest of each of `buckets` stretches, and both ends.
 
     NaN is passed over where its stretch has a number. At most 2 buckets + 2 places are returned, in order.
     """

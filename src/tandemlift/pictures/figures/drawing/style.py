@@ -38,7 +38,7 @@ TEXT = 8.5  # pt: the size of text for which `points` are given
     PALE,
     GRID,
     LIGHT_BLUE,  # of areas; in grey print close to PALE: label both
-    TAN,  # of what is noisy and stands behind
+    TAN,  # of noisy lines in the background
     GROUND,
     GLASS,
     EDGE,
@@ -164,7 +164,7 @@ def journal(draw: Callable[[Flight], Figure]) -> Callable[[Flight], Figure]:
 
 
 def save(figure: Figure, path: Path) -> Path:
-    """Write a figure in the format of the path's suffix; the file appears whole or not at all. Returns the path.
+    """Write a figure atomically in the format of the path's suffix. Returns the path.
 
     The same flight gives the same bytes: no date is written.
     """

@@ -14,7 +14,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle, mixer
 
 
 def body_to_world(attitude: Array) -> Array:
-    """R (…, 3, 3) that turns body axes into world axes, of unit quaternions w, x, y, z (…, 4)."""
+    """R (…, 3, 3) from body axes to world axes, of unit quaternions w, x, y, z (…, 4)."""
     rows = rotation_from_quaternion(Quat(*np.moveaxis(attitude, -1, 0)))
     return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
@@ -30,7 +30,7 @@ def true_weight(flight: Flight) -> float:
 
 
 def true_payload_mass(flight: Flight) -> float:
-    """Mass [kg] of the payload that flew: it has the whole difference from the vehicle that the pilot knows."""
+    """Mass [kg] of the real payload, which has the whole difference from the pilot's model."""
     return true_mass(flight) - sum(q.mass for q in Vehicle.from_mission(flight.mission).quadrotors)
 
 

@@ -1,4 +1,4 @@
-"""The walls in a scene: those near what is shown, cut off where they lead away from it, and seen through."""
+"""The walls in a scene: those near the displayed points, cut off beyond them, and transparent."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tandemlift.parts.contact.corridor import WallTable
 from tandemlift.pictures.figures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.pictures.figures.drawing.style import EDGE, GLASS
 
-BEYOND = 0.15  # of the longest side of what is shown: how far around it walls are drawn
+BEYOND = 0.15  # of the longest side of the displayed points: range around them in which walls are drawn
 TOUCHING = 1e-6  # m: a wall on the box's edge is in it
 PARTS = 4  # of a wall in a cell of the grid: each stands before the path or behind it
 OPACITY = 0.4

@@ -1,1 +1,1 @@
-"""The paper beside what is flown here: its figures, its tables and its errata, as one document."""
+"""The paper beside our flights: its figures, tables and errata, as one document."""

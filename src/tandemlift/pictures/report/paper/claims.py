@@ -1,4 +1,4 @@
-"""What the paper says of its results, beside the numbers of our flights of the same missions."""
+"""The paper's claims, beside the numbers of our flights of the same missions."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MASS, INERTIA = "3.5", ("3.227327", "0.061286", "3.277117")  # kg, kg m2; Table 
 
 
 class Claim(NamedTuple):
-    """Where the paper says something, what, what we get, and whether it agrees."""
+    """A claim: its place in the paper, its content, our result, and whether they agree."""
 
     where: str
     says: str
@@ -55,7 +55,7 @@ def _of_the_vehicle(paper: Flight) -> Iterator[Claim]:
     yield Claim(
         "Figure 7",
         "The inputs recover the disturbed start and then return to normal.",
-        f"At the start {roll:,.0f} N m of roll and {yaw:,.0f} N m of yaw are asked for. Two IRIS quadrotors give less "
+        f"At the start {roll:,.0f} N m of roll and {yaw:,.0f} N m of yaw are commanded. Two IRIS quadrotors give less "
         f"than {math.ceil(most[0])} and {math.ceil(most[2])} N m, so the mission has ideal actuators.",
         PARTLY if roll > most[0] else YES,
     )
@@ -130,7 +130,7 @@ def _recovered(time: Array, error: Array) -> float:
 
 
 def gaussian_displacement(push: dict[str, Any], admittance: dict[str, Any], axis: int) -> float:
-    """How far a Gaussian push moves T_r along an axis [m]: the impulse that passes a hard gate, by the damping."""
+    """The motion of T_r by a Gaussian push along an axis [m]: the impulse that passes a hard gate, by the damping."""
     A, sigma = float(push["force"][axis]), float(push["sigma"])
     threshold, C = float(admittance["threshold"][axis]), float(admittance["damping"][axis])
     if abs(A) <= threshold:

@@ -1,4 +1,4 @@
-"""What the report says of the paper's figures and open settings, from `data/paper/figures.toml`."""
+"""The report's texts on the paper's figures and open settings, from `data/paper/figures.toml`."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from tandemlift.pictures.report.paper.errata import DATA
 
 
 class PaperFigure(NamedTuple):
-    """A figure of the paper and what stands in its place.
+    """A figure of the paper and its counterpart here.
 
     Attributes:
         number: of the figure in the paper.
         title: of ours.
-        shows: what the paper's figure shows, in our words.
-        differs: what differs in ours, and why.
+        shows: the content of the paper's figure, in our words.
+        differs: the differences of ours, with reasons.
         command: that draws ours.
         parts: the name of each drawing, what it draws (`mission`, `paper flight` or `zigzag flight`), and what stands
             behind the number.
@@ -32,7 +32,7 @@ class PaperFigure(NamedTuple):
 
 
 class OpenSetting(NamedTuple):
-    """A choice that the paper leaves open: its key, why it is open, and changes that show what it does."""
+    """A choice that the paper leaves open: its key, the reason, and changes that show its effect."""
 
     key: str
     why: str
@@ -55,5 +55,5 @@ def diagram_captions() -> dict[str, Caption]:
 
 
 def open_settings() -> list[OpenSetting]:
-    """What the paper leaves open."""
+    """The choices that the paper leaves open."""
     return [OpenSetting(**table) for table in _contents()["open"]]

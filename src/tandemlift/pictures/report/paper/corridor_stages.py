@@ -39,7 +39,7 @@ CAPTION = Caption(
 STAGES = ("standing before the corridor", "on the way", "at the end of the corridor", "landed")
 AROUND = np.array([3.8, 4.2])  # m of the corridor shown around the vehicle, along x and y
 NEWTON = 0.75  # m of the view, for a newton
-FLYING = 0.97  # of the height: what is lower is lifting or landing
+FLYING = 0.97  # of the height: lower samples are of lift or landing
 WEAK = 0.05  # N: a weaker push is not drawn
 
 

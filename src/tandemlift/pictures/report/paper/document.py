@@ -17,7 +17,7 @@ from tandemlift.pictures.report.paper.tables import nomenclature, paper_tables, 
 
 
 class PaperFlights(NamedTuple):
-    """What the report is made of.
+    """The content of the report.
 
     Attributes:
         paper: a flight of the mission `paper`.
@@ -34,7 +34,7 @@ def document(flights: PaperFlights, command: str, gazebo: str) -> dict[str, Any]
     """The report as data.
 
     Args:
-        flights: what it shows.
+        flights: those that it shows.
         command: the command that made it.
         gazebo: whether Gazebo can fly the corridor on this machine, as a sentence.
     """
@@ -66,7 +66,7 @@ def _figure(figure: PaperFigure, gazebo: str) -> dict[str, Any]:
 
 
 def _open(flights: PaperFlights) -> dict[str, Any]:
-    """What the paper leaves open, with what each choice does to tracking and roll moment."""
+    """The choices that the paper leaves open, with their effects on tracking and roll moment."""
     mission = flights.paper.mission
     rows = []
     for setting, metrics in zip(open_settings(), flights.choices, strict=True):

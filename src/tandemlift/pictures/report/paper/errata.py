@@ -14,13 +14,13 @@ INDEXED = re.compile(r"(?<!\w)(\w[\u0300-\u036f]*)_(\w+)")  # a letter, be it wi
 
 
 class Erratum(NamedTuple):
-    """What the paper prints, what is right, and how the difference shows.
+    """An erratum: the printed text, the correct one, and the effect of the difference.
 
     Attributes:
         about: the label of the equation, or the name of the claim or table.
         group: Formulas, Claims or Tables.
-        title: what is wrong.
-        printed: what the paper prints.
+        title: the error.
+        printed: the paper's text.
         right: the correction.
         shows: a number that shows the difference.
         figures: those of the paper that it bears on.

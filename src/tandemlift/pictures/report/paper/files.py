@@ -35,7 +35,7 @@ def as_csv(table: PaperTable) -> str:
 
 
 def as_latex(table: PaperTable) -> str:
-    """A table as LaTeX, without the column that says where our numbers are from."""
+    """A table as LaTeX, without the column of our numbers' sources."""
     rows = []
     for row in table.rows:
         cells = [latex_text(row.meaning), row.printed, _unit(row.unit), row.ours, _unit(row.right), row.mark or "yes"]
@@ -69,7 +69,7 @@ def write_paper_files(
     """Write figures (PDF, SVG), tables (CSV, LaTeX), report.json and report.typ into a folder.
 
     Args:
-        flights: what the report shows.
+        flights: those of the report.
         folder: where to; made if it does not exist.
         command: the command that made the report.
         gazebo: whether Gazebo can fly the corridor on this machine, as a sentence.

@@ -33,8 +33,8 @@ class TableRow(NamedTuple):
         unit: the paper's unit.
         ours: the mission's numbers in as many digits, or in full where they differ.
         right: our unit.
-        source: the key of the mission, or what is computed.
-        mark: what differs: `value`, `unit`, or nothing.
+        source: the key of the mission, or the computed quantity.
+        mark: the difference: `value`, `unit`, or nothing.
     """
 
     symbol: str
@@ -78,7 +78,7 @@ def _about(table: Mapping[str, Any]) -> list[str]:
     return [erratum.about for erratum in errata() if table["number"] in erratum.tables]
 
 
-LEFT_OUT = {"admittance.gate": "hard"}  # what a key means that the paper's mission leaves out
+LEFT_OUT = {"admittance.gate": "hard"}  # the meaning of a key that the paper's mission leaves out
 
 
 def value_at(mission: Mapping[str, Any], key: str) -> Any:

@@ -1,1 +1,1 @@
-"""The report of a study: a page of what its rows say together."""
+"""The report of a study: a page on all its rows."""

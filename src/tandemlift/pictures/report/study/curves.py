@@ -1,4 +1,4 @@
-"""Which groups of rows the figures of a study compare, so that no more are drawn than can be told apart."""
+"""The groups of rows that a study's figures compare, so few that they can be distinguished."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import numpy as np
 
 from tandemlift.analysis.studies.study_rows import RowGroup, StudyRows
 
-BY = ("controller", "case", "mission", "engine")  # what is compared where all groups are too many
+BY = ("controller", "case", "mission", "engine")  # the comparison if there are too many groups
 
 
 def compared(rows: StudyRows, most: int) -> list[RowGroup]:
-    """Groups of rows, at most so many: all, or those of one controller, case, mission or engine each, or one of all."""
+    """Groups of rows, at most that many: all, those of one controller, case, mission or engine each, or one of all."""
     if len(rows.groups) <= most:
         return rows.groups
     for name in BY:

@@ -94,7 +94,7 @@ FIGURE = "feel"
 
 
 class FeelReport:
-    """What the keys of a mission feel like.
+    """The data of a feel report.
 
     Args:
         study: from `study_feel`.
@@ -108,7 +108,7 @@ class FeelReport:
 
     @property
     def checks(self) -> tuple[CheckResult, ...]:
-        """Each check with its number, its limit, and what to do."""
+        """Each check with its number, limit and remedy."""
         return self.study.checks
 
     def summary(self) -> dict[str, Any]:
@@ -123,7 +123,7 @@ class FeelReport:
         return [*table, gate_text(self.study)]
 
     def __str__(self) -> str:
-        """The table, a sentence about the gate, and what fails."""
+        """The table, a sentence about the gate, and the failed checks."""
         failed = [f"{check.verdict}: {check.text}" for check in self.checks if check.verdict == FAILS]
         return "\n".join([*self.lines(), *failed])
 
@@ -133,7 +133,7 @@ class FeelReport:
         return draw(self.study)
 
     def save(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write feel.json, feel.html, feel.png and feel.pdf into a folder, which is made; each appears whole or not.
+        """Write feel.json, feel.html, feel.png and feel.pdf atomically into a folder, which is made.
 
         Returns:
             The files.
@@ -165,7 +165,7 @@ class FeelReport:
 
 
 def feel(mission: Mission, *, progress: Progress | None = None) -> FeelReport:
-    """What a mission's admittance feels like: flown, checked, and ready to be shown.
+    """The feel of a mission's admittance: flown, checked, and ready to be shown.
 
     Args:
         mission: from `load_mission`.

@@ -103,7 +103,7 @@ def bad_shares(cell: Places, bad: Array, count: int) -> Array:
 
 
 class _Layer(NamedTuple):
-    """What a column of maps shows: label, values in all rows, whether a share."""
+    """The content of a column of maps: label, values in all rows, whether a share."""
 
     label: str
     values: Array
@@ -181,7 +181,7 @@ def draw_maps(rows: StudyRows, columns: Sequence[str]) -> Figure:
 
 
 def _places(axis: MapAxis) -> Array:
-    """Where the cells of an axis are drawn: at numbers of its values, or in the middle of its bins."""
+    """The places of an axis' cells: at numbers of its values, or in the middle of its bins."""
     if axis.edges is not None:
         return np.asarray(0.5 * (axis.edges[1:] + axis.edges[:-1]))
     try:

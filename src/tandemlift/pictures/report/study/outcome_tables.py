@@ -70,13 +70,13 @@ def _over_two(head: str) -> str:
 
 
 def write_outcomes(rows: StudyRows, folder: Path) -> None:
-    """Write outcomes.csv and outcomes.tex into a folder; each appears whole or not at all."""
+    """Write outcomes.csv and outcomes.tex atomically into a folder."""
     for kind, text in (("csv", outcomes_as_csv(rows)), ("tex", outcomes_as_latex(rows))):
         with atomic_write(folder / f"outcomes.{kind}") as partial:
             partial.write_text(text, "utf-8")
 
 
-MOST_VALUES = 6  # of what varied
+MOST_VALUES = 6  # of the varied keys
 
 
 def html_worst(rows: StudyRows) -> str:

@@ -1,4 +1,4 @@
-"""The tables of a study's page: what was flown, outcomes, findings, quantiles of what was measured."""
+"""The tables of a study's page: flights, outcomes, findings, quantiles of metrics."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def _row(title: str, cells: Iterable[str]) -> str:
 
 
 def verdict(rows: StudyRows) -> str:
-    """How many flights failed, with what that says of all; how many rows were refused, and how many are missing."""
+    """The share of failed flights with its interval; the numbers of refused and missing rows."""
     flown = len(rows) - int(rows.refused.sum())
     failed = int(rows.bad.sum()) - int(rows.refused.sum())
     if failed:
@@ -81,7 +81,7 @@ def verdict(rows: StudyRows) -> str:
 
 
 def what_was_flown(study: Study) -> str:
-    """Missions, controllers, what varied and how, as a table."""
+    """Missions, controllers and varied keys, as a table."""
     rows = [f'<tr><th scope="row">{escape(what)}</th><td>{escape(said)}</td></tr>' for what, said in _flown(study)]
     return html_table("", rows, "setup")
 
@@ -134,7 +134,7 @@ def _left_out(rows: StudyRows) -> str:
 
 
 def outcomes(rows: StudyRows) -> str:
-    """How often each outcome came, by group, and the share of the bad ones with its interval."""
+    """The counts of each outcome by group, and the share of the bad ones with its interval."""
     lines, names = [], list[str]()
     for group, bad, numbers in outcome_counts(rows, tabled_groups(rows)):
         cells, names = [count(bad.total), html_share(bad), *map(count, numbers.values())], list(numbers)
@@ -165,7 +165,7 @@ def _refusal(rows: StudyRows, same: Sequence[dict[str, Any]], looked_at: int) ->
 
 
 def findings(rows: StudyRows) -> str:
-    """How many rows have each kind of finding, and by group where these are few."""
+    """The number of rows with each kind of finding, by group if these are few."""
     if not rows.finding_counts:
         return "<p>No row has a finding.</p>"
     groups = rows.groups if 1 < len(rows.groups) <= MOST_COLUMNS else []

@@ -1,4 +1,4 @@
-"""What each quantity depends on, in a study's page: a figure with bars and intervals, and the numbers."""
+"""The sensitivity of each quantity, in a study's page: a figure with bars and intervals, and the numbers."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ CAPTION = Caption(
 
 
 class Analysed(NamedTuple):
-    """What a quantity depends on in a group of rows, or why that is not known."""
+    """The sensitivity of a quantity in a group of rows, or the reason why it is unknown."""
 
     quantity: str
     group: str
@@ -45,7 +45,7 @@ class Analysed(NamedTuple):
 
 
 def analysed(rows: StudyRows) -> list[Analysed]:
-    """What bad outcomes, if there are any, and each quantity depend on, group by group."""
+    """The sensitivities of bad outcomes, if there are any, and of each quantity, group by group."""
     values = {BAD: rows.bad.astype(np.float64)} if rows.bad.any() else {}
     for quantity in rows.quantities:
         values[shown_quantity(quantity, rows.values[quantity.name]).words] = rows.values[quantity.name]
@@ -105,7 +105,7 @@ def draw_sensitivity(found: Sequence[Analysed]) -> Figure:
 
 
 def html_sensitivity(found: Sequence[Analysed]) -> str:
-    """The indices as numbers, how they were estimated, and what could not be analysed."""
+    """The indices as numbers, the method, and the quantities that could not be analysed."""
     refused = [one for one in found if one.found is None]
     many = len({one.group for one in found}) > 1
     notes = [f"<li>{escape(_title(one, many))}: {escape(one.refusal)}.</li>" for one in refused]

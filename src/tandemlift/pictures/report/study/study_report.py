@@ -43,12 +43,12 @@ def _figures(rows: StudyRows, found: Sequence[sensitivity.Analysed], folder: Pat
 def write_study_report(
     study: Study, path: str | os.PathLike[str], metrics: Sequence[str] = (), figures: Path | None = None
 ) -> Path:
-    """Write the report of a study as one HTML file without references; it appears whole or not at all.
+    """Write the report of a study atomically as one HTML file without references.
 
     Beside it outcomes.csv and outcomes.tex have the outcomes as a table, a row for each group.
 
     Args:
-        study: loaded; of one that is not finished, the page says how much is missing.
+        study: loaded; if it is not finished, the page has the number of missing rows.
         path: of the HTML file; its folder is made if it does not exist.
         metrics: names of the quantities to show, such as `position_rmse_m` or `position_rmse_m.0`; by default what
             suits the missions: tracking errors, least clearance, effort of a person.

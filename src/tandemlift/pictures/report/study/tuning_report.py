@@ -25,7 +25,7 @@ FEW_DRAWS = 12  # draws whose changes are listed
 
 
 def write_tuning(found: Tuning, path: str | os.PathLike[str]) -> Path:
-    """Write the page of a tuning as one HTML file without references; it appears whole or not at all.
+    """Write the page of a tuning atomically as one HTML file without references.
 
     Args:
         found: from `tune`.
@@ -152,7 +152,7 @@ def _span(p: Tunable) -> str:
 
 
 def _draws(found: Tuning) -> str:
-    """What the draws of the search change."""
+    """The keys that the draws of the search change."""
     listed = found.draws[:FEW_DRAWS]
     rows = [
         f'<tr><th scope="row">{i}{f" {escape(draw.case)}" if draw.case else ""}</th>'

@@ -1,4 +1,4 @@
-"""What quantities and columns of a study are called in its report, and the units in which they are shown."""
+"""The labels and units of a study's quantities and columns in its report."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SMALL = 0.5  # m, below which lengths are shown in mm
 
 
 class QuantityDisplay(NamedTuple):
-    """How a number is shown: what it is called, its unit, and how many of these are one of SI."""
+    """The display of a number: its label, its unit, and the factor from SI."""
 
     words: str
     unit: str
@@ -34,7 +34,7 @@ class QuantityDisplay(NamedTuple):
 
 
 def shown_quantity(quantity: Quantity, values: Array) -> QuantityDisplay:
-    """How a quantity with these values is shown; small lengths in millimetres."""
+    """The display of a quantity with these values; small lengths in millimetres."""
     stem, dot, entry = quantity.name.partition(".")
     words, unit = split_unit(stem)
     words += f", entry {entry}" if dot else ""
@@ -57,7 +57,7 @@ def _units() -> dict[str, str]:
 
 
 def shown_column(column: str) -> QuantityDisplay:
-    """How a column that varies is shown: by its key, with the unit of the key."""
+    """The display of a varied column: its key, with the unit of the key."""
     unit = _units().get(plain_name(column.partition(" (")[0]), "")
     return QuantityDisplay(column, "" if unit == "1" or " (" in column else unit)
 
