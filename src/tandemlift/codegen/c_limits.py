@@ -8,12 +8,13 @@ from typing import Any
 from tandemlift.codegen.c.law_functions import law_function
 from tandemlift.codegen.c.statements import Statements
 from tandemlift.codegen.c.unit import Unit
-from tandemlift.core.types import is_value, leaves, rebuilt
+from tandemlift.core.types import Condition, Number, is_value, leaves, rebuilt
+from tandemlift.core.vector import Vec3
 from tandemlift.parts.contact.clearance import is_fast
 from tandemlift.parts.contact.feet import may_touch
 from tandemlift.parts.contact.wall_geometry import Wall
-from tandemlift.parts.contact.walls import nearest_with
-from tandemlift.parts.mechanics.push import GaussianPush, push_at
+from tandemlift.parts.contact.walls import NearWalls, nearest_with
+from tandemlift.parts.mechanics.push import GaussianPush, Push, push_at
 from tandemlift.parts.mechanics.wind import Gust, gust_velocity
 from tandemlift.parts.rotors.allocation import AllocationState, ConstrainedAllocation
 from tandemlift.parts.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
@@ -125,12 +126,12 @@ class Solver:
         return texts
 
 
-def push_is_active(row: GaussianPush, opens: Any, closes: Any) -> Any:
+def push_is_active(row: GaussianPush, opens: Number, closes: Number) -> Condition:
     """Whether a push is other than zero somewhere between two times [s]."""
     return is_active(row, opens, closes)
 
 
-def with_push(hand: Any, row: GaussianPush, when: Any) -> Any:
+def with_push(hand: Push, row: GaussianPush, when: Number) -> Push:
     """A push at a time [s] added to others."""
     return _added(hand, push_at(hand, row, when))
 
@@ -139,27 +140,28 @@ def _added(a: Any, b: Any) -> Any:
     return type(a)(*map(_added, a, b)) if is_value(a) else operator.add(a, b)
 
 
-def with_gust(sum: Any, row: Gust, t: Any) -> Any:
+def with_gust(sum: Vec3, row: Gust, t: Number) -> Vec3:
     """The velocity of a gust at time t [s] added to that of others."""
     return _added(sum, gust_velocity(row, t))
 
 
-def floor_is_near(model: FlightModel, dt: Any) -> Any:
+def floor_is_near(model: FlightModel, dt: Number) -> Condition:
     """Whether a foot may touch the floor within a span of steps."""
     return may_touch(model.plant.floor, model.flight_state.state, dt * float(SPAN))
 
 
-def walls_are_due(model: FlightModel, dt: Any) -> Any:
+def walls_are_due(model: FlightModel, dt: Number) -> Condition:
     """Whether the nearest walls are found anew in a step within a span, too."""
     return is_fast(model.plant.walls, model.flight_state.state, dt * float(SPAN))
 
 
-def nearest_walls(model: FlightModel, row: Wall) -> Any:
+def nearest_walls(model: FlightModel, row: Wall) -> NearWalls:
     """The nearest walls once a row of the table of walls was looked at."""
     before = model.flight_state
-    return nearest_with(model.plant.walls, row, before.near, model.plant.frame, before.state)
+    near: Any = before.near  # never `Absent`: this is called where there are walls
+    return nearest_with(model.plant.walls, row, near, model.plant.frame, before.state)
 
 
-def draw_normals(number: Any, draw: Any, key0: Any, key1: Any) -> Normals:
+def draw_normals(number: Number, draw: Number, key0: Number, key1: Number) -> Normals:
     """Four standard normals of a step."""
     return normals(number, draw, key0, key1)

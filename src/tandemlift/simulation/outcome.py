@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from tandemlift.core.phases import ENDING_OF, FAR, LEFT_FENCE, STRUCK, TURNED_OVER
 from tandemlift.core.vector import ZERO, Absent, Vec3
@@ -80,11 +79,12 @@ def _lifted(mission: Mission) -> float:
     return min(mission.outcome.lifted_height, 0.5 * mission.phases.height)
 
 
-def _stands(p: FlightPlan, state: State, last: Any, start: float, end: float) -> bool:
+def _stands(p: FlightPlan, state: State, last: Sample, start: float, end: float) -> bool:
     """Whether a vehicle stands at the end [s]; without a floor, whether it is at the place of its landing."""
     mission, slow = p.mission, math.dist(state.velocity, ZERO) < p.mission.outcome.landed_speed
-    if not isinstance(last.contact, Absent):
-        return slow and last.contact.contact_force.z > BORNE * p.model.limits.strike.weight
+    strike = p.model.limits.strike
+    if not isinstance(last.contact, Absent) and not isinstance(strike, Absent):
+        return slow and last.contact.contact_force.z > BORNE * strike.weight
     land = mission.phases.land_start
     if land is None or land + mission.phases.land_duration > end:
         return False

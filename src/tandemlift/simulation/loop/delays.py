@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.vector import Absent
 
@@ -18,7 +18,7 @@ class DelayLines(NamedTuple):
     """
 
     imu: Delayed | Absent
-    motion: Any
+    motion: Delayed | Absent
     command: Delayed | Absent
     view: Delayed | Absent
-    additional: Any = Absent()
+    additional: tuple[Delayed | Absent, ...] = Absent()

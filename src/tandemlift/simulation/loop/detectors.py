@@ -91,7 +91,7 @@ class Watched(NamedTuple):
     followed, else 0. `refuted` [N]: part of a push that the motion refutes.
     """
 
-    swings: Swings
+    swings: Swings[Number]
     distance: Number
     heading: Number
     upright: Number
@@ -120,7 +120,7 @@ ASLEEP = Detectors(
 
 
 @choice
-def usable_rotors(how: Any, left: Any, t: Number) -> Any:
+def usable_rotors(how: Mixer | ConstrainedAllocation, left: Number, t: Number) -> Number:
     """Above 0 for rotors usable at time t [s]: a number for all, or a set; `left`: of a detected loss."""
 
 
@@ -135,7 +135,7 @@ def _not_failed(how: ConstrainedAllocation, left: Number, t: Number) -> PerRotor
 
 
 @choice
-def rotors_at_limit(rotors: Any, commands: Any, usable: Any) -> Any:
+def rotors_at_limit(rotors: IdealRotors | Rotors, commands: PerRotor, usable: Number) -> Number:
     """The number of usable rotors that are commanded to a limit or beyond."""
 
 
@@ -151,12 +151,12 @@ def counted(at_its_limit: Number, usable: Number) -> Number:
 
 
 @rotors_at_limit.register(Rotors)
-def _with_limits(rotors: Rotors, commands: PerRotor, usable: PerRotor) -> Number:
+def _with_limits(rotors: Rotors, commands: PerRotor, usable: Number) -> Number:
     return total(counted(at_limit(commands, rotors.max_thrust), usable))
 
 
 @choice(absent=0.0)
-def thrust_needed(reach: Any, mass: Any, a: Vec3) -> Any:
+def thrust_needed(reach: Excess | Absent, mass: Number, a: Vec3) -> Number:
     """The square of the thrust [N²] that an acceleration of the reference [m/s²] needs."""
 
 

@@ -6,16 +6,18 @@ A contact's impulse I integrates the force beyond the vehicle's weight, and deca
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeVar
 
 from tandemlift.core.algebra import chosen, maximum, sqrt, where
 from tandemlift.core.law import choice, law
 from tandemlift.core.phases import DIVERGED, FAR, FLIES, LEFT_FENCE, STRUCK, TURNED_OVER
-from tandemlift.core.types import Number
+from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import Absent, Vec3, dot
 from tandemlift.parts.guidance.fault_detection import distance_outside
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import body_z_axis
+
+M = TypeVar("M")
 
 FADING = 0.1  # s, τ
 STILL_SPEED, STILL_RATES, STILL_TIME = 0.02, 0.05, 0.5  # m/s, rad/s, s: of a vehicle that lies still
@@ -39,30 +41,30 @@ class OuterFence(NamedTuple):
 class Aftermath(NamedTuple):
     """The longest time of a flight after a crash [s]."""
 
-    duration: Any
+    duration: Number
 
 
 class CrashLimits(NamedTuple):
     """Limits that end a flight: smallest cosine of the tilt; `Strike`, `OuterFence`, `Aftermath`, each or `Absent`."""
 
     min_upright: Number
-    strike: Any
+    strike: Strike | Absent
     fence: OuterFence | Absent
-    aftermath: Any
+    aftermath: Aftermath | Absent
 
 
 class CrashMemory(NamedTuple):
     """A crash: number of its ending (0 for none), time [s], state and impulse then; time at rest after it."""
 
-    number: Any
-    time: Any
+    number: Number
+    time: Number
     state: State
-    impulse: Any
-    still_time: Any
+    impulse: Number | Absent
+    still_time: Number
 
 
 @choice(absent=Absent())
-def impulse_after(strike: Any, impulse: Any, force: Vec3, dt: Any) -> Any:
+def impulse_after(strike: Strike | Absent, impulse: Number | Absent, force: Vec3, dt: Number) -> Number | Absent:
     """The impulse of contact [N·s] after a step with a force of contact [N, world axes]; `Absent` without ground."""
 
 
@@ -73,7 +75,7 @@ def _impulse(strike: Strike, impulse: Number, force: Vec3, dt: Number) -> Number
 
 
 @choice(absent="number")
-def unless_struck(strike: Any, impulse: Any, number: Any) -> Any:
+def unless_struck(strike: Strike | Absent, impulse: Number | Absent, number: Number) -> Number:
     """The number of an ending; that of an impact, if the impulse is too large."""
 
 
@@ -83,7 +85,7 @@ def _struck(strike: Strike, impulse: Number, number: Number) -> Number:
 
 
 @choice(absent=FLIES)
-def outside_fence(fence: Any, position: Vec3) -> Any:
+def outside_fence(fence: OuterFence | Absent, position: Vec3) -> Number:
     """The number of the ending of a vehicle that has left the fence; else 0."""
 
 
@@ -102,12 +104,22 @@ def ending_number(c: CrashLimits, s: State, impulse: Number | Absent) -> Number:
 
 
 @choice(absent=("crash", "number"))
-def with_aftermath(aftermath: Any, crash: Any, number: Any, state: State, impulse: Any, t: Any, dt: Any) -> Any:
+def with_aftermath(
+    aftermath: Aftermath | Absent,
+    crash: CrashMemory | Absent,
+    number: Number,
+    state: State,
+    impulse: Number | Absent,
+    t: Number,
+    dt: Number,
+) -> tuple[CrashMemory | Absent, Number]:
     """(the memory of the crash, the number of the ending that stops the flight now) after a step."""
 
 
 @with_aftermath.register(Aftermath)
-def _flies_on(a: Aftermath, crash: CrashMemory, number: Any, state: State, impulse: Any, t: Any, dt: Any) -> Any:
+def _flies_on(
+    a: Aftermath, crash: CrashMemory, number: Number, state: State, impulse: Number | Absent, t: Number, dt: Number
+) -> tuple[CrashMemory, Number]:
     fast = dot(state.velocity, state.velocity) - STILL_SPEED * STILL_SPEED
     turning = dot(state.rates, state.rates) - STILL_RATES * STILL_RATES
     still = where(maximum(fast, turning) < 0.0, crash.still_time + dt, 0.0)
@@ -119,20 +131,20 @@ def _flies_on(a: Aftermath, crash: CrashMemory, number: Any, state: State, impul
 
 
 @choice(absent="thrusts")
-def unless_crashed(crash: Any, thrusts: Any) -> Any:
+def unless_crashed(crash: CrashMemory | Absent, thrusts: PerRotor) -> PerRotor:
     """Commanded thrusts [N]; none after a crash."""
 
 
 @unless_crashed.register(CrashMemory)
-def _stopped(crash: CrashMemory, thrusts: Any) -> Any:
+def _stopped(crash: CrashMemory, thrusts: PerRotor) -> PerRotor:
     return thrusts * where(crash.number > 0.0, 0.0, 1.0)
 
 
 @choice(absent="after")
-def until_crash(crash: Any, before: Any, after: Any) -> Any:
+def until_crash(crash: CrashMemory | Absent, before: M, after: M) -> M:
     """Running metrics, or the memory of the detectors, after a step; after a crash, those before it."""
 
 
 @until_crash.register(CrashMemory)
-def _until(crash: CrashMemory, before: Any, after: Any) -> Any:
+def _until(crash: CrashMemory, before: M, after: M) -> M:
     return chosen(crash.number, before, after)

@@ -10,6 +10,7 @@ from tandemlift.core.vector import Absent, Quat, Vec3
 from tandemlift.parts.estimation.contact_detection import ContactEstimate
 from tandemlift.parts.sensors.readings import Readings, by_name
 from tandemlift.simulation.loop.perception import Estimates
+from tandemlift.simulation.loop.sources import EstimatedFlight
 
 
 class MeasuredChannels(NamedTuple):
@@ -22,7 +23,7 @@ class MeasuredChannels(NamedTuple):
     measured_specific_force: Vec3
     measured_joint_force: Vec3
     measured_joint_torque: Vec3
-    additional: Any
+    additional: tuple[Number | Vec3, ...]
 
 
 class EstimatedChannels(NamedTuple):
@@ -56,7 +57,7 @@ class ContactEstimateChannels(NamedTuple):
 
 
 @choice(absent="contact")
-def contact_channels(contact: Any) -> Any:
+def contact_channels(contact: ContactEstimate | Absent) -> ContactEstimateChannels | Absent:
     """The channels of an estimated contact."""
 
 
@@ -79,7 +80,7 @@ def channels_of_additional(readings: Any) -> Any:
 
 
 @choice(absent="readings")
-def measured_channels(readings: Any) -> Any:
+def measured_channels(readings: Readings | Absent) -> MeasuredChannels | Absent:
     """The channels of readings."""
 
 
@@ -100,7 +101,7 @@ def _readings(readings: Readings) -> MeasuredChannels:
 
 
 @choice(absent="known")
-def estimated_channels(known: Any) -> Any:
+def estimated_channels(known: EstimatedFlight | Absent) -> EstimatedChannels | Absent:
     """The channels of estimates."""
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra import chosen, where
 from tandemlift.core.law import choice
 from tandemlift.core.types import Number
-from tandemlift.core.vector import ZERO, Vec3
+from tandemlift.core.vector import ZERO, Absent, Vec3
 
 
 class Excess(NamedTuple):
@@ -31,7 +31,7 @@ NO_EXCESS = Excess(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, ZERO)
 
 
 @choice(absent="m")
-def exceed(m: Any, over: Any, value: Any, place: Vec3, t: Any, dt: Any) -> Any:
+def exceed(m: Excess | Absent, over: Number, value: Number, place: Vec3, t: Number, dt: Number) -> Excess | Absent:
     """The memory after a step.
 
     Args:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra import chosen, maximum, where
 from tandemlift.core.law import choice, law
 from tandemlift.core.types import Number, PerRotor
-from tandemlift.core.vector import Quat, Vec3
-from tandemlift.parts.estimation.contact_detection import KnownSurroundings, shaken
+from tandemlift.core.vector import Absent, Quat, Vec3
+from tandemlift.parts.contact.walls import NearWalls
+from tandemlift.parts.estimation.contact_detection import ContactEstimate, KnownSurroundings, shaken
 from tandemlift.parts.estimation.navigation import centre_of_mass
 from tandemlift.parts.estimation.push_confirmation import refuted_push
 from tandemlift.parts.estimation.push_estimate import PushEstimate
@@ -34,7 +35,7 @@ from tandemlift.simulation.loop.perception import (
     tare_time,
     usable,
 )
-from tandemlift.simulation.loop.sources import NominalVehicle, PilotSources
+from tandemlift.simulation.loop.sources import EstimatedFlight, NominalVehicle, PilotSources
 
 
 class FaultySensors(NamedTuple):
@@ -71,7 +72,7 @@ class CheckedEstimates(NamedTuple):
     push: PushEstimate
     state: State
     vehicle: NominalVehicle
-    contact: Any
+    contact: ContactEstimate | Absent
     readings: Readings
     report: WatchdogReport
 
@@ -149,7 +150,7 @@ def _watched(
 
 @surroundings_of.register(WatchedEstimators)
 def _surroundings(
-    k: WatchedEstimators, sources: PilotSources, near: Any, guidance: HandGuidanceState
+    k: WatchedEstimators, sources: PilotSources, near: NearWalls | Absent, guidance: HandGuidanceState
 ) -> KnownSurroundings:
     return surroundings_of(k.estimators, sources, near, guidance)
 
@@ -165,7 +166,7 @@ def _shown_checked(known: CheckedEstimates) -> EstimatedChannels:
 
 
 @choice
-def reported_by(known: Any) -> Any:
+def reported_by(known: EstimatedFlight) -> SensorStatus:
     """The `SensorStatus` of estimates."""
 
 

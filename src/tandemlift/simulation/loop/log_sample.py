@@ -104,7 +104,9 @@ class DisturbanceChannels(NamedTuple):
 
 
 @choice(absent="observer")
-def disturbance_channels(observer: Any, unknown: DisturbanceEstimate) -> Any:
+def disturbance_channels(
+    observer: DisturbanceObserver | Absent, unknown: DisturbanceEstimate
+) -> DisturbanceChannels | Absent:
     """The channels of a disturbance observer."""
 
 
@@ -119,7 +121,9 @@ def _observed(observer: DisturbanceObserver, unknown: DisturbanceEstimate) -> Di
 
 
 @choice(absent="detection")
-def detection_channels(detection: Any, memory: Any) -> Any:
+def detection_channels(
+    detection: RotorLossDetection | Absent, memory: DetectionState | Absent
+) -> DetectionChannels | Absent:
     """The channels of the detection of failed rotors."""
 
 
@@ -129,7 +133,9 @@ def _detected(detection: RotorLossDetection, memory: DetectionState) -> Detectio
 
 
 @choice
-def actuator_channels(rotors: Any, effect: Any, command: Wrench, commands: PerRotor) -> Any:
+def actuator_channels(
+    rotors: IdealRotors | Rotors, effect: Mixer, command: Wrench, commands: PerRotor
+) -> ActuatorChannels | Absent:
     """The channels of rotors with commanded thrusts [N], for a commanded wrench."""
 
 
@@ -151,7 +157,7 @@ def _limited(rotors: Rotors, effect: Mixer, command: Wrench, commands: PerRotor)
 
 
 @choice(absent="loads")
-def wind_channels(loads: Any, velocity: Vec3) -> Any:
+def wind_channels(loads: PartLoads | Absent, velocity: Vec3) -> WindChannels | Absent:
     """The channels of moving air."""
 
 
@@ -164,13 +170,13 @@ def _wind(loads: PartLoads, velocity: Vec3) -> WindChannels:
 
 
 @choice(absent="floor")
-def contact_channels(floor: Any, readings: PerfectReadings) -> Any:
+def contact_channels(floor: DistantFloor | Floor | Absent, readings: PerfectReadings) -> ContactChannels | Absent:
     """The channels of contact with floor and walls."""
 
 
 @contact_channels.register(DistantFloor)
 @contact_channels.register(Floor)
-def _contact(floor: Floor, readings: PerfectReadings) -> ContactChannels:
+def _contact(floor: DistantFloor | Floor, readings: PerfectReadings) -> ContactChannels:
     return ContactChannels(contact_force=readings.contact_force)
 
 

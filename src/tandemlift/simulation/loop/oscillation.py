@@ -7,31 +7,33 @@ an oscillation decays by more than a third in two half periods, the count restar
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, TypeVar
 
 from tandemlift.core.algebra import absolute, greatest, maximum, where
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number
-from tandemlift.core.vector import componentwise
+from tandemlift.core.vector import componentwise, times
+
+T = TypeVar("T")
 
 SIMILAR_PEAK = 0.6  # of the mean peak, which a peak must reach
 SIMILAR_TIME = 2.0  # largest ratio of a half period to the previous one, either way
 
 
 @componentwise
-class Swings(NamedTuple):
+class Swings(NamedTuple, Generic[T]):
     """A value for each motion that may oscillate: body rates p, q, r, and the error of the vertical speed."""
 
-    roll: Any
-    pitch: Any
-    yaw: Any
-    vertical: Any
+    roll: T
+    pitch: T
+    yaw: T
+    vertical: T
 
 
 class OscillationLimits(NamedTuple):
     """Levels of the signals [rad/s, m/s]; shortest and longest half period [s]; half periods that are needed."""
 
-    levels: Swings
+    levels: Swings[Number]
     shortest: Number
     longest: Number
     halves: Number
@@ -45,24 +47,24 @@ class HalfPeriods(NamedTuple):
     [s]. The longest oscillation: `first` and `last` [s], `halves`, `amplitude`.
     """
 
-    side: Any
-    since: Any
-    peak: Any
-    usual: Any
-    lasted: Any
+    side: Number
+    since: Number
+    peak: Number
+    usual: Number
+    lasted: Number
     count: Any
-    began: Any
-    first: Any
-    last: Any
-    halves: Any
-    amplitude: Any
+    began: Number
+    first: Number
+    last: Number
+    halves: Number
+    amplitude: Number
 
 
 class Oscillation(NamedTuple):
     """Memory: 1 while any signal is beyond its level, else 0; with it 0, nothing changes. And that of each signal."""
 
     now: Number
-    swings: Swings
+    swings: Swings[HalfPeriods]
 
 
 STILL = HalfPeriods(*[0.0] * len(HalfPeriods._fields))
@@ -105,8 +107,10 @@ def beyond(x: Number, level: Number) -> Number:
 
 
 @law
-def oscillation_step(k: OscillationLimits, m: Oscillation, signals: Swings, flying: Any, t: Any) -> Oscillation:
+def oscillation_step(
+    k: OscillationLimits, m: Oscillation, signals: Swings[Number], flying: Number, t: Number
+) -> Oscillation:
     """The memory after the signals at time t [s]; they count while `flying` is 1."""
-    x = signals * flying
+    x = times(signals, flying)
     swings = [half_period(k, *of_one, t) for of_one in zip(m.swings, x, k.levels, strict=True)]
     return Oscillation(greatest(beyond(x, k.levels)), Swings(*swings))

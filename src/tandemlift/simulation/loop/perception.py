@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeVar
 
 from tandemlift.core.law import choice
 from tandemlift.core.phases import LAND
@@ -20,7 +20,13 @@ from tandemlift.parts.estimation.contact_detection import (
 )
 from tandemlift.parts.estimation.contact_evidence import ContactDetector, PushReading
 from tandemlift.parts.estimation.navigation import NavigationState, Navigator, navigate
-from tandemlift.parts.estimation.push_confirmation import SampledPush, confirm, refuted_push
+from tandemlift.parts.estimation.push_confirmation import (
+    ConfirmationState,
+    PushConfirmation,
+    SampledPush,
+    confirm,
+    refuted_push,
+)
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState, estimate
 from tandemlift.parts.guidance.contact_hold import contact_of
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
@@ -28,7 +34,9 @@ from tandemlift.parts.guidance.phases import in_the_air, is_in
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState, sense
-from tandemlift.simulation.loop.sources import KnownWalls, NominalVehicle, PilotSources
+from tandemlift.simulation.loop.sources import EstimatedFlight, KnownWalls, NominalVehicle, PilotSources
+
+M = TypeVar("M")
 
 NO_SURROUNDINGS = KnownSurroundings(Absent(), 0.0, 0.0, 0.0)
 
@@ -37,7 +45,7 @@ class PerceptionData(NamedTuple):
     """The readings, and the estimates from them."""
 
     readings: Readings
-    known: Any
+    known: EstimatedFlight
 
 
 class Estimators(NamedTuple):
@@ -49,9 +57,9 @@ class Estimators(NamedTuple):
     push: PushEstimator
     state: Navigator
     vehicle: NominalVehicle
-    tare: Any
+    tare: TareAtTime | TareInHover
     contact: ContactDetector | Absent
-    confirmation: Any
+    confirmation: PushConfirmation | Absent
 
 
 class TareAtTime(NamedTuple):
@@ -68,7 +76,7 @@ class EstimatorState(NamedTuple):
     push: PushEstimatorState
     state: NavigationState
     contact: ContactState | Absent
-    confirmation: Any
+    confirmation: ConfirmationState | Absent
 
 
 class Estimates(NamedTuple):
@@ -81,7 +89,9 @@ class Estimates(NamedTuple):
 
 
 @choice(absent=("sensors", "memory"))
-def measure(sensors: Any, memory: Any, state: State, perfect: Any, believed: Quat, noise: Any) -> Any:
+def measure(
+    sensors: object, memory: M, state: State, perfect: PerfectReadings, believed: Quat, noise: SensorNoise | Absent
+) -> tuple[Readings | Absent, M]:
     """(Readings of a step, the sensors' memory)."""
 
 
@@ -93,7 +103,7 @@ def _sensed(
 
 
 @choice
-def tare_begun(tare: Any, guidance: Any, t: Any) -> Any:
+def tare_begun(tare: TareAtTime | TareInHover, guidance: AdmittanceState | HandGuidanceState, t: Number) -> Number:
     """The time [s] on the clock of the tare; `guidance`: its memory."""
 
 
@@ -103,12 +113,12 @@ def _by_clock(tare: TareAtTime, guidance: AdmittanceState | HandGuidanceState, t
 
 
 @tare_begun.register(TareInHover)
-def _in_hover(tare: TareInHover, guidance: Any, t: Any) -> Any:
+def _in_hover(tare: TareInHover, guidance: HandGuidanceState, t: Number) -> Number:
     return guidance.phase.hover_time
 
 
 @choice(absent="t")
-def tare_time(estimators: Any, guidance: Any, t: Any) -> Any:
+def tare_time(estimators: object, guidance: AdmittanceState | HandGuidanceState, t: Number) -> Number:
     """The time [s] by which the estimators tare."""
 
 
@@ -119,8 +129,14 @@ def _tare(estimators: Estimators, guidance: AdmittanceState | HandGuidanceState,
 
 @choice(absent=("estimators", "memory"))
 def estimate_all(
-    estimators: Any, memory: Any, readings: Any, surroundings: KnownSurroundings, commands: Any, t: Any, dt: Any
-) -> Any:
+    estimators: object,
+    memory: M,
+    readings: Readings | Absent,
+    surroundings: KnownSurroundings,
+    commands: PerRotor | Absent,
+    t: Number,
+    dt: Number,
+) -> tuple[EstimatedFlight | Absent, M]:
     """(the estimates from readings, the estimators' memory) at time t [s].
 
     `surroundings`: known obstacles; `commands`: the last thrusts of all rotors [N].
@@ -158,12 +174,17 @@ def _estimated(
 
 
 @choice(absent=NO_SURROUNDINGS)
-def surroundings_of(estimators: Any, sources: PilotSources, near: Any, guidance: Any) -> Any:
+def surroundings_of(
+    estimators: object,
+    sources: PilotSources,
+    near: NearWalls | Absent,
+    guidance: AdmittanceState | HandGuidanceState,
+) -> KnownSurroundings:
     """The estimators' knowledge of obstacles; `near`: the walls near the vehicle, `guidance`: its memory."""
 
 
 @choice(absent=Absent())
-def walls_known(known: Any, near: Any) -> Any:
+def walls_known(known: KnownWalls | Absent, near: NearWalls | Absent) -> NearWalls | Absent:
     """The walls near the vehicle, if the pilot has a map."""
 
 
@@ -173,7 +194,12 @@ def _known(known: KnownWalls, near: NearWalls) -> NearWalls:
 
 
 @choice(absent=NO_SURROUNDINGS)
-def known_surroundings(contact: Any, sources: PilotSources, near: Any, guidance: Any) -> Any:
+def known_surroundings(
+    contact: ContactDetector | Absent,
+    sources: PilotSources,
+    near: NearWalls | Absent,
+    guidance: AdmittanceState | HandGuidanceState,
+) -> KnownSurroundings:
     """The same, for the detector of contacts that the estimators have."""
 
 
@@ -196,7 +222,7 @@ def _surroundings(
 
 
 @choice(absent="readings")
-def usable(known: Any, readings: Any) -> Any:
+def usable(known: EstimatedFlight | Absent, readings: Readings | Absent) -> Readings | Absent:
     """The readings that may be used."""
 
 
@@ -211,15 +237,15 @@ def _refuted(known: Estimates) -> Vec3:
 
 
 @contact_of.register(PerceptionData)
-def _contact(what: PerceptionData) -> ContactEstimate:
+def _contact(what: PerceptionData) -> ContactEstimate | Absent:
     return what.known.contact
 
 
 @choice(absent="readings")
-def all_sensed(readings: Any, known: Any) -> Any:
+def all_sensed(readings: Readings | Absent, known: EstimatedFlight | Absent) -> PerceptionData | Absent:
     """`PerceptionData`, or `Absent` without sensors."""
 
 
 @all_sensed.register(Readings)
-def _some_sensed(readings: Readings, known: Any) -> PerceptionData:
+def _some_sensed(readings: Readings, known: EstimatedFlight) -> PerceptionData:
     return PerceptionData(readings, known)

@@ -6,7 +6,7 @@ only the simulation knows the true push.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra import chosen, clip, maximum, sqrt, where
 from tandemlift.core.law import choice, law
@@ -69,7 +69,7 @@ UNMOVED = UnpushedMotion(0.0, 0.0, 0.0, ZERO, NO_EXCESS)
 
 
 @choice(absent="gated")
-def push_to_answer(threshold: Any, least: Any, gated: Vec3, true: Vec3) -> Any:
+def push_to_answer(threshold: Vec3 | Absent, least: Number, gated: Vec3, true: Vec3) -> Vec3:
     """The push that should move the vehicle [N]: that after the gate, else a true one that should have an effect."""
 
 
@@ -97,7 +97,7 @@ def push_step(
 
 @law
 def unpushed_step(
-    limit: Number, m: UnpushedMotion, now: tuple[Any, Any], reference: Vec3, place: Vec3, t: Number, dt: Number
+    limit: Number, m: UnpushedMotion, now: tuple[Number, Number], reference: Vec3, place: Vec3, t: Number, dt: Number
 ) -> UnpushedMotion:
     """The memory after a step.
 

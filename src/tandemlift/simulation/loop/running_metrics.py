@@ -13,7 +13,7 @@ from tandemlift.parts.contact.clearance import Clearance, clearance, smaller_cle
 from tandemlift.parts.guidance.guidance import thrust_fraction
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
 from tandemlift.parts.mechanics.rotation import wrap_angle
-from tandemlift.parts.person.outside_push import held_by_anyone
+from tandemlift.parts.person.outside_push import OutsidePush, held_by_anyone
 from tandemlift.parts.person.person import PersonState
 from tandemlift.parts.person.virtual_hand import VirtualHandState
 from tandemlift.parts.rotors.rotors import IdealRotors, Rotors
@@ -94,7 +94,7 @@ NO_EFFORT = PersonEffort(0.0, 0.0, 0.0)
 
 
 @choice(absent="effort")
-def added(effort: Any, more: Any) -> Any:
+def added(effort: PersonEffort | Absent, more: PersonEffort | Absent) -> PersonEffort | Absent:
     """A person's effort with that of one more step."""
 
 
@@ -186,13 +186,13 @@ def _of_effort(early: RunningMetrics, late: RunningMetrics, step: float) -> dict
     }
 
 
-def _numbers(value: Any) -> list[float]:
+def _numbers(value: Number | tuple[Any, ...]) -> list[float]:
     """The numbers in a nested value."""
     return [n for part in value for n in _numbers(part)] if isinstance(value, tuple) else [float(value)]
 
 
 @choice
-def saturated(rotors: Any, commands: PerRotor) -> Number:
+def saturated(rotors: IdealRotors | Rotors, commands: PerRotor) -> Number:
     """1 if any rotor is commanded to a limit or beyond, else 0."""
 
 
@@ -213,19 +213,21 @@ def _any_at_limit(rotors: Rotors, commands: PerRotor) -> Number:
 
 
 @choice(absent="person")
-def effort(person: Any, x: Sample, outside: Any) -> Any:
+def effort(
+    person: PersonState | VirtualHandState | Absent, x: Sample, outside: OutsidePush | Absent
+) -> PersonEffort | Absent:
     """The effort over a step of the person who guides the vehicle; `outside`: their push outside of the loop."""
 
 
 @effort.register(PersonState)
 @effort.register(VirtualHandState)
-def _effort(person: PersonState, x: Sample, outside: Any) -> PersonEffort:
+def _effort(person: PersonState | VirtualHandState, x: Sample, outside: OutsidePush | Absent) -> PersonEffort:
     held = held_by_anyone(outside, where(person.grasp.value > 0.5, 1.0, 0.0))
     return effort_of(held, x.push_force, x.velocity)
 
 
 @choice(absent=0.0)
-def push_active(channels: Any) -> Number:
+def push_active(channels: HandGuidanceChannels | Absent) -> Number:
     """1 while the pilot follows a push along any axis, else 0; from the channels of guidance."""
 
 
@@ -235,7 +237,7 @@ def _push_active(channels: HandGuidanceChannels) -> Number:
 
 
 @law
-def contribution_of(model: Any, output: Any, x: Sample, outside: Any) -> StepContribution:
+def contribution_of(model: Any, output: Any, x: Sample, outside: OutsidePush | Absent) -> StepContribution:
     """The contribution of a step to the running metrics; `outside`: of its `StepInputs`."""
     decision = output.decision
     return StepContribution(

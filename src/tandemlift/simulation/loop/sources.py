@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple, Protocol, TypeAlias
 
 from tandemlift.core.law import choice, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Vec3, apply_transposed, cross
-from tandemlift.parts.mechanics.push import CentralPush, PointPush, push_moment
+from tandemlift.parts.estimation.contact_detection import ContactEstimate
+from tandemlift.parts.estimation.push_estimate import PushEstimate
+from tandemlift.parts.mechanics.push import Push, push_moment
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.sensors.readings import Readings
@@ -25,6 +27,9 @@ class EstimateSource(NamedTuple):
     """The pilot uses the estimates."""
 
 
+Source: TypeAlias = TruthSource | MeasurementSource | EstimateSource
+
+
 class PushWrench(NamedTuple):
     """A push: force [N, world axes] and moment about the system's centre of mass [N·m, body axes]."""
 
@@ -39,9 +44,9 @@ class KnownWalls(NamedTuple):
 class PilotSources(NamedTuple):
     """The source of the state that the pilot uses, and that of the push; `map`: `KnownWalls`, or `Absent`."""
 
-    state: Any
-    push: Any
-    map: Any
+    state: Source
+    push: Source
+    map: KnownWalls | Absent
 
 
 class NominalVehicle(NamedTuple):
@@ -56,45 +61,67 @@ class NominalVehicle(NamedTuple):
     drag_moment: Vec3
 
 
+class EstimatedFlight(Protocol):
+    """Estimates, with watchdogs or without."""
+
+    @property
+    def push(self) -> PushEstimate:
+        """The push."""
+
+    @property
+    def state(self) -> State:
+        """The state."""
+
+    @property
+    def vehicle(self) -> NominalVehicle:
+        """The nominal vehicle."""
+
+    @property
+    def contact(self) -> ContactEstimate | Absent:
+        """The contact, if it is estimated."""
+
+
 @choice
-def read_state(reads: Any, true: State, readings: Any, known: Any) -> Any:
+def read_state(reads: Source, true: State, readings: Readings | Absent, known: EstimatedFlight | Absent) -> State:
     """The state that the pilot uses."""
 
 
 @read_state.register(TruthSource)
-def _true_state(reads: TruthSource, true: State, readings: Readings | Absent, known: Any) -> State:
+def _true_state(reads: TruthSource, true: State, readings: Readings | Absent, known: EstimatedFlight | Absent) -> State:
     return true
 
 
 @read_state.register(MeasurementSource)
-def _measured_state(reads: MeasurementSource, true: State, readings: Any, known: Any) -> Any:
+def _measured_state(
+    reads: MeasurementSource, true: State, readings: Readings, known: EstimatedFlight | Absent
+) -> State:
     motion = readings.motion
     return State(motion.position, motion.velocity, motion.attitude, readings.imu.rates)
 
 
 @read_state.register(EstimateSource)
-def _estimated_state(reads: EstimateSource, true: State, readings: Readings, known: Any) -> State:
+def _estimated_state(reads: EstimateSource, true: State, readings: Readings, known: EstimatedFlight) -> State:
     return known.state
 
 
 @choice
-def read_push(reads: Any, true: Any, state: State, known: Any) -> Any:
+def read_push(reads: Source, true: Push, state: State, known: EstimatedFlight | Absent) -> PushWrench:
     """The push that the pilot uses, a `PushWrench`, with the state that it uses; `true`: the true push."""
 
 
 @read_push.register(TruthSource)
-def _true_push(reads: TruthSource, true: CentralPush | PointPush, state: State, known: Any) -> PushWrench:
+def _true_push(reads: TruthSource, true: Push, state: State, known: EstimatedFlight | Absent) -> PushWrench:
     return PushWrench(true.force, push_moment(true, state.attitude))
 
 
 @read_push.register(MeasurementSource)
-def _measured_push(reads: MeasurementSource, true: CentralPush | PointPush, state: State, known: Any) -> PushWrench:
+def _measured_push(reads: MeasurementSource, true: Push, state: State, known: EstimatedFlight) -> PushWrench:
     p = known.push
     return push_without_drag(known.vehicle, state, p.measured, p.measured_moment, p.trusted * p.armed)
 
 
 @read_push.register(EstimateSource)
-def _estimated_push(reads: EstimateSource, true: Any, state: State, known: Any) -> Any:
+def _estimated_push(reads: EstimateSource, true: Push, state: State, known: EstimatedFlight) -> PushWrench:
     p = known.push
     return push_without_drag(known.vehicle, state, p.force, p.moment, p.trusted * p.armed)
 
@@ -110,5 +137,5 @@ def push_without_drag(vehicle: NominalVehicle, state: State, force: Vec3, moment
     return PushWrench(push * usable, (moment + vehicle.drag_moment * state.rates + arm) * usable)
 
 
-READS = {"truth": TruthSource(), "measurement": MeasurementSource(), "estimate": EstimateSource()}
-MAPS = {"none": Absent(), "walls": KnownWalls()}
+READS: dict[str, Source] = {"truth": TruthSource(), "measurement": MeasurementSource(), "estimate": EstimateSource()}
+MAPS: dict[str, KnownWalls | Absent] = {"none": Absent(), "walls": KnownWalls()}

@@ -7,25 +7,28 @@ sensor readings of a step at the next one, or later. A part that a mission does 
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra import where
 from tandemlift.core.law import law
 from tandemlift.core.types import Number, PerRotor
-from tandemlift.core.vector import Absent, Quarters, Quat
+from tandemlift.core.vector import Absent, Quarters, Quat, Vec3
 from tandemlift.engines.compiled import BodyStep, advance
 from tandemlift.engines.compiled_contact import CompiledPlant
 from tandemlift.engines.compiled_touches import touches_in
 from tandemlift.parts.contact.feet import FootGrip
 from tandemlift.parts.contact.touches import Touches, of_turning_rotors
+from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.mechanics.push import Push, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.turbulence import TurbulenceState, WindNoise
 from tandemlift.parts.mechanics.wind import WindModel, WindOutput, wind_loads
-from tandemlift.parts.person.caller_inputs import commanded_thrusts, with_caller_push
+from tandemlift.parts.person.caller_inputs import CallerInput, commanded_thrusts, with_caller_push
+from tandemlift.parts.person.outside_push import OutsidePush
 from tandemlift.parts.person.person import Person, PersonState, landing_request, person_step
 from tandemlift.parts.person.requests import UNKNOWN_STATUS, operator_request
 from tandemlift.parts.person.tremor import TremorNoise
+from tandemlift.parts.person.virtual_hand import VirtualHandState
 from tandemlift.parts.pilot.pilot import (
     Decision,
     PilotInput,
@@ -41,6 +44,7 @@ from tandemlift.simulation.loop.delays import DelayLines
 from tandemlift.simulation.loop.detectors import Detectors, FindingLimits, detect
 from tandemlift.simulation.loop.ending import (
     CrashLimits,
+    CrashMemory,
     ending_number,
     impulse_after,
     unless_crashed,
@@ -77,16 +81,16 @@ class FlightState(NamedTuple):
     memory: PilotMemory
     wind: TurbulenceState | Absent
     grip: Quarters[FootGrip] | Absent
-    near: Any
+    near: NearWalls | Absent
     touches: Touches | Absent
     sensing: SensorState | FaultySensorsState | Absent
     estimator: WatchedEstimatorsState | EstimatorState | Absent
     rotors: RotorState | Absent
     readings: Readings | Absent
-    person: PersonState | Absent
+    person: PersonState | VirtualHandState | Absent
     metrics: RunningMetrics
     impulse: Number | Absent
-    crash: Any
+    crash: CrashMemory | Absent
     ended: Number
     detectors: Detectors
 
@@ -127,11 +131,11 @@ class StepInputs(NamedTuple):
     """
 
     hand: PushSamples[Push]
-    gust: Any
-    noise: Any
-    person: Any
-    external: Any = Absent()
-    outside: Any = Absent()
+    gust: Vec3
+    noise: StepNoise
+    person: PersonState | VirtualHandState | Absent
+    external: CallerInput | Absent = Absent()
+    outside: OutsidePush | Absent = Absent()
 
 
 class PilotOutput(NamedTuple):
@@ -161,7 +165,9 @@ def with_person(model: FlightModel, inputs: StepInputs, t: Number, dt: Number) -
 
 
 @law
-def perceive(model: FlightModel, push: Push, t: Number, dt: Number) -> Any:
+def perceive(
+    model: FlightModel, push: Push, t: Number, dt: Number
+) -> tuple[CheckedEstimates | Estimates | Absent, PilotInput, WatchedEstimatorsState | EstimatorState | Absent]:
     """(estimates, the pilot's input, the estimators' memory) at time t [s]; `push` is the true one."""
     before, sources = model.flight_state, model.sources
     since, commands = tare_time(model.estimator, before.memory.guidance, t), last_thrusts(before.memory.allocation)
@@ -191,7 +197,7 @@ def run_pilot(model: FlightModel, push: Push, t: Number, dt: Number) -> PilotOut
 
 
 @law
-def with_caller_thrusts(output: PilotOutput, external: Any) -> PilotOutput:
+def with_caller_thrusts(output: PilotOutput, external: CallerInput | Absent) -> PilotOutput:
     """The pilot's part of a step, with the thrusts that the caller gives in place of the pilot's."""
     decision = output.decision
     return output._replace(decision=with_thrusts(decision, commanded_thrusts(external, decision.thrusts)))
@@ -262,7 +268,9 @@ def step_body(
 
 
 @law
-def finish_step(model: FlightModel, output: PilotOutput, inputs: StepInputs, t: Any, dt: Any) -> Any:
+def finish_step(
+    model: FlightModel, output: PilotOutput, inputs: StepInputs, t: Number, dt: Number
+) -> tuple[FlightState, Sample]:
     """The rest of a step once the pilot has decided: (`FlightState` after it, `Sample` at its start)."""
     output = with_caller_thrusts(output, inputs.external)
     acting = actuate(model, output.decision.thrusts, inputs, t)
@@ -271,7 +279,7 @@ def finish_step(model: FlightModel, output: PilotOutput, inputs: StepInputs, t: 
 
 
 @law
-def step_flight(model: FlightModel, inputs: StepInputs, t: Any, dt: Any) -> Any:
+def step_flight(model: FlightModel, inputs: StepInputs, t: Number, dt: Number) -> tuple[FlightState, Sample]:
     """One step of a flight from time t [s] by dt [s]: (`FlightState` after it, `Sample` at its start)."""
     inputs = with_person(model, inputs, t, dt)
     return finish_step(model, run_pilot(model, inputs.hand.start, t, dt), inputs, t, dt)
