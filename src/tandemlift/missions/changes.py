@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from pydantic.fields import FieldInfo
 
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.files import parts_of
@@ -40,9 +41,9 @@ def _axis_by_axis(tables: Tables, parts: list[str]) -> Tables:
     *above, last = parts
     if not (above and re.fullmatch("[0-9]", last)):
         return tables
-    model: Any = Mission
+    model: Model | None = Mission
     at: Any = tables
-    field: Any = None
+    field: FieldInfo | None = None
     for part in above:
         if isinstance(at, list):
             at = at[int(part)] if part.isascii() and part.isdecimal() and int(part) < len(at) else None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -105,7 +105,7 @@ def given_at(tables: InputTables, t: float, dt: float) -> dict[str, list[float]]
 
 def push_sum(tables: InputTables, t: float) -> PointPush:
     """The sum of the mission's pushes at a time [s]."""
-    total: Any = NO_PUSH
+    total: PointPush = NO_PUSH
     for row in tables.pushes:
         total = total + push_at(NO_PUSH, unflat(row, GAUSSIAN), t)
     return total

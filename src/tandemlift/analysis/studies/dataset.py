@@ -81,7 +81,7 @@ def _axis(name: str, values: list[Any]) -> dict[str, tuple[str, list[Any]]]:
     return {name: (name, list(range(len(values)))), **entries}
 
 
-def _along_few(values: Any, dims: tuple[str, ...]) -> tuple[tuple[str, ...], Any]:
+def _along_few(values: np.ndarray, dims: tuple[str, ...]) -> tuple[tuple[str, ...], Any]:
     """A coordinate along the dimensions on which it depends alone."""
     left = list(dims)
     for name in dims:
@@ -93,7 +93,7 @@ def _along_few(values: Any, dims: tuple[str, ...]) -> tuple[tuple[str, ...], Any
     return tuple(left), values
 
 
-def _equal(values: Any, first: Any) -> bool:
+def _equal(values: np.ndarray, first: np.ndarray) -> bool:
     same = values == first
     if values.dtype.kind == "f":
         same |= np.isnan(values) & np.isnan(first)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -186,7 +186,7 @@ def _metrics(flight: Flight, events: list[list[Any]]) -> dict[str, Any]:
     error, late = flight["position_error"], flight.time >= LATE
     after = error[late] if flight.time[-1] > LATE else error[:0]
 
-    def over(values: Array, of: Any) -> list[float] | None:
+    def over(values: Array, of: Callable[[Array], Array]) -> list[float] | None:
         return [float(v) for v in of(values)] if len(values) and np.isfinite(values).all() else None
 
     def rms(values: Array) -> Array:

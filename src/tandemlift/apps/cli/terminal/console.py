@@ -10,7 +10,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -127,7 +127,7 @@ def handle_interrupts() -> None:
     """Raise a Ctrl-C again that Python has swallowed because it came while an object was finalised."""
     previous = sys.unraisablehook
 
-    def hook(what: Any) -> None:
+    def hook(what: sys.UnraisableHookArgs) -> None:
         if issubclass(what.exc_type, KeyboardInterrupt):
             again = threading.Timer(AGAIN, signal.raise_signal, [signal.SIGINT])
             again.daemon = True

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, ParamSpec
 
 import matplotlib.style
 import numpy as np
@@ -22,6 +22,7 @@ from tandemlift.core.files import atomic_write
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure_style import FigureStyle, Palette, current_style
 
+P = ParamSpec("P")
 TEXT = 8.5  # pt: the size of text for which `points` are given
 
 (
@@ -131,15 +132,15 @@ def points(size: float) -> float:
     return size * current_style().type / TEXT
 
 
-def styled(draw: Callable[..., Figure]) -> Callable[..., Figure]:
+def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
     """Draw under the present style, and lay the figure out once."""
 
     @wraps(draw)
-    def drawn(*arguments: Any) -> Figure:
+    def drawn(*arguments: P.args, **named: P.kwargs) -> Figure:
         under = matplotlib.style.context(["default", settings(current_style())])
         # a flight that diverged may hold infinities, whose differences are no news
         with under, np.errstate(invalid="ignore", over="ignore"):
-            figure = draw(*arguments)
+            figure = draw(*arguments, **named)
             if layout := figure.get_layout_engine():
                 layout.execute(figure)
                 figure.set_layout_engine("none")  # else every saving would lay it out again
