@@ -154,7 +154,7 @@ def _range_of(text: str) -> tuple[str, Any]:
     return key, value
 
 
-def _literal(where: str, literal: str) -> Any:
+def _literal(where: str, literal: str) -> object:
     try:
         return toml_tables(f"value = {literal}")["value"]
     except (ValueError, KeyError, RecursionError):

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, Protocol
 
 from tandemlift.apps.export.coordinate_frames import ALIGNED, BASE, WORLD
 from tandemlift.apps.export.recipes import IMU, ODOMETRY, POINT, POSE, ROTORS, VECTOR, WRENCH, Recipe, Topic
@@ -35,10 +35,10 @@ class MessageTypes:
         self.Vector, self.Point = self["geometry_msgs/Vector3"], self["geometry_msgs/Point"]
         self._Quaternion = self["geometry_msgs/Quaternion"]
 
-    def __getitem__(self, name: str) -> Any:
+    def __getitem__(self, name: str) -> Callable[..., Any]:
         return self._class_of(name)
 
-    def quaternion(self, wxyz: Sequence[float]) -> Any:
+    def quaternion(self, wxyz: Sequence[float]) -> object:
         """A quaternion, of which ROS puts w at the end."""
         w, x, y, z = wxyz
         return self._Quaternion(x, y, z, w)
@@ -47,7 +47,7 @@ class MessageTypes:
         """Headers for the messages of a topic, from their times [ns]."""
         Header, Time, count = self["std_msgs/Header"], self["builtin_interfaces/Time"], itertools.count()
 
-        def header(stamp: int) -> Any:
+        def header(stamp: int) -> object:
             time = Time(*divmod(stamp, SECOND))
             return Header(next(count), time, frame) if self.numbered else Header(time, frame)
 
@@ -65,7 +65,7 @@ def _odometry(types: MessageTypes, topic: About) -> Maker:
     Placed, Moving = types["geometry_msgs/PoseWithCovariance"], types["geometry_msgs/TwistWithCovariance"]
     header, unknown_covariance = types.headers(topic.frame), types.numbers([0.0] * 36)
 
-    def make(stamp: int, v: Sequence[float]) -> Any:
+    def make(stamp: int, v: Sequence[float]) -> object:
         pose = Pose(types.Point(*v[:3]), types.quaternion(v[3:7]))
         twist = Twist(types.Vector(*v[7:10]), types.Vector(*v[10:]))
         return Odometry(header(stamp), BASE, Placed(pose, unknown_covariance), Moving(twist, unknown_covariance))
@@ -105,7 +105,7 @@ def _imu(types: MessageTypes, topic: About) -> Maker:
     Imu, header, zero = types[IMU], types.headers(topic.frame), types.numbers([0.0] * 9)
     unknown, unturned = types.numbers([-1.0, *zero[1:]]), types.quaternion((1.0, 0.0, 0.0, 0.0))
 
-    def make(stamp: int, v: Sequence[float]) -> Any:
+    def make(stamp: int, v: Sequence[float]) -> object:
         return Imu(header(stamp), unturned, unknown, types.Vector(*v[:3]), zero, types.Vector(*v[3:]), zero)
 
     return make
@@ -125,11 +125,25 @@ MAKERS: dict[str, Callable[[MessageTypes, About], Maker]] = {
 Numbers = Callable[[Any], list[float]]  # those of a message, as its maker takes them
 
 
-def _xyz(v: Any) -> list[float]:
+class XYZ(Protocol):
+    """A vector or a point of a message."""
+
+    x: float
+    y: float
+    z: float
+
+
+class WXYZ(XYZ, Protocol):
+    """A quaternion of a message."""
+
+    w: float
+
+
+def _xyz(v: XYZ) -> list[float]:
     return [v.x, v.y, v.z]
 
 
-def _wxyz(q: Any) -> list[float]:
+def _wxyz(q: WXYZ) -> list[float]:
     return [q.w, q.x, q.y, q.z]
 
 
@@ -163,14 +177,14 @@ class Transforms:
         self._base = types.headers(BASE)
         self._unturned = types.quaternion((1.0, 0.0, 0.0, 0.0))
 
-    def moving(self, stamp: int, v: Sequence[float]) -> Any:
+    def moving(self, stamp: int, v: Sequence[float]) -> object:
         """The vehicle's pose in the world, from position and attitude: in body axes and in the world's."""
         place, header = self._types.Vector(*v[:3]), self._header(stamp)
         turned = self._Transform(place, self._types.quaternion(v[3:7]))
         level = self._Transform(place, self._unturned)
         return self._TFMessage([self._Stamped(header, BASE, turned), self._Stamped(header, ALIGNED, level)])
 
-    def fixed(self, stamp: int, places: Sequence[tuple[str, Array]]) -> Any:
+    def fixed(self, stamp: int, places: Sequence[tuple[str, Array]]) -> object:
         """The places of the parts in the vehicle."""
         Vector, Transform, header = self._types.Vector, self._Transform, self._base(stamp)
         return self._TFMessage(
@@ -183,7 +197,7 @@ def event_maker(types: MessageTypes) -> Callable[[int, str], Any]:
     Many, Status = types["diagnostic_msgs/DiagnosticArray"], types["diagnostic_msgs/DiagnosticStatus"]
     header = types.headers("")
 
-    def make(stamp: int, what: str) -> Any:
+    def make(stamp: int, what: str) -> object:
         level = ERROR if " -> " in what or what.startswith(("crashed", "diverged")) else WARN if ": " in what else OK
         return Many(header(stamp), [Status(level, "tandemlift: pilot", what, "", [])])
 
@@ -195,7 +209,7 @@ def status_maker(types: MessageTypes) -> Callable[[int, bool, str, Mapping[str, 
     Many, Status = types["diagnostic_msgs/DiagnosticArray"], types["diagnostic_msgs/DiagnosticStatus"]
     header, Value = types.headers(""), types["diagnostic_msgs/KeyValue"]
 
-    def make(stamp: int, well: bool, summary: str, more: Mapping[str, str]) -> Any:
+    def make(stamp: int, well: bool, summary: str, more: Mapping[str, str]) -> object:
         values = [Value(key, value) for key, value in more.items()]
         return Many(header(stamp), [Status(OK if well else WARN, "tandemlift: flight", summary, "", values)])
 

@@ -47,16 +47,16 @@ class DdsTypes:
         self._definitions = get_typestore(Stores.ROS2_HUMBLE).fielddefs
         self._made: dict[str, Any] = {}
 
-    def __call__(self, name: str) -> Any:
+    def __call__(self, name: str) -> type:
         """The class of a type, such as `nav_msgs/Odometry`."""
         return self._class_of(modern(name))
 
-    def _class_of(self, name: str) -> Any:
+    def _class_of(self, name: str) -> type:
         if name not in self._made:
             self._made[name] = self._make(name)
         return self._made[name]
 
-    def _make(self, name: str) -> Any:
+    def _make(self, name: str) -> type:
         package, _, kind = name.split("/")
         fields = {field: self._field(about) for field, about in self._definitions[name][1]}
         hints = {field: hint for field, (hint, _) in fields.items()}

@@ -42,32 +42,32 @@ class MarkerWriter:
         self._header, self._Marker = types.headers(frame), types[MARKER]
         self._Pose, self._Color = types["geometry_msgs/Pose"], types["std_msgs/ColorRGBA"]
 
-    def shape(self, number: int, shape: VisualShape, stamp: int = 0) -> Any:
+    def shape(self, number: int, shape: VisualShape, stamp: int = 0) -> object:
         """A box, sphere or cylinder."""
         size = shape.size
         edges = {"box": size, "sphere": 3 * (2.0 * size[0],), "cylinder": (2.0 * size[0],) * 2 + size[1:]}[shape.kind]
         attitude = UNTURNED if shape.axes is LEVEL else quaternion_from(shape.axes)
         return self._mark(number, KINDS[shape.kind], stamp, shape.position, attitude, edges, shape.color, shape.opacity)
 
-    def arrow(self, number: int, stamp: int, start: Array, end: Array, color: str, width: float) -> Any:
+    def arrow(self, number: int, stamp: int, start: Array, end: Array, color: str, width: float) -> object:
         """An arrow from one point to another; its shaft is so wide [m]."""
         marker = self._mark(number, ARROW, stamp, np.zeros(3), UNTURNED, (width, 2.2 * width, 3.0 * width), color, 1.0)
         marker.points = [self._types.Point(*p.tolist()) for p in (start, end)]
         return marker
 
-    def lines(self, number: int, pairs: Array, color: str, width: float) -> Any:
+    def lines(self, number: int, pairs: Array, color: str, width: float) -> object:
         """Straight lines (n, 2, 3) from point to point, so wide [m]."""
         marker = self._mark(number, LINES, 0, np.zeros(3), UNTURNED, (width, 0.0, 0.0), color, 1.0)
         marker.points = [self._types.Point(*p) for p in pairs.reshape(-1, 3).tolist()]
         return marker
 
-    def text(self, number: int, stamp: int, at: Array, words: str, color: str, height: float) -> Any:
+    def text(self, number: int, stamp: int, at: Array, words: str, color: str, height: float) -> object:
         """Words that face the viewer."""
         marker = self._mark(number, TEXT, stamp, at, UNTURNED, (0.0, 0.0, height), color, 1.0)
         marker.text = words
         return marker
 
-    def nothing(self, number: int) -> Any:
+    def nothing(self, number: int) -> object:
         """A message that removes a marker."""
         return self._Marker(header=self._header(0), ns=self._name, id=number, action=DELETE)
 

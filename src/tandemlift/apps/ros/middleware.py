@@ -17,7 +17,7 @@ class TopicPublisher(Protocol):
     def wanted(self) -> bool:
         """Whether there is a subscriber now or, if it is latched, may be one later."""
 
-    def publish(self, message: Any) -> None:
+    def publish(self, message: object) -> None:
         """Send a message, without waiting for subscribers."""
 
 

@@ -156,7 +156,7 @@ class _Writer:
             self._looked, self._wanted = now, bool(self._writer.get_matched_subscriptions())
         return self._latched or self._wanted
 
-    def publish(self, message: Any) -> None:
+    def publish(self, message: object) -> None:
         """Publish a message; it is dropped if subscribers are too slow."""
         from cyclonedds.core import DDSException
 
@@ -191,7 +191,7 @@ def _domain() -> int:
     return int(text)
 
 
-def _value(text: str) -> Any:
+def _value(text: str) -> object:
     """A value as TOML writes it, or a word."""
     try:
         return toml_tables(f"value = {text}")["value"]

@@ -25,7 +25,7 @@ ABOVE = np.array([0.0, 0.0, TEXT])  # m
 FAINTEST = 0.05  # N
 
 
-def still(types: MessageTypes, scene: Mapping[str, Any], vehicle: Vehicle) -> Any:
+def still(types: MessageTypes, scene: Mapping[str, Any], vehicle: Vehicle) -> object:
     """The markers of vehicle, floor and walls; the vehicle's move with its frame."""
     body, world = (
         MarkerWriter(types, BASE, "vehicle", locked=True),
@@ -75,7 +75,7 @@ class PushMarkers:
         self._ghost, self._push = MarkerWriter(types, WORLD, "reference"), MarkerWriter(types, ALIGNED, "push")
         self._shapes = list(_ghost(vehicle))
 
-    def of(self, channels: Mapping[str, Array], stamp: int) -> Any:
+    def of(self, channels: Mapping[str, Array], stamp: int) -> object:
         """The markers of a sample, channels (1, …), at a time [ns]."""
         return self._types[MARKERS](markers=[*self._arrow(channels, stamp), *self._reference(channels, stamp)])
 

@@ -78,7 +78,8 @@ class LatchedTopics:
     """
 
     def __init__(self, middleware: Middleware) -> None:
-        self._types, self._drawn = middleware.types, None
+        self._types = middleware.types
+        self._drawn: object = None
         self._mission = middleware.advertise(MISSION.name, MISSION.kind, latched=True)
         self._static = middleware.advertise(TF_STATIC.name, TF_STATIC.kind, latched=True)
         self._still = middleware.advertise(STILL.name, STILL.kind, latched=True)
