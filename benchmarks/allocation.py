@@ -1,4 +1,4 @@
-"""How fast thrusts within limits are found: `python benchmarks/allocation.py [--json FILE] [--rounds N]`.
+"""Speed of the solver of thrust limits: `python benchmarks/allocation.py [--json FILE] [--rounds N]`.
 
 Vehicles of one to four IRIS quadrotors. Cold: wrenches that have nothing to do with each other, some rotors lost or
 weak, from no working set. Warm: a wrench that moves smoothly, 1 ms a call, from the last call's working set. All are
@@ -80,7 +80,7 @@ def in_a_row(like: BoundedProblem, warm: bool) -> Callable[[np.ndarray, np.ndarr
 
 
 def steps_of(like: BoundedProblem, problems: np.ndarray, warm: bool) -> np.ndarray:
-    """How many steps of the search each problem takes."""
+    """The number of search steps of each problem."""
     n = len(like.limits)
     working = AllocationState(like.limits, like.limits)
     begin, step = (

@@ -1,6 +1,6 @@
-"""How fast tandemlift is on this machine: `python benchmarks/bench.py [--json FILE] [--rounds N] [--busy]`.
+"""Speed of tandemlift on this machine: `python benchmarks/bench.py [--json FILE] [--rounds N] [--busy]`.
 
-Prints Markdown: whole calls, as a user pays for them, then the compiled loop in them, then what only a clock can tell.
+Prints Markdown: whole calls, as a user makes them, then the compiled loop in them, then measurements of wall time.
 Every figure is a median; nothing here asserts a time.
 """
 
@@ -14,7 +14,7 @@ import flights
 import processes
 from machine import describe, heading, number, save, table
 
-VECTORISED = 2.0  # a block that is not this many times faster a step than one flight has lost its vector code
+VECTORISED = 2.0  # least speed-up per step of a block over one flight; below it, the vector code is lost
 
 CALLS = {
     "`tl.fly`, ms": "fly_ms",
@@ -101,7 +101,7 @@ def report(results: dict[str, Any]) -> str:
     missions = results["missions"]
     parts = [
         f"Measured on {heading(results['machine'])}",
-        f"Whole calls, in time of the processor: flights of {flights.DURATION:g} s, {flights.MANY} in a call of "
+        f"Whole calls, in processor time: flights of {flights.DURATION:g} s, {flights.MANY} in a call of "
         "`fly_many` on one thread; steps from Python.",
         mission_table(missions, CALLS),
         "The compiled loop in them:",
@@ -110,7 +110,7 @@ def report(results: dict[str, Any]) -> str:
         table(["", "median"], other_rows(results)),
     ]
     if starts := results.get("processes"):
-        parts += ["By the clock: `fly_many` on two threads, times as fast as on one; whole processes."]
+        parts += ["In wall time: speed-up of `fly_many` on two threads; whole processes."]
         parts += [mission_table(missions, THREADS), table(["", "median"], process_rows(starts))]
     return "\n\n".join(parts)
 
@@ -118,9 +118,9 @@ def report(results: dict[str, Any]) -> str:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--json", metavar="FILE", help="write the results to this file too")
-    parser.add_argument("--rounds", type=int, default=7, help="rounds that a median is taken over")
+    parser.add_argument("--rounds", type=int, default=7, help="number of rounds for each median")
     parser.add_argument(
-        "--busy", action="store_true", help="leave out what the clock measures: others need the machine"
+        "--busy", action="store_true", help="omit measurements of wall time, because others use the machine"
     )
     options = parser.parse_args()
     results = measure(options.rounds, options.busy)

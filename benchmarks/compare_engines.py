@@ -1,4 +1,4 @@
-"""How closely the engines agree, beside what is tolerated: `python benchmarks/compare_engines.py [mujoco] [gazebo]`.
+"""Agreement of the engines, beside tolerances: `python benchmarks/compare_engines.py [mujoco] [gazebo]`.
 
 Prints Markdown: the same vehicle under the same thrusts, then under the same pilot, one body compiled and one in
 MuJoCo, unless other engines are named; they share no equation of motion. Differences of flights are those of
@@ -76,7 +76,7 @@ def unlike(count: int) -> tl.Mission:
 
 
 def excited(mission: tl.Mission, vehicle: Vehicle) -> Any:
-    """Thrusts [N] of all rotors at time t in a state: what keeps it upright, and a slow sine of 30 % of hover each."""
+    """Thrusts [N] of all rotors at time t in a state: those that keep it upright, plus a slow sine of 30 % of hover."""
     rng, weight, count = np.random.default_rng(3), vehicle.weight * mission.plant.mass_scale, vehicle.rotor_count
     phase, rate = rng.uniform(0.0, 6.0, (2, count))
     J, allocation = np.diag(vehicle.inertia), vehicle.allocation()
@@ -139,7 +139,7 @@ def largest_difference(a: tl.Flight, b: tl.Flight, part: Any = slice(None)) -> d
 
 
 def changes_of_floor(flight: tl.Flight) -> tuple[float, float]:
-    """When the floor first carries nothing, and when it first carries something again [s]."""
+    """The times at which the floor first carries no load, and first carries one again [s]."""
     free = flight["contact_force"][:, 2] == 0.0
     off = int(np.flatnonzero(free)[0])
     long_after = off + round(1.0 / (flight.time[1] - flight.time[0]))  # s: it may touch again as it leaves

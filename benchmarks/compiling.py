@@ -1,4 +1,4 @@
-"""How long it takes until something flies, from an empty cache and a warm one: `python benchmarks/compiling.py`.
+"""Time until the first flight, from an empty cache and a warm one: `python benchmarks/compiling.py`.
 
 Prints Markdown: wall and processor time of whole processes, imports and children among them. With `--base PATH` the
 same is done with another checkout, turn by turn, so that what else the machine does meets both alike; a ratio is the
@@ -134,7 +134,7 @@ class Job(NamedTuple):
 def process(
     command: list[str], environment: dict[str, str], until: str = "", more: Callable[[str], None] | None = None
 ) -> tuple[Spent, str]:
-    """What a process spends until its end, and its output.
+    """The time of a process until its end, and its output.
 
     With a pattern, until it prints that, and until `more`, asked with it, returns; then it is ended.
     """
@@ -158,7 +158,7 @@ def process(
 
 
 def output(p: subprocess.Popen[str], until: str, more: Callable[[str], None] | None) -> str:
-    """What a process prints until its end, or until a pattern and what `more` waits for."""
+    """The output of a process until its end, or until a pattern and the end of `more`."""
     assert p.stdout
     said = ""
     for line in iter(p.stdout.readline, ""):
@@ -263,7 +263,7 @@ def measured(job: Job, checkout: Checkout, caches: dict[Any, str]) -> Spent:
 
 
 def measure_all(chosen: list[Job], checkouts: list[Checkout], rounds: int) -> dict[str, Any]:
-    """For each row a list of turns, each what every checkout spent, or the reason that there is none."""
+    """For each row a list of turns, each with the time of every checkout, or the reason that there is none."""
     results: dict[str, Any] = {job.what: [] for job in chosen}
     with tempfile.TemporaryDirectory() as root:
         caches: dict[Any, str] = {"root": root}

@@ -2,7 +2,7 @@
 
 "Whole call" is all that a call of `tl.fly`, `tl.fly_many`, `Simulation.step` or `Pilot.step` does, with the Python that
 prepares a mission and forms its metrics or its flight. "Kernel" is the compiled loop alone. Both are measured in time
-of the processor, which other programs hardly change; only what two threads gain is in time of the clock.
+of the processor, which other programs hardly change; only the gain of two threads is in wall time.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ MISSIONS: dict[str, dict[str, Any]] = {
     "iris, wind": WIND,
 }
 MANY = 64  # flights a call
-KEPT = {"metrics": "metrics", "log": "flights"}  # what a call of `fly_many` keeps
+KEPT = {"metrics": "metrics", "log": "flights"}  # data kept by a call of `fly_many`
 STEPS = 10_000  # in a row, from Python
 MEBIBYTE = 2**20
 
@@ -95,7 +95,7 @@ def block(missions: list[tl.Mission], name: str) -> dict[str, float]:
 
 
 def two_threads(missions: list[tl.Mission], name: str) -> dict[str, float]:
-    """How many times as fast a call of `fly_many` is on two threads as on one, by the clock."""
+    """The speed-up of a call of `fly_many` on two threads over one, in wall time."""
     walls = [timed(lambda n=n: tl.fly_many(missions, keep=KEPT[name], threads=n), time.perf_counter)[0] for n in (1, 2)]
     return {f"{name}_2": walls[0] / walls[1]}
 
@@ -120,7 +120,7 @@ def pilot_step(mission: tl.Mission) -> dict[str, float]:
 def mission_speeds(name: str, rounds: int, busy: bool = False) -> dict[str, Any]:
     """Medians over rounds in which everything takes its turn, so that a drift of the machine meets all alike.
 
-    `busy`: whether to leave out what the clock measures. `ratio`, of a step alone to a step in a block in the kernel,
+    `busy`: whether to omit measurements of wall time. `ratio`, of a step alone to a step in a block in the kernel,
     is between the best of the rounds.
     """
     mission = tl.load_mission(name.partition(",")[0], {"mission.duration": DURATION, **MISSIONS[name]})
@@ -175,7 +175,7 @@ def _forget_peak() -> None:
 
 
 def _growth(missions: list[tl.Mission], keep: str) -> float:
-    """How far memory [MiB] peaks above where it stood while flying these missions."""
+    """The peak growth of memory [MiB] while flying these missions."""
     _forget_peak()
     before = _peak_mebibytes()
     results = tl.fly_many(missions, keep=keep, threads=2)

@@ -1,4 +1,4 @@
-"""How fast Gazebo flies, in lock-step and in real time: `python benchmarks/gazebo.py`; needs docs/how-to/gazebo.md."""
+"""Speed of Gazebo, in lock-step and in real time: `python benchmarks/gazebo.py`; needs docs/how-to/gazebo.md."""
 
 from __future__ import annotations
 

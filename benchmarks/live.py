@@ -102,7 +102,7 @@ def started(out: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
 
 
 def processor_time(pid: int) -> float:
-    """What a process has used of a processor [s]."""
+    """The processor time of a process [s]."""
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 

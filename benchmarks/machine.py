@@ -1,4 +1,4 @@
-"""What a benchmark ran on, and how its results are printed: machine, versions, processor pinning, Markdown tables."""
+"""The machine of a benchmark and the output of its results: versions, processor pinning, Markdown tables."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def version(package: str) -> str | None:
 
 
 def describe(packages: Iterable[str]) -> dict[str, Any]:
-    """The machine, the system, and the versions of what was measured."""
+    """The machine, the system, and the versions of the measured software."""
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else None
     return {
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),

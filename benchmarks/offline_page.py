@@ -100,7 +100,7 @@ def latency(browser: Browser, address: str) -> float:
 
 
 def behind(browser: Browser, address: str, minutes: float, slow: float) -> tuple[list[float], bool]:
-    """How late the flight was at most in each quarter of a second [ms]; whether its worker is slowed."""
+    """The largest delay of the flight in each quarter of a second [ms]; whether its worker is slowed."""
     page = opened(browser, address)
     session = page.context.new_cdp_session(page)
     session.send("Emulation.setCPUThrottlingRate", {"rate": slow})

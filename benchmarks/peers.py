@@ -1,4 +1,4 @@
-"""How fast tandemlift is beside other simulators: `python benchmarks/peers.py [--json FILE] [--only NAME]…`.
+"""Speed of tandemlift beside other simulators: `python benchmarks/peers.py [--json FILE] [--only NAME]…`.
 
 Run it with the environment of requirements-peers.txt. Every simulator runs in a process of its own, pinned to one
 processor and then to two; its bursts alternate with ours, so that a drift of the machine meets both alike, and the

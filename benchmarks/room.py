@@ -1,4 +1,4 @@
-"""How much room walls leave a vehicle: the widest way through, whatever the pilot and whoever leads it.
+"""The room that walls leave a vehicle: the widest path through, for any pilot and person.
 
 Level, a vehicle with two quadrotors is a place and a heading. On a grid of these the clearance of guards and beam from
 all walls is known; the most that some connected way from the start to the end keeps everywhere is the bound.

@@ -32,7 +32,7 @@ NAMES = {"1": "ROS 1, rospy", "2": "ROS 2, DDS"}
 
 
 def processor_time(pid: int) -> float:
-    """What a process has taken of a processor until now [s]."""
+    """The processor time of a process until now [s]."""
     fields = Path(f"/proc/{pid}/stat").read_text("ascii").rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / TICKS
 

@@ -1,4 +1,4 @@
-"""How long a step takes in every built-in mission: `python benchmarks/steps.py`.
+"""Time of a step in every built-in mission: `python benchmarks/steps.py`.
 
 Prints Markdown: a flight alone, blocks of eight different flights on one core, and the pilot from Python; optimised
 code throughout. With `--base PATH` the same is measured in another checkout, turn by turn, and a ratio is the median

@@ -1,4 +1,4 @@
-"""What flights cost in a study: `python benchmarks/studies.py preparing`.
+"""Cost of flights in a study: `python benchmarks/studies.py preparing`.
 
 Prints Markdown. `preparing`: milliseconds a flight for missions with a few changed numbers, from their changes to their
 metrics, on one and two threads: wall and processor time, and how much of the latter is Python and not flight code.

@@ -1,4 +1,4 @@
-"""Where a study runs, and what that costs: `python benchmarks/study_scaling.py overhead` and others. Prints Markdown.
+"""Cost of a study by its place: `python benchmarks/study_scaling.py overhead` and others. Prints Markdown.
 
 - `overhead`: a study of `paper` against `fly_many` with the same missions loaded, on one and two threads, in turns;
   what each part of a chunk takes; bytes of a row.
@@ -117,7 +117,7 @@ def overhead(rounds: int, root: Path) -> dict[str, Any]:
 
 
 def parts(plan: StudyPlan, file: Path) -> dict[str, float]:
-    """What is done for a chunk of 256 rows, one after the other: ms, and bytes."""
+    """The parts of the work for a chunk of 256 rows, one after the other: ms, and bytes."""
     chunk = chunk_of(plan, 0, "one")
     template = plan.variants[0].template()
     columns = fly_chunk(chunk)

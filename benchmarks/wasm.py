@@ -1,4 +1,4 @@
-"""How fast WebAssembly modules fly beside native code: `python benchmarks/wasm.py`.
+"""Speed of WebAssembly modules beside native code: `python benchmarks/wasm.py`.
 
 Prints Markdown: nanoseconds a step of one flight, native with `mission.fma = false`, in Node.js and in Debian's
 Chromium, turn by turn; ratios are medians over the turns. Optimised code throughout.

@@ -1,11 +1,11 @@
-"""Missions at random, and a judge of each outcome: prints the table of the validation, or writes it.
+"""Flies random missions and judges each outcome: prints the table of the validation, or writes it.
 
 python evidence/fly_random_missions.py [--families 125] [--unpushed 25] [--members 8] [--seed 16] [--processes 2]
                                 [--out DIR] [--write]
 
 In `unpushed` families nobody pushes, and no vehicle may move by a metre.
 
-Each family is a chunk of work with a file of its own in DIR: what was judged already by the same sources is left out.
+Each family is a chunk of work with its own file in DIR: families judged already by the same sources are skipped.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def table(rows: list[Judged]) -> str:
 
 
 def summary(rows: list[Judged]) -> str:
-    """What the table does not say, in sentences."""
+    """Sentences with results that are not in the table."""
     wrong = [r for r in rows if not r.confirmed]
     bands = Counter(name for r in rows for name in r.close)
     whole, pieces = sum(r.restarts == 0 for r in rows), sum(0 < r.restarts <= 3 for r in rows)

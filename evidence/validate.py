@@ -3,7 +3,7 @@
 python evidence/validate.py [--engine compiled] [--draws 200] [--chapter NAME ...] [--out FILE]
 
 The chapters fly more than a thousand missions together. A second table counts how these flights ended, and how many had
-findings. The exit code is 1 if a target is missed, and 2 after bad input, before anything flies.
+findings. The exit code is 1 if a target is missed, and 2 after bad input, before any flight.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ from tandemlift.engines.registry import ENGINES
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Fly, print, and write if that is asked for; 1 if a target is missed, else 0."""
+    """Fly, print, and optionally write the results; return 1 if a target is missed, else 0."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--engine", choices=ENGINES, default="compiled", help="who flies (%(default)s)")
+    parser.add_argument("--engine", choices=ENGINES, default="compiled", help="engine (%(default)s)")
     parser.add_argument("--draws", type=int, help="random draws per experiment (200; 10 in other engines)")
     parser.add_argument("--chapter", nargs="+", choices=CHAPTERS, default=list(CHAPTERS), help="only these (all)")
     parser.add_argument("--out", type=Path, help="also write the tables to this file")

@@ -19,7 +19,7 @@ def shortened(app: Any, what: str, name: str, thing: Any, options: Any, signatur
 
 
 def is_left_out(app: Any, what: str, name: str, thing: Any, skip: bool, options: Any) -> bool | None:
-    """What pydantic and `collections.namedtuple` give their classes is no part of ours."""
+    """Skip members that come from pydantic and `collections.namedtuple`."""
     module = getattr(thing, "__module__", None) or ""
     own = type(thing).__name__ != "_tuplegetter" and not module.startswith("pydantic") and name != "model_config"
     return None if own else True

@@ -1,4 +1,4 @@
-"""What tables need on narrow screens: the column of each cell, as a row is a card on a phone; and where code breaks."""
+"""Tables for narrow screens: the column of each cell, because a row is a card on a phone; breaks in code."""
 
 from __future__ import annotations
 

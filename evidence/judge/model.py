@@ -70,7 +70,7 @@ def moments_of_payload(payload: dict[str, Any]) -> list[float]:
 
 
 def rotors_of(q: dict[str, Any]) -> list[tuple[float, float]]:
-    """Where a quadrotor's rotors are [m], from its centre."""
+    """The places of a quadrotor's rotors [m], from its centre."""
     if q.get("rotor_positions") is not None:
         return [tuple(p) for p in q["rotor_positions"]]
     start = 0.0 if q["layout"] == "+" else math.pi / 4.0
@@ -98,7 +98,7 @@ def floor_height(mission: dict[str, Any], body: Body) -> float | None:
     below = -soles_of(mission, body)[:, 2]
     share = ground["sinkage"] * len(below)  # N over the stiffness of one foot
     low, high = 0.0, below.max() + ground["sinkage"]
-    for _ in range(80):  # the height at which the feet bear the weight
+    for _ in range(80):  # the height at which the feet carry the weight
         middle = 0.5 * (low + high)
         low, high = (middle, high) if np.maximum(below - middle, 0.0).sum() > share else (low, middle)
     return float(mission["initial"]["position"][2] - 0.5 * (low + high))
@@ -160,7 +160,7 @@ FEET, HULL, SIDES = (
     1,
     2,
     4,
-)  # bits of what meets: feet and floor; rotors, rings, beam and floor; spheres, beam and walls
+)  # bits of touching shapes: feet and floor; rotors, rings, beam and floor; spheres, beam and walls
 THIN = 0.01  # m, half thickness of rotors and rings
 
 

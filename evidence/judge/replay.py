@@ -1,4 +1,4 @@
-"""A recorded flight flown again in MuJoCo: the same thrusts, pushes and wind, and nothing else of it.
+"""Flies a recorded flight again in MuJoCo with the same thrusts, pushes and wind, and nothing else of it.
 
 The record's state at the start is the replay's. Where the replay has come apart from the record by more than `APART`,
 it starts again from the record's state there: a restart. Between restarts it is MuJoCo's own trajectory.
@@ -70,7 +70,7 @@ def replay(mission: dict[str, Any], time: np.ndarray, channels: dict[str, np.nda
 
 
 class Loads(NamedTuple):
-    """What acts over each step: thrusts [N], force [N, world] and moment [N m, body] held, pushes, air and its drag."""
+    """The loads over each step: thrusts [N], force [N, world] and moment [N m, body] held, pushes, air and its drag."""
 
     thrusts: np.ndarray
     force: np.ndarray
@@ -81,7 +81,7 @@ class Loads(NamedTuple):
 
 
 def _loads(mission: dict[str, Any], model: Model, time: np.ndarray, channels: Any, states: np.ndarray) -> Loads:
-    """The mission's pushes are computed anew; what the record has beyond them is a person's, and held over a step."""
+    """The mission's pushes are computed again; the rest of the record's pushes is a person's, held over a step."""
     step = mission["mission"]["step"]
     pushes = pushes_of(mission, time, step)
     force = channels["push_force"] - pushes.force
@@ -95,7 +95,7 @@ def _loads(mission: dict[str, Any], model: Model, time: np.ndarray, channels: An
 
 
 def _turned(mission: dict[str, Any], model: Model, force: np.ndarray, states: np.ndarray, time: float) -> np.ndarray:
-    """What the moment of a person's force [N m, body axes] changes within a time [s], as the body turns under it."""
+    """The change of the moment of a person's force [N m, body axes] within a time [s], as the body rotates."""
     person = mission["person"]
     grip = np.add(model.body.payload, [0.0, 0.0 if person["model"] == "two-hands" else person["grip"], 0.0])
     felt = np.einsum("tij,ti->tj", rotations(states[:, 3:7]), force)
@@ -197,7 +197,7 @@ def _start(model: Any, data: Any, state: np.ndarray) -> bool:
 
 
 def _apart(data: Any, state: np.ndarray) -> str:
-    """Which part of the state is farther than it may be from the record's; '' for none."""
+    """The part of the state that is too far from the record's; '' for none."""
     position, velocity = np.abs(data.qpos[:3] - state[:3]).max(), np.abs(data.qvel[:3] - state[7:10]).max()
     turn, rates = (
         2.0 * np.sqrt(max(0.0, 1.0 - float(data.qpos[3:] @ state[3:7]) ** 2)),

@@ -1,7 +1,7 @@
-"""What became of a flight, from MuJoCo's own trajectory and from Newton's laws, by the written definitions.
+"""The outcome of a flight, from MuJoCo's own trajectory and from Newton's laws, by the written definitions.
 
-The definitions are those of docs/reference/outcomes.md, written again here from their words. The impulse of a contact
-is what the vehicle's momentum changes beyond thrust, weight, pushes and air: so no model of contact enters it.
+The definitions are those of docs/reference/outcomes.md, implemented here from their words. The impulse of a contact is
+the change of momentum beyond thrust, weight, pushes and air, so no model of contact enters it.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from judge.replay import Replay, drag_of, replay, rotations
 
 GRAVITY, FAR = 9.81, 1000.0
 FADING = 0.1  # s, in which an impulse of contact fades
-BEARS, LATELY = 0.5, 0.05  # of the weight, by the floor; s, within which what it bears may not cross that
+BEARS, LATELY = 0.5, 0.05  # of the weight, by the floor; s, within which its load may not cross that
 ROUGH, ROUGH_TURN = 100.0, 500.0  # m/s², rad/s²: from such accelerations on, as medians, steps are too long
-ROUGH_STEPS = 16  # of which the medians are: a blow is over within half of them
+ROUGH_STEPS = 16  # of the medians: an impact is over within half of them
 TOUCHING = 0.01  # of the weight: contact forces below this are rounding
 
 BANDS = {  # width of the band on either side of each threshold, within which a disagreement does not count
@@ -57,10 +57,10 @@ class Verdict(NamedTuple):
 
 
 class Ground(NamedTuple):
-    """What contact did over every step: force [N, world axes] (T, 3), its fading impulse [N s] (T).
+    """The effect of contact over every step: force [N, world axes] (T, 3), its decaying impulse [N s] (T).
 
     `touching` (T - 1): whether there was any; `gained` [J]: the most that it added to the vehicle's energy from one
-    moment without contact to a later one; `work` [J]: what all else did, either way.
+    moment without contact to a later one; `work` [J]: that of all other loads, either way.
     """
 
     force: np.ndarray
@@ -108,7 +108,7 @@ def is_rough(channels: dict[str, np.ndarray], step: float) -> bool:
 
 
 def _limits(mission: dict[str, Any], flown: Replay, ground: Ground) -> dict[str, tuple[float, float]]:
-    """Of each limit: by how many bands its worst value is beyond it, and when it is first exceeded [s]."""
+    """For each limit the excess of the worst value in bands, and the time of the first excess [s]."""
     crash, found, p = mission["crash"], dict[str, tuple[float, float]](), flown.position
 
     def beyond(kind: str, values: np.ndarray, limit: float, band: float, time: np.ndarray) -> None:
@@ -159,14 +159,14 @@ def _end(mission: dict[str, Any], flown: Replay, ground: Ground) -> tuple[str, d
 
 
 def asks_for_lift(mission: dict[str, Any]) -> bool:
-    """Whether the mission asks for a lift that should be over by its end: by its phases, or by a request."""
+    """Whether the mission has a lift that should be over by its end: by its phases, or by a request."""
     phases, end = mission["phases"], mission["mission"]["duration"]
     requests = [r["time"] for r in mission.get("requests", []) if r["action"] == "lift"]
     return phases["height"] > 0.0 and min([phases["lift_start"], *requests]) + phases["lift_duration"] < end
 
 
 def contact_of(mission: dict[str, Any], channels: dict[str, np.ndarray], flown: Replay) -> Ground:
-    """What floor and walls did: what is left of the change of momentum and of energy once all else is taken off."""
+    """The effect of floor and walls: the change of momentum and energy less that of all other loads."""
     body, step, drag = flown.model.body, mission["mission"]["step"], mission["vehicle"]["drag"]
     v, w = channels["velocity"], channels["rates"]
     R = rotations(channels["attitude"])
@@ -189,7 +189,7 @@ def contact_of(mission: dict[str, Any], channels: dict[str, np.ndarray], flown: 
     height = channels["position"][:, 2]
     kinetic = 0.5 * body.mass * (v**2).sum(axis=1) + 0.5 * np.einsum("ti,ij,tj->t", w, body.inertia, w)
     touching = np.linalg.norm(contact, axis=1) > TOUCHING * body.mass * GRAVITY
-    if "contact_force" in channels:  # a foot that bears less than that, yet turns the vehicle
+    if "contact_force" in channels:  # a foot that carries less than that, yet rotates the vehicle
         touching |= channels["contact_force"][:-1].any(axis=1)
     near = touching | np.append(touching[1:], False) | np.append(False, touching[:-1])
     energy = np.cumsum(np.where(near, np.diff(kinetic + body.mass * GRAVITY * height) - power * step, 0.0))

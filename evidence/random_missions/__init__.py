@@ -1,1 +1,1 @@
-"""Missions at random, over all keys."""
+"""Random missions, over all keys."""

@@ -1,4 +1,4 @@
-"""Missions at random, over all keys of the schema: short flights that load, for a judge of their outcomes.
+"""Random missions, over all keys of the schema: short valid flights, for a judge of their outcomes.
 
 A family is a built-in mission, shortened, with some choices flipped and some entries added to its lists. Its members
 share these, and so mostly the compiled loop, and differ in numbers. Everything is drawn from a seed.
@@ -23,10 +23,10 @@ from tandemlift.parts.controllers import CONTROLLERS
 Changes = dict[str, Any]
 
 MOST_KEYS, MOST_FLIPS = 12, 3
-UNPUSHED = 1000  # from this number on, nobody pushes in a family
+UNPUSHED = 1000  # from this number on, a family has no pushes
 TRIES = 40  # of keys for one mission; many changes do not load
 FIXED = ("mission.name", "mission.fma", "mission.log_interval", "person.recording", "changes", "admittance.feel")
-NEEDS: Mapping[tuple[str, Any], Changes] = {  # what a choice needs, or excludes
+NEEDS: Mapping[tuple[str, Any], Changes] = {  # keys that a choice needs, or excludes
     ("actuators.model", "ideal"): {"ground.effect": False, "faults": []},
     ("ground.model", "none"): {
         **{"ground.effect": False, "walls": [], "corridor.centreline": [], "phases.rotors": "always"},
@@ -73,7 +73,7 @@ WEIGHTS = {  # of keys by their first words; a key that none fits has the weight
     **dict.fromkeys(("controller.gains", "disturbance", "initial", "phases.height", "pushes"), 25.0),
 }
 TIMED = {**dict.fromkeys(("pushes", "faults", "requests", "sensor_faults", "changes"), "time"), "wind.gusts": "start"}
-SAFE: Mapping[str, Mapping[str, tuple[str, ...]]] = {  # what entries of lists may be, where their example says little
+SAFE: Mapping[str, Mapping[str, tuple[str, ...]]] = {  # entries of lists, if their example shows little
     "changes": {"key": ("admittance.damping", "admittance.threshold", "wind.velocity", "compliance.max_speed")},
     "requests": {"action": ("disable", "enable", "land", "lift", "stop")},
     "sensor_faults": {"kind": ("frozen", "nan", "bias")},
@@ -95,8 +95,8 @@ def random_missions(seed: int, families: int, members: int) -> Iterator[RandomMi
     """Draw missions that load, family by family.
 
     Args:
-        seed: of everything that is drawn.
-        families: how many there are.
+        seed: of all draws.
+        families: their number.
         members: how many each has.
     """
     for family in range(families):
@@ -104,7 +104,7 @@ def random_missions(seed: int, families: int, members: int) -> Iterator[RandomMi
 
 
 def random_family(seed: int, family: int, members: int) -> Iterator[RandomMission]:
-    """The members of one family; in those from number `UNPUSHED` on, nobody pushes."""
+    """The members of one family; families from number `UNPUSHED` on have no pushes."""
     if family >= UNPUSHED:
         yield from _unpushed_family(seed, family, members)
         return
@@ -175,7 +175,7 @@ def shortened(base: str, duration: float = 14.0) -> Changes:
 
 
 def _loaded(base: str, changes: Changes) -> tuple[Mission, tuple[str, ...]]:
-    """The mission, and what was warned of while it loaded."""
+    """The mission, and the warnings of its loading."""
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", FlightWarning)
         mission = load_mission(base, changes)
@@ -183,7 +183,7 @@ def _loaded(base: str, changes: Changes) -> tuple[Mission, tuple[str, ...]]:
 
 
 def _changed(base: str, before: Changes, count: int, rng: np.random.Generator, *, flips: bool) -> Changes:
-    """Changes of up to `count` keys, with what they need, that load on top of those before."""
+    """Valid changes of up to `count` keys, with those that they need, on top of earlier ones."""
     made = Changes()
     mission, keys = load_quietly(base, before), list[tuple[Key, Any]]()
     for _ in range(TRIES if count else 0):
@@ -258,7 +258,7 @@ def _is_choice(key: Key) -> bool:
 
 
 def _flipped(key: Key, value: Any, mission: Mission, rng: np.random.Generator) -> Changes:
-    """Another choice with what it needs, or one more entry of a list."""
+    """Another choice with the keys that it needs, or one more entry of a list."""
     if key.name in LISTS:
         return _with_entry(key.name, mission, rng)
     if key.name == "controller.name":

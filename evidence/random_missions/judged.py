@@ -1,4 +1,4 @@
-"""Missions at random, flown and judged: families of them as chunks of work, each in a file."""
+"""Random missions, flown and judged: families of them as chunks of work, each in a file."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ from tandemlift.simulation.many import fly_each
 BAD = ("not-lifted", "crashed", "diverged")
 SAME_TIME = 0.02  # s, within which record and judge must see a crash
 FREE = 1.0  # s, for which MuJoCo must follow by itself in free flight
-AWAY = 1.0  # m along any axis, which a vehicle keeps to that nobody pushes
+AWAY = 1.0  # m along any axis, the largest motion without a push
 GAIN, GAIN_SHARE = 0.05, 0.002  # J, and fraction of the rotors' work: energy that contact may seem to add
-TOO_SHORT = ("ends in the air", "the person's path")  # in warnings that tell of a late end, not of a bad one
+TOO_SHORT = ("ends in the air", "the person's path")  # in warnings of a late end, not of a bad one
 KINDS = {"tilt": "turned over", "impulse": "struck", "fence": "left fence", "origin": "far"}
 TEXTS = ("changes", "close", "findings")  # fields that are no plain values: JSON in files
 COUNTS = ("family", "member", "restarts")
@@ -39,7 +39,7 @@ COUNTS = ("family", "member", "restarts")
 class Judged(NamedTuple):
     """A mission that was flown and judged.
 
-    `verdict`: "agreed", "in a band", or what is not as it should be. `restarts`: of the judge's replay.
+    `verdict`: "agreed", "in a band", or the disagreement. `restarts`: of the judge's replay.
     """
 
     family: int
@@ -57,7 +57,7 @@ class Judged(NamedTuple):
 
     @property
     def confirmed(self) -> bool:
-        """Whether the judge says the same, or would not decide."""
+        """Whether the judge agrees or does not decide."""
         return self.verdict in ("agreed", "in a band")
 
     @property
@@ -75,7 +75,7 @@ def flown(drawn: RandomMission) -> Flight:
 
 
 def judged(drawn: RandomMission) -> Judged:
-    """Fly and judge a mission; what goes wrong in doing so is its verdict."""
+    """Fly and judge a mission; an error in doing so is its verdict."""
     heard = list(drawn.warnings)
     try:
         with warnings.catch_warnings(record=True) as also:
@@ -141,9 +141,9 @@ def _judged(flight: Flight) -> tuple[str, str, str, str, list[str], list[str], i
 
 
 def _complaint(outcome: str, kind: str, verdict: Any) -> str:
-    """What the judge has against an outcome; "in a band" where it cannot be decided.
+    """The judge's objection to an outcome; "in a band" if it cannot be decided.
 
-    Either the measure that decides is too near to its limit, or steps do not resolve the end.
+    Either the deciding measure is too near to its limit, or steps do not resolve the end.
     """
     deciding = {kind, verdict.kind} - {""} if "crashed" in (outcome, verdict.outcome) else set()
     if not deciding:
@@ -155,7 +155,7 @@ def _complaint(outcome: str, kind: str, verdict: Any) -> str:
 
 
 class Families:
-    """Families of missions as chunks of work: what `tandemlift.analysis.studies.execution.running.run_chunks` flies.
+    """Families of missions as chunks of work for `tandemlift.analysis.studies.execution.running.run_chunks`.
 
     Args:
         seed: of all missions.
@@ -172,7 +172,7 @@ class Families:
         return self._members
 
     def task(self, i: int) -> partial[Columns]:
-        """What flies and judges family i, in any process."""
+        """The function that flies and judges family i, in any process."""
         return partial(judged_family, self._seed, self._families[i], self._members)
 
     def rows(self, files: ChunkFiles) -> list[Judged]:
@@ -198,7 +198,7 @@ def _row(values: dict[str, Any]) -> Judged:
 
 
 def _sources() -> str:
-    """Digest of all that decides what becomes of a mission: tandemlift, its missions, what draws them, the judge."""
+    """Digest of all sources that affect a verdict: tandemlift, its missions, their generator, the judge."""
     here = Path(__file__).resolve().parent
     files = [path for folder in (here, here.parent / "judge") for path in sorted(folder.glob("*.py"))]
     parts = [path.read_bytes() for path in [*files, *(path_of(name, Path()) for name in built_in())]]

@@ -1,4 +1,4 @@
-"""Values at random for keys of a mission: near the value that a key has, within its bounds, of a size that matters."""
+"""Random values for keys of a mission: near the key's value, within its bounds, of a relevant size."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SIZES = {  # of a change of a number that is 0 or of either sign, by unit
     **{"N": 3.0, "N m": 0.5, "m": 0.3, "m/s": 2.0, "rad": 0.6, "rad/s": 1.0, "s": 0.5, "kg": 0.2, "1": 0.3},
     **{"m²": 0.02, "N s/m": 0.5, "N m s": 0.2, "N/m": 1.0},
 }
-SMALL_SIZES = {  # the same, of what is small where it is good: noise, biases, delays
+SMALL_SIZES = {  # the same, for values that are small in good hardware: noise, biases, delays
     **{"N": 0.1, "N m": 0.01, "m": 0.003, "m/s": 0.02, "rad": 0.005, "rad/s": 0.01, "m/s²": 0.05, "s": 0.02},
     **{"N/√s": 0.01, "N m/√s": 0.001, "m/s²/√s": 0.002, "rad/s/√s": 0.0002},
 }

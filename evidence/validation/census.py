@@ -1,4 +1,4 @@
-"""How the flights of a study ended, and how many had findings of which kind."""
+"""Counts of a study's flights by outcome and by kind of finding."""
 
 from __future__ import annotations
 

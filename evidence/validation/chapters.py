@@ -30,7 +30,7 @@ CHAPTERS: dict[str, Chapter] = {
     "triggers": Chapter("push detection in wind", triggers.triggers),
     "persons": Chapter("corridors with a person; random persons", persons.persons),
     "yaw": Chapter("compliance in yaw", compliance.yaw),
-    "contacts": Chapter("touches of walls told from hands and from broken sensors", contacts.contacts),
+    "contacts": Chapter("contacts with walls, distinguished from pushes and from faulty sensors", contacts.contacts),
 }
 
 

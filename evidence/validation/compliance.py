@@ -10,8 +10,8 @@ from tandemlift.flight.record import Flight
 from validation.rows import Row, below
 from validation.scenarios import Bench, mission
 
-STEADY = (1.0 - 0.15) / 1.6  # rad/s, where the damping carries what exceeds the threshold
-LATE = 3.28 / 1.6  # s, until it turns so fast
+STEADY = (1.0 - 0.15) / 1.6  # rad/s, where the damping equals the excess over the threshold
+LATE = 3.28 / 1.6  # s, until it rotates at that rate
 END = [0.0, 1.0, -0.0642857]  # m, of the beam
 LONG = {"mission.duration": 40.0, "phases.land_start": 39.0, "mission.log_interval": 0.01}
 
@@ -43,7 +43,7 @@ def heading(flight: Flight) -> np.ndarray:
 
 
 def yaw(bench: Bench) -> Iterator[Row]:
-    """Rows about 1 N at the beam's end, and about more than the rotors can carry."""
+    """Rows about 1 N at the beam's end, and about a push beyond the rotors' yaw authority."""
     steady, strong = bench.fly(
         [mission({**LONG, "pushes": held(1.0, 16.0, 28.0, STEADY)}), mission({**LONG, "pushes": held(3.0, 16.0, 18.0)})]
     )

@@ -1,4 +1,4 @@
-"""Rows about contacts: touches of walls are named as such, quickly, and hands are not.
+"""Rows about contacts: touches of walls are detected quickly, and pushes are not misclassified as such.
 
 Touches: the supervised vehicle of mission zigzag, with its sensors' noise, at up to 1 m/s. It is pushed at a random
 point of the beam into the side of a corridor (`SIDE`), or onto a post between its guards, so that the beam touches
@@ -31,14 +31,14 @@ SOON = 0.15  # s
 SPARE = 1.15  # times as many flights as touches, because some miss the wall
 MINUTES = 5.0  # of hands for each draw
 LEAST_SHARE, MOST_FALSE = 0.95, 1
-BLOW = 10  # logged samples of 2 ms: the first blow
+BLOW = 10  # logged samples of 2 ms: the first impact
 SENSOR_FAULTS = {fault.text for fault in FAULTS[:9]}
 PERSON, HAND = 60.0, 240.0  # s, with a hand on the beam, of one flight with a person, and of one with jerky pushes
 TURBULENT = (0.0, 2.0, 4.0, 7.7)  # m/s, wind at 20 ft of the turbulence; the mean wind is half of it
 
 
 class Touch(NamedTuple):
-    """What became of a touch: its speed [m/s]; after how long it was named [s], or None; whether in its direction.
+    """The result of a touch: its speed [m/s]; the time until it was named [s], or None; whether in its direction.
 
     `sensor_fault`: whether a sensor was blamed; `crashed`; `landed`: whether it led to a landing.
     """
@@ -104,7 +104,7 @@ def touches(count: int) -> list[Mission]:
 
 
 def touch_of(flight: Flight) -> Touch | None:
-    """What became of the first touch of a flight; None if it touches nothing in the air."""
+    """The result of the first touch of a flight; None if it touches nothing in the air."""
     phase, force = flight["phase"], flight["contact_force"]
     aloft = np.isin(phase, (GUIDED, HOLD, CONTACT))
     touched = np.flatnonzero(aloft & np.any(force != 0.0, axis=1))
@@ -185,12 +185,12 @@ def broken(number: int) -> Mission:
 
 
 def is_blamed(metrics: dict[str, Any]) -> bool:
-    """Whether the events of a flight say that joints disagree."""
+    """Whether the events of a flight report that joints disagree."""
     return any(text.startswith("joints disagree") for _, text in metrics["events"])
 
 
 def contacts_named(metrics: dict[str, Any]) -> int:
-    """How many contacts the events of a flight name."""
+    """The number of contacts in the events of a flight."""
     return sum(text.startswith("contact:") for _, text in metrics["events"])
 
 

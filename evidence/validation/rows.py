@@ -11,7 +11,7 @@ from tandemlift.flight.record import LATE, Flight
 
 
 class Row(NamedTuple):
-    """A row: what is measured, its target, its value, and whether the target is met (None: without target)."""
+    """A row: the measurement, its target, its value, and whether the target is met (None: without target)."""
 
     what: str
     target: str

@@ -2,7 +2,7 @@
 
 IRIS rotors with lag 12.5/25 ms and 10 ms of delay; the joints' sensors with 0.05 N; the state as measured, with 3 mm,
 2 mrad, 0.01 m/s and 0.01 rad/s. Wind acts on the quadrotors, whose drag is made so large that it comes to the force
-that is asked for: on the beam it would be estimated as a push, which chapter `triggers` is about.
+that is specified: on the beam it would be estimated as a push, the subject of chapter `triggers`.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ AREA = 0.1  # m², of each quadrotor
 
 
 class Bench(NamedTuple):
-    """The engine of the validation, the number of random draws, and who counts how flights end, if anyone does."""
+    """The engine of the validation, the number of random draws, and the counter of outcomes, if any."""
 
     engine: str = "compiled"
     draws: int = 200

@@ -18,7 +18,7 @@ def main() -> None:
     try:
         run()
     finally:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # what is left is Python's own end
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # only Python's own exit remains
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The way of the data: from a mission through the steps of a flight to its record, and what reads the record."""
+"""The flow of data: from a mission through the steps of a flight to its record, and the record's readers."""
 
 from __future__ import annotations
 
@@ -52,4 +52,4 @@ def data_flow() -> str:
         words(610, 150, "log", "text"),
         arrow(flight.bottom, readers.top),
     ]
-    return drawing(760, 394, "A mission becomes a flight; every step of it is logged; all else reads the log.", parts)
+    return drawing(760, 394, "A mission becomes a flight; every step is logged; everything else reads the log.", parts)

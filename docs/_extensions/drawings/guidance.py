@@ -1,4 +1,4 @@
-"""Guidance by hand: how a push moves the reference, and what counters it."""
+"""Interactive guidance: motion of the reference by a push, and compensation of the push."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from drawings.canvas import Box, arrow, drawing, words
 
 
 def guidance() -> str:
-    """The way of a push through the pilot, with feedforward and disturbance observer."""
+    """The path of a push through the pilot, with feedforward and disturbance observer."""
     chain = [
         Box(10, 90, 92, 56, "push", "measured", "body"),
         Box(134, 90, 112, 56, "gate", "low-pass, dead\nband, low-pass"),
@@ -26,12 +26,12 @@ def guidance() -> str:
         arrow((334, 50), admittance.top),
         arrow((468, 50), reference.top),
         arrow(push.bottom, (56, 272), (660, 272), (660, 160), (616, 160), (616, 146)),
-        words(64, 264, "the push is countered", "text", "start"),
+        words(64, 264, "the push is compensated", "text", "start"),
         arrow((570, 196), (570, 146)),
-        words(564, 180, "is countered", "text", "end"),
+        words(564, 180, "is compensated", "text", "end"),
         arrow(observer.left, (334, observer.left[1]), admittance.bottom),
-        words(326, 200, "acceleration that is left", "text", "end"),
+        words(326, 200, "available acceleration", "text", "end"),
     ]
     return drawing(
-        760, 284, "A measured push moves the reference and is countered; the observer counters the rest.", parts
+        760, 284, "A measured push moves the reference and is compensated; the observer compensates the rest.", parts
     )

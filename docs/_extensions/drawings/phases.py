@@ -1,4 +1,4 @@
-"""The phases of a flight that a person guides."""
+"""The phases of interactive guidance."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from drawings.canvas import Box, arrow, drawing, words
 
 
 def phases() -> str:
-    """The phases and what leads from one to another."""
+    """The phases and their transitions."""
     idle, lift = Box(10, 100, 90, 46, "idle"), Box(220, 100, 90, 46, "lift", kind="body")
     air = Box(420, 10, 330, 232, "in the air, the first that applies:", kind="frame")
     rows = [

@@ -18,7 +18,7 @@ CODE = re.compile(r"`([^`]+)`|(?<![\w`])(--?[a-z][\w-]*)")
 
 def verbs() -> str:
     """A line for each verb."""
-    return table(("command", "what it does"), [(f"[{name}](#{name})", _first(verb)) for name, verb in _verbs()])
+    return table(("command", "purpose"), [(f"[{name}](#{name})", _first(verb)) for name, verb in _verbs()])
 
 
 def commands() -> str:
@@ -66,7 +66,7 @@ def _paragraphs(text: str) -> Iterator[str]:
 
 
 def _listed(text: str) -> str:
-    """Names with what they are, such as files and exit codes, as a table; a meaning may take several lines."""
+    """Names with their meanings, such as files and exit codes, as a table; a meaning may take several lines."""
     rows: list[list[str]] = []
     for line in text.splitlines():
         named = LISTED.match(line)

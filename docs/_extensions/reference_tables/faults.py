@@ -11,7 +11,7 @@ from tandemlift.core.phases import PHASES, REASONS
 
 
 class FaultRow(NamedTuple):
-    """A fault in one of its forms: its number, its text, what detects it, its key and its default reaction."""
+    """A fault in one of its forms: its number, its text, its detection, its key and its default reaction."""
 
     number: int
     text: str
@@ -42,16 +42,16 @@ def reactions() -> str:
 def lift_checks() -> str:
     """The checks before a lift, and before pushes are followed."""
     rows = [(str(check.number), check.passes, check.before, codes(check.keys)) for check in CHECKS]
-    return table(("number", "what must hold", "before", "keys"), rows)
+    return table(("number", "condition", "before", "keys"), rows)
 
 
 def phases() -> str:
-    """The phases of a flight by hand."""
+    """The phases of interactive guidance."""
     rows = [(f"`{p.name}`", str(i), p.rotors, p.pushes, p.reference) for i, p in enumerate(PHASES)]
     return table(("phase", "number", "rotors", "pushes", "reference"), rows)
 
 
 def reasons() -> str:
-    """Why a vehicle cannot follow its reference."""
+    """The reasons why a vehicle cannot follow its reference."""
     rows = [(reason.text, str(i), reason.detection) for i, reason in enumerate(REASONS, start=1)]
     return table(("reason", "number", "present when"), rows)

@@ -16,12 +16,12 @@ LONG = {"scene": "see [scene](#scene)", "status": "see [status](#status)"}
 
 
 def page_messages() -> str:
-    """What a page sends."""
+    """The messages of a page."""
     return _messages(PAGE_MESSAGES)
 
 
 def server_messages() -> str:
-    """What the server sends."""
+    """The messages of the server."""
     return _messages(SERVER_MESSAGES)
 
 
@@ -50,7 +50,7 @@ def _messages(messages: dict[str, type]) -> str:
 
 
 def _key(entry: Entry) -> str:
-    """A key in a table of messages: its name, and what it means or may be."""
+    """A key in a table of messages: its name, and its meaning or values."""
     allowed = entry.type.replace('"', "`").replace(" | ", ", ") if '"' in entry.type else ""
     within = "{:g} to {:g}".format(*entry.bounds) if entry.bounds and entry.bounds[1] < HUGE else ""
     note = "; ".join(part for part in (entry.meaning, allowed, within, "optional" if entry.optional else "") if part)

@@ -8,4 +8,4 @@ from tandemlift.missions import built_in
 
 def missions() -> str:
     """Every built-in mission."""
-    return table(("mission", "what it is"), [(f"`{name}`", summary) for name, summary in built_in().items()])
+    return table(("mission", "description"), [(f"`{name}`", summary) for name, summary in built_in().items()])

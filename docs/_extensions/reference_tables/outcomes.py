@@ -22,4 +22,4 @@ def endings() -> str:
 def findings() -> str:
     """Every kind of finding."""
     rows = [(f"`{kind.name}`", linked(kind.meaning), linked(kind.remedy), codes(kind.keys)) for kind in KINDS]
-    return table(("kind", "what it means", "what to do", "keys"), rows)
+    return table(("kind", "meaning", "remedy", "keys"), rows)

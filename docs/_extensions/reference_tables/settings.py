@@ -16,9 +16,9 @@ from tandemlift.parts.controllers import CascadeTable
 
 
 def value_types() -> str:
-    """Every type of a value, and what a key of it may be."""
+    """Every type of a value, and the allowed values of its keys."""
     rows = [(f"`{name}`", allowed(kind)) for name in keys.__all__ if get_origin(kind := getattr(keys, name))]
-    return table(("type", "a key may be"), rows)
+    return table(("type", "allowed values"), rows)
 
 
 def cascade_keys() -> str:
@@ -32,10 +32,10 @@ def cascade_keys() -> str:
 
 
 def tables() -> str:
-    """Every table of a mission, with the first line of what it says of itself."""
+    """Every table of a mission, with the first line of its description."""
     kinds = dict.fromkeys(_tables_in(Mission))
     return table(
-        ("class", "what it is"),
+        ("class", "description"),
         [(f"`{kind.__name__}`", (kind.__doc__ or "").partition("\n")[0]) for kind in kinds],
     )
 

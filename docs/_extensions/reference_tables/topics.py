@@ -38,7 +38,7 @@ def topics_of_some_flights() -> str:
 
 
 def _recipes(channels: Iterable[str]) -> Iterator[Recipe]:
-    """How the topics of a flight with these channels are made; of its joints, those of the first."""
+    """The recipes of the topics of a flight with these channels; of its joints, those of the first."""
     vehicle = Vehicle.from_settings(load_mission("hover").vehicle)
     return (recipe for recipe in all_recipes(tuple(channels), vehicle) if "joint_2" not in recipe.name)
 

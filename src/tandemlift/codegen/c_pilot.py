@@ -1,4 +1,4 @@
-"""What assembly derives from a mission's numbers, as C: from numbers by key to the numbers of a pilot or a flight."""
+"""The assembly of a mission as C: from numbers by key to the numbers of a pilot or a flight."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ TABLES = ("pushes", "gusts", "walls", "legs")
 
 
 class PrepareFile:
-    """The header and the source of what prepares a pilot or a flight.
+    """The header and the source of the preparation of a pilot or a flight.
 
     Args:
         file: the names of the mission, and its precision.

@@ -21,7 +21,7 @@ VECTORS = 40  # stored samples of a pilot
 ROWS = 12  # stored samples of a flight
 MEASURED = ("position", "velocity", "attitude", "rates", "push_force")
 TOLERANCE = 1e-3  # of the range of thrusts, in single precision
-NAN = 0x7FF8000000000000  # what every NaN counts as in the sum over a log
+NAN = 0x7FF8000000000000  # the value of every NaN in the sum over a log
 
 
 def braced(file: SourceFile, values: Iterable[float]) -> str:

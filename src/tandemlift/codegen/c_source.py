@@ -1,4 +1,4 @@
-"""A source of C from a text in `data/c`: the mission's names filled in, and what it does not need left out."""
+"""A source of C from a text in `data/c`, with the mission's names filled in, and unneeded parts omitted."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ BLOCK = re.compile(r"^ *//if (\w+)\n(.*?)^ *//end \1\n", re.MULTILINE | re.DOTAL
 
 
 class SourceFile:
-    """What the files of a mission share: names, precision, and a unit of its own.
+    """The common part of a mission's files: names, precision, and a unit of its own.
 
     Args:
         mission: its name.

@@ -42,7 +42,7 @@ class FlightStep:
 
     @property
     def arguments(self) -> list[str]:
-        """What the caller passes between the push and the time."""
+        """The arguments of the caller between the push and the time."""
         noise = ["&noise"] * (leaves(self.traced.templates.given.noise) > 0)
         return ["gust"] * self.has_gusts + noise + ["flight->low"] * self.branches
 

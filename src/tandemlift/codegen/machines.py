@@ -17,7 +17,7 @@ class Machine(NamedTuple):
     Attributes:
         triple: LLVM's name of processor, vendor and system.
         processor: LLVM's name of the processor; "" for any.
-        features: what the processor must have, as LLVM writes it.
+        features: required ones of the processor, as LLVM writes them.
         draw_lanes: random numbers that one instruction draws.
         largest: operations of a function, about; 0 for a step in one function. V8 allocates registers badly in
             functions of more than 8,192 values.

@@ -1,4 +1,4 @@
-"""The manifest of a module: what its numbers mean and where they stand, for a caller that knows nothing of Python."""
+"""The manifest of a module: meanings and places of its numbers, for a caller without Python."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from tandemlift.simulation.results import channels_of
 
 
 def manifest_of(plan: FlightPlan, traced: TracedAssembly, about: dict[str, Any]) -> dict[str, Any]:
-    """What a module's caller needs to know.
+    """The manifest for a module's caller.
 
     Args:
         plan: of the flight.
@@ -81,10 +81,10 @@ BOUNDS = ("minimum", "exclusiveMinimum", "maximum", "exclusiveMaximum")
 
 
 def number_facts(mission: Mission, key: str) -> dict[str, Any]:
-    """What is said of a number of a mission: `unit`, `meaning` and bounds by their names in JSON Schema.
+    """The description of a number of a mission: `unit`, `meaning` and bounds by their names in JSON Schema.
 
     Args:
-        mission: whose number it is; it says which controller's keys there are.
+        mission: that of the number, which also determines the controller's keys.
         key: dotted, with the number of a list's entry where there is one.
     """
     value: Any = mission

@@ -1,4 +1,4 @@
-"""A mission compiled for another machine: its code, and the manifest that says how to call it."""
+"""A mission compiled for another machine: its code, and the manifest that describes its interface."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class MissionModule(NamedTuple):
 
 
 class WrittenModule(NamedTuple):
-    """The text of a module, and what its manifest needs: layouts, and numbers of arguments and results by function."""
+    """The text of a module, and the data of its manifest: layouts, sizes of arguments and results by function."""
 
     text: str
     prepared: PreparedLayout
@@ -54,7 +54,7 @@ def _nothing_more(plan: FlightPlan) -> Sequence[ValuesFunction]:
 
 
 def module_of(mission: Mission, target: str, functions: Functions = _nothing_more) -> MissionModule:
-    """Compile a mission for a machine; what was compiled before is taken from the cache.
+    """Compile a mission for a machine; earlier results are taken from the cache.
 
     Args:
         mission: from `load_mission`. The code is that of `mission.fma = false`.
@@ -90,14 +90,14 @@ def module_of(mission: Mission, target: str, functions: Functions = _nothing_mor
 
 
 def _identity(traced: TracedAssembly) -> str:
-    """What identifies the graph of an assembly: its operations, its results and its guards."""
+    """The digest of an assembly's graph: its operations, its results and its guards."""
     graph = traced.graph
     text = repr((graph.ops, graph.args, traced.keys, [(g.condition.node, g.holds) for g in traced.guards]))
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 def _sources(functions: Sequence[ValuesFunction]) -> str:
-    """What identifies the sources of this folder, and of the folders that further functions are in."""
+    """The digest of the sources of this folder, and of the folders with further functions."""
     theirs = {Path(inspect.getfile(inspect.unwrap(f.function))).parent for f in functions}
     files = sorted(path for folder in {*theirs, Path(__file__).parent} for path in folder.glob("*.py"))
     return hashlib.sha256(b"".join(map(store.content, files))).hexdigest()

@@ -24,7 +24,7 @@ from tandemlift.simulation.loop_code.scratch import ScratchValues
 
 
 class ValuesFunction(NamedTuple):
-    """A function of values: its name in the module, what it computes, and values laid out like its arguments."""
+    """A function of values: its name in the module, its computation, and values laid out like its arguments."""
 
     name: str
     function: Callable[..., Any]
@@ -51,7 +51,7 @@ def write_flight_loop(loop_code: LoopCode, draw_lanes: int, largest: int) -> Loo
 
 
 def write_values_function(module: Module, wanted: ValuesFunction) -> int:
-    """Add a function of values to a module; how many numbers it returns."""
+    """Add a function of values to a module; return the number of its results."""
     graph, ends = Graph(), list(itertools.accumulate(map(leaves, wanted.likes), initial=0))
     arguments = [graph.inputs("x", like, first) for like, first in zip(wanted.likes, ends, strict=False)]
     found = symbols(graph, rounded_twice(wanted.function)(*arguments))
@@ -89,7 +89,7 @@ def write_ramp(module: Module) -> None:
 
 
 def _is_finite(f: Function, x: str) -> str:
-    """Whether x − x is 0, which it is for finite numbers only."""
+    """Whether x − x is 0, which is true for finite numbers only."""
     return f.op(f"fcmp oeq double {f.op(f'fsub double {x}, {x}')}, {double(0.0)}")
 
 
@@ -98,7 +98,7 @@ ARGUMENTS = "ptr noalias %numbers, ptr noalias %work"
 
 
 class PreparedSpan(NamedTuple):
-    """A part of what `prepare` writes: its first number, its rows, and numbers in a row."""
+    """A part of the output of `prepare`: its first number, its rows, and numbers in a row."""
 
     at: int
     rows: int
@@ -106,7 +106,7 @@ class PreparedSpan(NamedTuple):
 
 
 class PreparedLayout(NamedTuple):
-    """What `prepare` writes, by name (`flight`, and the tables of inputs), and the numbers that its `work` holds."""
+    """The output of `prepare` by name (`flight`, and the tables of inputs), and the size of its `work`."""
 
     spans: dict[str, PreparedSpan]
     work: int
@@ -118,7 +118,7 @@ class PreparedLayout(NamedTuple):
 
 
 def prepared_numbers(traced: TracedAssembly) -> tuple[list[Symbol], dict[str, PreparedSpan]]:
-    """What a flight needs as symbols of a mission's numbers, one after another, and what stands where."""
+    """The numbers of a flight as symbols of a mission's numbers, one after another, and their layout."""
     graph, built = traced.graph, traced.assembled
     found = symbols(graph, built.model)
     spans = {"flight": PreparedSpan(0, 1, len(found))}

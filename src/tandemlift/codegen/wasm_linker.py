@@ -2,7 +2,7 @@
 
 stack (64 KiB, below the data: an overflow traps) → data → heap, from `__heap_base` on
 
-The result exports its memory, `__heap_base`, and the functions asked for. Source: tool conventions of WebAssembly,
+The result exports its memory, `__heap_base`, and the chosen functions. Source: tool conventions of WebAssembly,
 object file linking, version 2.
 """
 
@@ -44,7 +44,7 @@ I32, MUTABLE, CONSTANT = b"\x7f", b"\x01", b"\x00"
 
 
 class LinkError(Exception):
-    """An object that this linker cannot link; the text says why."""
+    """The error for an object that this linker cannot link; the text has the reason."""
 
 
 class ObjectSymbol(NamedTuple):
@@ -167,7 +167,7 @@ def _placed(data: bytes) -> tuple[list[int], list[tuple[int, bytes]], int]:
 
 
 def _relocated(x: WasmObject, kind: int, name: str, places: list[int]) -> bytes:
-    """A section with the values that only a linker knows."""
+    """A section with the values that only the linker determines."""
     body, reader = bytearray(x.bodies[kind]), Reader(x.custom.get(name, b"\0\0"))
     reader.unsigned()  # number of the section
     for _ in range(reader.unsigned()):

@@ -29,7 +29,7 @@ class Reader:
 
     @property
     def has_more(self) -> bool:
-        """Whether there is anything left."""
+        """Whether any bytes are left."""
         return self.at < len(self.data)
 
     def byte(self) -> int:

@@ -1,4 +1,4 @@
-"""What equations are written in; a controller of one's own imports all that it needs from here.
+"""The algebra of equations; a user's controller imports everything from here.
 
 Elementary operations on floats, NumPy arrays, JAX tracers, CasADi symbols, our own, and on vectors of them.
 

@@ -1,4 +1,4 @@
-"""NumPy arrays of numbers or of symbols: what assembles a flight from a mission serves both.
+"""NumPy arrays of numbers or of symbols, so that the assembly of a flight serves both.
 
 Plain numbers go through NumPy and `math`. Arrays with symbols are of objects, and have formulas of their own here,
 without a branch on data: products, sums, roots, inverses of small matrices, eigenvalues of symmetric ones.

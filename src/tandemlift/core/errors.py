@@ -72,7 +72,7 @@ class CheckResult(NamedTuple):
 
     Attributes:
         check: its name, as in docs/reference/checks.md.
-        subject: what was checked, such as an axis or a key; "" for the whole mission.
+        subject: the checked part, such as an axis or a key; "" for the whole mission.
         value: the number; None where there is only a sentence.
         limit: the largest that is allowed; None likewise.
         unit: of both.
@@ -108,7 +108,7 @@ def judged(
         limit: the largest that is allowed.
         unit: of both.
         text: the sentence, for a value beyond the limit.
-        subject: what was checked.
+        subject: the checked part.
         near: the share of the limit below which a margin is close.
     """
     if math.isnan(value) or math.isnan(limit):

@@ -157,11 +157,11 @@ class Finding(NamedTuple):
 
     @property
     def remedy(self) -> str:
-        """What to do about it."""
+        """The remedy."""
         return KIND_OF[self.kind].remedy
 
     def as_table(self) -> dict[str, Any]:
-        """Its fields by name, as findings.json has them, and what to do."""
+        """The fields by name, as in findings.json, and the remedy."""
         return {**self._asdict(), "place": self.place and list(self.place), "remedy": self.remedy}
 
 

@@ -1,4 +1,4 @@
-"""Marks that say what a function is, so that one source serves plain Python, NumPy, JAX, CasADi and machine code.
+"""Marks of functions as laws, so that one source serves plain Python, NumPy, JAX, CasADi and machine code.
 
 Nothing here compiles anything. Each mark records the function; `tandemlift.compiler.tracer` reads the records when
 something first flies, so a law can be imported, called and differentiated without a compiler.
@@ -130,8 +130,8 @@ def choice(signature: Callable[..., Any] | None = None, *, absent: Any = REQUIRE
     """Mark an empty function as the common signature of laws that are picked by type.
 
     Args:
-        signature: the function: its arguments, and what the laws return.
-        absent: what is returned where the first argument is `Absent`: the name of an argument, a value, or a tuple of
+        signature: the function: its arguments, and the type of the laws' results.
+        absent: the result if the first argument is `Absent`: the name of an argument, a value, or a tuple of
             names and values. Without it, `Absent` is refused unless a law is registered for it.
 
     Raises:

@@ -61,7 +61,7 @@ REASON_NUMBERS = ", ".join(f"{number} {reason.text}" for number, reason in enume
 
 
 FAR = 1000.0  # m
-HARD = 2.0  # m/s: a blow that stops the vehicle from this speed is a crash, unless `crash.impulse` says otherwise
+HARD = 2.0  # m/s: an impact that stops the vehicle from this speed is a crash, unless `crash.impulse` is set
 INTERRUPTED = "interrupted"
 FLIES, DIVERGED, TURNED_OVER, STRUCK, LEFT_FENCE = map(float, range(5))  # values of `FlightState.ended`
 

@@ -26,7 +26,7 @@ Number: TypeAlias = float
 if TYPE_CHECKING:
 
     class NumberSet(float):
-        """What `vector.each` makes: numbers that a law treats as one, and that can also be counted and picked."""
+        """The result of `vector.each`: numbers that a law treats as one, and that can also be counted and picked."""
 
         def __new__(cls, *values: Number) -> Self:
             """A set of these numbers."""
@@ -60,7 +60,7 @@ PerQuadrotor: TypeAlias = NumberSet
 """A set with a number for each quadrotor, `vector.each(N)`."""
 
 Condition: TypeAlias = bool
-"""Whether something holds: a truth value, an array or a symbol of such."""
+"""A condition: a truth value, an array or a symbol of such."""
 
 
 def is_symbol(value: Any) -> bool:

@@ -46,7 +46,7 @@ def componentwise(cls: C) -> C:
 def _by_fields(operation: Callable[[Any, Any], Any], a: Any, b: Any) -> Any:
     if type(a) is type(b):
         return type(a)(*map(operation, a, b))
-    if is_rolled(b):  # a set that is one symbol knows what to do with a set of numbers
+    if is_rolled(b):  # a set that is one symbol handles a set of numbers
         return NotImplemented
     raise TypeError(f"cannot combine {type(a).__name__} with {type(b).__name__}")
 

@@ -1,4 +1,4 @@
-"""Contact of the compiled body: loads of floor and walls on its parts, and what they do to its motion and readings.
+"""Contact of the compiled body: loads of floor and walls on its parts, with their effect on motion and readings.
 
 What a mission does not have is `Absent`, and costs nothing. What is out of reach for a step (`DistantFloor`,
 `DistantWalls`) gives zero loads, added like any other.
@@ -42,7 +42,7 @@ class CompiledPlant(NamedTuple):
 
 
 class BodySurroundings(NamedTuple):
-    """What is held during a step: the plant, loads of the air, the feet's grip, the nearest walls."""
+    """The constants of a step: the plant, loads of the air, the feet's grip, the nearest walls."""
 
     plant: CompiledPlant
     air: Any
@@ -69,7 +69,7 @@ class DistantWalls(NamedTuple):
 
 
 class ZeroLoad(NamedTuple):
-    """The load of what is out of reach: zero, added like any other, so that the flight is the same to the last bit."""
+    """The load of parts out of reach: zero, added like any other, so that the flight is bit-identical."""
 
 
 def without_contact(plant: CompiledPlant) -> CompiledPlant:

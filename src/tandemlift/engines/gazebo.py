@@ -75,9 +75,9 @@ class GazeboBody:
 
     Args:
         mission: its step, `initial`, `plant`, `disturbance`, `ground` and `walls` are the body's.
-        vehicle: the vehicle that the pilot knows.
+        vehicle: the pilot's model of it.
         floor: a `parts.contact.feet.Floor` to stand on, or `Absent`.
-        walls: a `parts.contact.walls.Walls` that says how the mission's walls press, or `Absent`.
+        walls: a `parts.contact.walls.Walls` with the contact of the mission's walls, or `Absent`.
         connect: finds or starts a server, and connects to its plugin.
 
     Attributes:

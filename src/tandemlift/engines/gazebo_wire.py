@@ -56,7 +56,7 @@ REFUSALS = {
     2: "its vehicle has another number of quadrotors",
     3: "it cannot read the message",
     4: "a number in the message is not finite",
-    5: "the session is over: it has given this pilot up, or another one has said hello",
+    5: "the session is over: Gazebo has dropped this pilot, or another one has connected",
 }
 
 

@@ -29,9 +29,9 @@ class MuJoCoBody:
 
     Args:
         mission: its step, `initial`, `plant`, `disturbance` and `walls` are the body's.
-        vehicle: the vehicle that the pilot knows.
+        vehicle: the pilot's model of it.
         floor: a `parts.contact.feet.Floor` to stand on, or `Absent`.
-        walls: a `parts.contact.walls.Walls` that says how the mission's walls press, or `Absent`.
+        walls: a `parts.contact.walls.Walls` with the contact of the mission's walls, or `Absent`.
     """
 
     def __init__(self, scene: Scene, vehicle: Vehicle, floor: Any = NONE, walls: Any = NONE) -> None:

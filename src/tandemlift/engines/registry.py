@@ -1,7 +1,7 @@
 """Engines simulate the body of the vehicle. Each engine is one file and one entry here.
 
 The inputs of an engine are rotor thrusts, loads of the air and the person's push. It advances its body by a step, and
-returns the state after it and perfect sensor readings at its start. It knows neither the pilot nor sensor errors; it
+returns the state after it and perfect sensor readings at its start. It uses neither the pilot nor sensor errors; it
 reads vehicle, initial state, ground and walls of the scene.
 """
 
@@ -35,7 +35,7 @@ class EngineBody(Protocol):
     readings: Array
 
     def advance(self, thrusts: Array, loads: Array, force: Array, moment: Array) -> None:
-        """Advance by one step: set `state` to its end, and `readings` to what sensors measured at its start.
+        """Advance by one step: set `state` to its end, and `readings` to the perfect readings at its start.
 
         Args:
             thrusts: of every rotor [N] (4N,).

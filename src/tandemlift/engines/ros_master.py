@@ -34,7 +34,7 @@ SCRIPT = "rosmaster --core -p {port} & read -r end; kill $!; wait"  # ends when 
 
 
 def joined() -> str:
-    """What the environment asks to join: nothing (''), a running `master`, or also the `world` in Gazebo there.
+    """The environment's choice of what to join: nothing (''), a running `master`, or also the `world` in Gazebo there.
 
     Raises:
         InputError: the variable has another value.

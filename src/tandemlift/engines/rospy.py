@@ -33,7 +33,7 @@ def import_rospy() -> ModuleType:
     """The package rospy, of any version; its messages can be imported from then on.
 
     Raises:
-        InputError: rospy is not installed; the text says what to install.
+        InputError: rospy is not installed; the text names the package.
     """
     _mend_threads()
     with warnings.catch_warnings():

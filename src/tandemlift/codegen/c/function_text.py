@@ -37,7 +37,7 @@ class Statement(NamedTuple):
 
 
 class FunctionHead(NamedTuple):
-    """What stands before the body: comment, type of the result, name, parameters."""
+    """The head of a function: comment, type of the result, name, parameters."""
 
     comment: str
     result: str
@@ -59,7 +59,7 @@ def token(name: str) -> str:
 
 
 def wrapped(line: str, indent: str = "    ") -> str:
-    """A line broken where it is too long, and indented; what stands in braces has a line for each member."""
+    """A line broken if it is too long, and indented; a list in braces has a line for each member."""
     if len(indent + line) <= WIDTH:
         return indent + line.replace(JOINED, " ")
     found = BRACES.fullmatch(line)

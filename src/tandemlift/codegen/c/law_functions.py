@@ -1,4 +1,4 @@
-"""The function of C for a traced law, with its Python name, what its docstring says first, and its paper labels."""
+"""The function of C for a traced law, with its Python name, its docstring's first line, and its paper labels."""
 
 from __future__ import annotations
 

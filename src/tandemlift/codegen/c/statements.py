@@ -90,7 +90,7 @@ class Statements:
 
     @contextmanager
     def branch(self, opening: str, last: bool) -> Iterator[None]:
-        """Lines in braces; what is computed inside is known only inside. `last`: no other branch follows."""
+        """Lines in braces; values computed inside are known only inside. `last`: no other branch follows."""
         self._add("raw", (), opening, joins=opening.startswith("}"))
         before = dict(self._text), dict(self._existing), set(self._done)
         self._depth += 1
@@ -218,7 +218,7 @@ class Statements:
         return self._argument(value, nodes, pointer=True)
 
     def initialiser(self, value: Any) -> str:
-        """What a variable of a nested value is initialised with."""
+        """The initial value of a variable of a nested value."""
         nodes = tuple([as_symbol(self.graph, x).node for x in numbers_in(value)])
         existing = self._existing.get((self.unit.structs.of(value), nodes)) if is_nested(value) else None
         return existing.value if existing else self._initialiser(value)

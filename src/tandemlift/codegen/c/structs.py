@@ -74,7 +74,7 @@ def leaf_paths(value: Any) -> Iterator[tuple[str, Any]]:
 
 
 class Structs:
-    """The structs of a file, made when first asked for; those that a struct holds come before it."""
+    """The structs of a file, made on first use; those that a struct contains precede it."""
 
     def __init__(self, names: Names) -> None:
         self.names, self.all = names, dict[Any, Struct]()

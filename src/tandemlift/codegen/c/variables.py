@@ -1,4 +1,4 @@
-"""What gets a variable in a function of C: what the law calls by a name, what is used twice, what would be too long."""
+"""The variables of a function of C: values that the law names, that are used twice, or that would be too long."""
 
 from __future__ import annotations
 

@@ -28,7 +28,7 @@ class Compiled(NamedTuple):
     """The end of a compilation.
 
     Attributes:
-        what: name of what was compiled.
+        what: name of the compiled code.
         seconds: the time it took [s].
         is_kept: whether it is on disk for the next process.
         is_made: whether it succeeded.

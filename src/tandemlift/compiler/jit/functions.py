@@ -50,7 +50,7 @@ def compiled(
         rolls_from: size from which on sets are handled in loops; 0 for never.
 
     Returns:
-        A function from (rows, numbers of all arguments) to (rows, numbers of what it returns), depth first. The
+        A function from (rows, numbers of all arguments) to (rows, numbers of its results), depth first. The
         last row is repeated up to a multiple of the lanes.
 
     Raises:

@@ -46,7 +46,7 @@ class StoredCode(NamedTuple):
 
 
 def root() -> Path:
-    """Where machine code is kept: TANDEMLIFT_CACHE if set, else the user's cache folder."""
+    """The folder of machine code: TANDEMLIFT_CACHE if set, else the user's cache folder."""
     given = os.environ.get("TANDEMLIFT_CACHE")
     if given:
         return Path(given)
@@ -192,7 +192,7 @@ def _of_compiler() -> list[Path]:
 
 
 def key_of_module(text: str, about: Mapping[str, Any]) -> str:
-    """The key of a module as text, with what its callers need to know."""
+    """The key of a module as text, with the data that its callers need."""
     from tandemlift.compiler.jit.machine import processor
 
     facts = metadata.version("llvmlite"), processor(), json.dumps(about, sort_keys=True)

@@ -32,18 +32,18 @@ from tandemlift.core.law import LAWS, Choice, Elementwise
 
 FMA = "_fma_"
 LEAVES = "_leaves_"
-ALGEBRA = (algebra.__name__, vector.__name__)  # what they compare, the law that calls them compares
+ALGEBRA = (algebra.__name__, vector.__name__)  # their comparisons count as those of the calling law
 ONE_AT_A_TIME = threading.RLock()
 FUSES: ContextVar[bool] = ContextVar("fuses", default=True)  # whether a·b + c is rounded once
-# who is told of every law that is entered
+# notified of every law that is entered
 INTERCEPTOR: ContextVar[LawInterceptor | None] = ContextVar("interceptor", default=None)
 
 
 class LawInterceptor(Protocol):
-    """What may stand between a law and its caller while a graph is traced (`compiler.tracer.structured`)."""
+    """An interceptor between a law and its caller while a graph is traced (`compiler.tracer.structured`)."""
 
     def enter(self, law: Callable[..., Any], args: tuple[Any, ...]) -> Any:
-        """What the law returns for these arguments."""
+        """The result of the law for these arguments."""
 
     def leave(self, names: dict[str, Any], result: Any) -> Any:
         """The result of the innermost law; `names`: its local names and their values."""

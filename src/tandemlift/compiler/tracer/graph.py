@@ -53,7 +53,7 @@ class Graph:
         return found
 
     def needed(self, roots: Iterable[int], known: Container[int] = ()) -> list[int]:
-        """The unknown nodes that roots need, in order; what only known nodes need is left out."""
+        """The unknown nodes that roots need, in order, without those that only known nodes need."""
         seen, stack = set[int](), list(roots)
         while stack:
             node = stack.pop()

@@ -49,7 +49,7 @@ class Function(GraphText):
 
     @contextmanager
     def scope(self) -> Iterator[None]:
-        """Forget afterwards what is computed inside the context."""
+        """A context after which the values computed inside are forgotten."""
         lengths = [(known, len(known)) for known in self._known]
         read = dict(self.read)
         yield
@@ -60,7 +60,7 @@ class Function(GraphText):
 
     @contextmanager
     def afresh(self) -> Iterator[None]:
-        """Forget what was computed before, and afterwards what is computed inside, because memory has changed."""
+        """A context that forgets earlier values, and afterwards those computed inside, because memory has changed."""
         before = self._values, self._spread, self.sets.places
         self._values, self._spread, self.sets.places = {}, {}, {}
         yield
@@ -211,7 +211,7 @@ class Function(GraphText):
 
 
 def _suffix(kind: str) -> str:
-    """What LLVM calls a type in the name of a function."""
+    """The name of a type in an LLVM function's name."""
     if kind.startswith("<"):
         count, _, base = kind[1:-1].partition(" x ")
         return f"v{count}{_suffix(base)}"

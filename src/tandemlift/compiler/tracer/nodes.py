@@ -1,4 +1,4 @@
-"""What a symbol needs of the graph that holds its node."""
+"""The interface of a graph for its symbols."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any, Protocol
 
 
 class Nodes(Protocol):
-    """What a symbol needs of the `Graph` that holds its node; each method gives the number of a node."""
+    """The interface of a `Graph` for the symbols of its nodes; each method returns the number of a node."""
 
     counts: list[int]
 

@@ -1,4 +1,4 @@
-"""Errors for laws that cannot be traced: name, file, line, and what is allowed instead."""
+"""Errors for laws that cannot be traced: name, file, line, and allowed alternatives."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def is_ours(code: CodeType) -> bool:
 
 
 def refused(what: str, code: CodeType, line: int) -> TraceError:
-    """The error for a law that cannot be traced: file, line, name, reason, and what is allowed."""
+    """The error for a law that cannot be traced: file, line, name, reason, and allowed alternatives."""
     way = "" if is_ours(code) else "; or register the controller with compiled=False"
     return TraceError(f"{code.co_filename}, line {line}: {code.co_name}() {what}{way}")
 

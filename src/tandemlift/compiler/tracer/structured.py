@@ -64,7 +64,7 @@ class TracedLaw:
         number: of it in `Laws.all`.
         arguments: its arguments by name, with the inputs of the graph as numbers.
         graph: the graph.
-        result: what it returns.
+        result: of the law.
         locals: its local values by name.
         used: which numbers of the arguments, counted through all of them, the result needs.
         ends: the numbers of the result.
@@ -133,7 +133,7 @@ class Laws:
             INTERCEPTOR.reset(interceptor)
 
     def enter(self, law: Callable[..., Any], args: tuple[Any, ...]) -> Any:
-        """What a law returns: the numbers of a call, or, for a law without a function, what it makes of symbols."""
+        """The result of a law: the numbers of a call, or, for a law without a function, its result for symbols."""
         if not any(isinstance(x, Symbol) for x in numbers_in(args)):
             return self._inline(law, args)
         for counts in (True, False):
@@ -216,7 +216,7 @@ def _has_integers(value: Any) -> bool:
 
 
 def _shape(value: Any, counts: bool) -> Any:
-    """What selects the trace of a law; `counts`: whether integers are numbers of it, and not its structure."""
+    """The key of a law's trace; `counts`: whether integers are numbers of it, and not its structure."""
     if is_nested(value):
         return (type(value), *[_shape(part, counts) for part in value])
     if isinstance(value, Symbol):

@@ -21,7 +21,7 @@ INTEGER_OPS = {"add": operator.add, "mul": operator.mul}
 
 
 class Module:
-    """Functions, and what they declare."""
+    """Functions, and their declarations."""
 
     def __init__(self) -> None:
         self.functions: list[str] = []
@@ -59,7 +59,7 @@ class Text(ABC):
 
     @abstractmethod
     def scope(self) -> AbstractContextManager[None]:
-        """Forget afterwards what is computed inside the context."""
+        """A context after which the values computed inside are forgotten."""
 
     def do(self, text: str) -> None:
         """Write an instruction without a result."""

@@ -152,7 +152,7 @@ def _add_sensors(spec: Any, count: int, *, touching: bool) -> None:
             type=kind.mjSENS_CONTACT,
             objtype=mujoco.mjtObj.mjOBJ_BODY,
             objname="world",
-            reftype=mujoco.mjtObj.mjOBJ_XBODY,  # the body and what it carries
+            reftype=mujoco.mjtObj.mjOBJ_XBODY,  # the body and its parts
             refname="payload",
             intprm=[1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), NET_FORCE, 1],
         )

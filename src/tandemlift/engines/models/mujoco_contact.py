@@ -53,7 +53,7 @@ def _add_contact_pair(spec: Any, one: str, other: str, friction: float) -> None:
 
 
 class VehicleShapes(NamedTuple):
-    """The names of the vehicle's contact shapes: feet; what else meets the floor; what meets walls."""
+    """The names of the vehicle's contact shapes: feet; others that touch the floor; those that touch walls."""
 
     feet: list[str]
     on_floor: list[str]

@@ -1,4 +1,4 @@
-"""What an engine sees of a mission: the body, where it starts, and what surrounds it. Nothing of the pilot."""
+"""The view of a mission for an engine: the body, its start, and its surroundings, without the pilot."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Scene(Protocol):
 
     @property
     def plant(self) -> PlantTable:
-        """How the real body differs."""
+        """The differences of the real body."""
 
     @property
     def disturbance(self) -> DisturbanceTable:

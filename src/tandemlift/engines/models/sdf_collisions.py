@@ -38,7 +38,7 @@ FASTEST = 100.0  # m/s, limit of contact correction; Gazebo's default of 0.01 m/
 
 
 class CollisionSurface(NamedTuple):
-    """Of a shape: the bit of what it touches, friction, stiffness [N/m], damping [N·s/m]."""
+    """The contact of a shape: bit of its partners, friction, stiffness [N/m], damping [N·s/m]."""
 
     bit: int
     friction: float
@@ -69,7 +69,7 @@ class VehicleCollisions:
 
     Args:
         mission: its `plant`, `ground` and step.
-        vehicle: the vehicle that the pilot knows.
+        vehicle: the pilot's model of it.
     """
 
     def __init__(self, scene: Scene, vehicle: Vehicle) -> None:
