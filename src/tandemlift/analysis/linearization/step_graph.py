@@ -102,9 +102,11 @@ class StepGraph:
         floor = [self.traced.may_touch_floor] if self.traced.templates.has_floor else []
         return [s.node for s in [*floor, *self.traced.may_touch_walls, *self.traced.may_touch_hull]]
 
-    def reached(self, roots: Iterable[int], cut: Iterable[int] = (), *, every: bool = False) -> tuple[set[int], set]:
+    def reached(
+        self, roots: Iterable[int], cut: Iterable[int] = (), *, every: bool = False
+    ) -> tuple[set[int], set[tuple[str, int]]]:
         """(Nodes, inputs) that roots depend on, by derivatives, or by anything if `every`; not beyond `cut`."""
-        g, seen, inputs = self.graph, set(cut), set()
+        g, seen, inputs = self.graph, set(cut), set[tuple[str, int]]()
         stack = [root for root in roots if root not in seen]
         while stack:
             node = stack.pop()

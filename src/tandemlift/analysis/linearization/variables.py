@@ -142,7 +142,7 @@ class Outputs(NamedTuple):
     variables: tuple[Variable, ...]
 
 
-def outputs_from(sample: tuple, chosen: Sequence[str] | None, default: Sequence[str]) -> Outputs:
+def outputs_from(sample: object, chosen: Sequence[str] | None, default: Sequence[str]) -> Outputs:
     """The columns of channels.
 
     Args:

@@ -186,7 +186,13 @@ def channels_from(
 
 @law
 def following_step(
-    g: HandGuidance, m: FollowingState, phase: PhaseState, state: State, load: Vec3, reference: Reference, time: tuple
+    g: HandGuidance,
+    m: FollowingState,
+    phase: PhaseState,
+    state: State,
+    load: Vec3,
+    reference: Reference,
+    time: tuple[Number, Number],
 ) -> FollowingState:
     """The memory of the vehicle's limits, which do not apply on the ground, in a landing or in contact.
 
