@@ -13,7 +13,7 @@ PATIENCE = 900.0  # s, for what may have to compile a flight first
 
 
 def said(process: subprocess.Popen[str], pattern: str) -> re.Match[str]:
-    """Where a pattern is in the first line of a process's output that has it; one that stays silent is killed."""
+    """The match of a pattern in the first line of a process's output that has it; a silent process is killed."""
     assert process.stdout
     watch = threading.Timer(PATIENCE, process.kill)
     watch.start()

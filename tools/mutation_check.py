@@ -80,7 +80,7 @@ def chosen_in(folder: str) -> list[str]:
 
 
 def calls(file: str) -> Path:
-    """Where it is kept what the tests of a file call."""
+    """The file with the functions that the tests of a file call."""
     return OUT / "calls" / f"{digest(file.encode(), content(ROOT / file))}.json"
 
 
@@ -100,12 +100,12 @@ def calling(mutant: Mutant, folder: str) -> dict[str, float]:
 
 @cache
 def calls_in(folder: str) -> dict[str, tuple[float, list[str]]]:
-    """What the tests in a folder cost and call."""
+    """The cost of the tests in a folder, and the functions that they call."""
     return {test: said for file in chosen_in(folder) for test, said in json.loads(calls(file).read_text()).items()}
 
 
 class Book:
-    """What is known: the results so far, by mutant, and the reasons why some are equivalent."""
+    """The results so far, by mutant, and the reasons why some are equivalent."""
 
     def __init__(self) -> None:
         self.file, self.equivalent = OUT / "results.jsonl", tomllib.loads(REASONS.read_text("utf-8"))["equivalent"]

@@ -40,7 +40,7 @@ class Drawing:
 
     @cached_property
     def below(self) -> dict[str, set[str]]:
-        """What each room imports, directly or by others."""
+        """The imports of each room, directly or by others."""
         found: dict[str, set[str]] = {}
         for room in self.rooms:
             reached, new = set[str](), {room}
@@ -121,7 +121,7 @@ def _room(name: str, path: Path) -> str:
 
 
 def _imports(name: str, path: Path, modules: Iterable[str]) -> Iterator[Import]:
-    """What a module imports of its package, wherever it does."""
+    """The imports of a module from its package, at any place."""
     package = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
         if isinstance(node, ast.Import):

@@ -73,7 +73,7 @@ def entries_of(kind: type) -> list[Entry]:
 
 
 def metadata(hint: Any) -> tuple[Any, ...]:
-    """What an annotation says besides the type."""
+    """The text of an annotation besides the type."""
     return get_args(hint)[1:] if get_origin(hint) is Annotated else ()
 
 
@@ -142,7 +142,7 @@ def interface(kind: type) -> str:
 
 
 def summary(kind: type) -> str:
-    """What a definition says of itself."""
+    """The docstring of a definition."""
     return " ".join((kind.__doc__ or "").split())
 
 

@@ -41,7 +41,7 @@ class Gains(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """What the law keeps from one sample to the next."""
+    """The memory of the law from one sample to the next."""
 
     integral: Vec3  # m s
 

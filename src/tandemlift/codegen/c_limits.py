@@ -23,7 +23,7 @@ from tandemlift.simulation.loop.step import FlightModel
 from tandemlift.simulation.loop_code.external_inputs import SPAN, is_active
 from tandemlift.simulation.loop_code.traced_step import LimitProblem
 
-SOLVE = """/* The thrusts within limits that come closest to the wanted wrench
+SOLVE = """/* The thrusts within limits that come closest to the desired wrench
  * (tandemlift.parts.rotors.thrust_limit_solver.limited_thrusts); it ends after {most} steps at the latest. */
 static {state} {name}(const {problem} *problem, const {state} *held)
 {{

@@ -58,7 +58,7 @@ KINDS = (
     ),
     FindingKind(
         "saturated",
-        "a rotor that still works was at its limit for long at a stretch, or for a large fraction of the flight",
+        "a rotor that still works was at its limit for long, or for a large fraction of the flight",
         "use stronger rotors or a lighter payload, or lower the controller's gains",
         ("findings.saturated_time", "findings.saturated_fraction"),
     ),

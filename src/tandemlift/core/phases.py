@@ -86,7 +86,7 @@ class EndingKind(NamedTuple):
 OUTCOMES = (
     OutcomeKind(
         "landed",
-        "at the end the floor bears at least half of the weight and the speed is below `outcome.landed_speed`; without "
+        "at the end the floor carries at least half the weight and the speed is below `outcome.landed_speed`; without "
         "a floor, the landing is over and the vehicle is within `outcome.landed_height` of its start in z",
         False,
     ),

@@ -211,7 +211,7 @@ def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
 
 
 def _parts(m: Mission) -> dict[str, Iterator[CheckResult]]:
-    """The checks of each part, in order; none is computed before it is asked for."""
+    """The checks of each part, in order, each computed on demand."""
     step, end, pilot, controller = m.mission.step, m.mission.duration, m.pilot, m.controller
     hover, wind, schedule = m.hover, wind_on_parts(m), schedule_of(m)
     by_hand, supervised = schedule.compliance, m.supervision.model == "on"

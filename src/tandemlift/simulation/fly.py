@@ -157,7 +157,7 @@ def fly_many(
             notebook shows a bar.
 
     Returns:
-        One entry for each mission, in the order given, equal to the last bit to that of a flight alone.
+        One entry for each mission, in the order given, bit-identical to that of a flight alone.
 
     Raises:
         InputError: `keep` or `threads` is not one of the above, or a mission cannot be built and `refusals` is

@@ -213,7 +213,7 @@ def fly_stepwise(
     body: EngineBody | None = None,
     going: Callable[[], bool] = always,
 ) -> RawResult:
-    """Fly a mission step by step; with the compiled body equal to the compiled loop to the last bit.
+    """Fly a mission step by step; with the compiled body bit-identical to the compiled loop.
 
     Raises:
         EngineLost: the engine took no step at all. Later, the result has the flight so far, and the reason.

@@ -153,7 +153,7 @@ def margins_of(
 ) -> list[SolverMargin]:
     """The margins at the solution: of a free rotor to its limits [N], of a held one its gradient [weighted].
 
-    The problem's numbers are W B (4 × n), W (4), the wanted wrench (4), the thrusts without limits (n), the limits (n).
+    The problem's numbers: W B (4 × n), W (4), the desired wrench (4), the thrusts without limits (n), the limits (n).
     """
     size = max([len(row) for row in (*problem_rows, *found_rows) if row is not None], default=0)
 

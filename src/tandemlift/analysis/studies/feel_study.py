@@ -119,7 +119,7 @@ def yaw_drift_check(drift: SensorDrift, vehicle: Vehicle, threshold: float) -> C
 def rotor_checks(
     hover: HoverFacts, axes: Iterable[AxisFeel], thrust: float, tilts: Sequence[float], yaw_moment: float
 ) -> Iterator[CheckResult]:
-    """What real rotors must give beside the weight under the standard push, against thrust, tilt and yaw moment.
+    """Compare the rotors' demand beside the weight under the standard push with thrust, tilt and yaw moment.
 
     They add m a − F to the push F for the acceleration a of the answer, and hold against all of F at its final speed.
 

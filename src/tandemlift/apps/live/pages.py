@@ -27,7 +27,7 @@ ONLY_SERVER = (
     "sensors tared anew",
     "every other mission, your own among them, and the engines MuJoCo and Gazebo",
     "several people at one flight",
-    "findings while the flight goes on: what went badly, when and where",
+    "findings during the flight, with time and place",
     "saving into a folder, with the log of the flight; from here, `tandemlift run` makes that log of a saved file",
 )
 NO_MODULE = (

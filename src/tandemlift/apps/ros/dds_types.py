@@ -1,4 +1,4 @@
-"""The classes of ROS 2's messages for DDS, made from the definitions in `rosbags` when they are first asked for.
+"""The classes of ROS 2's messages for DDS, made from the definitions in `rosbags` on first use.
 
 On the wire a type `nav_msgs/Odometry` is called `nav_msgs::msg::dds_::Odometry_`. Fields that are not given are zero.
 """

@@ -167,13 +167,13 @@ VERSIONS = ("1", "2")
 
 
 def version_for(asked: str | None) -> str:
-    """The version of ROS to speak: 1 if there is rospy, else 2 if there is its DDS, unless one is asked for.
+    """The version of ROS to speak: 1 if there is rospy, else 2 if there is its DDS, unless one is chosen.
 
     Args:
         asked: one of `VERSIONS`, or None to take what is there.
 
     Raises:
-        InputError: none is asked for, and there is neither; the text says what to install.
+        InputError: none is chosen, and there is neither; the text names the package to install.
     """
     if asked is not None:
         return asked
@@ -193,7 +193,7 @@ def middleware_for(version: str, arguments: Sequence[str], *, asked: bool) -> Mi
     Args:
         version: one of `VERSIONS`.
         arguments: remappings NAME:=VALUE of ROS 1, as roslaunch gives them.
-        asked: whether a person asked for this version; if not, the error names the other where there is one.
+        asked: whether a person chose this version; if not, the error names the other if there is one.
 
     Raises:
         InputError: what it needs is not installed, or does not run.

@@ -174,7 +174,7 @@ class Pushes:
         return force * (most / size)
 
     def _point(self, frame: str, force: Array, torque: Array) -> Array:
-        """Where a force must act to have a torque about a frame's origin [m, body axes].
+        """The point at which a force has a torque about a frame's origin [m, body axes].
 
         Raises:
             InputError: there is no such point on the vehicle.

@@ -95,7 +95,7 @@ class Ros2:
         return found
 
     def _take(self, message: Any) -> None:
-        """Keep a parameter until it is asked for."""
+        """Keep a parameter until it is read."""
         self._set[message.key] = _value(message.value)
 
     def keep(self, values: Mapping[str, Any]) -> None:

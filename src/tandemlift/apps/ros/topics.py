@@ -71,7 +71,7 @@ class SampleTopics:
 
 
 class LatchedTopics:
-    """What is published once; latched, so that late subscribers get it too.
+    """The topics that are published once; latched, so that late subscribers get them too.
 
     Args:
         middleware: where to.
@@ -100,7 +100,7 @@ class LatchedTopics:
 
 
 class MarkerTopics:
-    """What is only displayed: moving markers, the flown path and the reference path.
+    """The topics that are only displayed: moving markers, the flown path and the reference path.
 
     Args:
         middleware: where to.

@@ -36,7 +36,7 @@ class Statements:
     Args:
         unit: the file of C.
         graph: the graph.
-        roots: all nodes that will be asked for.
+        roots: all nodes that will be needed.
         names: the local names of the law, and their values.
 
     Attributes:

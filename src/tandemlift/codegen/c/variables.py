@@ -28,7 +28,7 @@ class Variables:
     Args:
         unit: the file of C.
         graph: the graph that the function computes.
-        roots: all nodes that will be asked for.
+        roots: all nodes that will be needed.
         names: the local names of the law, and their values.
 
     Attributes:

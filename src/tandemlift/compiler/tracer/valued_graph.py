@@ -2,7 +2,7 @@
 
 Values are computed as machine code computes them, in IEEE doubles, each operation rounded by itself. Where Python asks
 a symbol for a truth, the answer is the present one, and is kept as a guard: for other inputs, the graph is right while
-all guards keep their truth. Where Python asks for a plain number, the inputs that it depends on are kept, with the
+all guards keep their truth. Where Python needs a plain number, the inputs that it depends on are kept, with the
 place that asked: the graph is right only for their present values.
 """
 
@@ -149,7 +149,7 @@ class ValuedGraph(Graph):
 
 
 def _asking() -> str:
-    """The function that asked for a plain number, and its module."""
+    """The function that needed a plain number, and its module."""
     frame = sys._getframe(2)
     while frame.f_back and frame.f_code.co_filename.startswith(HERE):
         frame = frame.f_back

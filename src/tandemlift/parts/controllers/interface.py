@@ -18,7 +18,7 @@ class ControllerTable(Table):
 
 
 def tilt_limit_of(table: ControllerTable) -> float | None:
-    """The largest tilt that a controller asks for [rad]; None without a limit."""
+    """The largest tilt that a controller commands [rad]; None without a limit."""
     return getattr(table, "max_tilt", None)
 
 

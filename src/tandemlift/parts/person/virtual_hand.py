@@ -2,7 +2,7 @@
 
 target, from outside → low-pass → place of the hand → spring, with a damper of the grip → force at the grip, bounded
 
-The spring is a part of the loop, so that a recorded hand gives the same flight again, to the last bit. The target is
+The spring is a part of the loop, so that a recorded hand gives a bit-identical flight. The target is
 smoothed, because a mouse moves in steps; so are grasp and release. World axes; the grip is a point of the body. The
 input also has requests to lift, to land and to stop.
 

@@ -67,7 +67,7 @@ class LoopDelay(NamedTuple):
 
 
 class PushFeedback(NamedTuple):
-    """How interactive guidance compensates a measured push.
+    """The compensation of a measured push by interactive guidance.
 
     Attributes:
         mass_error: error of the mass in the measured push [kg].

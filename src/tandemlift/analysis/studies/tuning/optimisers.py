@@ -51,7 +51,7 @@ class EvolutionStrategy:
 
     Args:
         parameters: numbers; the search begins at their present values.
-        seed: of its random numbers; equal seeds give equal candidates to the last bit.
+        seed: of its random numbers; equal seeds give bit-identical candidates.
         step: standard deviation of its first candidates; of a positive number, about the logarithm of a factor.
 
     Raises:

@@ -66,7 +66,7 @@ class TuningSearch:
         """Search until the budget is spent, the search converges, or Ctrl-C, which keeps the results so far.
 
         Args:
-            optimiser: that asks for candidates.
+            optimiser: proposes the candidates.
             is_front: whether it receives a cost for each goal, and not one for all together.
         """
         try:

@@ -23,9 +23,9 @@ class Erratum(NamedTuple):
         printed: the paper's text.
         right: the correction.
         shows: a number that shows the difference.
-        figures: those of the paper that it bears on.
+        figures: those of the paper that it concerns.
         evidence: the tests that hold the numbers, below `tests/`.
-        tables: those of the paper that it bears on.
+        tables: those of the paper that it concerns.
         setting: the key that selects the printed form, if that can fly.
     """
 
