@@ -75,7 +75,7 @@ def test_a_check_that_fails_is_named_with_its_numbers_and_with_what_to_do(tmp_pa
 def test_a_pilot_that_reads_the_true_push_has_nothing_to_tare(trial, asked):
     done, words = asked("tare")
     assert not done
-    assert "reads no sensor that could be tared" in words
+    assert "uses no sensor that could be tared" in words
 
 
 def test_a_mission_that_is_guided_by_the_clock_says_that_it_asks_nobody(trial, asked):

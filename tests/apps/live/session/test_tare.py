@@ -29,7 +29,7 @@ def test_hands_are_refused_while_the_sensors_are_tared(session, monkeypatch):
 @pytest.mark.parametrize(
     ("estimator", "push", "words"),
     [
-        ({}, "truth", "reads no sensor that could be tared"),
+        ({}, "truth", "uses no sensor that could be tared"),
         ({"tare": "hover"}, "estimate", "tares by itself, in steady hover"),
         ({}, "estimate", "the mission has none (estimator.tare_start)"),
     ],
