@@ -94,7 +94,7 @@ def test_services_answer_and_parameters_are_heeded_or_set_back(client_run):
     assert asked["lift"][1].startswith("Lift is refused: ")
     assert asked["lift"][1] in client_run.told["events"]
     assert asked["lift"][1] in client_run.log
-    assert "reads no sensor" in asked["tare"][1]
+    assert "uses no sensor" in asked["tare"][1]
     assert client_run.told["phases"][-1] == "idle"
     assert tomllib.loads(client_run.told["mission"])["admittance"]["mass"] == [4.0, 4.0, 4.0]
     assert any('parameter refused: admittance.threshold = "none"' in event for event in client_run.told["events"])
