@@ -6,7 +6,7 @@ and the nearest walls held.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -102,7 +102,7 @@ def first_motion(
     grip: Quarters[FootGrip],
     near: NearWalls,
     thrusts: PerRotor,
-    air: Any,
+    air: PartLoads | Absent,
     hand: PushSamples[Push],
 ) -> State:
     """The motion at the start of a step."""

@@ -9,8 +9,9 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.core.law import choice, law
-from tandemlift.core.vector import ZERO, Absent
-from tandemlift.parts.contact.feet import Floor, feet_load, grips_after_step
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Absent, Quarters, Quat
+from tandemlift.parts.contact.feet import Floor, FootGrip, feet_load, grips_after_step
 from tandemlift.parts.contact.hull import Hull, HullContact, hull_contact, hull_loads
 from tandemlift.parts.contact.impulses import WallImpulses, impulses_of_walls
 from tandemlift.parts.contact.walls import Walls, near_wall_contact, near_wall_loads
@@ -24,7 +25,8 @@ from tandemlift.parts.mechanics.loads import (
     resultant_of_quadrotors,
     without_negative_zero,
 )
-from tandemlift.parts.mechanics.rigid_body import RigidBody, State, apply_inertia, motion
+from tandemlift.parts.mechanics.push import Push
+from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench, apply_inertia, motion
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.rotors.allocation import Mixer
 
@@ -45,7 +47,7 @@ class BodySurroundings(NamedTuple):
     """The constants of a step: the plant, loads of the air, the feet's grip, the nearest walls."""
 
     plant: CompiledPlant
-    air: Any
+    air: PartLoad | Absent
     grip: Any
     near: Any
 
@@ -59,7 +61,7 @@ class DistantFloor(NamedTuple):
 class DistantHull(NamedTuple):
     """Rotors, guards and beam out of the floor's reach for a step: the same numbers, without force."""
 
-    hull: Any
+    hull: Hull | Absent
 
 
 class DistantWalls(NamedTuple):
@@ -91,7 +93,7 @@ def on_feet_only(plant: CompiledPlant) -> CompiledPlant:
 
 
 @choice(absent="floor")
-def floor_loads(floor: Any, b: BodySurroundings, s: State) -> Any:
+def floor_loads(floor: Floor | DistantFloor | Absent, b: BodySurroundings, s: State) -> PartLoad | ZeroLoad | Absent:
     """Loads of the floor on the quadrotors, or `Absent`."""
 
 
@@ -101,12 +103,12 @@ def _floor_out_of_reach(floor: DistantFloor, b: BodySurroundings, s: State) -> Z
 
 
 @floor_loads.register(Floor)
-def _floor(floor: Floor, b: BodySurroundings, s: State) -> Any:
+def _floor(floor: Floor, b: BodySurroundings, s: State) -> PartLoad:
     return feet_load(floor, b.grip, b.plant.frame, s)
 
 
 @choice(absent="walls")
-def wall_loads(walls: Any, b: BodySurroundings, s: State) -> Any:
+def wall_loads(walls: Walls | DistantWalls | Absent, b: BodySurroundings, s: State) -> PartLoads | ZeroLoad | Absent:
     """Loads of the walls on all parts, or `Absent`."""
 
 
@@ -116,23 +118,27 @@ def _walls_out_of_reach(walls: DistantWalls, b: BodySurroundings, s: State) -> Z
 
 
 @wall_loads.register(Walls)
-def _walls(walls: Walls, b: BodySurroundings, s: State) -> Any:
+def _walls(walls: Walls, b: BodySurroundings, s: State) -> PartLoads:
     return near_wall_loads(walls, b.near, b.plant.frame, s)
 
 
 @choice
-def struck_by_walls(walls: Any, b: BodySurroundings, s: State, u: Any, push: Any, dt: Any) -> Any:
+def struck_by_walls(
+    walls: Walls | DistantWalls | Absent, b: BodySurroundings, s: State, u: Wrench, push: Push, dt: Number
+) -> WallImpulses:
     """The `WallImpulses` at the start of a step of dt [s]."""
 
 
 @struck_by_walls.register(Absent)
 @struck_by_walls.register(DistantWalls)
-def _not_struck(walls: Any, b: BodySurroundings, s: State, u: Any, push: Any, dt: Any) -> WallImpulses:
+def _not_struck(
+    walls: DistantWalls | Absent, b: BodySurroundings, s: State, u: Wrench, push: Push, dt: Number
+) -> WallImpulses:
     return WallImpulses(s, Absent(), Absent())
 
 
 @struck_by_walls.register(Walls)
-def _struck(walls: Walls, b: BodySurroundings, s: State, u: Any, push: Any, dt: Any) -> WallImpulses:
+def _struck(walls: Walls, b: BodySurroundings, s: State, u: Wrench, push: Push, dt: Number) -> WallImpulses:
     plant = b.plant
     free, sprung = motion(b._replace(plant=plant._replace(walls=Absent())), s, u, push), motion(b, s, u, push)
     contact = near_wall_contact(walls, b.near, plant.frame, s)
@@ -140,7 +146,7 @@ def _struck(walls: Walls, b: BodySurroundings, s: State, u: Any, push: Any, dt: 
 
 
 @choice(absent="floor")
-def hull_contact_with(floor: Any, s: State) -> Any:
+def hull_contact_with(floor: Floor | DistantFloor | Absent, s: State) -> HullContact | Absent:
     """Contact of rotors, guards and beam with the floor; `Absent` where it is out of reach."""
 
 
@@ -150,12 +156,12 @@ def _hull_out_of_reach(floor: DistantFloor, s: State) -> Absent:
 
 
 @hull_contact_with.register(Floor)
-def _hull(floor: Floor, s: State) -> Any:
+def _hull(floor: Floor, s: State) -> HullContact | Absent:
     return contact_of_hull(floor.hull, floor, s)
 
 
 @choice(absent="hull")
-def contact_of_hull(hull: Any, floor: Floor, s: State) -> Any:
+def contact_of_hull(hull: Hull | DistantHull | Absent, floor: Floor, s: State) -> HullContact | Absent:
     """`hull_contact`, or `Absent` without a hull."""
 
 
@@ -170,7 +176,7 @@ def _distant_hull(hull: DistantHull, floor: Floor, s: State) -> Absent:
 
 
 @choice(absent="contact")
-def loads_of_hull(contact: Any, frame: PartsLayout, s: State) -> Any:
+def loads_of_hull(contact: HullContact | Absent, frame: PartsLayout, s: State) -> PartLoads | Absent:
     """Loads of a `HullContact` on all parts, or `Absent`."""
 
 
@@ -180,33 +186,35 @@ def _of_hull(contact: HullContact, frame: PartsLayout, s: State) -> PartLoads:
 
 
 @law
-def hull_loads_in(b: BodySurroundings, s: State) -> Any:
+def hull_loads_in(b: BodySurroundings, s: State) -> PartLoads | Absent:
     """Loads of the floor on rotors, guards and beam, or `Absent` where it is out of reach."""
     return loads_of_hull(hull_contact_with(b.plant.floor, s), b.plant.frame, s)
 
 
 @choice(absent="load")
-def load_about_center(load: Any, frame: PartsLayout, attitude: Any) -> Any:
+def load_about_center(
+    load: PartLoads | PartLoad | ZeroLoad | Absent, frame: PartsLayout, attitude: Quat
+) -> PartLoad | Absent:
     """A load about the centre of mass: of everything, of the quadrotors (vectors of sets), or `Absent`."""
 
 
 @load_about_center.register(PartLoads)
-def _of_all_parts(load: PartLoads, frame: PartsLayout, attitude: Any) -> PartLoad:
+def _of_all_parts(load: PartLoads, frame: PartsLayout, attitude: Quat) -> PartLoad:
     return resultant(frame, attitude, load) + NO_LOAD  # no zero of either sign but +0
 
 
 @load_about_center.register(PartLoad)
-def _of_quadrotors(load: PartLoad, frame: PartsLayout, attitude: Any) -> PartLoad:
+def _of_quadrotors(load: PartLoad, frame: PartsLayout, attitude: Quat) -> PartLoad:
     return resultant_of_quadrotors(frame, attitude, load) + NO_LOAD  # no zero of either sign but +0
 
 
 @load_about_center.register(ZeroLoad)
-def _of_no_contact(load: ZeroLoad, frame: PartsLayout, attitude: Any) -> PartLoad:
+def _of_no_contact(load: ZeroLoad, frame: PartsLayout, attitude: Quat) -> PartLoad:
     return NO_LOAD
 
 
 @choice(absent="rate")
-def with_load(load: Any, body: RigidBody, rate: State) -> Any:
+def with_load(load: PartLoad | Absent, body: RigidBody, rate: State) -> State:
     """The motion with a further load about the centre of mass."""
 
 
@@ -217,12 +225,12 @@ def _with_load(load: PartLoad, body: RigidBody, rate: State) -> State:
 
 
 @choice(absent="loads")
-def quadrotor_loads(loads: Any) -> Any:
+def quadrotor_loads(loads: PartLoads | PartLoad | ZeroLoad | Absent) -> PartLoad | ZeroLoad | Absent:
     """The part of loads that acts on the quadrotors, or `Absent`."""
 
 
 @quadrotor_loads.register(PartLoads)
-def _of_parts(loads: PartLoads) -> Any:
+def _of_parts(loads: PartLoads) -> PartLoad:
     return loads.quadrotors
 
 
@@ -237,7 +245,7 @@ def _of_zero(loads: ZeroLoad) -> ZeroLoad:
 
 
 @readings_with_load.register(ZeroLoad)
-def _unloaded(load: ZeroLoad, frame: PartsLayout, attitude: Any, readings: PerfectReadings) -> PerfectReadings:
+def _unloaded(load: ZeroLoad, frame: PartsLayout, attitude: Quat, readings: PerfectReadings) -> PerfectReadings:
     return PerfectReadings(
         readings.specific_force,
         without_negative_zero(readings.joint_force),
@@ -247,7 +255,7 @@ def _unloaded(load: ZeroLoad, frame: PartsLayout, attitude: Any, readings: Perfe
 
 
 @choice(absent="readings")
-def with_contact_force(load: Any, readings: PerfectReadings) -> Any:
+def with_contact_force(load: PartLoad | Absent, readings: PerfectReadings) -> PerfectReadings:
     """`readings`, with the force of a contact about the centre of mass."""
 
 
@@ -259,15 +267,17 @@ def _with_contact(load: PartLoad, readings: PerfectReadings) -> PerfectReadings:
 
 
 @choice(absent="grip")
-def grip_after(floor: Any, grip: Any, s: State) -> Any:
+def grip_after(
+    floor: Floor | DistantFloor | Absent, grip: Quarters[FootGrip] | Absent, s: State
+) -> Quarters[FootGrip] | Absent:
     """The feet's grip at the end of a step."""
 
 
 @grip_after.register(DistantFloor)
-def _in_the_air(floor: DistantFloor, grip: Any, s: State) -> Any:
+def _in_the_air(floor: DistantFloor, grip: Quarters[FootGrip], s: State) -> Quarters[FootGrip]:
     return grip
 
 
 @grip_after.register(Floor)
-def _feet(floor: Floor, grip: Any, s: State) -> Any:
+def _feet(floor: Floor, grip: Quarters[FootGrip], s: State) -> Quarters[FootGrip]:
     return grips_after_step(floor, grip, s)

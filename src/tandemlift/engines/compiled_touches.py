@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from tandemlift.core.law import choice
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent
@@ -22,7 +20,9 @@ from tandemlift.parts.mechanics.rigid_body import State
 
 
 @choice(absent="walls")
-def wall_contact_with(walls: Any, near: Any, frame: PartsLayout, s: State) -> Any:
+def wall_contact_with(
+    walls: Walls | DistantWalls | Absent, near: NearWalls | Absent, frame: PartsLayout, s: State
+) -> NearWallContact | Absent:
     """Contact with the near walls; `Absent` where they are out of reach."""
 
 
@@ -37,7 +37,7 @@ def _near_walls(walls: Walls, near: NearWalls, frame: PartsLayout, s: State) -> 
 
 
 @choice(absent="contact")
-def parts_touched(contact: Any, s: State) -> Any:
+def parts_touched(contact: HullContact | NearWallContact | Absent, s: State) -> SurfaceContacts | Absent:
     """The `SurfaceContacts` of a contact with floor or walls in state `s`, or `Absent`."""
 
 
@@ -52,7 +52,9 @@ def _on_walls(contact: NearWallContact, s: State) -> SurfaceContacts:
 
 
 @choice(absent="touches")
-def touches_in(touches: Any, plant: CompiledPlant, near: Any, s: State, t: Any, dt: Any) -> Any:
+def touches_in(
+    touches: Touches | Absent, plant: CompiledPlant, near: NearWalls | Absent, s: State, t: Number, dt: Number
+) -> Touches | Absent:
     """The touches after a step of dt [s] that began at time t [s] in state `s`."""
 
 

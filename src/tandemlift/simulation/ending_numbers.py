@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.algebra import atan2, chosen, maximum, sqrt, where
 from tandemlift.core.law import choice, law
 from tandemlift.core.phases import LEFT_FENCE, STRUCK, TURNED_OVER
 from tandemlift.core.types import Number
-from tandemlift.core.vector import Vec3, dot
+from tandemlift.core.vector import Absent, Vec3, dot
 from tandemlift.parts.guidance.fault_detection import distance_outside
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import body_z_axis
@@ -23,7 +23,7 @@ class EndingMoment(NamedTuple):
     number: Number
     time: Number
     state: State
-    impulse: Any
+    impulse: Number | Absent
 
 
 class EndingNumbers(NamedTuple):
@@ -40,18 +40,18 @@ class EndingNumbers(NamedTuple):
 
 
 @choice(absent="now")
-def moment_of(crash: Any, now: EndingMoment) -> Any:
+def moment_of(crash: CrashMemory | Absent, now: EndingMoment) -> EndingMoment:
     """The `EndingMoment` of a crash that is remembered; without one, that of now."""
 
 
 @moment_of.register(CrashMemory)
-def _remembered(crash: CrashMemory, now: EndingMoment) -> Any:
+def _remembered(crash: CrashMemory, now: EndingMoment) -> EndingMoment:
     before = EndingMoment(crash.number, crash.time, crash.state, crash.impulse)
     return chosen(crash.number, before, now)
 
 
 @choice(absent=0.0)
-def impulse_of(strike: Any, impulse: Any) -> Any:
+def impulse_of(strike: Strike | Absent, impulse: Number | Absent) -> Number:
     """The impulse of contact [N·s]; 0 if there is nothing to touch."""
 
 
@@ -61,17 +61,17 @@ def _impulse_of(strike: Strike, impulse: Number) -> Number:
 
 
 @choice(absent=0.0)
-def outside_of(fence: Any, position: Vec3) -> Any:
+def outside_of(fence: OuterFence | Absent, position: Vec3) -> Number:
     """The distance of a position outside the fence [m]."""
 
 
 @outside_of.register(OuterFence)
-def _outside_of(fence: OuterFence, position: Vec3) -> Any:
+def _outside_of(fence: OuterFence, position: Vec3) -> Number:
     return distance_outside(fence.low, fence.high, position)
 
 
 @law
-def ending_numbers(limits: CrashLimits, crash: Any, now: EndingMoment) -> EndingNumbers:
+def ending_numbers(limits: CrashLimits, crash: CrashMemory | Absent, now: EndingMoment) -> EndingNumbers:
     """The ending of a flight as numbers.
 
     Args:

@@ -19,6 +19,7 @@ from typing import Any
 
 from tandemlift.compiler.tracer.fused import INTERCEPTOR, fused
 from tandemlift.compiler.tracer.symbol import Symbol, converted, select, unary
+from tandemlift.core.types import Number
 
 SHIFT = 6755399441055744.0  # 1.5 · 2⁵²: adding it rounds to an integer, which is left in the low bits
 PI = 3.141592653589793
@@ -38,57 +39,57 @@ def polynomial(function: Callable[..., Any]) -> Callable[..., Any]:
     return call
 
 
-def as_float(i: Any) -> Any:
+def as_float(i: int) -> Number:
     """The double whose bits are those of a 64-bit integer."""
     if isinstance(i, Symbol):
         return converted("bitcast_f", i, "f")
     return struct.unpack("<d", struct.pack("<Q", i & 0xFFFFFFFFFFFFFFFF))[0]
 
 
-def as_bits(x: Any) -> Any:
+def as_bits(x: Number) -> int:
     """The 64-bit integer whose bits are those of a double."""
     if isinstance(x, Symbol):
         return converted("bitcast_i", x, "i")
     return struct.unpack("<q", struct.pack("<d", x))[0]
 
 
-def to_integer(x: Any) -> Any:
+def to_integer(x: Number) -> int:
     """A number truncated to an integer, as by `int`."""
     if not isinstance(x, Symbol):
         return int(x)
     return x if x.type == "i" else converted("fptosi", x, "i")
 
 
-def double(i: Any) -> Any:
+def double(i: int) -> Number:
     """An integer as a double."""
     return converted("sitofp", i, "f") if isinstance(i, Symbol) else float(i)
 
 
-def floor(x: Any) -> Any:
+def floor(x: Number) -> Number:
     """The largest integer that is not above x, as a double."""
     if isinstance(x, Symbol):
         return unary("floor", x)
     return math.copysign(math.floor(x), x) if math.isfinite(x) else x
 
 
-def sqrt(x: Any) -> Any:
+def sqrt(x: Number) -> Number:
     """√x; NaN below 0."""
     if isinstance(x, Symbol):
         return unary("sqrt", x)
     return math.sqrt(x) if x >= 0.0 else math.nan
 
 
-def absolute(x: Any) -> Any:
+def absolute(x: Number) -> Number:
     """|x|."""
     return abs(x)
 
 
-def minimum(a: Any, b: Any) -> Any:
+def minimum(a: Number, b: Number) -> Number:
     """a if it is below b, else b."""
     return select(a < b, a, b)
 
 
-def maximum(a: Any, b: Any) -> Any:
+def maximum(a: Number, b: Number) -> Number:
     """a if it is above b, else b."""
     return select(a > b, a, b)
 
@@ -97,18 +98,18 @@ where = select
 
 
 @polynomial
-def _round(x: Any) -> Any:
+def _round(x: Number) -> Number:
     return (x + SHIFT) - SHIFT
 
 
 @polynomial
-def _two_to(k: Any) -> Any:
+def _two_to(k: Number) -> Number:
     """2ᵏ for an integer-valued k in [−1022, 1023]."""
     return as_float((as_bits(k + SHIFT) - 0x4338000000000000 + 1023) << 52)
 
 
 @polynomial
-def _exp_parts(x: Any) -> Any:
+def _exp_parts(x: Number) -> tuple[Number, Number]:
     """(p, q) with eˣ = p (1 + q), |x| ≤ 709."""
     k = _round(x * 1.4426950408889634)
     r = x - k * 6.93147180369123816490e-01
@@ -127,21 +128,21 @@ def _exp_parts(x: Any) -> Any:
 
 
 @polynomial
-def exp(x: Any) -> Any:
+def exp(x: Number) -> Number:
     """eˣ, with x limited to [−708, 709]."""
     p, q = _exp_parts(select(x < -708.0, -708.0, select(x > 709.0, 709.0, x)))
     return p + p * q
 
 
 @polynomial
-def expm1(x: Any) -> Any:
+def expm1(x: Number) -> Number:
     """eˣ − 1, with x limited to [−708, 709]; exact in the limit of small x."""
     p, q = _exp_parts(select(x < -708.0, -708.0, select(x > 709.0, 709.0, x)))
     return (p - 1.0) + p * q
 
 
 @polynomial
-def tanh(x: Any) -> Any:
+def tanh(x: Number) -> Number:
     """E / (E + 2) with E = e²ᵃ − 1 of a = |x|, and the sign of x: odd to the last bit, of slope 1 at 0."""
     a = abs(x)
     p, q = _exp_parts(2.0 * select(a > 20.0, 20.0, a))
@@ -151,7 +152,7 @@ def tanh(x: Any) -> Any:
 
 
 @polynomial
-def log(x: Any) -> Any:
+def log(x: Number) -> Number:
     """x = 2ᵏ m, √½ ≤ m < √2, then 2 artanh((m − 1)/(m + 1))."""
     exponent = (as_bits(x) - 0x3FE6A09E667F3BCD) >> 52
     k, m = double(exponent), as_float(as_bits(x) - (exponent << 52))
@@ -167,7 +168,7 @@ def log(x: Any) -> Any:
 
 
 @polynomial
-def _sin_cos(x: Any) -> Any:
+def _sin_cos(x: Number) -> tuple[Number, Number]:
     k = _round(x * 0.6366197723675814)
     r = x - k * 1.57079632673412561417e00
     r = r - k * 6.07710050630396597660e-11
@@ -190,28 +191,28 @@ def _sin_cos(x: Any) -> Any:
 
 
 @polynomial
-def sin(x: Any) -> Any:
+def sin(x: Number) -> Number:
     """sin x, |x| < 1e5 rad."""
     sine, _ = _sin_cos(x)
     return sine
 
 
 @polynomial
-def cos(x: Any) -> Any:
+def cos(x: Number) -> Number:
     """cos x, |x| < 1e5 rad."""
     _, cosine = _sin_cos(x)
     return cosine
 
 
 @polynomial
-def tan(x: Any) -> Any:
+def tan(x: Number) -> Number:
     """tan x, |x| < 1e5 rad."""
     sine, cosine = _sin_cos(x)
     return sine / cosine
 
 
 @polynomial
-def _atan_small(t: Any) -> Any:
+def _atan_small(t: Number) -> Number:
     """|t| ≤ tan(π/8)."""
     z = t * t
     p = 0.03923044778479309 + z * -0.019175404711104932
@@ -224,7 +225,7 @@ def _atan_small(t: Any) -> Any:
 
 
 @polynomial
-def atan2(y: Any, x: Any) -> Any:
+def atan2(y: Number, x: Number) -> Number:
     """The angle of the point (x, y) in [−π, π]."""
     steep = abs(y) > abs(x)
     n, d = select(steep, -x, y), select(steep, y, x)

@@ -171,7 +171,7 @@ def _marked(count: int) -> frozenset[Callable[..., Any]]:
     return frozenset(LAWS)
 
 
-def _is_part_of_law(thing: Any) -> bool:
+def _is_part_of_law(thing: object) -> bool:
     """Whether an object is an unmarked function of the laws."""
     return isinstance(thing, types.FunctionType) and thing.__module__.split(".")[:2] == ["tandemlift", "laws"]
 
@@ -201,7 +201,7 @@ def run(law: Callable[..., Any], *args: Any) -> Any:
         LAW.reset(outer)
 
 
-def traced(thing: Any) -> Any:
+def traced(thing: object) -> Any:
     """The traced form of an object that a law uses by a global name."""
     if isinstance(thing, Elementwise):
         return thing.calling(traced(thing.scalar))
@@ -215,7 +215,7 @@ def traced(thing: Any) -> Any:
     return thing
 
 
-def rounded_twice(thing: Any) -> Any:
+def rounded_twice(thing: object) -> Callable[..., Any]:
     """The traced form of a law in which a·b + c is rounded after the product and after the sum."""
     run = traced(thing)
 

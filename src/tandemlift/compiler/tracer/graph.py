@@ -138,7 +138,7 @@ class Graph:
         """Refuse to give a number, which is known only when the graph is evaluated."""
         raise refused_here("takes a plain number out of its data: use the functions of tandemlift.core.algebra")
 
-    def power(self, base: Any, exponent: Any) -> Any:
+    def power(self, base: object, exponent: object) -> Any:
         """Refuse a power: NumPy and machine code would round it differently."""
         raise refused_here("takes a power by **: write a product, or power(x, p) of tandemlift.core.algebra")
 

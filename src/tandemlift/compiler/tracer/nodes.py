@@ -22,10 +22,10 @@ class Nodes(Protocol):
     def get(self, source: int, at: int) -> int:
         """The node of one value of a set."""
 
-    def constant(self, value: Any) -> int:
+    def constant(self, value: object) -> int:
         """The node of a constant."""
 
-    def number(self, value: Any) -> int:
+    def number(self, value: object) -> int:
         """The node of a value as a double."""
 
     def truth(self, symbol: Any) -> bool:
@@ -34,5 +34,5 @@ class Nodes(Protocol):
     def plain(self, symbol: Any, *, rounded: bool = False) -> float:
         """The value of a symbol where Python needs a plain number, or one to round to a whole number."""
 
-    def power(self, base: Any, exponent: Any) -> Any:
+    def power(self, base: object, exponent: object) -> Any:
         """A power, written as `**`, of which the base or the exponent is a symbol."""

@@ -15,7 +15,7 @@ import types
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeGuard
 
 from tandemlift.compiler.tracer.fused import FUSES, INTERCEPTOR, run
 from tandemlift.compiler.tracer.graph import LEAVES, Graph
@@ -29,12 +29,12 @@ class _NotOnItsOwn(Exception):
     """A law cannot be traced apart from its caller."""
 
 
-def is_nested(value: Any) -> bool:
+def is_nested(value: object) -> TypeGuard[tuple[Any, ...] | list[Any]]:
     """Whether a value consists of others: a named tuple, a tuple or a list."""
     return isinstance(value, (tuple, list))
 
 
-def numbers_in(value: Any) -> Iterator[Any]:
+def numbers_in(value: object) -> Iterator[Any]:
     """The numbers of a nested value, depth first: symbols and floats."""
     if is_nested(value):
         for part in value:
@@ -103,7 +103,7 @@ def calls_in(graph: Graph, roots: Iterable[int]) -> list[int]:
     return list(dict.fromkeys(int(op[5:]) for op in ops if op.startswith("call ")))
 
 
-def as_symbol(graph: Graph, value: Any) -> Symbol:
+def as_symbol(graph: Graph, value: object) -> Symbol:
     """A number as a symbol of a graph."""
     return value if isinstance(value, Symbol) else Symbol(graph, graph.constant(value), "f")
 
@@ -207,16 +207,16 @@ class Laws:
         return with_numbers(called.result, iter(ends))
 
 
-def _is_integer(value: Any) -> bool:
+def _is_integer(value: object) -> bool:
     return isinstance(value, int) and not isinstance(value, bool)
 
 
-def _has_integers(value: Any) -> bool:
+def _has_integers(value: object) -> bool:
     return any(map(_has_integers, value)) if is_nested(value) else _is_integer(value)
 
 
-def _shape(value: Any, counts: bool) -> Any:
-    """The key of a law's trace; `counts`: whether integers are numbers of it, and not its structure."""
+def _shape(value: object, counts: bool) -> object:
+    """The key of a law\'s trace; `counts`: whether integers are numbers of it, and not its structure."""
     if is_nested(value):
         return (type(value), *[_shape(part, counts) for part in value])
     if isinstance(value, Symbol):
@@ -230,7 +230,7 @@ def _shape(value: Any, counts: bool) -> Any:
     return "is", type(value), value
 
 
-def _arguments(value: Any, counts: bool) -> Iterator[Any]:
+def _arguments(value: object, counts: bool) -> Iterator[Any]:
     """The numbers of arguments, depth first, with the integers among them if these count."""
     if is_nested(value):
         for part in value:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import operator
+from collections.abc import Iterator
 from fractions import Fraction
 from types import ModuleType
 from typing import Any, ClassVar
@@ -36,7 +37,7 @@ class Symbol:
         """Size of the set; 0 for a single number."""
         return self.graph.counts[self.node]
 
-    def packed(self, value: Any) -> Any:
+    def packed(self, value: object) -> Any:
         """A set of values as one symbol; any other value unchanged."""
         return Symbol(self.graph, self.graph.pack(value), "f") if is_set(value) else value
 
@@ -45,88 +46,88 @@ class Symbol:
             raise refused_here("takes the length of a number")
         return self.rolled
 
-    def __getitem__(self, which: Any) -> Any:
+    def __getitem__(self, which: int | slice) -> Symbol:
         count, graph = len(self), self.graph
         if isinstance(which, slice):
             first, _, step = which.indices(count)
             return Symbol(graph, graph.take(self.node, first, step, len(range(count)[which])), "f")
         return Symbol(graph, graph.get(self.node, range(count)[which]), "f")
 
-    def __add__(self, other: Any) -> Any:
+    def __add__(self, other: object) -> Any:
         return _arithmetic("fadd", "add", self, other)
 
-    def __radd__(self, other: Any) -> Any:
+    def __radd__(self, other: object) -> Any:
         return _arithmetic("fadd", "add", other, self)
 
-    def __sub__(self, other: Any) -> Any:
+    def __sub__(self, other: object) -> Any:
         return _arithmetic("fsub", "sub", self, other)
 
-    def __rsub__(self, other: Any) -> Any:
+    def __rsub__(self, other: object) -> Any:
         return _arithmetic("fsub", "sub", other, self)
 
-    def __mul__(self, other: Any) -> Any:
+    def __mul__(self, other: object) -> Any:
         return _arithmetic("fmul", "mul", self, other)
 
-    def __rmul__(self, other: Any) -> Any:
+    def __rmul__(self, other: object) -> Any:
         return _arithmetic("fmul", "mul", other, self)
 
-    def __truediv__(self, other: Any) -> Any:
+    def __truediv__(self, other: object) -> Any:
         return _arithmetic("fdiv", "", self, other)
 
-    def __rtruediv__(self, other: Any) -> Any:
+    def __rtruediv__(self, other: object) -> Any:
         return _arithmetic("fdiv", "", other, self)
 
-    def __neg__(self) -> Any:
+    def __neg__(self) -> Symbol:
         return _made(self.graph, "fneg", self)
 
-    def __pos__(self) -> Any:
+    def __pos__(self) -> Symbol:
         return self
 
-    def __abs__(self) -> Any:
+    def __abs__(self) -> Symbol:
         return _made(self.graph, "fabs", self)
 
-    def __lt__(self, other: Any) -> Any:
+    def __lt__(self, other: object) -> Any:
         return _compared("olt", "slt", self, other)
 
-    def __le__(self, other: Any) -> Any:
+    def __le__(self, other: object) -> Any:
         return _compared("ole", "sle", self, other)
 
-    def __gt__(self, other: Any) -> Any:
+    def __gt__(self, other: object) -> Any:
         return _compared("ogt", "sgt", self, other)
 
-    def __ge__(self, other: Any) -> Any:
+    def __ge__(self, other: object) -> Any:
         return _compared("oge", "sge", self, other)
 
-    def __eq__(self, other: Any) -> Any:
+    def __eq__(self, other: object) -> Any:
         return _compared("oeq", "eq", self, other)
 
-    def __ne__(self, other: Any) -> Any:
+    def __ne__(self, other: object) -> Any:
         return _compared("une", "ne", self, other)
 
-    def __and__(self, other: Any) -> Any:
+    def __and__(self, other: object) -> Symbol:
         return _bitwise("and", self, other)
 
-    def __or__(self, other: Any) -> Any:
+    def __or__(self, other: object) -> Symbol:
         return _bitwise("or", self, other)
 
-    def __xor__(self, other: Any) -> Any:
+    def __xor__(self, other: object) -> Symbol:
         return _bitwise("xor", self, other)
 
     __rand__, __ror__, __rxor__ = __and__, __or__, __xor__
 
-    def __invert__(self) -> Any:
+    def __invert__(self) -> Symbol:
         return _bitwise("xor", self, self.type == "b" or -1)
 
-    def __lshift__(self, count: int) -> Any:
+    def __lshift__(self, count: int) -> Symbol:
         return _bitwise("shl", self, count)
 
-    def __rshift__(self, count: int) -> Any:
+    def __rshift__(self, count: int) -> Symbol:
         return _bitwise("ashr", self, count)
 
-    def __pow__(self, power: Any) -> Any:
+    def __pow__(self, power: object) -> Any:
         return self.graph.power(self, power)
 
-    def __rpow__(self, base: Any) -> Any:
+    def __rpow__(self, base: object) -> Any:
         return self.graph.power(base, self)
 
     def __bool__(self) -> bool:
@@ -140,38 +141,38 @@ class Symbol:
 
     __index__ = __trunc__ = __int__
 
-    def __round__(self, digits: int | None = None) -> Any:
+    def __round__(self, digits: int | None = None) -> float:
         return round(self.graph.plain(self, rounded=True), digits)
 
-    def __iter__(self) -> Any:
+    def __iter__(self) -> Iterator[Symbol]:
         if self.rolled:
             return (self[i] for i in range(self.rolled))
         raise refused_here("takes a number apart as if it were a vector")
 
 
-def _graph_of(*values: Any) -> Nodes:
+def _graph_of(*values: object) -> Nodes:
     return next(v.graph for v in values if isinstance(v, Symbol))
 
 
-def _is_integer(value: Any) -> bool:
+def _is_integer(value: object) -> bool:
     """Whether a value is an integer of integer arithmetic."""
     return value.type == "i" if isinstance(value, Symbol) else type(value) is int
 
 
-def _node_of(graph: Nodes, value: Any) -> int:
+def _node_of(graph: Nodes, value: object) -> int:
     """The node of a value in its own type."""
     if isinstance(value, tuple):
         return graph.pack(value)
     return value.node if isinstance(value, Symbol) else graph.constant(value)
 
 
-def _type_of(value: Any) -> str:
+def _type_of(value: object) -> str:
     if isinstance(value, Symbol):
         return value.type
     return "b" if isinstance(value, bool) else "i" if isinstance(value, int) else "f"
 
 
-def _is_operand(value: Any, other: Any) -> bool:
+def _is_operand(value: object, other: object) -> bool:
     """Whether a value can be an operand next to another: a number, or a set next to a symbol of equal size."""
     if isinstance(value, tuple):
         return is_set(value) and isinstance(other, Symbol) and other.rolled == len(value)
@@ -180,7 +181,7 @@ def _is_operand(value: Any, other: Any) -> bool:
     return hasattr(value, "__float__") and not getattr(value, "ndim", 0)
 
 
-def _arithmetic(op: str, whole: str, a: Any, b: Any) -> Any:
+def _arithmetic(op: str, whole: str, a: object, b: object) -> Any:
     if not (_is_operand(a, b) and _is_operand(b, a)):
         return _with_array(op, whole, a, b)
     graph = _graph_of(a, b)
@@ -204,12 +205,12 @@ def _with_array(op: str, whole: str, a: Any, b: Any) -> Any:
     return made
 
 
-def _made(graph: Nodes, op: str, *values: Any) -> Symbol:
+def _made(graph: Nodes, op: str, *values: object) -> Symbol:
     """A new double from doubles."""
     return Symbol(graph, graph.node(op, tuple([graph.number(v) for v in values]), "f"), "f")
 
 
-def _compared(predicate: str, whole: str, a: Any, b: Any) -> Any:
+def _compared(predicate: str, whole: str, a: object, b: object) -> Any:
     if not _is_operand(b, a):
         return NotImplemented
     graph = _graph_of(a, b)
@@ -223,14 +224,14 @@ def _compared(predicate: str, whole: str, a: Any, b: Any) -> Any:
     return Symbol(graph, graph.node(op, args, "b"), "b")
 
 
-def _bitwise(op: str, a: Any, b: Any) -> Any:
+def _bitwise(op: str, a: object, b: object) -> Symbol:
     graph, kind = _graph_of(a, b), _type_of(a)
     if kind != _type_of(b) or kind == "f":
         raise refused_here(f"joins {NAMES[kind]} and {NAMES[_type_of(b)]} bit by bit: only truths, or integers")
     return Symbol(graph, graph.node(op, (_node_of(graph, a), _node_of(graph, b)), kind), kind)
 
 
-def select(condition: Any, a: Any, b: Any) -> Any:
+def select(condition: object, a: object, b: object) -> Any:
     """a where the condition holds, else b."""
     if not isinstance(condition, Symbol):
         return a if condition else b
@@ -247,12 +248,12 @@ def select(condition: Any, a: Any, b: Any) -> Any:
     return Symbol(graph, graph.node("select", (test.node, *nodes), kind), kind)
 
 
-def unary(op: str, x: Any) -> Any:
+def unary(op: str, x: Symbol) -> Any:
     """A root, a floor or an absolute value."""
     return _made(x.graph, op, x)
 
 
-def converted(op: str, x: Any, kind: str) -> Any:
+def converted(op: str, x: Symbol, kind: str) -> Any:
     """A value in another type: `bitcast` keeps the bits, `fptosi` truncates to an integer."""
     return Symbol(x.graph, x.graph.node(op, (x.node,), kind), kind)
 
@@ -275,7 +276,7 @@ def once_rounded(a: Any, b: Any, c: Any) -> Any:
         return math.inf if exact > 0 else -math.inf
 
 
-def _is_exact(a: Any, b: Any) -> bool:
+def _is_exact(a: float, b: float) -> bool:
     """Whether a product of two numbers needs no rounding."""
     return math.isfinite(a * b) and Fraction(a) * Fraction(b) == Fraction(a * b)
 
