@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from tandemlift.core.faults import ALARM_TEXTS, CHECKS
 from tandemlift.core.findings import Finding, FindingName, finding
 from tandemlift.core.phases import IDLE, LAND, LIFT, REASONS, STOPPED
 from tandemlift.core.vector import Absent, dot, total
-from tandemlift.missions import Mission
-from tandemlift.missions.tables.outcomes import Promise, promise_of
+from tandemlift.missions.tables.outcomes import FindingsTable, Promise, promise_of
 from tandemlift.parts.compliance.following import FollowingState
 from tandemlift.parts.guidance.supervision import ALARM, PHASE, EventLog, SupervisionState
+from tandemlift.parts.mechanics.trajectories import PhasesTable
+from tandemlift.parts.person.requests import RequestTable
 from tandemlift.simulation.loop.detectors import Detectors
 from tandemlift.simulation.loop.excess import Excess
 from tandemlift.simulation.loop.oscillation import HalfPeriods, Swings
@@ -38,27 +39,26 @@ def findings_of(p: FlightPlan, flight_state: FlightState, steps: int, outcome: s
         steps: that were flown.
         outcome: of the flight.
     """
-    mission, d = p.mission, flight_state.detectors
+    mission, limits, d = p.mission, p.mission.findings, flight_state.detectors
     promise = promise_of(mission.promise, mission.pilot.guidance)
     found: list[Finding] = [
-        *_oscillations(d.oscillation.swings, mission),
-        *_deviations(d, promise, mission, p.dt),
-        *_saturations(d.saturation, steps, mission, p.dt),
+        *_oscillations(d.oscillation.swings, limits),
+        *_deviations(d, promise, promise.rms_promised(mission.pilot.guidance), limits.reach_distance, p.dt),
+        *_saturations(d.saturation, steps, limits, p.dt),
         *_out_of_reach(d.reach, p),
         *_unanswered(d.push.unanswered, p.dt),
-        *_unpushed(d.unpushed.excess, mission.findings.unpushed_distance, p.dt),
-        *_refuted(d.refuted, mission.findings.refuted_time, p.dt),
-        *_cannot_follow(flight_state, mission),
+        *_unpushed(d.unpushed.excess, limits.unpushed_distance, p.dt),
+        *_refuted(d.refuted, limits.refuted_time, p.dt),
+        *_cannot_follow(flight_state, mission.compliance.following.heading_timeout),
         *_touches(flight_state),
-        *_by_events(flight_state, mission),
+        *_by_events(flight_state),
         *_by_lost_rotor(p, flight_state),
         *_not_landed(p, flight_state, outcome, steps * p.dt),
     ]
-    return tuple(sorted((f for f in found if f.kind not in mission.findings.ignore), key=lambda f: f.time))
+    return tuple(sorted((f for f in found if f.kind not in limits.ignore), key=lambda f: f.time))
 
 
-def _oscillations(swings: Swings, mission: Mission) -> Iterator[Finding]:
-    f = mission.findings
+def _oscillations(swings: Swings, f: FindingsTable) -> Iterator[Finding]:
     for name, m in zip(swings._fields, swings, strict=True):
         if m.halves:
             limit = f.oscillation_speed if name == "vertical" else f.oscillation_rate
@@ -99,8 +99,9 @@ def _excess(
     )
 
 
-def _deviations(d: Detectors, promise: Promise, mission: Mission, dt: float) -> Iterator[Finding]:
-    far, reach = math.sqrt(d.distance.worst), mission.findings.reach_distance
+def _deviations(d: Detectors, promise: Promise, promised: float, reach: float, dt: float) -> Iterator[Finding]:
+    """Findings beyond a promise; `promised`: its RMS distance, `reach`: distance of an unreachable reference [m]."""
+    far = math.sqrt(d.distance.worst)
     if d.distance.steps and far > reach:
         text = f"the reference is {far:.3g} m from the vehicle and moves away from it"
         yield _excess("out-of-reach", text, d.distance, dt, "distance from the reference", far, "m", reach)
@@ -108,7 +109,6 @@ def _deviations(d: Detectors, promise: Promise, mission: Mission, dt: float) -> 
         text = f"{far:.3g} m from its reference (promised: {promise.distance:g} m)"
         yield _excess("off-track", text, d.distance, dt, "distance from the reference", far, "m", promise.distance)
     rms = math.sqrt(d.squares / d.steps) if d.steps else 0.0
-    promised = promise.rms_promised(mission.pilot.guidance)
     if rms > promised:
         text = f"{rms:.3g} m from its reference, root mean square (promised: {promised:g} m)"
         yield finding(
@@ -137,8 +137,7 @@ def _degrees(angle: float) -> str:
     return f"{math.degrees(angle):.3g}°"
 
 
-def _saturations(m: Excess | Absent, steps: int, mission: Mission, dt: float) -> Iterator[Finding]:
-    f = mission.findings
+def _saturations(m: Excess | Absent, steps: int, f: FindingsTable, dt: float) -> Iterator[Finding]:
     if isinstance(m, Absent) or not steps:
         return
     fraction, long = m.steps / steps, m.stretch > f.saturated_time
@@ -197,10 +196,10 @@ def _refuted(m: Excess, longest: float, dt: float) -> Iterator[Finding]:
         yield _excess("push-refuted", text, m, dt, "push that the motion refutes", size, "N", None)
 
 
-def _cannot_follow(flight_state: FlightState, mission: Mission) -> Iterator[Finding]:
+def _cannot_follow(flight_state: FlightState, limit: float) -> Iterator[Finding]:
     m = getattr(flight_state.memory.guidance, "following", None)
     if isinstance(m, FollowingState) and m.most_urgent:
-        reason, limit = REASONS[int(m.most_urgent) - 1], mission.compliance.following.heading_timeout
+        reason = REASONS[int(m.most_urgent) - 1]
         lands = ", so that it lands" if m.longest_lost > limit else ""
         text = f"the vehicle cannot follow: {reason.text}, for {m.lasted:.3g} s{lands}"
         yield finding("cannot-follow", text, time=m.first, duration=m.lasted, quantity=reason.text)
@@ -220,7 +219,7 @@ def _touches(flight_state: FlightState) -> Iterator[Finding]:
         )
 
 
-def _by_events(flight_state: FlightState, mission: Mission) -> Iterator[Finding]:
+def _by_events(flight_state: FlightState) -> Iterator[Finding]:
     """Findings from the events of the supervision."""
     supervising = getattr(flight_state.memory.guidance, "supervision", None)
     if not isinstance(supervising, SupervisionState):
@@ -265,8 +264,9 @@ def _by_lost_rotor(p: FlightPlan, flight_state: FlightState) -> Iterator[Finding
 
 def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str, end: float) -> Iterator[Finding]:
     """The finding of a scheduled landing that should be over by the end [s], but is not."""
-    asked = _landing_asked(p.mission)
-    if outcome == "flying" and asked + landing_time(p.mission) <= end:
+    by_hand = p.mission.compliance if p.mission.pilot.guidance == "interactive" else None
+    asked = _landing_asked(p.mission.phases, p.mission.requests)
+    if outcome == "flying" and asked + landing_time(p.mission.phases, by_hand) <= end:
         position = flight_state.state.position
         height = position.z - p.model.flight_state.state.position.z
         text = f"{height:.3g} m above its start at the end, with a landing requested at {asked:g} s"
@@ -282,9 +282,9 @@ def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str, end: flo
         )
 
 
-def _landing_asked(mission: Mission) -> float:
+def _landing_asked(phases: PhasesTable, requests: Sequence[RequestTable]) -> float:
     """The time of the mission's first landing request without a later lift [s]; infinite if there is none."""
-    times = {action: [r.time for r in mission.requests if r.action == action] for action in ("lift", "land")}
-    land_start, last_lift = mission.phases.land_start, max([mission.phases.lift_start, *times["lift"]])
+    times = {action: [r.time for r in requests if r.action == action] for action in ("lift", "land")}
+    land_start, last_lift = phases.land_start, max([phases.lift_start, *times["lift"]])
     lands = [*times["land"], *([] if land_start is None else [land_start])]
     return min((t for t in lands if t >= last_lift), default=math.inf)

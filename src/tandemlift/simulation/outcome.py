@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from tandemlift.core.phases import ENDING_OF, FAR, LEFT_FENCE, STRUCK, TURNED_OVER
 from tandemlift.core.vector import ZERO, Absent, Vec3
 from tandemlift.flight.record import Ending
-from tandemlift.missions import Mission
+from tandemlift.parts.guidance.compliance_table import ComplianceTable
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.trajectories import PhasesTable
+from tandemlift.parts.person.requests import RequestTable
 from tandemlift.simulation.ending_numbers import EndingMoment, ending_numbers
 from tandemlift.simulation.loop.log_sample import Sample
 from tandemlift.simulation.loop.step import FlightState
@@ -60,23 +63,18 @@ def outcome_of(p: FlightPlan, s: FlightState, last: Sample, highest: float, end:
         end: time of its end [s].
     """
     mission, start = p.mission, p.model.flight_state.state.position.z
-    if asks_for_lift(mission, end) and highest - start < _lifted(mission):
+    lifted = min(mission.outcome.lifted_height, 0.5 * mission.phases.height)
+    if asks_for_lift(mission.phases, mission.requests, end) and highest - start < lifted:
         return "not-lifted"
     return "landed" if _stands(p, s.state, last, start, end) else "flying"
 
 
-def asks_for_lift(mission: Mission, end: float) -> bool:
-    """Whether a mission has a lift that should be over by its end [s]."""
-    p = mission.phases
+def asks_for_lift(p: PhasesTable, requests: Sequence[RequestTable], end: float) -> bool:
+    """Whether a flight has a lift that should be over by its end [s]."""
     if p.height <= 0.0:
         return False
-    asked = [p.lift_start, *(r.time for r in mission.requests if r.action == "lift")]
+    asked = [p.lift_start, *(r.time for r in requests if r.action == "lift")]
     return min(asked) + p.lift_duration < end
-
-
-def _lifted(mission: Mission) -> float:
-    """The height above its start above which a vehicle has lifted [m]."""
-    return min(mission.outcome.lifted_height, 0.5 * mission.phases.height)
 
 
 def _stands(p: FlightPlan, state: State, last: Sample, start: float, end: float) -> bool:
@@ -91,9 +89,8 @@ def _stands(p: FlightPlan, state: State, last: Sample, start: float, end: float)
     return slow and abs(state.position.z - start) < mission.outcome.landed_height
 
 
-def landing_time(mission: Mission) -> float:
-    """The longest time that a landing takes from the height to which the mission lifts [s]."""
-    if mission.pilot.guidance == "scheduled":
-        return mission.phases.land_duration
-    height = mission.phases.height + mission.compliance.touchdown_depth
-    return max(mission.phases.land_duration, STEEPEST * height / mission.compliance.max_descent_speed) + MARGIN
+def landing_time(p: PhasesTable, by_hand: ComplianceTable | None) -> float:
+    """The longest time of a landing from the height of the lift [s]; `by_hand`: limits of interactive guidance."""
+    if by_hand is None:
+        return p.land_duration
+    return max(p.land_duration, STEEPEST * (p.height + by_hand.touchdown_depth) / by_hand.max_descent_speed) + MARGIN

@@ -6,7 +6,7 @@ step by step by a counter-based generator with the seed's key.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,8 +24,8 @@ from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.wind import start_wind, wind_noise_of
 from tandemlift.parts.person.person import PersonState
-from tandemlift.parts.person.person_table import Walk, path_legs_from, start_person, waypoints_from
-from tandemlift.parts.rotors.rotors import start_rotors
+from tandemlift.parts.person.person_table import PersonTable, Walk, path_legs_from, start_person, waypoints_from
+from tandemlift.parts.rotors.rotors import ActuatorsTable, start_rotors
 from tandemlift.parts.sensors.readings import (
     Readings,
     SensorNoise,
@@ -35,7 +35,8 @@ from tandemlift.parts.sensors.readings import (
     readings_of,
     start_sensing,
 )
-from tandemlift.parts.sensors.sensors_table import sensors_from
+from tandemlift.parts.sensors.sensor_faults import sensor_faults_from
+from tandemlift.parts.sensors.sensors_table import SensorsTable, sensors_from
 from tandemlift.simulation.assembly.crash_limits import crash_limits_from, start_crash
 from tandemlift.simulation.assembly.detector_limits import finding_limits_from, start_detectors
 from tandemlift.simulation.assembly.estimators import start_estimators
@@ -77,28 +78,25 @@ class AssembledFlight(NamedTuple):
     seeds: NDArray[np.float64]
 
 
-def delays_from(mission: Mission) -> NDArray[np.int64]:
+def delays_from(
+    sensors: SensorsTable, actuators: ActuatorsTable, person: PersonTable, step: float
+) -> NDArray[np.int64]:
     """Delays in steps, in the order of `DelayLines`: of IMU, motion, commands, sight, and additional sensors."""
-    simulated, real = mission.sensors.model == "simulated", mission.actuators.model == "rotors"
-    seconds = [
-        mission.sensors.delay * simulated,
-        mission.sensors.motion.delay * simulated,
-        mission.actuators.delay * real,
-    ]
-    steps = [round(s / mission.mission.step) for s in seconds]
-    sight = round(mission.person.delay / mission.mission.step) - 1  # a step of delay is inherent
-    accompanied = mission.person.model not in ("none", "virtual-hand")
-    more = [round(s.delay / mission.mission.step) * simulated for s in mission.sensors.additional]
+    simulated, real = sensors.model == "simulated", actuators.model == "rotors"
+    seconds = [sensors.delay * simulated, sensors.motion.delay * simulated, actuators.delay * real]
+    steps = [round(s / step) for s in seconds]
+    sight = round(person.delay / step) - 1  # a step of delay is inherent
+    accompanied = person.model not in ("none", "virtual-hand")
+    more = [round(s.delay / step) * simulated for s in sensors.additional]
     return np.array([*steps, max(sight, 0) * accompanied, *more], dtype=np.int64)
 
 
-def delay_lines_from(mission: Mission, delays: NDArray[np.int64]) -> DelayLines | Absent:
-    """The delay lines of a mission; `Absent` if it has none."""
+def delay_lines_from(names: Sequence[str], delays: NDArray[np.int64]) -> DelayLines | Absent:
+    """The delay lines of these delays, the last of which are of additional sensors; `Absent` if all are 0."""
     if not delays.any():
         return Absent()
     imu, motion, command, view, *more = [Delayed() if d else Absent() for d in delays]
-    names = tuple(s.name for s in mission.sensors.additional)
-    return DelayLines(imu, motion, command, view, by_name(names)(*more))
+    return DelayLines(imu, motion, command, view, by_name(tuple(names))(*more))
 
 
 def start_metrics(far: Clearance | Absent, person: PersonState | Absent) -> RunningMetrics:
@@ -121,14 +119,21 @@ def start_perception(
     mission: Mission, vehicle: Vehicle, state: State, chance: np.random.Generator, at_rest: Callable[[], Any]
 ) -> StartedPerception:
     """Sensors and estimators before the first step; `at_rest` gives the perfect readings at the start."""
-    devices, noise = sensors_from(mission.sensors, vehicle.count, mission.mission.step, chance)
+    step = mission.mission.step
+    devices, noise = sensors_from(mission.sensors, vehicle.count, step, chance)
     sensing: Any = Absent()
     readings: Any = Absent()
     if not isinstance(devices, Absent):
         sensing = start_sensing(devices, state, at_rest(), state.attitude)
         readings = readings_of(sensing)
-    estimators, known = with_watchdogs(mission, *start_estimators(mission, vehicle, state, readings), readings)
-    devices, sensing = with_faults(mission, devices, sensing)
+    estimators, known = start_estimators(mission, vehicle, state, readings)
+    if mission.supervision.model != "none":
+        watchdog = mission.supervision.watchdog
+        estimators, known = with_watchdogs(watchdog, mission.sensors, step, estimators, known, readings)
+    if mission.sensor_faults:
+        names = [s.name for s in mission.sensors.additional]
+        faults = sensor_faults_from(mission.sensor_faults, vehicle.count, names, step)
+        devices, sensing = with_faults(faults, devices, sensing)
     return StartedPerception(
         devices=devices, sensing=sensing, noise=noise, readings=readings, estimators=estimators, known=known
     )
@@ -153,21 +158,22 @@ def assemble(mission: Mission) -> AssembledFlight:
     Raises:
         InputError: a part of the mission cannot be built.
     """
-    vehicle = Vehicle.from_settings(mission.vehicle)
+    vehicle, step = Vehicle.from_settings(mission.vehicle), mission.mission.step
     chance = np.random.default_rng(mission.mission.seed)
     pilot, memory = start_pilot(mission, vehicle)
     state, plant = start_state(mission), plant_from(mission, vehicle)
     grip = Absent() if isinstance(plant.floor, Absent) else _grip(plant.floor, state)
-    delays = delays_from(mission)
+    delays = delays_from(mission.sensors, mission.actuators, mission.person, step)
     rotors, spinning, thrusts = _start_rotors(mission, vehicle, plant.floor, delayed=bool(delays[2]))
-    wind, wind_state = start_wind(mission.wind, vehicle, mission.mission.step, chance)
-    near, hand = near_walls_from(plant.walls), push_kind(mission)
+    wind, wind_state = start_wind(mission.wind, vehicle, step, chance)
+    near, hand = near_walls_from(plant.walls), push_kind(mission.pushes, mission.person)
     at_rest = lambda: readings_at_rest(plant, state, grip, near, thrusts, hand)  # noqa: E731
     senses = start_perception(mission, vehicle, state, chance, at_rest)
     waypoints = waypoints_from(mission.person, mission.corridor)
     walk = Walk(waypoints, state, mission.initial.euler[2], mission.phases.height)
-    person, memory_of_person, tremor_noise = start_person(mission.person, vehicle, mission.mission.step, walk)
-    limits = crash_limits_from(mission, vehicle)
+    person, memory_of_person, tremor_noise = start_person(mission.person, vehicle, step, walk)
+    mass, floor = vehicle.mass * mission.plant.mass_scale, mission.ground.model != "none"
+    limits = crash_limits_from(mission.crash, mission.supervision, mass, floor=floor)
     flight_state = FlightState(
         state=state,
         memory=memory,
@@ -184,7 +190,7 @@ def assemble(mission: Mission) -> AssembledFlight:
         impulse=Absent() if isinstance(limits.strike, Absent) else 0.0,
         crash=start_crash(limits, state),
         ended=FLIES,
-        detectors=start_detectors(mission),
+        detectors=start_detectors(mission.actuators),
     )
     model = FlightModel(
         flight_state=flight_state,
@@ -196,10 +202,11 @@ def assemble(mission: Mission) -> AssembledFlight:
         estimator=senses.estimators,
         sources=PilotSources(READS[mission.pilot.state], READS[mission.pilot.push], MAPS[mission.pilot.map]),
         person=person,
-        delays=delay_lines_from(mission, delays),
+        delays=delay_lines_from([s.name for s in mission.sensors.additional], delays),
         limits=limits,
         finding_limits=finding_limits_from(mission, vehicle),
     )
     given = StepInputs(hand, ZERO, StepNoise(wind_noise_of(wind), senses.noise, tremor_noise), memory_of_person)
-    tables = input_tables_from(mission, path_legs_from(mission.person, person, walk))
+    legs = path_legs_from(mission.person, person, walk)
+    tables = input_tables_from(mission.pushes, mission.wind, mission.all_walls, legs)
     return AssembledFlight(model, given, tables, delays, np.array(key_from_seed(mission.mission.seed)))

@@ -6,22 +6,21 @@ from typing import Any
 
 from tandemlift.core.algebra import cos
 from tandemlift.core.phases import FLIES, HARD
-from tandemlift.core.types import GRAVITY
+from tandemlift.core.types import GRAVITY, Number
 from tandemlift.core.vector import Absent, vec3
-from tandemlift.missions import Mission
+from tandemlift.missions.tables.outcomes import CrashTable
+from tandemlift.parts.guidance.supervision_table import SupervisionTable
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.simulation.loop.ending import Aftermath, CrashLimits, CrashMemory, OuterFence, Strike
 
 
-def crash_limits_from(mission: Mission, vehicle: Vehicle) -> CrashLimits:
-    """The limits of a mission; each part that it does not have is `Absent`."""
-    c, fence, mass = mission.crash, mission.supervision.fence, vehicle.mass * mission.plant.mass_scale
+def crash_limits_from(c: CrashTable, supervision: SupervisionTable, mass: Number, *, floor: bool) -> CrashLimits:
+    """The limits of a flight with this true mass [kg]; each part that it does not have is `Absent`."""
+    fence, watched = supervision.fence, supervision.model == "on"
     max_impulse = mass * HARD if c.impulse is None else c.impulse
-    watched = mission.supervision.model == "on"
     return CrashLimits(
         min_upright=cos(c.tilt) if c.tilt < 3.14159 else -2.0,
-        strike=Absent() if mission.ground.model == "none" else Strike(mass * GRAVITY, max_impulse),
+        strike=Strike(mass * GRAVITY, max_impulse) if floor else Absent(),
         fence=OuterFence(vec3(fence.low), vec3(fence.high), c.fence_margin) if watched else Absent(),
         aftermath=Aftermath(c.fly_on) if c.fly_on > 0.0 else Absent(),
     )

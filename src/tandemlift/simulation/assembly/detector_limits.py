@@ -12,6 +12,7 @@ from tandemlift.missions import Mission
 from tandemlift.missions.tables.outcomes import FindingsTable, promise_of
 from tandemlift.parts.compliance.admittance import AdmittanceTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.rotors.rotors import ActuatorsTable
 from tandemlift.simulation.loop.detectors import ASLEEP, Detectors, FindingLimits, PushLimits
 from tandemlift.simulation.loop.oscillation import OscillationLimits, Swings
 
@@ -42,9 +43,9 @@ def finding_limits_from(mission: Mission, vehicle: Vehicle) -> FindingLimits:
     )
 
 
-def start_detectors(mission: Mission) -> Detectors:
+def start_detectors(actuators: ActuatorsTable) -> Detectors:
     """The detectors' memory before the first step."""
-    if mission.actuators.model == "rotors":
+    if actuators.model == "rotors":
         return ASLEEP
     return ASLEEP._replace(saturation=Absent(), reach=Absent())
 
