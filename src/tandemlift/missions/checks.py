@@ -17,6 +17,8 @@ from tandemlift.missions.tables.setting_checks import outcome_refusals, part_ref
 from tandemlift.parts.mechanics.push import point_checks
 from tandemlift.parts.mechanics.trajectories import phase_checks
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import VehicleTable
+from tandemlift.parts.person.person_table import PersonTable
 from tandemlift.parts.sensors.sensor_list import ADDITIONAL
 
 MAX_STEPS = 1_000_000_000
@@ -40,7 +42,7 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from log_checks(m.mission, sample_size(m))
     yield from phase_checks(m.phases)
     yield from part_refusals(m)
-    yield from recording_checks(m)
+    yield from recording_checks(m.person, m.vehicle)
     yield from outcome_refusals(m)
 
 
@@ -80,10 +82,10 @@ def log_checks(t: MissionTable, sample: int) -> Iterator[CheckResult]:
         yield refused(f"mission.log_interval = {t.log_interval}: {longer}, or the log exceeds {MAX_LOG / 1e9:.0f} GB")
 
 
-def recording_checks(m: Mission) -> Iterator[CheckResult]:
+def recording_checks(person: PersonTable, table: VehicleTable) -> Iterator[CheckResult]:
     """Refusal of a recorded hand that cannot be read, or whose grip is beside the vehicle."""
-    path = m.person.recording
-    if path is None or m.person.model != "virtual-hand":
+    path = person.recording
+    if path is None or person.model != "virtual-hand":
         return
     try:
         grips = np.unique(read_recording(path).hands[:, GRIP], axis=0)
@@ -91,4 +93,4 @@ def recording_checks(m: Mission) -> Iterator[CheckResult]:
         yield refused(str(error))
         return
     for grip in grips:
-        yield from point_checks(f"person.recording: a grip in {path}", grip, Vehicle.from_settings(m.vehicle))
+        yield from point_checks(f"person.recording: a grip in {path}", grip, Vehicle.from_settings(table))

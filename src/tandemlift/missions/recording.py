@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import atomic_write, unpacked_size
-from tandemlift.missions.tables.mission import Mission
 
 WIDTH = 14  # numbers of a `VirtualHandInput`
 ENGINE = "compiled"  # the default engine
@@ -112,13 +111,13 @@ def unpacked_recording(path: Path, changed: int) -> Path:
     return folder / MISSION_FILE
 
 
-def engine_of(mission: Mission) -> str:
+def engine_of(recording: str | None) -> str:
     """The default engine of a mission: the engine of its recording, if it has one.
 
     Raises:
         InputError: the recording cannot be read.
     """
-    return read_recording(mission.person.recording).engine if mission.person.recording else ENGINE
+    return read_recording(recording).engine if recording else ENGINE
 
 
 def portable(tables: dict[str, Any]) -> dict[str, Any]:

@@ -127,7 +127,7 @@ def fly(mission: Mission, engine: str | None = None, *, progress: Progress | Non
         OSError: the engine in another process took no step at all.
         InputError: the engine is unknown, or the mission cannot be built.
     """
-    engine = engine_of(mission) if engine is None else engine
+    engine = engine_of(mission.person.recording) if engine is None else engine
     p = FlightPlan(mission, engine)
     rows, body = p.steps // p.every + 1, body_of(p)
     with progress_or_own(mission.mission.name, progress, "steps") as shown:

@@ -60,7 +60,7 @@ class Simulation:
     """
 
     def __init__(self, mission: Mission, engine: str | None = None) -> None:
-        self.mission, self.engine = mission, engine_of(mission) if engine is None else engine
+        self.mission, self.engine = mission, engine_of(mission.person.recording) if engine is None else engine
         self._prepare()
         self._begin()
 

@@ -89,7 +89,7 @@ def gazebo(
         )
         print_summary(flight)
         if not by_hand:
-            copy_recording(loaded, folder)
+            copy_recording(loaded.person.recording, folder)
         write_flight(flight, folder, figures=not no_figures, photographs=photographs)
         print_report_path(folder, time.perf_counter() - began)
     count = print_findings([(flight.name, flight)])

@@ -98,7 +98,7 @@ def run(
     with results_folder(out, Path("out") / name) as folder:
         flight = _fly(loaded, engine, chosen)
         print_summary(flight)
-        copy_recording(loaded, folder)
+        copy_recording(loaded.person.recording, folder)
         write_flight(flight, folder, figures=not no_figures)
         print_report_path(folder, time.perf_counter() - began)
     count = print_findings([(flight.name, flight)])

@@ -121,3 +121,4 @@ def setting_warnings(m: Mission) -> Iterator[CheckResult]:
     yield from wind_warnings(m.wind)
     tared = None if e.tare_start is None or m.pilot.push == "truth" else e.tare_start + e.tare_duration
     yield from person_warnings(m.person, guidance, tared)
+    yield from m.controller.checks(m.mission.step)

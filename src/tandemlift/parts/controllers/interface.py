@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple, TypeVar
 
+from tandemlift.core.errors import CheckResult
 from tandemlift.core.keys import Table, key
 from tandemlift.core.law import choice
 from tandemlift.core.vector import ZERO, Vec3
@@ -15,6 +17,10 @@ class ControllerTable(Table):
     """`[controller]`: the controller and its settings; each controller adds its own keys."""
 
     name: str = key(..., None, "name of the controller, one of `tandemlift controllers`", example="nftsmc")
+
+    def checks(self, step: float) -> Iterator[CheckResult]:
+        """Warnings of keys that are expected to fly badly with a step [s]; a controller may override it."""
+        yield from ()
 
 
 def tilt_limit_of(table: ControllerTable) -> float | None:

@@ -11,16 +11,15 @@ Tune first: the boundary layer Φ against the step, then ξ (the bandwidth on th
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field
 
-from tandemlift.core.errors import FlightWarning
+from tandemlift.core.errors import CheckResult, warned
 from tandemlift.core.keys import AtLeastOne6, NonNegative6, Positive6, Table, Tilt, key
 from tandemlift.core.law import choice, law
-from tandemlift.core.types import GRAVITY, Number, is_symbol
+from tandemlift.core.types import GRAVITY, Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.parts.controllers.attitude_reference import (
     AttitudeReference,
@@ -118,6 +117,20 @@ class NFTSMCSettings(ControllerTable):
         None, "rad", "largest angle of the desired force from the vertical", unset="there is no limit", example=0.5
     )
 
+    def checks(self, step: float) -> Iterator[CheckResult]:
+        """A warning where the switching may chatter: (λ₁ + λ₂/Φ) · step ≥ 2 on an axis."""
+        if self.switching == "sign":
+            return
+        gains, widths = self.gains, self.boundary_layer
+        slopes = [l1 + l2 / w for l1, l2, w in zip(gains.lambda_1, gains.lambda_2, widths, strict=True)]
+        worst = max(range(6), key=slopes.__getitem__)
+        if slopes[worst] * step >= 2.0:
+            axis = ("x", "y", "z", "roll", "pitch", "yaw")[worst]
+            yield warned(
+                f"(lambda_1 + lambda_2/boundary_layer) * step = {slopes[worst] * step:.3g} on {axis} is not below 2: "
+                f"the switching may chatter; widen controller.boundary_layer or shorten mission.step"
+            )
+
 
 class ExactRates(NamedTuple):
     """Euler rates from body rates by the exact relation."""
@@ -214,27 +227,9 @@ def _surface(s: NFTSMCSettings, first: int) -> Surface:
     return Surface(pick(g.xi), pick(g.eta), exponent, pick(g.lambda_1), pick(g.lambda_2), kinds[s.switching])
 
 
-def _warn_of_chatter(s: NFTSMCSettings, step: float) -> None:
-    if s.switching == "sign":
-        return
-    loop = [l1 + l2 / w for l1, l2, w in zip(s.gains.lambda_1, s.gains.lambda_2, s.boundary_layer, strict=True)]
-    if any(map(is_symbol, loop)):
-        return  # the mission was warned of when its numbers were known
-    worst = max(range(6), key=loop.__getitem__)
-    if loop[worst] * step >= 2.0:
-        axis = ("x", "y", "z", "roll", "pitch", "yaw")[worst]
-        warnings.warn(
-            f"(lambda_1 + lambda_2/boundary_layer) * step = {loop[worst] * step:.3g} on {axis} is not below 2: "
-            f"the switching may chatter; widen controller.boundary_layer or shorten mission.step",
-            FlightWarning,
-            stacklevel=2,
-        )
-
-
 @register("nftsmc", NFTSMCSettings)
 def start(s: NFTSMCSettings, vehicle: Vehicle, step: float) -> tuple[NFTSMC, CommandFilterState | NoMemory]:
     """Nonsingular fast terminal sliding mode control of position and attitude (the paper's)."""
-    _warn_of_chatter(s, step)
     filtered = s.attitude_reference_derivatives == "filtered"
     gains = NFTSMC(
         mass=vehicle.mass,

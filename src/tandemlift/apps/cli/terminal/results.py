@@ -15,7 +15,6 @@ from tandemlift.core.files import atomic_write
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
-    from tandemlift.missions import Mission
 
 FILES = ("mission.toml", "flight.npz", "metrics.json", "metrics.csv", "metrics.tex", "findings.json", "report.html")
 FIGURES = "figures"  # folder of the figures
@@ -78,13 +77,12 @@ def write_flight(flight: Flight, folder: Path, *, figures: bool, photographs: Se
         write_flight_files(flight, folder, figures=figures, photographs=photographs, progress=progress)
 
 
-def copy_recording(mission: Mission, folder: Path) -> None:
-    """Copy the recording of a mission, if it has one, into the folder, so that the folder can be flown anywhere."""
+def copy_recording(path: str | None, folder: Path) -> None:
+    """Copy the recording of a mission, if there is one, into the folder, so that the folder can be flown anywhere."""
     from tandemlift.missions.recording import recording_bytes
 
-    if mission.person.recording is None:
+    if path is None:
         return
-    path = mission.person.recording
     with atomic_write(folder / Path(path).name) as partial:
         partial.write_bytes(recording_bytes(path))
 

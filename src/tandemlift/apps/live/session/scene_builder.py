@@ -57,7 +57,7 @@ def scene_of(
     """
     vehicle = Vehicle.from_settings(mission.vehicle)
     floor = floor_from(mission, vehicle)
-    height = _lowest(mission, vehicle) if isinstance(floor, Absent) else float(floor.height)
+    height = _lowest(mission.initial.position[2], vehicle) if isinstance(floor, Absent) else float(floor.height)
     scene = scene_of_tables(tables_of(mission), vehicle, engine, height)
     scene["spring"], scene["parameters"] = spring, list(parameters)
     return scene
@@ -85,11 +85,11 @@ def scene_of_tables(tables: Mapping[str, Any], vehicle: Vehicle, engine: str, fl
     )
 
 
-def _lowest(mission: Mission, vehicle: Vehicle) -> float:
-    """Height of the soles at the start of a level flight [m]."""
+def _lowest(height: float, vehicle: Vehicle) -> float:
+    """Height of the soles of a level vehicle with its centre of mass at a height [m]."""
     fleet = vehicle.quadrotors
     soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
-    return float(mission.initial.position[2] + np.min(soles[:, 2]))
+    return float(height + np.min(soles[:, 2]))
 
 
 def _vehicle(vehicle: Vehicle) -> SceneVehicle:
