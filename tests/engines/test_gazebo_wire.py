@@ -180,7 +180,7 @@ def test_a_pilot_whose_place_was_taken_is_told(vehicle, wire_to):
         first = wire_to(plugin)
         fly_by(first, 3)
         wire_to(plugin)
-        with pytest.raises(ConnectionError, match=r"refuses step 4: the session is over: .* another one has said"):
+        with pytest.raises(ConnectionError, match=r"refuses step 4: the session is over: .* another one has connected"):
             first.advance()
 
 

@@ -25,7 +25,7 @@ SHORT = {"mission.duration": 0.4, "mission.log_interval": DT, "initial.euler": [
 REASONS = {  # how it is lost, and what is said of it
     "ends": "nothing listens at UDP port {port} any more: Gazebo has ended",
     "is silent": "the plugin on UDP port {port} did not answer within 0.3 s (STEP 151)",
-    "gives the pilot up": "the plugin refuses step 151: the session is over: it has given this pilot up",
+    "gives the pilot up": "the plugin refuses step 151: the session is over: Gazebo has dropped this pilot",
 }
 
 

@@ -130,7 +130,7 @@ def test_a_pilot_that_a_joined_world_gives_up_writes_what_it_has_flown(joined, k
     kill_after(lambda: until(lambda: "the pilot is silent" in server.last_output()) and [])
     code, errors = command("run", "hover", "--engine", "gazebo", "--out", "out")
     assert code == 3
-    assert "refuses step 501: the session is over: it has given this pilot up" in errors
+    assert "refuses step 501: the session is over: Gazebo has dropped this pilot" in errors
     check_written(tmp_path / "out")
 
 

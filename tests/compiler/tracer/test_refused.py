@@ -87,12 +87,12 @@ def test_so_it_is_by_the_pilot_as_an_object(own):
 
 
 def test_what_the_guide_says_of_it_is_real(own):
-    said = re.search(r"^error: (/home/me/my_pd\.py, line 57: .*)$", GUIDE, re.MULTILINE)[1]
+    said = re.search(r"^error: (/home/me/my_pd\.py, line 61: .*)$", GUIDE, re.MULTILINE)[1]
     path = own("")
     path.write_text(LAW.replace("    e, de = ", "    if state.position.z > 0.0: pass\n    e, de = ", 1))
     mission = tl.load_mission("hover", {"mission.duration": 0.1}, controller=load_controller(path))
     found = refusal(lambda: tl.fly(mission))
-    assert re.sub(r"line \d+", "line 57", found) == said.replace("/home/me/my_pd.py", str(path))
+    assert re.sub(r"line \d+", "line 61", found) == said.replace("/home/me/my_pd.py", str(path))
 
 
 def test_a_law_that_makes_too_many_operations_is_refused(own, monkeypatch):

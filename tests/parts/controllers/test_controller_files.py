@@ -147,17 +147,17 @@ WRONG_FILES = {
     "a typo at its top": ((("class Memory(NamedTuple)", "class Memory(NamedTupel)"),), "NameError: name 'NamedTupel'"),
     "bad syntax": (
         (("def start(s, vehicle, step):", "def start(s, vehicle, step)"),),
-        "line 68: SyntaxError: expected",
+        "line 72: SyntaxError: expected",
     ),
-    "an exit": ((("class Gains", "raise SystemExit(3)\nclass Gains"),), "line 25: SystemExit: 3"),
+    "an exit": ((("class Gains", "raise SystemExit(3)\nclass Gains"),), "line 29: SystemExit: 3"),
     "settings of another kind": ((("(ControllerTable)", ""),), "its settings must be a class derived from Controller"),
     "a name that is taken": ((('"my-pd"', '"nftsmc"'),), "the name 'nftsmc' is taken by the controller in nftsmc.py"),
     "a name that is none": ((('"my-pd"', '"my pd"'),), "a controller cannot be named 'my pd'"),
     "a helper that is no law": ((("@law\n", ""),), "calls wanted_moment(), which is no law: mark it @law"),
 }
 WRONG_LAWS = {
-    "a typo in the law": ((("state.velocity\n", "state.velocty\n"),), "line 57: AttributeError: 'State' object has no"),
-    "an unknown name": ((("* k.mass", "* mass"),), "line 60: NameError: name 'mass' is not defined"),
+    "a typo in the law": ((("state.velocity\n", "state.velocty\n"),), "line 61: AttributeError: 'State' object has no"),
+    "an unknown name": ((("* k.mass", "* mass"),), "line 64: NameError: name 'mass' is not defined"),
     "no memory": (
         ((RETURN[0], RETURN[1].format("Command(Wrench(total_thrust(attitude, force), moment), tilt)")),),
         "my_pd() must return (Command, memory), not Command(Wrench(number, Vec3), Vec3)",
@@ -183,7 +183,7 @@ WRONG_LAWS = {
         (("return gains, Memory(ZERO)", "return [gains, Memory(ZERO)]"),),
         "must return (gains, memory), not list",
     ),
-    "a typo in start": ((("vehicle.mass", "vehicle.mas"),), "line 71: AttributeError: 'Vehicle' object has no"),
+    "a typo in start": ((("vehicle.mass", "vehicle.mas"),), "line 75: AttributeError: 'Vehicle' object has no"),
     "a default that is not allowed": ((("key(4.0", "key(-4.0"),), "controller.stiffness: must be one number or a list"),
 }
 
