@@ -4,7 +4,7 @@ python tools/mutation_check.py [--count 320] [--seed 25] [--jobs 2] [--rooms law
 
 A mistake (mutant) is made in a copy of the repository under out/mutants, never in the source. First, each test file
 runs once, to learn which functions each of its tests calls, and what it costs. Then each mutant runs against the tests
-of its room that call its function, the cheapest first, until one fails (killed) or none is left (survived). A mutant
+of its room that call its function, the most specific first, until one fails (killed) or none is left (survived). A mutant
 that nothing could notice is equivalent: tools/equivalent_mutants.toml lists these, each with its reason.
 
 Results are kept in out/mutants: a second run does what is missing. A kill counts until its source file or the test that
@@ -91,11 +91,14 @@ def state_of(mutant: Mutant, folders: list[str], killer: str | None) -> str:
 
 
 def calling(mutant: Mutant, folder: str) -> dict[str, float]:
-    """The tests in a folder that call a mutant's function, with their seconds, the cheapest first."""
+    """The tests in a folder that call a mutant's function, with their seconds, the most specific first.
+
+    Every flight calls every law; a test that calls few is about them.
+    """
     wanted, known = f"{mutant.file}: {mutant.function}", calls_in(folder).items()
-    found = sorted((seconds, test) for test, (seconds, called) in known if wanted in called)
-    spent = accumulate(seconds for seconds, _ in found)
-    return {test: seconds for (seconds, test), until in zip(found, spent, strict=True) if until <= BUDGET}
+    found = sorted((len(called), seconds, test) for test, (seconds, called) in known if wanted in called)
+    spent = accumulate(seconds for _, seconds, _ in found)
+    return {test: seconds for (_, seconds, test), until in zip(found, spent, strict=True) if until <= BUDGET}
 
 
 @cache
