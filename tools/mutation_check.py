@@ -3,9 +3,10 @@
 python tools/mutation_check.py [--count 320] [--seed 25] [--jobs 2] [--rooms laws studies] [--tests "tests/parts/*"]
 
 A mistake (mutant) is made in a copy of the repository under out/mutants, never in the source. First, each test file
-runs once, to learn which functions each of its tests calls, and what it costs. Then each mutant runs against the tests
-of its room that call its function, the most specific first, until one fails (killed) or none is left (survived). A mutant
-that nothing could notice is equivalent: tools/equivalent_mutants.toml lists these, each with its reason.
+runs once, to learn which functions each of its tests calls, and what it costs. Then each mutant runs against the
+tests of its room that call its function, the most specific first, until one fails (killed) or none is left
+(survived). A mutant that nothing could notice is equivalent: tools/equivalent_mutants.toml lists these, each with its
+reason.
 
 Results are kept in out/mutants: a second run does what is missing. A kill counts until its source file or the test that
 killed it changes, a survival until its source file or any test of its room changes.
