@@ -9,12 +9,12 @@ from study_runs import TWELVE, fly
 
 import tandemlift as tl
 from tandemlift.analysis.studies import controller_comparison
-from tandemlift.analysis.studies.closed_form import _free, axes_of
+from tandemlift.analysis.studies.closed_form import _free, axes_of, speed_at
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution import estimate
 from tandemlift.analysis.studies.feel_study import _both, feel_checks
 from tandemlift.analysis.studies.html import MOST_NAMES, study_html
-from tandemlift.analysis.studies.standard_push import answer_of
+from tandemlift.analysis.studies.standard_push import ARM, _pushes, answer_of
 from tandemlift.analysis.studies.study import mission_of_row
 from tandemlift.analysis.studies.tuning.candidates import _trial
 from tandemlift.analysis.studies.tuning.front import front_of
@@ -70,6 +70,27 @@ def test_the_numbers_of_an_answer_are_those_of_a_lag():
     )
     assert answer_of(k, t - 9.0, v, hold) == (0.0, None, None, None, None)
     assert answer_of(SimpleNamespace(stiffness=2.0, time=1.0, final_speed=top), t, v, hold)[1:] == (None,) * 4
+
+
+@pytest.mark.parametrize("axis", ["x", "z", "yaw"])
+def test_the_standard_push_is_even_and_acts_along_its_axis_alone(axis):
+    """On a vehicle that follows the closed form: the same force or moment from start to end, and no other one."""
+    mission = tl.load_mission("iris", {"compliance.yaw.model": "compliant"})
+    k = next(k for k in axes_of(mission) if k.axis == axis)
+    start, hold, yaw = 20.0, 3.0, 0.4
+    turned = np.trapezoid(speed_at(k, np.linspace(0.0, 1.5, 4000), hold), dx=1.5 / 3999) if axis == "yaw" else 0.0
+    pushes = _pushes(k, start, hold, yaw)
+    force, moment = np.zeros(3), np.zeros(3)
+    for push in pushes:  # in the middle of the hold, where the vehicle has turned as the closed form says
+        F = np.array(push["force"]) * np.exp(-0.5 * ((start + 1.5 - push["time"]) / push["sigma"]) ** 2)
+        x, y, z = push.get("point", [0.0] * 3)
+        heading = yaw + turned
+        arm = [x * np.cos(heading) - y * np.sin(heading), x * np.sin(heading) + y * np.cos(heading), z]
+        force, moment = force + F, moment + np.cross(arm, F)
+    wanted = np.array([axis == "x", 0.0, axis == "z", 0.0, 0.0, axis == "yaw"]) * k.push
+    assert np.concatenate([force, moment]) == pytest.approx(wanted, abs=2e-3 * k.push)
+    impulse = sum(np.linalg.norm(push["force"]) * push["sigma"] for push in pushes) * np.sqrt(2.0 * np.pi)
+    assert impulse == pytest.approx(k.push * hold * (1.0 / ARM if axis == "yaw" else 1.0), rel=1e-6)
 
 
 def drift(**changes):

@@ -57,6 +57,17 @@ def test_optuna_comes_near_the_minimum_of_rosenbrock():
     assert lowest < 0.3  # 404 at the start
 
 
+def test_numbers_that_depend_on_each_other_are_drawn_together():
+    """Along a valley on the diagonal, candidates are spread along it; numbers drawn one by one would be independent."""
+    optimiser, tried = ParzenEstimator(plain(2), seed=0), []
+    for _ in range(8):
+        points = optimiser.ask()
+        optimiser.tell(points, np.array([[(x - y) ** 2] for x, y in points]))
+        tried += points
+    late = np.array(tried[len(tried) // 2 :])
+    assert np.corrcoef(late.T)[0, 1] > 0.5
+
+
 def test_a_number_that_is_wrong_by_a_factor_of_300_is_found():
     numbers = [Tunable(f"gain.{i}", i, 30.0, 0.03, 3e4, is_log=True) for i in range(3)]
     wanted = np.array([0.1, 9.0, 300.0])

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.analysis.studies.tuning.candidates import Trial, cost_of
+from tandemlift.analysis.studies.tuning.goals import Goal
 from tandemlift.analysis.studies.tuning.result import EVIDENCE_FILE
 from tandemlift.core.errors import InputError
 
@@ -137,6 +139,31 @@ def test_a_bad_start_is_left_because_bad_outcomes_count_first():
     assert found.is_better
     assert "fewer bad outcomes" in found.evidence.words
     assert np.isnan(found.evidence.comparisons[0].difference)  # no draw went well with both
+
+
+def test_several_goals_need_targets_where_every_present_flight_ends_badly():
+    """Findings are bad outcomes here, so no draw has a present value to compare with."""
+    far = {**QUICK, "promise.settling_time": 0.0, "promise.distance": 0.05}
+    goals = {"position_rmse_m.2": 0.01, "attitude_rmse_rad": 0.1}
+    assert quick(goals=goals, changes=far, budget=0, strict=True).evidence.costs[0].bad == 6
+    assert quick(goals="position_rmse_m.2", changes=far, budget=0, strict=True).evidence.costs[0].bad == 6
+    with pytest.raises(InputError, match="every draw ends badly, so several goals need targets"):
+        quick(goals=list(goals), changes=far, budget=0, strict=True)
+
+
+def test_the_worst_draw_counts_beside_the_mean_and_the_mean_beside_the_worst():
+    """Draws with ratios (2, 2) and (1, 3) have the same mean, (3, 3) and (1, 3) the same worst."""
+
+    def cost(*values, aim):
+        column = np.array(values)[:, None]
+        trial = Trial(("flying",) * 2, ("",) * 2, np.ones(2), ({},) * 2, (column * 0.5,))
+        return cost_of(trial, [Goal("position_rmse_m.2")], [np.full((2, 1), 0.5)], aim)
+
+    even, uneven, all_worst = ([cost(*v, aim=aim).ratio for aim in ("mean", "worst")] for v in ((2, 2), (1, 3), (3, 3)))
+    assert even[0] < uneven[0] < all_worst[0]
+    assert even[1] < uneven[1] < all_worst[1]
+    for i, aim in enumerate(("mean", "worst")):  # of twice the values twice the cost
+        assert cost(2, 6, aim=aim).ratio == pytest.approx(2.0 * uneven[i])
 
 
 def test_findings_are_bad_outcomes_if_strict():
