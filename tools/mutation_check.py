@@ -34,8 +34,8 @@ from mutants.trials import Chosen, Copy, Exchanging, share
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE, OUT, REASONS = ROOT / "src" / "tandemlift", ROOT / "out" / "mutants", ROOT / "tools/equivalent_mutants.toml"
-ROOMS = {  # share of the mutants, and folders of tests: laws and loops that survive their own tests fly in simulation/
-    "parts": (0.595, ["tests/parts", "tests/simulation"]),
+ROOMS = {  # share of the mutants, and folders of tests: checks of a part meet missions, laws that survive fly in simulation/
+    "parts": (0.595, ["tests/parts", "tests/missions", "tests/simulation"]),
     "simulation": (0.25, ["tests/simulation"]),
     "analysis/studies": (0.155, ["tests/analysis/studies"]),
 }
@@ -205,7 +205,7 @@ def main() -> int:
     for folder in ("calls", "traced", "machine-code"):
         (OUT / folder).mkdir(parents=True, exist_ok=True)
 
-    for depth in (1, 2):
+    for depth in (1, 2, 3):
         book, rest = Book(), [(m, ROOMS[room][1][:depth]) for room, many in found.items() for m in many]
         todo = [one for one in rest if one[0].name not in book.equivalent and not book.known(*one)[0]]
         for folder in dict.fromkeys(folders[-1] for _, folders in todo):
