@@ -27,10 +27,12 @@ from tandemlift.parts.estimation.contact_evidence import (
     STEEP,
     ContactDetector,
     Deviations,
+    ForceBand,
     doubt_after,
     heard,
     start_evidence,
     touching_part,
+    with_means_of_now,
 )
 from tandemlift.parts.estimation.contact_map import (
     UNMATCHED,
@@ -126,6 +128,20 @@ def test_a_force_that_the_motion_does_not_confirm_is_doubted_for_as_long_and_at_
         assert doubt_after(DETECTOR, 0.1, deviations, DT) == pytest.approx(after), name
     assert doubt_after(DETECTOR, DOUBT_TIME, unconfirmed, DT) == DOUBT_TIME
     assert doubt_after(DETECTOR, 0.0, confirmed, DT) == 0.0
+
+
+def test_means_that_begin_anew_are_the_present_forces_and_the_steady_one_stays():
+    band = ForceBand(LowPassState(3.0, 0.5), LowPassState(-1.0, 0.2), 1.0, 2.0)
+    outside = ForceBand(
+        LowPassState(PAIR(4.0, 5.0), 0.0), LowPassState(PAIR(6.0, 7.0), 0.0), PAIR(0.5, 0.6), PAIR(0.7, 0.8)
+    )
+    memory = STEEPLY._replace(push=band, momentum=band, outside=outside, joints=outside)
+    assert with_means_of_now(memory, 0.0) == memory
+    begun_anew = with_means_of_now(memory, 1.0)
+    for name in ("push", "momentum", "outside", "joints"):
+        now = getattr(begun_anew, name)
+        assert (now.mean_x, now.mean_y) == (now.x.value, now.y.value)
+    assert begun_anew.steady == memory.steady
 
 
 # The contact that begins

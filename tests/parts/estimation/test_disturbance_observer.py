@@ -9,6 +9,7 @@ from scipy.signal import StateSpace, lsim
 import tandemlift as tl
 from tandemlift.core.vector import ZERO, Quat, Vec3, each, vec3
 from tandemlift.parts.estimation.disturbance_observer import correction, growth, observer_step, start_observer
+from tandemlift.parts.mechanics.low_pass import low_pass_step
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import mixer_from
@@ -35,6 +36,16 @@ def started(**keys):
         mission.initial,
         hovers=mission.actuators.start == "hover",
     )
+
+
+def test_the_model_of_the_thrusts_is_as_late_as_the_rotors_and_the_sample():
+    """Behind a ramp, a critically damped low-pass stays by its slope times lag, delay and step together."""
+    vehicle, observer, memory = started(rotor_lag=0.08, rotor_delay=0.03)
+    late, state = 0.08 + 0.03 + H, memory.thrust._replace(value=0.0)
+    assert vehicle.count == 2
+    for k in range(2000):
+        state = low_pass_step(observer.thrust, state, 5.0 * k * H)
+    assert 5.0 * 1999 * H - state.value == pytest.approx(5.0 * late, rel=0.02)
 
 
 def hover(vehicle):

@@ -70,6 +70,18 @@ def test_by_the_clock_it_lifts_listens_lands_and_stays_down():
     assert (orders.running, orders.responding, orders.compensating, orders.grounded) == (0.0, 0.0, 0.0, 1.0)
 
 
+def test_a_lift_is_asked_for_on_the_ground_unless_a_landing_is_or_rotors_that_always_run_have_landed_once():
+    asked = RequestCounts(lifts=1.0, lands=0.0, enabled=1.0, stop=0.0)
+    landed = BEFORE._replace(land_rate=0.25)  # of a landing in 4 s
+
+    def wanted(m, *, land=0.0, always=0.0, requests=asked):
+        return lift_request(PHASING._replace(always_running=always), m, requests, 0.0, land)
+
+    assert wanted(BEFORE) == wanted(landed) == wanted(BEFORE, always=1.0) == 1.0
+    assert wanted(BEFORE, land=1.0) == wanted(landed, always=1.0) == 0.0
+    assert wanted(BEFORE._replace(phase=GUIDED)) == wanted(BEFORE, requests=asked._replace(lifts=0.0)) == 0.0
+
+
 def test_a_check_that_refuses_a_lift_delays_it_until_it_no_longer_does():
     story, _, _ = flown(5.0, bounds=lambda t: FREE._replace(lift_allowed=0.0 if t < 2.5 else 1.0))
     assert story[0] == (2.5, "lift")

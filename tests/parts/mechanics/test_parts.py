@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -10,6 +12,7 @@ from law_values import array, free_body, quadrotor, random_state, random_vehicle
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
+import tandemlift as tl
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Vec3, vec3
 from tandemlift.parts.mechanics.parts import (
@@ -47,6 +50,16 @@ def test_the_mixer_sums_the_rotors_forces_lever_arms_and_reaction_torques(layout
         moment += np.cross([q.arm * x, q.arm * y, 0.0], push)
         moment[2] += spin * q.torque_per_thrust * f
     assert mixer(q) @ thrusts == pytest.approx(np.append(force[2], moment), abs=1e-14)
+
+
+def test_the_box_of_all_parts_holds_the_whole_beam_wherever_the_quadrotors_stand():
+    vehicle = Vehicle.from_settings(tl.load_mission("iris").vehicle)
+    length, radius = vehicle.beam
+    inner = [q.model_copy(update={"position": (0.0, 0.2 * q.position[1], q.position[2])}) for q in vehicle.quadrotors]
+    low, high = replace(vehicle, quadrotors=tuple(inner)).box
+    assert (low[1], high[1]) == (pytest.approx(-0.5 * length), pytest.approx(0.5 * length))
+    assert low[0] < -radius < radius < high[0]
+    assert vehicle.beside([0.0, -0.5 * length, 0.0]) == 0.0
 
 
 @pytest.mark.parametrize("layout", ["+", "x"])

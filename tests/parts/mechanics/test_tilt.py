@@ -14,11 +14,26 @@ from tandemlift.parts.mechanics.rotation import (
     TiltZXY,
     desired_orientation,
     euler_from_quaternion,
+    limit_tilt,
     quaternion_from_euler,
     rotation_from_euler,
+    tilt_limit,
     total_thrust,
     virtual_inputs,
 )
+
+
+@given(numbers(50.0), numbers(50.0), numbers(50.0), st.floats(0.05, 1.4))
+def test_a_limited_force_tilts_at_most_as_far_as_it_may_in_the_same_direction_with_the_same_lift(u_x, u_y, u_z, most):
+    limited = array(limit_tilt(tilt_limit(most), Vec3(u_x, u_y, u_z)))
+    tilt = np.arctan2(np.hypot(u_x, u_y), u_z)
+    assert limited[2] == u_z
+    assert limited[0] * u_y == pytest.approx(limited[1] * u_x, abs=1e-9)
+    if u_z > 1e-3 and np.hypot(u_x, u_y) > 1e-3:
+        assert np.arctan2(np.hypot(*limited[:2]), u_z) == pytest.approx(min(tilt, most), rel=1e-9)
+    elif u_z <= 0.0:
+        assert np.hypot(*limited[:2]) == pytest.approx(0.0, abs=1e-9)
+    assert limit_tilt(tilt_limit(None), Vec3(u_x, u_y, u_z)) == Vec3(u_x, u_y, u_z)
 
 
 def at(angles: Vec3):

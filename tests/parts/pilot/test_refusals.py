@@ -93,6 +93,21 @@ def test_a_weak_push_is_told_with_the_axis_that_is_nearest_to_its_threshold():
 @pytest.mark.parametrize(
     ("state", "why"),
     [
+        (moving(at0=[0.5]), "too far from the reference"),
+        (moving(at6=[np.cos(0.5), 0.0, 0.0, np.sin(0.5)]), "heading"),
+    ],
+)
+def test_a_vehicle_that_cannot_follow_says_what_keeps_it_from_that(state, why):
+    one = pilot(**{"compliance.following.max_error": 0.2, "compliance.yaw.model": "compliant"})
+    sampled(one, 3.0, lift=True)
+    push = sampled(one, 2.0, state).push
+    assert push.advice == "Push less, and wait until it can follow again."
+    assert why in push.why
+
+
+@pytest.mark.parametrize(
+    ("state", "why"),
+    [
         (moving(at6=[np.cos(0.2), np.sin(0.2), 0.0, 0.0]), "not level (22.9°, limit 8.6°)"),
         (moving(at3=[0.3, 0.4, 0.0]), "not at rest (0.5 m/s, limit 0.1 m/s)"),
         (moving(at10=[0.0, 0.0, 0.25]), "not at rest (0.25 rad/s, limit 0.2 rad/s)"),
