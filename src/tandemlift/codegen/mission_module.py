@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tandemlift.codegen.c_package import write_c
-from tandemlift.codegen.machines import MACHINES, Machine, machine_named, object_code
 from tandemlift.codegen.manifest import manifest_of
 from tandemlift.codegen.module_text import (
     PreparedLayout,
@@ -20,8 +19,9 @@ from tandemlift.codegen.module_text import (
     write_ramp,
     write_values_function,
 )
-from tandemlift.codegen.wasm_linker import linked
 from tandemlift.compiler.jit import store
+from tandemlift.compiler.jit.machine import MACHINES, Machine, machine_named, object_code
+from tandemlift.compiler.jit.wasm_linker import linked
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import __version__, atomic_write
 from tandemlift.missions import Mission
