@@ -6,10 +6,9 @@ from functools import cached_property
 from typing import Any
 
 from tandemlift.codegen import c_limits
-from tandemlift.codegen.c.law_functions import law_function
-from tandemlift.codegen.c.literals import number
-from tandemlift.codegen.c.unit import Unit
-from tandemlift.codegen.c_source import SourceFile
+from tandemlift.codegen.c_expressions import number
+from tandemlift.codegen.c_source import SourceFile, Unit
+from tandemlift.codegen.c_statements import law_function
 from tandemlift.codegen.c_step import FlightStep
 from tandemlift.compiler.tracer.structured import TracedLaw
 from tandemlift.core.types import leaves, rebuilt

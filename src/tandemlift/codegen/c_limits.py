@@ -5,9 +5,8 @@ from __future__ import annotations
 import operator
 from typing import Any
 
-from tandemlift.codegen.c.law_functions import law_function
-from tandemlift.codegen.c.statements import Statements
-from tandemlift.codegen.c.unit import Unit
+from tandemlift.codegen.c_source import Unit
+from tandemlift.codegen.c_statements import Statements, law_function
 from tandemlift.core.types import Condition, Number, is_value, leaves, rebuilt
 from tandemlift.core.vector import Vec3
 from tandemlift.parts.contact.clearance import is_fast

@@ -5,16 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from tandemlift.codegen.c.function_text import FunctionHead, function
-from tandemlift.codegen.c.identifiers import Names
-from tandemlift.codegen.c.law_functions import law_function
-from tandemlift.codegen.c.literals import number
-from tandemlift.codegen.c.statements import Statements
-from tandemlift.codegen.c.structs import leaf_paths
-from tandemlift.codegen.c.unit import Unit
+from tandemlift.codegen.c_expressions import number
 from tandemlift.codegen.c_flight import ROWS
 from tandemlift.codegen.c_limits import Solver, write_limits
-from tandemlift.codegen.c_source import SourceFile
+from tandemlift.codegen.c_source import SourceFile, Unit
+from tandemlift.codegen.c_statements import Statements, law_function
+from tandemlift.codegen.c_text import FunctionHead, function
+from tandemlift.codegen.c_types import Names, leaf_paths
 from tandemlift.compiler.tracer import Graph, Symbol
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import each

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from tandemlift.codegen.c.function_text import FunctionHead, function
-from tandemlift.codegen.c.law_functions import law_function
-from tandemlift.codegen.c.operations import UNARY
-from tandemlift.codegen.c.statements import Statements
+from tandemlift.codegen.c_expressions import UNARY
 from tandemlift.codegen.c_limits import Solver, write_limits
 from tandemlift.codegen.c_source import SourceFile
+from tandemlift.codegen.c_statements import Statements, law_function
+from tandemlift.codegen.c_text import FunctionHead, function
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import ZERO
 from tandemlift.parts.rotors.allocation import ConstrainedAllocation

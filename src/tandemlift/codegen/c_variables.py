@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any, NamedTuple
 
-from tandemlift.codegen.c.signatures import Signature
-from tandemlift.codegen.c.unit import Unit
+from tandemlift.codegen.c_source import Unit
+from tandemlift.codegen.c_types import Signature
 from tandemlift.compiler.tracer import LEAVES, Graph
 from tandemlift.compiler.tracer.structured import as_symbol, is_nested, numbers_in
 
