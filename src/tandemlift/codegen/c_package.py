@@ -9,12 +9,12 @@ import numpy as np
 
 from tandemlift.codegen.c_expressions import number
 from tandemlift.codegen.c_flight import FlightFile
-from tandemlift.codegen.c_pilot import PilotFile, PrepareFile
+from tandemlift.codegen.c_pilot import PilotFile
 from tandemlift.codegen.c_source import SourceFile
 from tandemlift.codegen.c_text import wrapped
+from tandemlift.codegen.prepare import PrepareFile
 from tandemlift.core.types import Array, leaves
-from tandemlift.flight.record import Flight
-from tandemlift.missions import Mission, changed
+from tandemlift.missions import Mission
 from tandemlift.simulation.assembly.traced_assembly import assembled_by_graph, assembled_flight, trace_assembly
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.fly import fly
@@ -46,26 +46,27 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
         InputError: the mission's controller is plain Python, or the mission changes while it is flown.
     """
     mission = portable_mission(mission)
-    texts = code_texts(mission, single)
-    unfused, flight = native_flight(mission)
-    file = SourceFile(mission.mission.name, single, mission.mission.step)
+    texts, file = code_texts(mission, single), _file(mission, single)
     texts |= {
-        f"{file.name}_pilot_selftest.c": pilot_selftest(file, unfused, flight),
-        f"{file.name}_flight_selftest.c": flight_selftest(file, unfused),
+        f"{file.name}_pilot_selftest.c": pilot_selftest(file, mission),
+        f"{file.name}_flight_selftest.c": flight_selftest(file, mission),
     }
     return written(texts, Path(folder))
+
+
+def _file(mission: Mission, single: bool) -> SourceFile:
+    return SourceFile(mission.mission.name, single, mission.mission.step)
 
 
 def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
     """The texts of all files but the self-tests, by name."""
     mission = portable_mission(mission)
-    start = assembled_by_graph(mission, pilot_at_start)
-    given = mission.mission.name, single, mission.mission.step
-    file = SourceFile(*given)
-    pilot = PilotFile(SourceFile(*given), start, INPUT)
-    flight = FlightFile(SourceFile(*given), assembled_flight(mission), mission.mission.steps, mission.mission.log_every)
-    pilot_prepare = PrepareFile(SourceFile(*given), trace_assembly(mission, pilot_at_start), "pilot")
-    flight_prepare = PrepareFile(SourceFile(*given), trace_assembly(mission), "flight")
+    pilot = PilotFile(_file(mission, single), assembled_by_graph(mission, pilot_at_start))
+    settings = mission.mission
+    flight = FlightFile(_file(mission, single), assembled_flight(mission), settings.steps, settings.log_every)
+    pilot_prepare = PrepareFile(_file(mission, single), trace_assembly(mission, pilot_at_start), "pilot")
+    flight_prepare = PrepareFile(_file(mission, single), trace_assembly(mission), "flight")
+    file = _file(mission, single)
     how = {"PRECISION": "single" if single else "double"}
     how["COMPARED"] = "within 1e-3 of the range of thrusts" if single else "to the last bit"
     return {
@@ -100,9 +101,9 @@ def braced(file: SourceFile, values: Iterable[float]) -> str:
     return "{" + ", ".join(number(float(x), file.real) for x in values) + "}"
 
 
-def pilot_vectors(mission: Mission, flight: Flight) -> list[tuple[Array, Array, Array]]:
+def pilot_vectors(mission: Mission) -> list[tuple[Array, Array, Array]]:
     """(Memory, input, thrusts) of samples; the pilot is given the logged states of a flight one after the other."""
-    pilot, found = Pilot(mission), []
+    pilot, flight, found = Pilot(mission), fly(mission, "compiled"), []
     rows = np.hstack([flight[name] for name in MEASURED])
     rows = rows[np.isfinite(rows).all(axis=1)]
     hold = max(1, mission.mission.steps // VECTORS)
@@ -118,13 +119,10 @@ def pilot_vectors(mission: Mission, flight: Flight) -> list[tuple[Array, Array, 
     return found
 
 
-def pilot_selftest(file: SourceFile, mission: Mission, flight: Flight) -> str:
+def pilot_selftest(file: SourceFile, mission: Mission) -> str:
     """The program that compares the pilot."""
-    vectors = pilot_vectors(mission, flight)
-    lines = [
-        "\n".join([*wrapped("{" + ", ".join(braced(file, part) for part in vector) + "},").split("\n")])
-        for vector in vectors
-    ]
+    vectors = pilot_vectors(mission)
+    lines = [wrapped("{" + ", ".join(braced(file, part) for part in vector) + "},") for vector in vectors]
     memory, given, _ = vectors[0]
     span = np.ptp([thrusts for *_, thrusts in vectors])
     words = {
@@ -163,9 +161,3 @@ def flight_selftest(file: SourceFile, mission: Mission) -> str:
         "DATA": "\n".join(data),
     }
     return file.filled("flight_selftest.c", **words)
-
-
-def native_flight(mission: Mission) -> tuple[Mission, Flight]:
-    """(The mission computed alike on every machine, its flight)."""
-    mission = changed(mission, "mission.fma", False)
-    return mission, fly(mission, "compiled")

@@ -6,16 +6,14 @@ a whole. All other operations stand where they are used.
 
 from __future__ import annotations
 
-import inspect
-import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 from tandemlift.codegen.c_expressions import ATOM, CHOSEN, UNARY, Expression, expression, literal
 from tandemlift.codegen.c_source import Unit
-from tandemlift.codegen.c_text import FunctionHead, Statement, comment, function, token
-from tandemlift.codegen.c_types import Names, Signature, Struct, head, parts_of, type_name
+from tandemlift.codegen.c_text import Statement, token
+from tandemlift.codegen.c_types import Names, Struct, parts_of, type_name
 from tandemlift.codegen.c_variables import Group, Variables
 from tandemlift.compiler.tracer import Graph
 from tandemlift.compiler.tracer.structured import as_symbol, calls_in, is_nested, numbers_in
@@ -72,6 +70,12 @@ class Statements:
         for name, part in parts_of(value):
             self._know(part, StructVariable(access + name, "&" + access + name), access + name + ".")
 
+    def argument(self, name: str, value: Any, *, pointer: bool = False) -> str:
+        """The declaration of an argument of the function, which is, or points to, the numbers of a nested value."""
+        self.know(value, name, pointer=pointer)
+        kind = self.unit.type_of(value)
+        return f"const {kind} *{name}" if pointer else f"{kind} {name}"
+
     # branches
 
     def _add(self, kind: str, variables: tuple[tuple[str, str], ...], text: str, joins: bool = False) -> None:
@@ -84,7 +88,7 @@ class Statements:
     def variable(self, value: Any, wish: str) -> str:
         """A variable of a nested value's type, which the caller fills: its name between marks."""
         name = self._new(wish)
-        self._add("call", ((type_name(self.unit.structs.of(value), self.unit.real), name),), "")
+        self._add("call", ((self.unit.type_of(value), name),), "")
         self.know(value, token(name))
         return token(name)
 
@@ -243,40 +247,3 @@ class Statements:
         struct = self.unit.structs.of(part)
         existing = self._existing.get((struct, tuple([n if n >= 0 else -1 - n for n in nodes])))
         return existing.value if existing else self._initialiser(part, nodes)
-
-
-LABEL = re.compile(r"#\s*(paper: .+)")
-
-
-def description(law: Any) -> list[str]:
-    """The lines of a law's comment."""
-    doc = (inspect.getdoc(law) or "").split("\n\n")[0].split("\n")
-    try:
-        labels = LABEL.findall(inspect.getsource(law))
-    except (OSError, TypeError):
-        labels = []
-    return [f"{law.__module__}.{law.__qualname__}", *[line for line in doc if line], *labels]
-
-
-def law_function(unit: Unit, number: int) -> str:
-    """The function of a law by its number."""
-    law, signature = unit.laws.all[number], unit.signature(number)
-    result, given = head(signature, unit.structs, unit.real)
-    body = Statements(unit, law.graph, [s.node for s in law.ends], law.locals)
-    body.taken = unit.local_names(number)
-    for p in signature.parameters:
-        body.know(p.value, p.name, pointer=p.pointer)
-    body.compute([s.node for s in law.ends])
-    outs = list[str]()
-    if signature.returns_many:
-        for r in signature.results:
-            kind = head(Signature("", (), (r,), ()), unit.structs, unit.real)[0]
-            outs.append(f"{kind} *{body.taken.new(r.name if r.name != 'v' else 'result')}")
-        last = "\n".join(
-            f"*{out.split('*')[1]} = {body.value(r.value)};" for out, r in zip(outs, signature.results, strict=True)
-        )
-    else:
-        last = f"return {body.value(signature.results[0].value)};"
-    return function(
-        FunctionHead(comment(description(law.law)), result, signature.name, [*given, *outs]), body.made, last
-    )

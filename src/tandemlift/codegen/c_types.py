@@ -244,14 +244,3 @@ def _word(node: ast.expr) -> str:
     if isinstance(node, ast.Attribute):
         return node.attr
     return node.func.id if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) else ""
-
-
-def head(signature: Signature, structs: Structs, real: str) -> tuple[str, list[str]]:
-    """(The returned type, the parameters) of a function."""
-    given = []
-    for p in signature.parameters:
-        kind = type_name(structs.of(p.value), real)
-        given.append(f"const {kind} *{p.name}" if p.pointer else f"{kind} {p.name}")
-    if signature.returns_many:
-        return "void", given
-    return type_name(structs.of(signature.results[0].value), real), given
