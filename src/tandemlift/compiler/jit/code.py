@@ -18,8 +18,8 @@ from concurrent.futures import Future, wait
 from typing import Any, NamedTuple
 
 from tandemlift.compiler.jit import machine, store
-from tandemlift.compiler.jit.compile_events import Compiled, Stopped, always, publish
 from tandemlift.compiler.jit.optimising import optimise_in_process
+from tandemlift.core.progress import Compiled, Stopped, always, publish
 
 PAYS = 2.0  # times the compile time of unoptimised code: about a third of that of optimised code
 LOOP = "flight loop"  # the name in notices, unless the module has another
@@ -74,7 +74,10 @@ class Code:
     Attributes:
         about: facts that the callers need.
         is_best: whether the optimised code is in place.
+        pace: for a caller that runs a loop in stretches, the steps of the last one; 0 before the first.
     """
+
+    pace = 0
 
     def __init__(
         self,

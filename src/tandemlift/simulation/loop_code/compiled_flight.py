@@ -8,8 +8,8 @@ from functools import cached_property
 
 from tandemlift.compiler.jit import machine
 from tandemlift.compiler.jit.code import Code, Written
-from tandemlift.compiler.jit.compile_events import always
 from tandemlift.compiler.jit.store import key_of
+from tandemlift.core.progress import always
 from tandemlift.simulation.loop.step import FlightModel, StepInputs
 from tandemlift.simulation.loop_code.loops import LoopWriter
 from tandemlift.simulation.loop_code.offsets import delayed_spans
