@@ -18,14 +18,13 @@ from tandemlift.codegen.c_statements import Statements
 from tandemlift.codegen.c_text import FunctionHead, function
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import ZERO
-from tandemlift.simulation.assembly.assemble import AssembledFlight
 from tandemlift.simulation.loop_code import external_inputs
 from tandemlift.simulation.loop_code.external_inputs import ROWS, draw_count
 from tandemlift.simulation.loop_code.memory import COUNTS
-from tandemlift.simulation.loop_code.offsets import delayed_spans
 from tandemlift.simulation.loop_code.step_output import COMMAND_LINE
 from tandemlift.simulation.loop_code.templates import templates_from
 from tandemlift.simulation.loop_code.traced_step import Symbols, TracedStep
+from tandemlift.simulation.plan import FlightPlan
 
 STEP = """/* One step of a flight from time t [s] by dt [s]: its state after it, and the sample at its start
  * (tandemlift.simulation.loop_code.traced_step). */
@@ -37,16 +36,13 @@ class FlightFile:
 
     Args:
         file: the names of the mission, and its precision.
-        assembled: the flight at its first step.
-        steps: of the flight.
-        every: steps from one logged sample to the next.
+        plan: of the flight.
     """
 
-    def __init__(self, file: SourceFile, assembled: AssembledFlight, steps: int, every: int) -> None:
-        self.file, self.assembled, self.steps, self.every, unit = file, assembled, steps, every, file.unit
-        self.model = assembled.model
-        self.templates = templates_from(assembled.model, assembled.given)
-        for value in (ZERO, *ROWS, self.model, assembled.given, self.templates.sample):  # these get the plain names
+    def __init__(self, file: SourceFile, plan: FlightPlan) -> None:
+        self.file, self.plan, unit = file, plan, file.unit
+        self.templates, self.delayed = templates_from(plan.model, plan.given), plan.loop_code.delayed
+        for value in (ZERO, *ROWS, plan.model, plan.given, self.templates.sample):  # these get the plain names
             unit.structs.of(value)
         with unit.laws.recording():
             x = self.traced = TracedStep(self.templates, fuses=False, rolls=False)
@@ -55,15 +51,14 @@ class FlightFile:
         self.roots = [s.node for s in symbols]
         self.has_noise = leaves(self.templates.given.noise) > 0
         self.has_gusts = any(x.graph.args[n][0] == "gust" for n in x.graph.needed(self.roots) if x.graph.ops[n] == "in")
-        self.delayed = delayed_spans(self.model)
-        values = [self.model, self.templates.sample, assembled.given.hand.start, *[row for _, row, _ in self._tables]]
+        values = [plan.model, self.templates.sample, plan.given.hand.start, *[row for _, row, _ in self._tables]]
         self.public = [unit.structs.of(value) for value in values]
 
     @property
     def _tables(self) -> Iterator[tuple[str, Any, Any]]:
         """Name, layout of a row, and rows of each table that the mission may have."""
         has = True, self.has_gusts, self.templates.has_walls, self.templates.has_person
-        for name, row, rows, is_there in zip(ROWS._fields, ROWS, self.assembled.tables, has, strict=True):
+        for name, row, rows, is_there in zip(ROWS._fields, ROWS, self.plan.tables, has, strict=True):
             if is_there:
                 yield name, row, rows
 
@@ -84,19 +79,18 @@ class FlightFile:
     @property
     def ring_rows(self) -> int:
         """Rows of the delay lines."""
-        delays = self.assembled.delays
-        return 1 << int(delays.max()).bit_length() if delays.any() else 1
+        return len(self.plan.start().ring)
 
     def header(self) -> str:
         """The text of the header."""
         words = {
-            "STEPS": str(self.steps),
-            "EVERY": str(self.every),
+            "STEPS": str(self.plan.steps),
+            "EVERY": str(self.plan.every),
             "RING_ROWS": str(self.ring_rows),
             "RING_WIDTH": str(max(self.delayed.size, 1)),
             "DELAYS": str(max(len(self.delayed), 1)),
             "TYPES": self.file.typedefs(self.public),
-            "PUSH": self.file.unit.type_of(self.assembled.given.hand.start),
+            "PUSH": self.file.unit.type_of(self.plan.given.hand.start),
         }
         return self.file.filled("flight.h", self.has, **words)
 
@@ -172,8 +166,8 @@ class FlightFile:
         def add(law: Callable[..., Any], **arguments: tuple[Any, str]) -> None:
             words[law.__name__.upper()] = write_call(self.file.unit, law, arguments)[1]
 
-        row, hand = (ROWS.pushes, "*row"), (self.assembled.given.hand.start, "flight->hands[j]")
-        model, dt = (self.model, "*model"), (0.0, f"{self.file.prefix.upper()}FLIGHT_STEP")
+        row, hand = (ROWS.pushes, "*row"), (self.plan.given.hand.start, "flight->hands[j]")
+        model, dt = (self.plan.model, "*model"), (0.0, f"{self.file.prefix.upper()}FLIGHT_STEP")
         add(external_inputs.push_is_active, row=row, opens=(0.0, "opens"), closes=(0.0, "closes"))
         add(external_inputs.with_push, hand=hand, row=row, when=(0.0, "when"))
         if "gusts" in self.has:
@@ -197,7 +191,7 @@ class FlightFile:
 
     def _constants(self) -> str:
         """The constants of the mission: numbers at the start, and tables."""
-        texts, members = [self.file.constant(self.model, "START")], list[str]()
+        texts, members = [self.file.constant(self.plan.model, "START")], list[str]()
         counts = dict(zip(ROWS._fields, COUNTS, strict=True))
         for name, row, rows in self._tables:
             members += [f"    .{name} = {name.upper() if len(rows) else 0},", f"    .{counts[name]} = {len(rows)},"]
@@ -206,8 +200,8 @@ class FlightFile:
                 opening = f"static const {self.file.unit.type_of(row)} {name.upper()}[] = {{"
                 texts.append("\n".join([opening, *lines, "};", ""]))
         if "delays" in self.has:
-            members.append(f"    .delays = {{{', '.join(str(int(d)) for d in self.assembled.delays)}}},")
-        members.append(f"    .keys = {{{', '.join(number(float(x), 'double') for x in self.assembled.seeds)}}},")
+            members.append(f"    .delays = {{{', '.join(str(int(d)) for d in self.plan.delays)}}},")
+        members.append(f"    .keys = {{{', '.join(number(float(x), 'double') for x in self.plan.seeds)}}},")
         texts.append("\n".join([f"static const {self.file.prefix}Inputs INPUTS = {{", *members, "};", ""]))
         if "walls" in self.has:
             texts.append(self.file.constant(self.templates.nowhere, "NOWHERE"))

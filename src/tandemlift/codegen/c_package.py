@@ -15,7 +15,7 @@ from tandemlift.codegen.c_text import wrapped
 from tandemlift.codegen.prepare import PrepareFile
 from tandemlift.core.types import Array, leaves
 from tandemlift.missions import Mission
-from tandemlift.simulation.assembly.traced_assembly import assembled_by_graph, assembled_flight, trace_assembly
+from tandemlift.simulation.assembly.traced_assembly import assembled_by_graph, trace_assembly
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.fly import fly
 from tandemlift.simulation.loop_code import FlightMemory
@@ -62,8 +62,7 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
     """The texts of all files but the self-tests, by name."""
     mission = portable_mission(mission)
     pilot = PilotFile(_file(mission, single), assembled_by_graph(mission, pilot_at_start))
-    settings = mission.mission
-    flight = FlightFile(_file(mission, single), assembled_flight(mission), settings.steps, settings.log_every)
+    flight = FlightFile(_file(mission, single), FlightPlan(mission))
     pilot_prepare = PrepareFile(_file(mission, single), trace_assembly(mission, pilot_at_start), "pilot")
     flight_prepare = PrepareFile(_file(mission, single), trace_assembly(mission), "flight")
     file = _file(mission, single)
