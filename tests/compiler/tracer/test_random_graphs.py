@@ -16,7 +16,7 @@ from odd_numbers import any_number, bits
 from tandemlift.compiler.jit.machine import BEST, QUICK, Loaded, compiled
 from tandemlift.compiler.tracer import Function, Graph, Module, Place, Symbol
 from tandemlift.compiler.tracer.elementary import floor
-from tandemlift.compiler.tracer.symbol import fma
+from tandemlift.compiler.tracer.fused import fma
 from tandemlift.core.algebra import absolute, maximum, minimum, sqrt, where
 from tandemlift.core.vector import each
 from tandemlift.simulation.loop_code.context import aligned
