@@ -16,7 +16,7 @@ from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Absent, Quat, each, total, vec3
 from tandemlift.engines.compiled import advance, plant_from
 from tandemlift.engines.compiled_contact import CompiledPlant, hull_contact_with
-from tandemlift.engines.compiled_touches import wall_contact_with
+from tandemlift.engines.touches import wall_contact_with
 from tandemlift.missions import Mission
 from tandemlift.parts.contact.feet import start_foot_grip
 from tandemlift.parts.contact.wall_geometry import wall
