@@ -13,14 +13,10 @@ import numpy as np
 from pydantic import BaseModel
 
 from tandemlift.codegen.c_package import write_c
-from tandemlift.codegen.module_text import (
-    ValuesFunction,
-    write_flight_loop,
-    write_ramp,
-    write_values_function,
-)
-from tandemlift.codegen.prepare import PreparedLayout, write_prepare
+from tandemlift.codegen.module_text import ValuesFunction, write_flight_loop, write_ramp, write_values_function
+from tandemlift.codegen.prepare import write_prepare
 from tandemlift.compiler.jit import store
+from tandemlift.compiler.jit.code import Written
 from tandemlift.compiler.jit.machine import MACHINES, Machine, machine_named, object_code
 from tandemlift.compiler.jit.wasm_linker import linked
 from tandemlift.core.errors import InputError
@@ -49,15 +45,6 @@ class MissionModule(NamedTuple):
     manifest: dict[str, Any]
 
 
-class WrittenModule(NamedTuple):
-    """The text of a module, and the data of its manifest: layouts, sizes of arguments and results by function."""
-
-    text: str
-    prepared: PreparedLayout
-    work: int
-    functions: dict[str, tuple[int, int]]
-
-
 def _nothing_more(plan: FlightPlan) -> Sequence[ValuesFunction]:
     return ()
 
@@ -83,9 +70,8 @@ def module_of(mission: Mission, target: str, functions: Functions = _nothing_mor
         written = _written(plan, traced, machine, more)
         code = object_code(written.text, machine)
         if target == "wasm32":
-            code = linked(code, [*FUNCTIONS, *written.functions])
-        about = {"prepared": written.prepared, "work": written.work, "functions": written.functions}
-        entry = store.StoredCode(json.loads(json.dumps(about)), code)
+            code = linked(code, [*FUNCTIONS, *[f.name for f in more]])
+        entry = store.StoredCode(json.loads(json.dumps(written.about)), code)
         store.write(key, entry)
     manifest = {
         "format": 1,
@@ -114,12 +100,13 @@ def _sources(functions: Sequence[ValuesFunction]) -> str:
 
 def _written(
     plan: FlightPlan, traced: TracedAssembly, machine: Machine, functions: Sequence[ValuesFunction]
-) -> WrittenModule:
+) -> Written:
+    """The text of a module, and what the manifest needs of it: see `manifest_of`."""
     loop = write_flight_loop(plan.loop_code, machine.draw_lanes, machine.largest)
     write_ramp(loop.module)
     sizes = {f.name: (f.width, write_values_function(loop.module, f)) for f in functions}
-    prepared = write_prepare(loop.module, traced)
-    return WrittenModule(loop.module.text, prepared, loop.scratch.size, sizes)
+    about = {"prepared": write_prepare(loop.module, traced), "work": loop.scratch.size, "functions": sizes}
+    return Written(loop.module.text, about)
 
 
 TARGETS = {"c": "C99 sources, for any compiler", **{name: machine.meaning for name, machine in MACHINES.items()}}

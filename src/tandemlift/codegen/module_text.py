@@ -17,7 +17,6 @@ from typing import Any, NamedTuple
 from tandemlift.compiler.tracer import Function, Graph, Module, Place, double, rounded_twice, symbols
 from tandemlift.core.types import leaves
 from tandemlift.simulation.loop_code import LoopCode
-from tandemlift.simulation.loop_code.context import ScratchLayout
 from tandemlift.simulation.loop_code.loops import LoopWriter
 
 
@@ -34,18 +33,11 @@ class ValuesFunction(NamedTuple):
         return sum(map(leaves, self.likes))
 
 
-class LoopText(NamedTuple):
-    """A loop as a module that goes on to grow, and the layout of its scratch memory."""
-
-    module: Module
-    scratch: ScratchLayout
-
-
-def write_flight_loop(loop_code: LoopCode, draw_lanes: int, largest: int) -> LoopText:
-    """The module of a flight's loop, for one flight; arguments as for `simulation.loop_code.step_writer.StepWriter`."""
+def write_flight_loop(loop_code: LoopCode, draw_lanes: int, largest: int) -> LoopWriter:
+    """The loop for one flight, whose module goes on to grow; arguments as for `loop_code.step_writer.StepWriter`."""
     writer = LoopWriter(loop_code.traced, 1, draw_lanes, largest)
     writer.write_loop()
-    return LoopText(writer.module, writer.scratch)
+    return writer
 
 
 def write_values_function(module: Module, wanted: ValuesFunction) -> int:

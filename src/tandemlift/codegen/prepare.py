@@ -40,11 +40,6 @@ class PreparedLayout(NamedTuple):
     spans: dict[str, PreparedSpan]
     work: int
 
-    @property
-    def size(self) -> int:
-        """Numbers that it writes."""
-        return max(span.at + span.rows * span.columns for span in self.spans.values())
-
 
 def prepared_numbers(traced: TracedAssembly) -> tuple[list[Symbol], dict[str, PreparedSpan]]:
     """The numbers of a flight as symbols of a mission's numbers, one after another, and their layout."""
