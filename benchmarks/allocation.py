@@ -18,9 +18,9 @@ import numpy as np
 from machine import describe, heading, number, pin, save, table
 
 import tandemlift as tl
-from tandemlift.compiler.jit.functions import compiled
-from tandemlift.compiler.jit.machine import BEST, Loaded
-from tandemlift.compiler.jit.machine import compiled as machine_code
+from tandemlift.compiler.machine_code.functions import compiled
+from tandemlift.compiler.machine_code.machine import BEST, Loaded
+from tandemlift.compiler.machine_code.machine import compiled as machine_code
 from tandemlift.compiler.tracer import Function, Module, double
 from tandemlift.core.types import flat, leaves
 from tandemlift.core.vector import Vec3, each

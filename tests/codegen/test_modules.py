@@ -16,8 +16,8 @@ import pytest
 import tandemlift as tl
 from tandemlift.codegen.mission_module import TARGETS, compile_mission, module_of
 from tandemlift.codegen.module_text import write_flight_loop, write_ramp
-from tandemlift.compiler.jit import machine
-from tandemlift.compiler.jit.wasm_linker import LinkError, Reader, linked, signed, unsigned
+from tandemlift.compiler.machine_code import machine
+from tandemlift.compiler.machine_code.wasm_linker import LinkError, Reader, linked, signed, unsigned
 from tandemlift.compiler.tracer import Module
 from tandemlift.simulation.loop_code.context import WORDS
 from tandemlift.simulation.parameter_changes import ParameterRamp, ScheduledChange

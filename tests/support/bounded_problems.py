@@ -13,8 +13,8 @@ import pytest
 from law_values import BEAM, quadrotor
 from scipy.optimize import lsq_linear
 
-from tandemlift.compiler.jit.machine import BEST, QUICK, Loaded
-from tandemlift.compiler.jit.machine import compiled as object_code
+from tandemlift.compiler.machine_code.machine import BEST, QUICK, Loaded
+from tandemlift.compiler.machine_code.machine import compiled as object_code
 from tandemlift.compiler.tracer import Function, Module, Place
 from tandemlift.core.types import flat
 from tandemlift.core.vector import each, vec3

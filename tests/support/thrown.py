@@ -10,7 +10,7 @@ from machine_code import Loop
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.compiler.jit.machine import QUICK
+from tandemlift.compiler.machine_code.machine import QUICK
 from tandemlift.core.law import law
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Absent, Quat, each, total, vec3

@@ -15,10 +15,10 @@ from pydantic import BaseModel
 from tandemlift.codegen.c_package import write_c
 from tandemlift.codegen.module_text import ValuesFunction, write_flight_loop, write_ramp, write_values_function
 from tandemlift.codegen.prepare import write_prepare
-from tandemlift.compiler.jit import store
-from tandemlift.compiler.jit.code import Written
-from tandemlift.compiler.jit.machine import MACHINES, Machine, machine_named, object_code
-from tandemlift.compiler.jit.wasm_linker import linked
+from tandemlift.compiler.machine_code import store
+from tandemlift.compiler.machine_code.code import Written
+from tandemlift.compiler.machine_code.machine import MACHINES, Machine, machine_named, object_code
+from tandemlift.compiler.machine_code.wasm_linker import linked
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import __version__, atomic_write
 from tandemlift.core.keys import description_of

@@ -13,7 +13,7 @@ import pytest
 from exact_functions import EXACT
 from odd_numbers import any_number, bits
 
-from tandemlift.compiler.jit.machine import BEST, QUICK, Loaded, compiled
+from tandemlift.compiler.machine_code.machine import BEST, QUICK, Loaded, compiled
 from tandemlift.compiler.tracer import Function, Graph, Module, Place, Symbol
 from tandemlift.compiler.tracer.elementary import floor
 from tandemlift.compiler.tracer.fused import fma

@@ -6,9 +6,9 @@ import threading
 from collections.abc import Callable
 from functools import cached_property
 
-from tandemlift.compiler.jit import machine
-from tandemlift.compiler.jit.code import Code, Written
-from tandemlift.compiler.jit.store import key_of
+from tandemlift.compiler.machine_code import machine
+from tandemlift.compiler.machine_code.code import Code, Written
+from tandemlift.compiler.machine_code.store import key_of
 from tandemlift.core.progress import always
 from tandemlift.simulation.loop.step import FlightModel, StepInputs
 from tandemlift.simulation.loop_code.loops import LoopWriter

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.compiler.jit.code import Code
+from tandemlift.compiler.machine_code.code import Code
 from tandemlift.core.types import flat
 from tandemlift.parts.contact.wall_geometry import Wall
 from tandemlift.parts.mechanics.push import GaussianPush

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.compiler.jit.code import Code, Written
-from tandemlift.compiler.jit.store import key_of
+from tandemlift.compiler.machine_code.code import Code, Written
+from tandemlift.compiler.machine_code.store import key_of
 from tandemlift.compiler.tracer import Function, Module, Place, symbols, tracer, written_out
 from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters, decide
 from tandemlift.parts.rotors.allocation import ConstrainedAllocation
