@@ -18,9 +18,9 @@ import numpy as np
 from machine import describe, heading, number, pin, save, table
 
 import tandemlift as tl
-from tandemlift.compiler.jit.functions import compiled
-from tandemlift.compiler.jit.machine import BEST, Loaded
-from tandemlift.compiler.jit.machine import compiled as machine_code
+from tandemlift.compiler.machine_code.functions import compiled
+from tandemlift.compiler.machine_code.machine import BEST, Loaded
+from tandemlift.compiler.machine_code.machine import compiled as machine_code
 from tandemlift.compiler.tracer import Function, Module, double
 from tandemlift.core.types import flat, leaves
 from tandemlift.core.vector import Vec3, each
@@ -28,8 +28,7 @@ from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
 from tandemlift.parts.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
-from tandemlift.simulation.loop_code.compiled_limit_solver import write_solver
-from tandemlift.simulation.loop_code.traced_step import TracedSolver
+from tandemlift.simulation.loop_code.limit_solver import TracedSolver, write_solver
 
 PLACES = {
     1: [(0.0, 0.0)],

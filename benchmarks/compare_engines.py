@@ -16,7 +16,7 @@ from machine import describe, heading, table
 
 import tandemlift as tl
 from tandemlift.analysis.studies.engine_comparison import angles_between, differences, fly_in
-from tandemlift.compiler.jit.functions import compiled
+from tandemlift.compiler.machine_code.functions import compiled
 from tandemlift.compiler.tracer import traced
 from tandemlift.core.types import flat, unflat
 from tandemlift.core.vector import ZERO, Absent, each

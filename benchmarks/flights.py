@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 import tandemlift as tl
-from tandemlift.compiler.jit.code import Code
+from tandemlift.compiler.machine_code.code import Code
 from tandemlift.simulation.loop_code import LANES, FlightMemory
 from tandemlift.simulation.plan import FlightPlan
 

@@ -16,7 +16,7 @@ from validation.census import Census
 from validation.chapters import CHAPTERS, Bench, rows_of, table
 
 from tandemlift.apps.cli.terminal.console import compile_notices
-from tandemlift.compiler.jit.compile_events import watching
+from tandemlift.core.progress import watching
 from tandemlift.engines.registry import ENGINES
 
 

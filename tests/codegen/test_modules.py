@@ -14,12 +14,10 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.codegen import machines
 from tandemlift.codegen.mission_module import TARGETS, compile_mission, module_of
 from tandemlift.codegen.module_text import write_flight_loop, write_ramp
-from tandemlift.codegen.wasm_linker import LinkError, linked
-from tandemlift.codegen.wasm_sections import Reader, signed, unsigned
-from tandemlift.compiler.jit import machine
+from tandemlift.compiler.machine_code import machine
+from tandemlift.compiler.machine_code.wasm_linker import LinkError, Reader, linked, signed, unsigned
 from tandemlift.compiler.tracer import Module
 from tandemlift.simulation.loop_code.context import WORDS
 from tandemlift.simulation.parameter_changes import ParameterRamp, ScheduledChange
@@ -28,9 +26,9 @@ from tandemlift.simulation.plan import FlightPlan
 
 def wasm_object(mission: tl.Mission) -> bytes:
     """The object of a mission's loop."""
-    target = machines.MACHINES["wasm32"]
+    target = machine.MACHINES["wasm32"]
     loop = write_flight_loop(FlightPlan(mission).loop_code, target.draw_lanes, target.largest)
-    return machines.object_code(loop.module.text, target)
+    return machine.object_code(loop.module.text, target)
 
 
 def test_unfused_code_has_no_fused_operation() -> None:
@@ -73,12 +71,12 @@ def test_our_linker_places_what_another_one_places(tmp_path: Path) -> None:
 
 
 def test_what_our_linker_cannot_link_is_refused() -> None:
-    target = machines.MACHINES["wasm32"]
+    target = machine.MACHINES["wasm32"]
     calling = "declare void @other()\ndefine void @here() {\n  call void @other()\n  ret void\n}\n"
     with pytest.raises(LinkError, match="imports a function: other"):
-        linked(machines.object_code(calling, target), ["here"])
+        linked(machine.object_code(calling, target), ["here"])
     with pytest.raises(LinkError, match="no function there"):
-        linked(machines.object_code("define void @here() {\n  ret void\n}\n", target), ["there"])
+        linked(machine.object_code("define void @here() {\n  ret void\n}\n", target), ["there"])
 
 
 def test_a_ramp_is_that_of_a_native_flight() -> None:
@@ -107,7 +105,7 @@ def test_unknown_targets_are_refused_with_those_that_there_are(tmp_path: Path, m
     with pytest.raises(tl.InputError, match=r"target = 'arm': must be one of .*cortex-m7"):
         compile_mission(mission, "arm", tmp_path / "x")
     monkeypatch.setitem(TARGETS, "old", "a machine that no LLVM knows")
-    monkeypatch.setitem(machines.MACHINES, "old", machines.MACHINES["wasm32"]._replace(triple="pdp11-dec-unix"))
+    monkeypatch.setitem(machine.MACHINES, "old", machine.MACHINES["wasm32"]._replace(triple="pdp11-dec-unix"))
     with pytest.raises(tl.InputError, match=r"'old': this LLVM has no pdp11-dec-unix; of our targets it has wasm32"):
         compile_mission(mission, "old", tmp_path / "x")
     with pytest.raises(tl.InputError, match="single = true: only for target 'c'"):

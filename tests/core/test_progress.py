@@ -11,8 +11,7 @@ import pytest
 from tqdm import tqdm
 
 import tandemlift as tl
-from tandemlift.compiler.jit.compile_events import NOTICE, Compiled, publish
-from tandemlift.core.progress import progress_or_own, shown_progress
+from tandemlift.core.progress import NOTICE, Compiled, progress_or_own, publish, shown_progress
 
 
 class OutStream(io.StringIO):

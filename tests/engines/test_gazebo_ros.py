@@ -9,7 +9,7 @@ import tandemlift as tl
 from tandemlift.apps.export.write import export
 from tandemlift.engines.gazebo import world_from
 from tandemlift.engines.models.sdf import rotors_of
-from tandemlift.engines.ros_master import RosMaster, joined
+from tandemlift.engines.rospy import RosMaster, joined
 
 
 @pytest.fixture

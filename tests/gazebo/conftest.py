@@ -22,7 +22,7 @@ from tandemlift.engines.gazebo_server import (
 )
 from tandemlift.engines.gazebo_wire import Wire
 from tandemlift.engines.models.sdf import rotors_of
-from tandemlift.engines.ros_master import node, ros_environment
+from tandemlift.engines.rospy import node, ros_environment
 
 SILENT, SILENT_OVER_ROS = 1.5, 3.0  # s, after which a pilot is given up
 

@@ -18,8 +18,7 @@ from repository import ROOT as REPOSITORY
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import Quat
 from tandemlift.engines.gazebo_ros import ROOT
-from tandemlift.engines.ros_master import node
-from tandemlift.engines.rospy import message_type
+from tandemlift.engines.rospy import message_type, node
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 from .conftest import SILENT_OVER_ROS, fly

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.compiler.jit.functions import compiled
+from tandemlift.compiler.machine_code.functions import compiled
 from tandemlift.core.types import flat, leaves, unflat
 from tandemlift.parts.controllers import CONTROLLERS, Measured, Reference, control, nftsmc, register
 from tandemlift.simulation.loop_code import COMMAND

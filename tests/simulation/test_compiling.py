@@ -13,8 +13,8 @@ import pytest
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.compiler.jit import machine, store
-from tandemlift.compiler.jit.store import key_of, sources
+from tandemlift.compiler.machine_code import machine, store
+from tandemlift.compiler.machine_code.store import key_of, sources
 from tandemlift.core.law import LAWS
 from tandemlift.missions import built_in
 from tandemlift.simulation.loop_code import LANES
@@ -49,7 +49,7 @@ def test_a_second_process_finds_the_code_and_so_does_one_after_an_edit_that_chan
     environment = {"PYTHONPATH": str(copy), "TANDEMLIFT_CACHE": str(tmp_path / "cache"), "PYTHONSAFEPATH": "1"}
     code = """
 import tandemlift as tl
-from tandemlift.compiler.jit import machine
+from tandemlift.compiler.machine_code import machine
 made, compiled = [], machine.compiled
 machine.compiled = lambda *args: made.append(args) or compiled(*args)
 flight = tl.fly(tl.load_mission("one-push", {"mission.duration": 0.1}))
@@ -86,7 +86,7 @@ def test_the_key_is_of_the_sources_that_run_even_if_they_are_edited_meanwhile(tm
 import sys, tandemlift as tl
 from pathlib import Path
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.compiler.jit.store import key_of
+from tandemlift.compiler.machine_code.store import key_of
 model = FlightPlan(tl.load_mission("one-push")).model
 print(key_of(model))
 with (Path(tl.__file__).parent / "parts" / "mechanics" / "rotation.py").open("a") as law:

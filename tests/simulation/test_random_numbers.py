@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from machine_code import answers
 from scipy import stats
 
-from tandemlift.compiler.jit.functions import compiled, written
+from tandemlift.compiler.machine_code.functions import compiled, written
 from tandemlift.simulation.loop.random_numbers import MASK, Words, key_from_seed, normal_radius, normals, philox
 
 LANES, STEPS, DRAWS, SEEDS = 8, 20_000, 3, 5

@@ -8,7 +8,7 @@ from flights import different, lanes
 from patience import COMPILING
 
 import tandemlift as tl
-from tandemlift.compiler.jit import code, store
+from tandemlift.compiler.machine_code import code, store
 from tandemlift.core.types import leaves
 from tandemlift.simulation import fly, plan
 from tandemlift.simulation.loop_code import LANES, FlightMemory

@@ -9,7 +9,7 @@ import pytest
 from law_values import BEAM, paper_vehicle, quadrotor
 
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
-from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.wall_geometry import Wall, wall
 from tandemlift.parts.contact.walls import Walls, near_wall_loads, nearest_with, no_walls_near, walls
 from tandemlift.parts.mechanics.loads import PartLoads, PartsLayout

@@ -13,8 +13,8 @@ import pytest
 from law_values import BEAM, quadrotor
 from scipy.optimize import lsq_linear
 
-from tandemlift.compiler.jit.machine import BEST, QUICK, Loaded
-from tandemlift.compiler.jit.machine import compiled as object_code
+from tandemlift.compiler.machine_code.machine import BEST, QUICK, Loaded
+from tandemlift.compiler.machine_code.machine import compiled as object_code
 from tandemlift.compiler.tracer import Function, Module, Place
 from tandemlift.core.types import flat
 from tandemlift.core.vector import each, vec3
@@ -23,8 +23,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
 from tandemlift.parts.rotors.normal_equations import GAMMA
 from tandemlift.parts.rotors.thrust_limit_solver import BoundedProblem
-from tandemlift.simulation.loop_code.compiled_limit_solver import write_solver
-from tandemlift.simulation.loop_code.traced_step import TracedSolver
+from tandemlift.simulation.loop_code.limit_solver import TracedSolver, write_solver
 
 PRIORITIES = (30.0, 900.0, 900.0, 1.0)
 LIMIT = 7.066  # N, of IRIS

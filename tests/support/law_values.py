@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 from tandemlift.core.vector import ZERO, Mat3, Quat, Vec3, vec3
-from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.mechanics.air_drag import AirDrag
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, inertia_value
 from tandemlift.parts.mechanics.vehicle import Vehicle

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.compiler.jit.functions import compiled
-from tandemlift.compiler.jit.machine import BEST, Level, Loaded
-from tandemlift.compiler.jit.machine import compiled as object_code
+from tandemlift.compiler.machine_code.functions import compiled
+from tandemlift.compiler.machine_code.machine import BEST, Level, Loaded
+from tandemlift.compiler.machine_code.machine import compiled as object_code
 from tandemlift.compiler.tracer import Function, Graph, Module, symbols
 from tandemlift.compiler.tracer.fused import fused
 from tandemlift.core.types import flat, leaves, rebuilt

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.compiler.jit.machine import QUICK, Loaded, compiled
+from tandemlift.compiler.machine_code.machine import QUICK, Loaded, compiled
 from tandemlift.compiler.tracer import Function, Module, Place, Symbol
 from tandemlift.core.types import numbers_of
 from tandemlift.simulation.assembly.traced_assembly import TracedAssembly

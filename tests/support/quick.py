@@ -12,7 +12,7 @@ from pathlib import Path
 import llvmlite.binding
 import pytest
 
-from tandemlift.compiler.jit.code import Code
+from tandemlift.compiler.machine_code.code import Code
 
 KEPT = "tandemlift/slow"
 STARTS = {"subprocess.Popen", "os.fork", "os.posix_spawn", "os.system"}

@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 from tandemlift.__main__ import main
-from tandemlift.compiler.jit import machine
+from tandemlift.compiler.machine_code import machine
 
 quick = machine.compiled
 

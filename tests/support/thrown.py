@@ -10,13 +10,13 @@ from machine_code import Loop
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.compiler.jit.machine import QUICK
+from tandemlift.compiler.machine_code.machine import QUICK
 from tandemlift.core.law import law
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Absent, Quat, each, total, vec3
 from tandemlift.engines.compiled import advance, plant_from
 from tandemlift.engines.compiled_contact import CompiledPlant, hull_contact_with
-from tandemlift.engines.compiled_touches import wall_contact_with
+from tandemlift.engines.touches import wall_contact_with
 from tandemlift.missions import Mission
 from tandemlift.parts.contact.feet import start_foot_grip
 from tandemlift.parts.contact.wall_geometry import wall

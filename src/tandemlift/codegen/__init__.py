@@ -1,1 +1,1 @@
-"""Flights for other machines: the graph of a mission as WebAssembly, as objects for other processors, and as C."""
+"""Flights for other machines: the graph of a mission as WebAssembly, as objects for other processors, and as C99."""

@@ -1,29 +1,34 @@
-"""The whole flight of a mission as C: header and source. The loop around the laws is a text of `data/c`."""
+"""The whole flight of a mission as C: header and source. The loop around the laws is a text of `data/c`.
+
+The laws of a step are functions, and so are a step, `advance_flight`, and the laws of its external inputs, which the
+text calls.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from functools import cached_property
 from typing import Any
 
-from tandemlift.codegen import c_limits
-from tandemlift.codegen.c.law_functions import law_function
-from tandemlift.codegen.c.literals import number
-from tandemlift.codegen.c.unit import Unit
+from tandemlift.codegen.c_expressions import UNARY, number
+from tandemlift.codegen.c_laws import write_call, write_functions
+from tandemlift.codegen.c_limits import write_limits, write_solver
 from tandemlift.codegen.c_source import SourceFile
-from tandemlift.codegen.c_step import FlightStep
-from tandemlift.compiler.tracer.structured import TracedLaw
+from tandemlift.codegen.c_statements import Statements
+from tandemlift.codegen.c_text import FunctionHead, function
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import ZERO
-from tandemlift.parts.contact.wall_geometry import WALL
-from tandemlift.parts.person.person import PATH_LEG
-from tandemlift.simulation.assembly.assemble import AssembledFlight
-from tandemlift.simulation.loop_code.external_inputs import GAUSSIAN, GUST, InputTables
-from tandemlift.simulation.loop_code.offsets import delayed_spans
+from tandemlift.simulation.loop_code import external_inputs
+from tandemlift.simulation.loop_code.external_inputs import ROWS, draw_count
+from tandemlift.simulation.loop_code.memory import COUNTS
 from tandemlift.simulation.loop_code.step_output import COMMAND_LINE
 from tandemlift.simulation.loop_code.templates import templates_from
-from tandemlift.simulation.loop_code.traced_step import TracedStep
+from tandemlift.simulation.loop_code.traced_step import Symbols, TracedStep
+from tandemlift.simulation.plan import FlightPlan
 
-ROWS = InputTables(GAUSSIAN, GUST, WALL, PATH_LEG)
+STEP = """/* One step of a flight from time t [s] by dt [s]: its state after it, and the sample at its start
+ * (tandemlift.simulation.loop_code.traced_step). */
+"""
 
 
 class FlightFile:
@@ -31,174 +36,173 @@ class FlightFile:
 
     Args:
         file: the names of the mission, and its precision.
-        assembled: the flight at its first step.
-        steps: of the flight.
-        every: steps from one logged sample to the next.
+        plan: of the flight.
     """
 
-    def __init__(self, file: SourceFile, assembled: AssembledFlight, steps: int, every: int) -> None:
-        self.file, self.assembled, self.steps, self.every, unit = file, assembled, steps, every, file.unit
-        self.model = assembled.model
-        self.templates = templates_from(assembled.model, assembled.given)
-        for value in (ZERO, *ROWS, self.model, assembled.given, self.templates.sample):  # these get the plain names
+    def __init__(self, file: SourceFile, plan: FlightPlan) -> None:
+        self.file, self.plan, unit = file, plan, file.unit
+        self.templates, self.delayed = templates_from(plan.model, plan.given), plan.loop_code.delayed
+        for value in (ZERO, *ROWS, plan.model, plan.given, self.templates.sample):  # these get the plain names
             unit.structs.of(value)
         with unit.laws.recording():
-            self.traced = TracedStep(self.templates, fuses=False, rolls=False)
-        self.step = FlightStep(file, self.traced)
-        self.delayed = delayed_spans(self.model)
-        rows = [row for row, has in zip(ROWS, self._has_tables, strict=True) if has]
-        values = [self.model, self.templates.sample, assembled.given.hand.start, *rows]
+            x = self.traced = TracedStep(self.templates, fuses=False, rolls=False)
+        symbols = [*x.next_state, *x.sample, *x.body_in_contact, *x.body_on_feet, *x.body_in_free_air]
+        symbols += [*x.may_touch_walls, *x.may_touch_hull, *(x.limits.symbols if x.limits else [])]
+        self.roots = [s.node for s in symbols]
+        self.has_noise = leaves(self.templates.given.noise) > 0
+        self.has_gusts = any(x.graph.args[n][0] == "gust" for n in x.graph.needed(self.roots) if x.graph.ops[n] == "in")
+        values = [plan.model, self.templates.sample, plan.given.hand.start, *[row for _, row, _ in self._tables]]
         self.public = [unit.structs.of(value) for value in values]
 
     @property
-    def _has_tables(self) -> tuple[bool, ...]:
-        return True, self.step.has_gusts, self.templates.has_walls, self.templates.has_person
+    def _tables(self) -> Iterator[tuple[str, Any, Any]]:
+        """Name, layout of a row, and rows of each table that the mission may have."""
+        has = True, self.has_gusts, self.templates.has_walls, self.templates.has_person
+        for name, row, rows, is_there in zip(ROWS._fields, ROWS, self.plan.tables, has, strict=True):
+            if is_there:
+                yield name, row, rows
+
+    @property
+    def traced_tables(self) -> tuple[tuple[str, str, int], ...]:
+        """Name, type and rows of each table that the mission has."""
+        return tuple((name, self.file.unit.type_of(row), len(rows)) for name, row, rows in self._tables if len(rows))
 
     @cached_property
     def has(self) -> set[str]:
         """The blocks of the texts that this flight needs."""
         x = self.templates
-        found = {"gusts": self.step.has_gusts, "walls": x.has_walls, "person": x.has_person, "floor": x.has_floor}
-        found |= {"draws": leaves(x.given.noise) > 0, "delays": x.has_delays and self.ring_rows > 1}
-        return {name for name, is_there in found.items() if is_there} | (
-            {"surroundings"} if x.has_floor or x.has_person else set()
-        )
-
-    @property
-    def traced_tables(self) -> tuple[tuple[str, str, int], ...]:
-        """Name, type and rows of each table that the mission has."""
-        names, kinds = ("pushes", "gusts", "walls", "legs"), (self.file.unit.structs.of(row).name for row in ROWS)
-        rows = zip(names, kinds, map(len, self.assembled.tables), self._has_tables, strict=True)
-        return tuple((name, kind, count) for name, kind, count, has in rows if has and count)
+        found = {"gusts": self.has_gusts, "walls": x.has_walls, "person": x.has_person, "floor": x.has_floor}
+        found |= {"draws": self.has_noise, "delays": x.has_delays and self.ring_rows > 1}
+        found["surroundings"] = x.has_floor or x.has_person
+        return {name for name, is_there in found.items() if is_there}
 
     @property
     def ring_rows(self) -> int:
         """Rows of the delay lines."""
-        delays = self.assembled.delays
-        return 1 << int(delays.max()).bit_length() if delays.any() else 1
+        return len(self.plan.start().ring)
 
     def header(self) -> str:
         """The text of the header."""
         words = {
-            "STEPS": str(self.steps),
-            "EVERY": str(self.every),
+            "STEPS": str(self.plan.steps),
+            "EVERY": str(self.plan.every),
             "RING_ROWS": str(self.ring_rows),
             "RING_WIDTH": str(max(self.delayed.size, 1)),
             "DELAYS": str(max(len(self.delayed), 1)),
             "TYPES": self.file.typedefs(self.public),
-            "PUSH": self.file.unit.structs.of(self.assembled.given.hand.start).name,
+            "PUSH": self.file.unit.type_of(self.plan.given.hand.start),
         }
         return self.file.filled("flight.h", self.has, **words)
 
     def source(self) -> str:
         """The text of the source."""
-        done: list[int] = []
-        texts = self.step.functions(done)
-        words, outer = self._outside(done)
-        parts = [f"{{{s.at}, {s.size}, {int(j == COMMAND_LINE)}}}" for j, s in enumerate(self.delayed)]
-        words |= {
+        unit, x = self.file.unit, self.traced
+        write_functions(unit, unit.reached(x.graph, self.roots))
+        if x.limits:
+            write_solver(unit, x.limits.solver)
+        self._write_step()
+        arguments = ["gust"] * self.has_gusts + ["&noise"] * self.has_noise
+        arguments += ["flight->low"] * bool(x.body_in_free_air)
+        words = self._calls() | {
             "DOUBLE_STEP": number(self.file.step, "double"),
-            "PARTS": ", ".join(parts),
+            "PARTS": ", ".join(f"{{{s.at}, {s.size}, {int(j == COMMAND_LINE)}}}" for j, s in enumerate(self.delayed)),
             "PLACES": ", ".join(f"{{{s.at}, {s.size}}}" for s in self.delayed),
-            "ARGUMENTS": "".join(f"{name}, " for name in self.step.arguments),
+            "ARGUMENTS": "".join(f"{name}, " for name in arguments),
+            "TABLES": self._constants(),
         }
-        words["TABLES"] = self._tables()
-        functions = "\n".join([*texts, *outer])
-        used = functions + words["TABLES"]
-        return self.file.source("flight.c", self.public, functions, self.has, used=used, **words)
+        return self.file.source("flight.c", self.public, self.has, used=words["TABLES"], **words)
 
-    def _outside(self, done: list[int]) -> tuple[dict[str, str], list[str]]:
-        """(Calls in the text, the functions that they call)."""
-        m, hand = self.model, self.assembled.given.hand.start
-        unit, words, texts = self.file.unit, dict[str, str](), list[str]()
+    def _write_step(self) -> None:
+        x, unit, templates = self.traced, self.file.unit, self.templates
+        body = Statements(unit, x.graph, self.roots)
+        for name in ("model", "hand", "gust", "noise", "low", "t", "dt", "sample"):
+            body.taken.new(name)
+        given = [
+            body.argument("model", x.model, pointer=True),
+            body.argument("hand", x.input_of("hand", templates.given.hand), pointer=True),
+        ]
+        if self.has_gusts:
+            given.append(body.argument("gust", x.input_of("gust", ZERO)))
+        if self.has_noise:
+            given.append(body.argument("noise", x.input_of("noise", templates.given.noise), pointer=True))
+        given += ["bool low"] * bool(x.body_in_free_air)
+        given += [body.argument("t", x.t), body.argument("dt", x.dt), f"{unit.type_of(templates.sample)} *sample"]
+        if x.limits:
+            write_limits(body, x.limits)
+        self._move_body(body)
+        body.compute([s.node for s in [*x.sample, *x.next_state]])
+        state = templates.model.flight_state
+        last = [f"*sample = {body.value(rebuilt(iter(x.sample), templates.sample))};"]
+        last.append(f"return {body.value(rebuilt(iter(x.next_state), state))};")
+        head = FunctionHead(STEP, unit.type_of(state), "advance_flight", given)
+        unit.texts.append(function(head, body.made, "\n".join(last)))
 
-        def add(function: Any, arguments: dict[str, Any], given: dict[str, str]) -> None:
-            law = unit.laws.trace(function, arguments)
-            texts.extend(new_functions(unit, law, done))
-            words[function.__name__.upper()] = call_text(unit, law, given)
+    def _move_body(self, body: Statements) -> None:
+        """The body's part of the step: near walls or with all parts near the floor, on its feet, or in free air."""
+        x, like = self.traced, self.templates.moved
+        moved = body.variable(x.input_of("moved", like), "moved")
 
-        span = {"opens": 0.0, "closes": 0.0}
-        add(c_limits.push_is_active, {"row": GAUSSIAN, **span}, {"row": "*row", "opens": "opens", "closes": "closes"})
-        given = {"hand": "flight->hands[j]", "row": "*row", "when": "when"}
-        add(c_limits.with_push, {"hand": hand, "row": GAUSSIAN, "when": 0.0}, given)
+        def move(numbers: Symbols) -> None:
+            value: Any = rebuilt(iter(numbers), like)
+            body.compute([s.node for s in numbers])
+            body.line(f"{moved} = {body.value(value)};")
+
+        if not x.body_in_free_air:
+            move(x.body_in_contact)
+            return
+        body.compute([s.node for s in [*x.may_touch_walls, *x.may_touch_hull]])
+        walls, hull = ([body.number(s.node).within(UNARY) for s in t] for t in (x.may_touch_walls, x.may_touch_hull))
+        with body.branch(f"if ({' || '.join([*walls, *[f'(low && {test})' for test in hull]])}) {{", last=False):
+            move(x.body_in_contact)
+        with body.branch("} else if (low) {", last=False):
+            move(x.body_on_feet)
+        with body.branch("} else {", last=True):
+            move(x.body_in_free_air)
+
+    def _calls(self) -> dict[str, str]:
+        """Calls, in the text, of the laws of external inputs."""
+        words = dict[str, str]()
+
+        def add(law: Callable[..., Any], **arguments: tuple[Any, str]) -> None:
+            words[law.__name__.upper()] = write_call(self.file.unit, law, arguments)[1]
+
+        row, hand = (ROWS.pushes, "*row"), (self.plan.given.hand.start, "flight->hands[j]")
+        model, dt = (self.plan.model, "*model"), (0.0, f"{self.file.prefix.upper()}FLIGHT_STEP")
+        add(external_inputs.push_is_active, row=row, opens=(0.0, "opens"), closes=(0.0, "closes"))
+        add(external_inputs.with_push, hand=hand, row=row, when=(0.0, "when"))
         if "gusts" in self.has:
-            given = {"sum": "sum", "row": "flight->inputs.gusts[i]", "t": "t"}
-            add(c_limits.with_gust, {"sum": ZERO, "row": GUST, "t": 0.0}, given)
-        moving = {"model": "*model", "dt": f"{self.file.prefix.upper()}FLIGHT_STEP"}
+            row = ROWS.gusts, "flight->inputs.gusts[i]"
+            add(external_inputs.with_gust, sum=(ZERO, "sum"), row=row, t=(0.0, "t"))
         if "floor" in self.has:
-            add(c_limits.floor_is_near, {"model": m, "dt": 0.0}, moving)
+            add(external_inputs.floor_is_near, model=model, dt=dt)
         if "walls" in self.has:
-            add(c_limits.walls_are_due, {"model": m, "dt": 0.0}, moving)
-            add(
-                c_limits.nearest_walls, {"model": m, "row": WALL}, {"model": "*model", "row": "flight->inputs.walls[i]"}
-            )
-        if "draws" in self.has:
-            texts += self._draws(words, done)
-        return words, texts
+            add(external_inputs.walls_are_due, model=model, dt=dt)
+            add(external_inputs.nearest_walls, model=model, row=(ROWS.walls, "flight->inputs.walls[i]"))
+        return words | (self._draws() if "draws" in self.has else {})
 
-    def _draws(self, words: dict[str, str], done: list[int]) -> list[str]:
-        """The functions that draw random numbers: in doubles, whose bits they use."""
-        unit = Unit("double", "drawn_", self.file.unit.names) if self.file.real == "float" else self.file.unit
-        law = unit.laws.trace(c_limits.draw_normals, {"number": 0, "draw": 0, "key0": 0.0, "key1": 0.0})
-        given = {"number": "k", "draw": "i", "key0": "keys[0]", "key1": "keys[1]"}
-        words["DRAW_NORMALS"] = call_text(unit, law, given)
-        words["DRAWS"] = str(-(-leaves(self.templates.given.noise) // 4))
-        words["NORMALS"] = unit.structs.of(law.result).name
-        texts = new_functions(unit, law, done if unit is self.file.unit else [])
-        if unit is self.file.unit:
-            return texts
-        own = [struct.definition("", "double") for struct in unit.structs.all.values()]
-        return ["\n".join([*own, ""]), *texts]
+    def _draws(self) -> dict[str, str]:
+        """The call that draws random numbers: in doubles, whose bits its law uses."""
+        unit = self.file.unit.in_double("drawn_")
+        given = {"number": (0, "k"), "draw": (0, "i"), "key0": (0.0, "keys[0]"), "key1": (0.0, "keys[1]")}
+        law, call = write_call(unit, external_inputs.draw_normals, given)
+        self.file.unit.take(unit)
+        draws = str(draw_count(self.templates.given.noise))
+        return {"DRAW_NORMALS": call, "DRAWS": draws, "NORMALS": unit.type_of(law.result)}
 
-    def _tables(self) -> str:
+    def _constants(self) -> str:
         """The constants of the mission: numbers at the start, and tables."""
-        texts = [self.file.constant(self.model, "START")]
-        names, members = ("pushes", "gusts", "walls", "legs"), list[str]()
-        counts = ("push_count", "gust_count", "wall_count", "leg_count")
-        for name, count, like, rows, has in zip(
-            names, counts, ROWS, self.assembled.tables, self._has_tables, strict=True
-        ):
-            if not has:
-                continue
-            members += [f"    .{name} = {name.upper() if len(rows) else 0},", f"    .{count} = {len(rows)},"]
+        texts, members = [self.file.constant(self.plan.model, "START")], list[str]()
+        counts = dict(zip(ROWS._fields, COUNTS, strict=True))
+        for name, row, rows in self._tables:
+            members += [f"    .{name} = {name.upper() if len(rows) else 0},", f"    .{counts[name]} = {len(rows)},"]
             if len(rows):
-                kind = self.file.unit.structs.of(like).name
-                lines = [f"    {self.file.initialiser(rebuilt(iter(map(float, row)), like))}," for row in rows]
-                texts.append("\n".join([f"static const {kind} {name.upper()}[] = {{", *lines, "};", ""]))
+                lines = [f"    {self.file.initialiser(rebuilt(iter(map(float, numbers)), row))}," for numbers in rows]
+                opening = f"static const {self.file.unit.type_of(row)} {name.upper()}[] = {{"
+                texts.append("\n".join([opening, *lines, "};", ""]))
         if "delays" in self.has:
-            members.append(f"    .delays = {{{', '.join(str(int(d)) for d in self.assembled.delays)}}},")
-        members.append(f"    .keys = {{{', '.join(number(float(x), 'double') for x in self.assembled.seeds)}}},")
-        kind = f"{self.file.prefix}Inputs"
-        texts.append("\n".join([f"static const {kind} INPUTS = {{", *members, "};", ""]))
+            members.append(f"    .delays = {{{', '.join(str(int(d)) for d in self.plan.delays)}}},")
+        members.append(f"    .keys = {{{', '.join(number(float(x), 'double') for x in self.plan.seeds)}}},")
+        texts.append("\n".join([f"static const {self.file.prefix}Inputs INPUTS = {{", *members, "};", ""]))
         if "walls" in self.has:
             texts.append(self.file.constant(self.templates.nowhere, "NOWHERE"))
         return "\n".join(texts)
-
-
-def new_functions(unit: Unit, law: TracedLaw, done: list[int]) -> list[str]:
-    """The functions of a law and of those that it calls, without those that are done."""
-    texts = []
-    for one in [*unit.reached(law.graph, [s.node for s in law.ends]), law.number]:
-        if one not in done:
-            done.append(one)
-            texts.append(law_function(unit, one))
-    return texts
-
-
-def call_text(unit: Unit, law: TracedLaw, given: dict[str, str]) -> str:
-    """A call of a law's function; `given`: a value in C for each argument."""
-    signature, names = unit.signature(law.number), list(law.arguments)
-    texts, starts = [], dict[int, str]()
-    first = 0
-    for name in names:
-        starts[first] = name
-        first += count_of(law.arguments[name])
-    for p in signature.parameters:
-        value = given[starts[p.first]]
-        texts.append((value[1:] if value.startswith("*") else f"&{value}") if p.pointer else value)
-    return f"{signature.name}({', '.join(texts)})"
-
-
-def count_of(value: Any) -> int:
-    """Numbers of an argument."""
-    return leaves(value) if hasattr(value, "_fields") else 1

@@ -2,16 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
+import numpy as np
+
+from tandemlift.codegen.c_expressions import number
 from tandemlift.codegen.c_flight import FlightFile
-from tandemlift.codegen.c_pilot import PilotFile, PrepareFile
-from tandemlift.codegen.c_selftests import flight_selftest, native_flight, pilot_selftest
+from tandemlift.codegen.c_pilot import PilotFile
 from tandemlift.codegen.c_source import SourceFile
+from tandemlift.codegen.c_text import wrapped
+from tandemlift.codegen.prepare import PrepareFile
+from tandemlift.core.types import Array, leaves
 from tandemlift.missions import Mission
-from tandemlift.simulation.assembly.traced_assembly import assembled_by_graph, assembled_flight, trace_assembly
+from tandemlift.simulation.assembly.traced_assembly import assembled_by_graph, trace_assembly
 from tandemlift.simulation.caller_values import portable_mission
-from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
+from tandemlift.simulation.fly import fly
+from tandemlift.simulation.loop_code import FlightMemory
+from tandemlift.simulation.pilot_api import INPUT, Pilot, pilot_at_start
+from tandemlift.simulation.plan import FlightPlan
+
+VECTORS = 40  # stored samples of a pilot
+ROWS = 12  # stored samples of a flight
+MEASURED = ("position", "velocity", "attitude", "rates", "push_force")
+TOLERANCE = 1e-3  # of the range of thrusts, in single precision
+NAN = 0x7FF8000000000000  # the value of every NaN in the sum over a log
 
 
 def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[Path]:
@@ -31,26 +46,26 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
         InputError: the mission's controller is plain Python, or the mission changes while it is flown.
     """
     mission = portable_mission(mission)
-    texts = code_texts(mission, single)
-    unfused, flight = native_flight(mission)
-    file = SourceFile(mission.mission.name, single, mission.mission.step)
+    texts, file = code_texts(mission, single), _file(mission, single)
     texts |= {
-        f"{file.name}_pilot_selftest.c": pilot_selftest(file, unfused, flight),
-        f"{file.name}_flight_selftest.c": flight_selftest(file, unfused),
+        f"{file.name}_pilot_selftest.c": pilot_selftest(file, mission),
+        f"{file.name}_flight_selftest.c": flight_selftest(file, mission),
     }
     return written(texts, Path(folder))
+
+
+def _file(mission: Mission, single: bool) -> SourceFile:
+    return SourceFile(mission.mission.name, single, mission.mission.step)
 
 
 def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
     """The texts of all files but the self-tests, by name."""
     mission = portable_mission(mission)
-    start = assembled_by_graph(mission, pilot_at_start)
-    given = mission.mission.name, single, mission.mission.step
-    file = SourceFile(*given)
-    pilot = PilotFile(SourceFile(*given), start, INPUT)
-    flight = FlightFile(SourceFile(*given), assembled_flight(mission), mission.mission.steps, mission.mission.log_every)
-    pilot_prepare = PrepareFile(SourceFile(*given), trace_assembly(mission, pilot_at_start), "pilot")
-    flight_prepare = PrepareFile(SourceFile(*given), trace_assembly(mission), "flight")
+    pilot = PilotFile(_file(mission, single), assembled_by_graph(mission, pilot_at_start))
+    flight = FlightFile(_file(mission, single), FlightPlan(mission))
+    pilot_prepare = PrepareFile(_file(mission, single), trace_assembly(mission, pilot_at_start), "pilot")
+    flight_prepare = PrepareFile(_file(mission, single), trace_assembly(mission), "flight")
+    file = _file(mission, single)
     how = {"PRECISION": "single" if single else "double"}
     how["COMPARED"] = "within 1e-3 of the range of thrusts" if single else "to the last bit"
     return {
@@ -75,3 +90,73 @@ def written(texts: dict[str, str], folder: Path) -> list[Path]:
     for path, text in zip(paths, texts.values(), strict=True):
         path.write_text(text, encoding="utf-8")
     return paths
+
+
+# ---- Programs that compare pilot and flight with stored samples of native flights
+
+
+def braced(file: SourceFile, values: Iterable[float]) -> str:
+    """Numbers in braces."""
+    return "{" + ", ".join(number(float(x), file.real) for x in values) + "}"
+
+
+def pilot_vectors(mission: Mission) -> list[tuple[Array, Array, Array]]:
+    """(Memory, input, thrusts) of samples; the pilot is given the logged states of a flight one after the other."""
+    pilot, flight, found = Pilot(mission), fly(mission, "compiled"), []
+    rows = np.hstack([flight[name] for name in MEASURED])
+    rows = rows[np.isfinite(rows).all(axis=1)]
+    hold = max(1, mission.mission.steps // VECTORS)
+    for row in rows[np.linspace(0, len(rows) - 1, VECTORS).astype(int)]:
+        measurement = np.ascontiguousarray(row)
+        for _ in range(hold - 1):
+            pilot.step(measurement)
+        memory = pilot.memory
+        thrusts = pilot.step(measurement).copy()
+        given = np.zeros(leaves(INPUT))
+        given[:16], given[22] = measurement, 1.0
+        found.append((memory, given, thrusts))
+    return found
+
+
+def pilot_selftest(file: SourceFile, mission: Mission) -> str:
+    """The program that compares the pilot."""
+    vectors = pilot_vectors(mission)
+    lines = [wrapped("{" + ", ".join(braced(file, part) for part in vector) + "},") for vector in vectors]
+    memory, given, _ = vectors[0]
+    span = np.ptp([thrusts for *_, thrusts in vectors])
+    words = {
+        "VECTORS": str(len(vectors)),
+        "MEMORY": str(len(memory)),
+        "INPUT": str(len(given)),
+        "TOLERANCE": number(TOLERANCE * float(span), "float"),
+        "DATA": "\n".join(lines),
+    }
+    return file.filled("pilot_selftest.c", **words)
+
+
+def sum_over(log: Array) -> int:
+    """The sum over the bits of all numbers of a log, each times an odd weight; NaN counts as one number."""
+    numbers = np.ascontiguousarray(log).ravel()
+    bits = np.where(np.isnan(numbers), np.uint64(NAN), numbers.view(np.uint64))
+    weights = 2 * np.arange(len(bits), dtype=np.uint64) + 1
+    return int(np.sum(bits * weights, dtype=np.uint64))
+
+
+def flight_selftest(file: SourceFile, mission: Mission) -> str:
+    """The program that compares the whole flight."""
+    p = FlightPlan(mission)
+    memory = FlightMemory(p.loop_code.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
+    memory.fly(p.steps + 1)
+    log = memory.log[0][: min(memory.k, p.steps) // p.every + 1]
+    if memory.k < p.steps and memory.k % p.every == 0:  # it diverged before the sample of that step
+        log = log[:-1]
+    rows = sorted(set(np.linspace(0, len(log) - 1, ROWS).astype(int)))
+    data = [wrapped(braced(file, log[row]) + ",") for row in rows]
+    words = {
+        "ROWS": str(len(rows)),
+        "STEPS_OF": ", ".join(str(row * p.every) for row in rows),
+        "COLUMNS": str(log.shape[1]),
+        "SUM": f"0x{sum_over(log):016X}",
+        "DATA": "\n".join(data),
+    }
+    return file.filled("flight_selftest.c", **words)

@@ -1,4 +1,4 @@
-"""A source of C from a text in `data/c`, with the mission's names filled in, and unneeded parts omitted."""
+"""A file of C: the laws that it needs, and its text from `data/c` with the mission's names, without unneeded parts."""
 
 from __future__ import annotations
 
@@ -7,15 +7,108 @@ from collections.abc import Iterable
 from importlib.resources import files
 from typing import Any
 
-from tandemlift.codegen.c.function_text import wrapped
-from tandemlift.codegen.c.identifiers import identifier
-from tandemlift.codegen.c.literals import number
-from tandemlift.codegen.c.structs import Struct, Structs, parts_of
-from tandemlift.codegen.c.unit import Unit
-from tandemlift.compiler.tracer.structured import is_nested
+from tandemlift.codegen.c_expressions import number
+from tandemlift.codegen.c_text import wrapped
+from tandemlift.codegen.c_types import Names, Signature, Struct, Structs, identifier, parts_of, signature_of, type_name
+from tandemlift.compiler.tracer import Graph, Symbol
+from tandemlift.compiler.tracer.structured import Laws, TracedLaw, calls_in, is_nested, numbers_in, with_numbers
 
 TEXTS = files("tandemlift") / "data" / "c"
 BLOCK = re.compile(r"^ *//if (\w+)\n(.*?)^ *//end \1\n", re.MULTILINE | re.DOTALL)
+
+
+class Unit:
+    """The names, structs and laws of a file.
+
+    Args:
+        real: "double" or "float".
+        prefix: before the names of functions of laws, where several units share a file.
+        names: of another unit of the same file.
+
+    Attributes:
+        laws: the traced laws.
+        names: at file scope.
+        texts: the functions so far, in their order in the file.
+        written: the numbers of the laws that have their function among them.
+    """
+
+    def __init__(self, real: str, prefix: str = "", names: Names | None = None) -> None:
+        self.real, self.prefix, self.laws = real, prefix, Laws()
+        self.names = Names() if names is None else names
+        self.structs, self.texts, self.written = Structs(self.names), list[str](), set[int]()
+        self._signatures: dict[int, Signature] = {}
+        self._locals: dict[int, Names] = {}
+
+    def in_double(self, prefix: str) -> Unit:
+        """A unit for functions in double precision in the same file: this one, if it has that precision."""
+        return self if self.real == "double" else Unit("double", prefix, self.names)
+
+    def take(self, other: Unit) -> None:
+        """Add the structs and functions of another unit of the same file."""
+        if other is not self:
+            structs = [struct.definition("", other.real) for struct in other.structs.all.values()]
+            self.texts += ["\n".join([*structs, ""]), *other.texts]
+
+    def type_of(self, value: Any) -> str:
+        """The name of the type of a nested value or number."""
+        return type_name(self.structs.of(value), self.real)
+
+    def signature(self, number: int) -> Signature:
+        """The signature of a law by its number."""
+        if number not in self._signatures:
+            law = self.laws.all[number]
+            calls = [self.signature(n).name for n in law.calls]
+            name = self.names.new(self.prefix + law_word(law.law))
+            self._locals[number] = Names(given=calls)
+            self._signatures[number] = signature_of(law, name, self.structs, self._locals[number])
+        return self._signatures[number]
+
+    def local_names(self, number: int) -> Names:
+        """The names inside a law's function: those of its parameters so far."""
+        self.signature(number)
+        return self._locals[number]
+
+    def results_of(self, graph: Graph, call: int) -> list[Any]:
+        """The results of a call, each a nested value or number of symbols of the caller's graph."""
+        signature = self.signature(int(graph.ops[call][5:]))
+        found, first = [], 0
+        for result in signature.results:
+            ends = []
+            for i, x in enumerate(numbers_in(result.value), first):
+                kind = x.type if isinstance(x, Symbol) else "f"
+                ends.append(Symbol(graph, graph.node(f"out {i}", (call,), kind, 0), kind))
+            first += len(ends)
+            found.append(with_numbers(result.value, iter(ends)))
+        return found
+
+    def reached(self, graph: Graph, roots: Iterable[int]) -> list[int]:
+        """The numbers of the laws that nodes of a graph call, those that laws call before them."""
+        found: list[int] = []
+        stack = [(n, False) for n in reversed(calls_in(graph, roots))]
+        while stack:
+            number, is_done = stack.pop()
+            if number in found:
+                continue
+            if is_done:
+                found.append(number)
+                continue
+            stack.append((number, True))
+            stack += [(n, False) for n in reversed(self.laws.all[number].calls)]
+        return [n for n in found if not self.is_replaced(n)]
+
+    def needed(self, law: TracedLaw) -> list[int]:
+        """The numbers of a law and of those that it calls, these before it."""
+        return [*self.reached(law.graph, [s.node for s in law.ends]), law.number]
+
+    def is_replaced(self, number: int) -> bool:
+        """Whether a law's function is that of `data/c/single.c`: the polynomials are made for doubles."""
+        return self.real == "float" and self.laws.all[number].law.__module__.endswith(".elementary")
+
+
+def law_word(law: Any) -> str:
+    """A law's name without leading underscores; elementary functions, whose names C has too, get a word before it."""
+    plain = str(law.__name__).strip("_")
+    return f"elementary_{plain}" if law.__module__.endswith(".elementary") else plain
 
 
 class SourceFile:
@@ -70,21 +163,19 @@ class SourceFile:
         """The definitions of public structs, with the mission's name before theirs."""
         return "\n".join(s.definition(self.prefix, self.real) for s in self.public(roots))
 
-    def source(
-        self, name: str, roots: list[Struct], functions: str, has: Iterable[str] = (), used: str = "", **words: str
-    ) -> str:
-        """A source: short names for public structs, the other structs, the functions of laws, and a text behind them.
+    def source(self, name: str, roots: list[Struct], has: Iterable[str] = (), used: str = "", **words: str) -> str:
+        """A source: short names for public structs, the other structs, the unit's functions, and a text behind them.
 
         Args:
             name: of the text in `data/c`.
             roots: the structs of its header.
-            functions: of the laws.
             has: blocks of the text that are kept.
             used: a text that names further structs.
             words: texts for its marks.
         """
         public = self.public(roots)
         short = [f"typedef {self.prefix}{s.name} {s.name};" for s in public]
+        functions = "\n".join(self.unit.texts)
         named = set(re.findall(r"\w+", functions + used))
         own = [s for s in self._needed(named) if s not in public]
         types = "\n".join([*short, "", *[s.definition("", self.real) for s in own]])
@@ -100,8 +191,8 @@ class SourceFile:
 
     def constant(self, value: Any, name: str) -> str:
         """A constant of a nested value, with the names of its members."""
-        kind = self.unit.structs.of(value).name
-        return "\n".join([f"static const {kind} {name} = {{", *self._members(value, "    "), "};", ""])
+        opening = f"static const {self.unit.type_of(value)} {name} = {{"
+        return "\n".join([opening, *self._members(value, "    "), "};", ""])
 
     def initialiser(self, value: Any) -> str:
         """A nested value in braces, without names."""

@@ -9,26 +9,31 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+from pydantic import BaseModel
+
 from tandemlift.codegen.c_package import write_c
-from tandemlift.codegen.machines import MACHINES, Machine, machine_named, object_code
-from tandemlift.codegen.manifest import manifest_of
-from tandemlift.codegen.module_text import (
-    PreparedLayout,
-    ValuesFunction,
-    write_flight_loop,
-    write_prepare,
-    write_ramp,
-    write_values_function,
-)
-from tandemlift.codegen.wasm_linker import linked
-from tandemlift.compiler.jit import store
+from tandemlift.codegen.module_text import ValuesFunction, write_flight_loop, write_ramp, write_values_function
+from tandemlift.codegen.prepare import write_prepare
+from tandemlift.compiler.machine_code import store
+from tandemlift.compiler.machine_code.code import Written
+from tandemlift.compiler.machine_code.machine import MACHINES, Machine, machine_named, object_code
+from tandemlift.compiler.machine_code.wasm_linker import linked
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import __version__, atomic_write
+from tandemlift.core.keys import description_of
+from tandemlift.core.types import leaves
+from tandemlift.flight.channels import channel_of
 from tandemlift.missions import Mission
+from tandemlift.missions.schema import schema_of
 from tandemlift.simulation.assembly.traced_assembly import TracedAssembly, trace_assembly
 from tandemlift.simulation.caller_values import portable_mission
+from tandemlift.simulation.loop_code.context import POINTERS, WORDS
+from tandemlift.simulation.parameter_changes import hand_place
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import channels_of
 
+BOUNDS = ("minimum", "exclusiveMinimum", "maximum", "exclusiveMaximum")
 FUNCTIONS = ("prepare", "fly", "ramp")
 Functions = Callable[[FlightPlan], Sequence[ValuesFunction]]
 
@@ -38,15 +43,6 @@ class MissionModule(NamedTuple):
 
     code: bytes
     manifest: dict[str, Any]
-
-
-class WrittenModule(NamedTuple):
-    """The text of a module, and the data of its manifest: layouts, sizes of arguments and results by function."""
-
-    text: str
-    prepared: PreparedLayout
-    work: int
-    functions: dict[str, tuple[int, int]]
 
 
 def _nothing_more(plan: FlightPlan) -> Sequence[ValuesFunction]:
@@ -74,9 +70,8 @@ def module_of(mission: Mission, target: str, functions: Functions = _nothing_mor
         written = _written(plan, traced, machine, more)
         code = object_code(written.text, machine)
         if target == "wasm32":
-            code = linked(code, [*FUNCTIONS, *written.functions])
-        about = {"prepared": written.prepared, "work": written.work, "functions": written.functions}
-        entry = store.StoredCode(json.loads(json.dumps(about)), code)
+            code = linked(code, [*FUNCTIONS, *[f.name for f in more]])
+        entry = store.StoredCode(json.loads(json.dumps(written.about)), code)
         store.write(key, entry)
     manifest = {
         "format": 1,
@@ -105,12 +100,13 @@ def _sources(functions: Sequence[ValuesFunction]) -> str:
 
 def _written(
     plan: FlightPlan, traced: TracedAssembly, machine: Machine, functions: Sequence[ValuesFunction]
-) -> WrittenModule:
+) -> Written:
+    """The text of a module, and what the manifest needs of it: see `manifest_of`."""
     loop = write_flight_loop(plan.loop_code, machine.draw_lanes, machine.largest)
     write_ramp(loop.module)
     sizes = {f.name: (f.width, write_values_function(loop.module, f)) for f in functions}
-    prepared = write_prepare(loop.module, traced)
-    return WrittenModule(loop.module.text, prepared, loop.scratch.size, sizes)
+    about = {"prepared": write_prepare(loop.module, traced), "work": loop.scratch.size, "functions": sizes}
+    return Written(loop.module.text, about)
 
 
 TARGETS = {"c": "C99 sources, for any compiler", **{name: machine.meaning for name, machine in MACHINES.items()}}
@@ -152,3 +148,89 @@ def _write_module(mission: Mission, target: str, folder: Path) -> Iterator[Path]
         with atomic_write(folder / f"{name}.{ending}") as partial:
             partial.write_bytes(content)
         yield folder / f"{name}.{ending}"
+
+
+# ---- The manifest: meanings and places of a module's numbers, for a caller without Python
+
+
+def manifest_of(plan: FlightPlan, traced: TracedAssembly, about: dict[str, Any]) -> dict[str, Any]:
+    """The manifest for a module's caller.
+
+    Args:
+        plan: of the flight.
+        traced: its assembly.
+        about: `prepared` (spans and work), `work` (numbers of scratch memory), and `functions` (for each further one
+            the numbers of its arguments and of its result).
+    """
+    spans, prepare_work = about["prepared"]
+    hand, start = hand_place(plan), plan.start()
+    return {
+        "numbers": [
+            {"key": key, "value": number(value), **number_facts(plan.mission, key)}
+            for key, value in zip(traced.keys, traced.values, strict=True)
+        ],
+        "fixed": traced.fixed,
+        "guards": [list(traced.keys_of(guard)) for guard in traced.guards],
+        "context": {"words": list(WORDS), "pointers": list(POINTERS)},
+        "sizes": {
+            "flight": len(start.numbers),
+            "state": leaves(plan.model.flight_state),
+            "prepared": max(at + rows * columns for at, rows, columns in spans.values()),
+            "work": about["work"],
+            "prepare_work": prepare_work,
+            "ring_rows": len(start.ring),
+            "ring_row": plan.loop_code.delayed.size,
+            "sample": leaves(plan.sample),
+        },
+        "prepared": spans,
+        "delayed": [list(span) for span in plan.loop_code.delayed if span.size],
+        "delays": plan.delays.tolist(),
+        "keys": [float(key) for key in plan.seeds],
+        "steps": plan.steps,
+        "every": plan.every,
+        "dt": plan.dt,
+        "hand": [hand.start, hand.stop - hand.start],
+        "functions": about["functions"],
+        "channels": _channels(plan),
+    }
+
+
+def number(value: float) -> float | str:
+    """A number for JSON, which has no infinity."""
+    return float(value) if np.isfinite(value) else str(float(value))
+
+
+def _channels(plan: FlightPlan) -> list[dict[str, Any]]:
+    row = np.arange(leaves(plan.sample), dtype=np.float64)[None, :]
+    found = []
+    for name, columns in channels_of(plan.sample, row):
+        channel = channel_of(name)
+        places = columns.ravel().astype(int).tolist()
+        facts = {"unit": channel.unit, "frame": channel.frame, "meaning": channel.meaning}
+        found.append({"name": name, "columns": places, **facts})
+    return found
+
+
+def number_facts(mission: Mission, key: str) -> dict[str, Any]:
+    """The description of a number of a mission: `unit`, `meaning` and bounds by their names in JSON Schema.
+
+    Args:
+        mission: that of the number, which also determines the controller's keys.
+        key: dotted, with the number of a list's entry where there is one.
+    """
+    value: Any = mission
+    for part in key.split("."):
+        if isinstance(value, BaseModel):
+            field, value = type(value).model_fields[part], getattr(value, part)
+        else:
+            value = value[int(part)]
+    description = description_of(field)
+    unit = "" if description.unit in (None, "1") else description.unit
+    return {"unit": unit, "meaning": description.meaning, **_bounds(schema_of(field))}
+
+
+def _bounds(schema: dict[str, Any]) -> dict[str, float]:
+    """The bounds of the innermost number of a schema."""
+    while "type" not in schema or schema["type"] == "array":
+        schema = schema["items"] if schema.get("type") == "array" else schema["anyOf"][0]
+    return {name: schema[name] for name in BOUNDS if name in schema}

@@ -1,6 +1,6 @@
 """The LLVM text of a mission's module: its loop over steps, the ramps of its numbers, and functions of values.
 
-    prepare(numbers, prepared, work) → 0, or 1 + …               see `prepare_text`
+    prepare(numbers, prepared, work) → 0, or 1 + …               see `prepare`
     fly(context) → the step reached                              as in `loop_code`
     ramp(flight, before, after, active, first, count, k, begin, steps) → 1 while the ramp goes on
     NAME(x, y) → 0                                               y = function(x), numbers one after another
@@ -14,13 +14,10 @@ import itertools
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from tandemlift.compiler.tracer import LEAVES, Function, Graph, Module, Place, Symbol, double, rounded_twice, symbols
+from tandemlift.compiler.tracer import Function, Graph, Module, Place, double, rounded_twice, symbols
 from tandemlift.core.types import leaves
-from tandemlift.simulation.assembly.traced_assembly import TracedAssembly
-from tandemlift.simulation.loop_code import InputTables, LoopCode
-from tandemlift.simulation.loop_code.context import ScratchLayout
+from tandemlift.simulation.loop_code import LoopCode
 from tandemlift.simulation.loop_code.loops import LoopWriter
-from tandemlift.simulation.loop_code.scratch import ScratchValues
 
 
 class ValuesFunction(NamedTuple):
@@ -36,18 +33,11 @@ class ValuesFunction(NamedTuple):
         return sum(map(leaves, self.likes))
 
 
-class LoopText(NamedTuple):
-    """A loop as a module that goes on to grow, and the layout of its scratch memory."""
-
-    module: Module
-    scratch: ScratchLayout
-
-
-def write_flight_loop(loop_code: LoopCode, draw_lanes: int, largest: int) -> LoopText:
-    """The module of a flight's loop, for one flight; arguments as for `simulation.loop_code.step_writer.StepWriter`."""
+def write_flight_loop(loop_code: LoopCode, draw_lanes: int, largest: int) -> LoopWriter:
+    """The loop for one flight, whose module goes on to grow; arguments as for `loop_code.step_writer.StepWriter`."""
     writer = LoopWriter(loop_code.traced, 1, draw_lanes, largest)
     writer.write_loop()
-    return LoopText(writer.module, writer.scratch)
+    return writer
 
 
 def write_values_function(module: Module, wanted: ValuesFunction) -> int:
@@ -91,71 +81,3 @@ def write_ramp(module: Module) -> None:
 def _is_finite(f: Function, x: str) -> str:
     """Whether x − x is 0, which is true for finite numbers only."""
     return f.op(f"fcmp oeq double {f.op(f'fsub double {x}, {x}')}, {double(0.0)}")
-
-
-PIECE = 600  # operations of a function
-ARGUMENTS = "ptr noalias %numbers, ptr noalias %work"
-
-
-class PreparedSpan(NamedTuple):
-    """A part of the output of `prepare`: its first number, its rows, and numbers in a row."""
-
-    at: int
-    rows: int
-    columns: int
-
-
-class PreparedLayout(NamedTuple):
-    """The output of `prepare` by name (`flight`, and the tables of inputs), and the size of its `work`."""
-
-    spans: dict[str, PreparedSpan]
-    work: int
-
-    @property
-    def size(self) -> int:
-        """Numbers that it writes."""
-        return max(span.at + span.rows * span.columns for span in self.spans.values())
-
-
-def prepared_numbers(traced: TracedAssembly) -> tuple[list[Symbol], dict[str, PreparedSpan]]:
-    """The numbers of a flight as symbols of a mission's numbers, one after another, and their layout."""
-    graph, built = traced.graph, traced.assembled
-    found = symbols(graph, built.model)
-    spans = {"flight": PreparedSpan(0, 1, len(found))}
-    for name, table in zip(InputTables._fields, built.tables, strict=True):
-        spans[name] = PreparedSpan(len(found), *table.shape)
-        found += [one for number in table.ravel().tolist() for one in symbols(graph, number)]
-    return found, spans
-
-
-def write_prepare(module: Module, traced: TracedAssembly) -> PreparedLayout:
-    """Add `prepare` to a module. While a guard fails, it writes nothing: the mission needs a module of its own."""
-    graph = traced.graph
-    wanted, spans = prepared_numbers(traced)
-    kept = ScratchValues(graph, ScratchLayout())
-    conditions = [guard.condition.node for guard in traced.guards]
-    nodes = [n for n in graph.needed([*conditions, *[s.node for s in wanted]]) if graph.ops[n] not in LEAVES]
-    later = [*wanted, *[guard.condition for guard in traced.guards]]
-    parts = [nodes[cut : cut + PIECE] for cut in range(0, len(nodes), PIECE)]
-    for i, part in enumerate(parts):
-        f = _function(module, traced, kept, f"internal void @prepare_{i}({ARGUMENTS}) #1")
-        f.write(part)
-        kept.store_for_later(f, later)
-        f.end()
-    f = _function(module, traced, kept, "i64 @prepare(ptr noalias %numbers, ptr %prepared, ptr noalias %work) #0")
-    for i in range(len(parts)):
-        f.do(f"call void @prepare_{i}(ptr %numbers, ptr %work)")
-    for i, guard in enumerate(traced.guards, 1):
-        truth, good, bad = f.value(guard.condition), f.fresh("good"), f.fresh("bad")
-        f.do(f"br i1 {truth}, label %{good if guard.holds else bad}, label %{bad if guard.holds else good}")
-        f.lines += [f"{bad}:", f"  ret i64 {i}", f"{good}:"]
-    f.put("%prepared", 0, wanted)
-    f.end("i64 0")
-    return PreparedLayout(spans, kept.scratch.size)
-
-
-def _function(module: Module, traced: TracedAssembly, kept: ScratchValues, head: str) -> Function:
-    f = Function(module, traced.graph, 1, head)
-    f.read["number"] = lambda i: Place("%numbers", i)
-    kept.bind(f)
-    return f

@@ -1,4 +1,8 @@
-"""Progress of long tasks with tqdm: a bar in a terminal or a notebook, lines at intervals in a file."""
+"""Progress of long tasks, and events of compilations for those who display them.
+
+Tasks show a bar by tqdm in a terminal or a notebook, lines at intervals in a file. While this machine compiles, a line
+in a notebook says so.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +11,16 @@ import shutil
 import sys
 import threading
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 if TYPE_CHECKING:
     from tandemlift.core.types import Progress  # tqdm.auto imports NumPy, which is too slow for shell completion
 
 BETWEEN_LINES = 10.0  # s, in a file, as of a job array
 KERNEL = "ipykernel"  # the package of a notebook's streams
+NOTICE = "Compiling for this machine; the machine code is kept for next time …"
 
 _shown = threading.Semaphore()  # a notebook's one bar
 
@@ -90,3 +95,74 @@ def progress_or_own(label: str, progress: Progress | None, unit: str = "rows") -
 def in_notebook() -> bool:
     """Whether standard output is a cell of a notebook."""
     return type(sys.stdout).__module__.partition(".")[0] == KERNEL
+
+
+# ---- Compilations
+
+
+class Stopped(Exception):
+    """Work was stopped by its caller."""
+
+
+def always() -> bool:
+    """True: go on without end."""
+    return True
+
+
+class Compiled(NamedTuple):
+    """The end of a compilation.
+
+    Attributes:
+        what: name of the compiled code.
+        seconds: the time it took [s].
+        is_kept: whether it is on disk for the next process.
+        is_made: whether it succeeded.
+    """
+
+    what: str
+    seconds: float = 0.0
+    is_kept: bool = True
+    is_made: bool = False
+
+
+Watcher = Callable[[Compiled | None], None]
+
+
+class NotebookNotice:
+    """Shows a line below the cell of a notebook while anything is compiled."""
+
+    def __init__(self) -> None:
+        self._lock, self._running = threading.Lock(), 0
+        self._handle: Any = None
+
+    def __call__(self, what: Compiled | None) -> None:
+        """Handle an event: a compilation begins (None) or has ended."""
+        if not in_notebook():
+            return
+        from IPython.display import display
+
+        with self._lock:
+            self._running += 1 if what is None else -1
+            if what is None and self._running == 1:
+                self._handle = display({"text/plain": NOTICE}, raw=True, display_id=True)
+            elif not self._running and self._handle is not None:
+                self._handle.update({"text/plain": ""}, raw=True)
+
+
+_watchers: list[Watcher] = [NotebookNotice()]
+
+
+def publish(what: Compiled | None) -> None:
+    """Publish that a compilation begins (None) or has ended; from any thread."""
+    for watch in tuple(_watchers):
+        watch(what)
+
+
+@contextmanager
+def watching(watch: Watcher) -> Iterator[None]:
+    """Call `watch` with each event while the context is open."""
+    _watchers.append(watch)
+    try:
+        yield
+    finally:
+        _watchers.remove(watch)

@@ -28,7 +28,7 @@ from tandemlift.engines.compiled_contact import (
     with_contact_force,
     with_load,
 )
-from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.engines.models.scene import Scene
 from tandemlift.engines.models.surroundings import floor_from, walls_from
 from tandemlift.parts.contact.feet import Floor, FootGrip
@@ -123,7 +123,7 @@ def advance(
 ) -> BodyStep:
     """One step of dt [s] with rotor thrusts [N] and the air's loads held, and the push continuous.
 
-    Walls strike at its start, before all else. Its touches are left out; `compiled_touches.touches_in` gives them.
+    Walls strike at its start, before all else. Its touches are left out; `touches.touches_in` gives them.
     """
     b, u = (
         BodySurroundings(plant, load_about_center(air, plant.frame, s.attitude), grip, near),

@@ -24,11 +24,11 @@ import numpy as np
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.core.vector import Absent, vec3
-from tandemlift.engines.contact_log import KINDS, SURFACES, ContactLog
 from tandemlift.engines.gazebo_server import GazeboServer, free_port
 from tandemlift.engines.gazebo_wire import STATE, PluginAnswer, Wire
 from tandemlift.engines.models import sdf
 from tandemlift.engines.models.scene import Scene
+from tandemlift.engines.touches import KINDS, SURFACES, ContactLog
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
@@ -181,7 +181,7 @@ class GazeboBody:
 
 
 def _parts(count: int) -> list[tuple[str, int]]:
-    """Kind and index (`contact_log`) of the rows of `PluginAnswer.touches`."""
+    """Kind and index (`engines.touches`) of the rows of `PluginAnswer.touches`."""
     numbers = zip(KINDS, (4 * count, count, 1), strict=True)
     return [(kind, index) for kind, number in numbers for index in range(number)]
 

@@ -22,8 +22,7 @@ from tandemlift.engines.gazebo import NONE, STEPPING, GazeboBody, world_from
 from tandemlift.engines.gazebo_server import GazeboServer
 from tandemlift.engines.gazebo_wire import PluginAnswer
 from tandemlift.engines.models.scene import Scene
-from tandemlift.engines.ros_master import joined, node, ros_environment
-from tandemlift.engines.rospy import message_type
+from tandemlift.engines.rospy import joined, message_type, node, ros_environment
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 Stamp = tuple[int, int]  # s, ns

@@ -12,11 +12,11 @@ import numpy as np
 
 from tandemlift.core.types import Array
 from tandemlift.core.vector import Absent, vec3
-from tandemlift.engines.contact_log import ContactLog
 from tandemlift.engines.models.mujoco_bodies import model_of
 from tandemlift.engines.models.mujoco_contact import touching_parts
 from tandemlift.engines.models.mujoco_import import mujoco
 from tandemlift.engines.models.scene import Scene
+from tandemlift.engines.touches import ContactLog
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle
 

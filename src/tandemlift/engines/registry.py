@@ -53,7 +53,7 @@ class TouchingBody(Protocol):
     """A body that keeps the record of touches; without it nothing is ever touched, and no rotor stops.
 
     Attributes:
-        touches: the numbers of a `parts.contact.touches.Touches` after the last step (`contact_log`).
+        touches: the numbers of a `parts.contact.touches.Touches` after the last step (`engines.touches`).
     """
 
     touches: Array

@@ -9,12 +9,9 @@ from collections import OrderedDict
 from collections.abc import Callable, Iterable, Iterator, Sequence, Sized
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any, Literal, NamedTuple
-from weakref import WeakKeyDictionary
 
-from tandemlift.compiler.jit.code import Code
-from tandemlift.compiler.jit.compile_events import Stopped, always
 from tandemlift.core.errors import InputError
-from tandemlift.core.progress import progress_or_own
+from tandemlift.core.progress import Stopped, always, progress_or_own
 from tandemlift.core.types import Progress, leaves, unflat
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission
@@ -30,12 +27,10 @@ STRETCH = 0.1  # s of flight code between updates of the progress bar and checks
 FIRST_STRETCH = 5_000  # steps of the first stretch of code
 WAITING = 64 * LANES  # flights, at most, that wait for others of their variant
 
-_PACES = WeakKeyDictionary[Code, int]()  # steps of code's last stretch: few stretches seldom wait for Python's lock
-
 
 def _stretches(p: FlightPlan, memory: FlightMemory, going: Callable[[], bool]) -> Iterator[int]:
     """Fly to the end in stretches of some tenth of a second; yields the step reached after each."""
-    pace = _PACES.get(memory.code, FIRST_STRETCH)
+    pace = memory.code.pace or FIRST_STRETCH  # few stretches seldom wait for Python's lock
     ends = sorted({s for s in (p.late_step,) if s < p.steps} | {p.steps + 1})
     for end in ends:
         while memory.k < min(end, p.steps):
@@ -50,7 +45,7 @@ def _stretches(p: FlightPlan, memory: FlightMemory, going: Callable[[], bool]) -
             if after < min(stop, p.steps):
                 return
             pace = max(FIRST_STRETCH, int((after - before) * min(STRETCH / max(spent, 1e-9), 4.0)))
-            _PACES[memory.code] = pace
+            memory.code.pace = pace
 
 
 def _fly_compiled(

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
 
-from tandemlift.compiler.jit.code import Code
-from tandemlift.compiler.jit.store import key_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, flat, leaves, unflat
@@ -24,7 +21,7 @@ from tandemlift.parts.pilot.refusals import refusals_of
 from tandemlift.simulation.assembly.pilot import start_pilot
 from tandemlift.simulation.assembly.traced_assembly import assembled_by_graph
 from tandemlift.simulation.loop_code.context import aligned
-from tandemlift.simulation.loop_code.pilot_sampling import PilotData, PilotSampler
+from tandemlift.simulation.loop_code.pilot_sampling import PilotData, pilot_code
 
 INPUT = PilotInput(
     State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Absent(), NO_REQUEST, UNKNOWN_STATUS
@@ -62,9 +59,7 @@ class Pilot:
 
     @cached_property
     def _sample(self) -> Callable[[], int]:
-        start, quadrotors, fuses = self._start, len(self.thrusts) // 4, self._fuses
-        sampler = functools.partial(PilotSampler, start, INPUT, quadrotors, fuses=fuses)
-        code = Code(key_of(start, "sample", fuses), ["sample"], lambda: sampler().written())
+        code = pilot_code(self._start, INPUT, len(self.thrusts) // 4, fuses=self._fuses)
         self._work = aligned(code.about["size"])
         arrays = (self._numbers, self._input, self.thrusts, self._work)
         self._context = np.array([a.ctypes.data for a in arrays] + [0], dtype=np.int64)

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.compiler.jit.compile_events import Stopped, always
+from tandemlift.core.progress import Stopped, always
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, Progress, flat, leaves, unflat
 from tandemlift.core.vector import layout

@@ -7,7 +7,7 @@ import pytest
 
 from tandemlift.apps.cli.terminal import console
 from tandemlift.apps.cli.terminal.console import CompileNotices
-from tandemlift.compiler.jit.compile_events import Compiled, publish, watching
+from tandemlift.core.progress import Compiled, publish, watching
 
 LOOP = Compiled("flight loop", 0.5, is_made=True)
 

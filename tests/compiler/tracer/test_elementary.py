@@ -10,7 +10,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from tandemlift.compiler.jit.functions import compiled as machine_code
+from tandemlift.compiler.machine_code.functions import compiled as machine_code
 from tandemlift.core import algebra
 
 COUNT = 4000

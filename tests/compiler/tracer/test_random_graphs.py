@@ -13,10 +13,10 @@ import pytest
 from exact_functions import EXACT
 from odd_numbers import any_number, bits
 
-from tandemlift.compiler.jit.machine import BEST, QUICK, Loaded, compiled
+from tandemlift.compiler.machine_code.machine import BEST, QUICK, Loaded, compiled
 from tandemlift.compiler.tracer import Function, Graph, Module, Place, Symbol
 from tandemlift.compiler.tracer.elementary import floor
-from tandemlift.compiler.tracer.symbol import fma
+from tandemlift.compiler.tracer.fused import fma
 from tandemlift.core.algebra import absolute, maximum, minimum, sqrt, where
 from tandemlift.core.vector import each
 from tandemlift.simulation.loop_code.context import aligned

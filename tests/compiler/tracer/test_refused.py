@@ -10,7 +10,7 @@ from listings import GUIDE, LAW
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.compiler.jit.functions import compiled, written
+from tandemlift.compiler.machine_code.functions import compiled, written
 from tandemlift.compiler.tracer import TraceError, graph
 from tandemlift.core.law import LAWS, law
 from tandemlift.core.vector import Vec3

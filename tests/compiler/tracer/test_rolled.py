@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.compiler.jit.functions import compiled
-from tandemlift.compiler.jit.machine import BEST, QUICK
+from tandemlift.compiler.machine_code.functions import compiled
+from tandemlift.compiler.machine_code.machine import BEST, QUICK
 from tandemlift.core.algebra import absolute, clip, exp, greatest, maximum, sqrt, tanh, where
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.vector import Vec3, cross, dot, each, quarters, set_of, total

@@ -12,11 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from odd_numbers import any_number, bits
 
-from tandemlift.compiler.jit.functions import compiled, written
-from tandemlift.compiler.jit.machine import BEST, QUICK
+from tandemlift.compiler.machine_code.functions import compiled, written
+from tandemlift.compiler.machine_code.machine import BEST, QUICK
 from tandemlift.compiler.tracer import Graph, Symbol, elementary, symbols, traced
-from tandemlift.compiler.tracer.fused import fused
-from tandemlift.compiler.tracer.symbol import once_rounded
+from tandemlift.compiler.tracer.fused import fused, once_rounded
 from tandemlift.core.algebra import clip, maximum, minimum, where
 from tandemlift.core.law import Absent, Elementwise, choice, elementwise, law
 from tandemlift.core.vector import Vec3, dot

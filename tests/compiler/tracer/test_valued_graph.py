@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from odd_numbers import any_number, bits
 
-from tandemlift.compiler.jit.functions import compiled
+from tandemlift.compiler.machine_code.functions import compiled
 from tandemlift.compiler.tracer import Graph, TraceError, symbols
 from tandemlift.compiler.tracer.elementary import floor, to_integer
 from tandemlift.compiler.tracer.fused import FUSES, rounded_twice

@@ -10,7 +10,7 @@ import tandemlift as tl
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import Absent, Quat, Vec3, each, mat3, vec3
 from tandemlift.engines.compiled import advance, start_plant, start_state
-from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.feet import floor, sole_positions, standing_height, start_foot_grip
 from tandemlift.parts.contact.walls import walls
 from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PerfectReadings, resultant

@@ -7,7 +7,7 @@ from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import Absent
-from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.clearance import clearance, smaller_clearance
 from tandemlift.parts.contact.wall_geometry import wall
 from tandemlift.parts.contact.walls import nearest_with, no_walls_near, walls

@@ -16,7 +16,7 @@ from tandemlift.core.algebra import sqrt
 from tandemlift.core.law import law
 from tandemlift.core.types import GRAVITY, flat, unflat
 from tandemlift.core.vector import ZERO, Quat, Vec3, dot, vec3
-from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.feet import (
     Floor,
     feet_load,

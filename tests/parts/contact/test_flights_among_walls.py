@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from tandemlift.core.algebra import sqrt, where
 from tandemlift.core.law import law
 from tandemlift.core.vector import ZERO, Quat, Vec3, dot, vec3
-from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.clearance import clearance, may_touch_wall
 from tandemlift.parts.contact.wall_geometry import WALL, wall
 from tandemlift.parts.contact.walls import Walls, near_wall_loads, nearest_with, no_walls_near

@@ -15,7 +15,7 @@ from thrown import arena, random_throw
 import tandemlift as tl
 from tandemlift.core.types import flat
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
-from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.engines.models.surroundings import feet_and_floor_from
 from tandemlift.missions import Mission
 from tandemlift.parts.contact.feet import may_touch

@@ -9,7 +9,7 @@ from law_values import flat, free_body
 from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import ZERO, Quat, vec3
-from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.impulses import CORE, impulses_of_walls
 from tandemlift.parts.contact.wall_geometry import wall
 from tandemlift.parts.contact.walls import loads_of_walls, near_wall_contact

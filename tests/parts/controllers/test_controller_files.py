@@ -39,7 +39,7 @@ def edited(text: str, *changes: tuple[str, str]) -> str:
 CACHED = """
 import sys
 import tandemlift as tl
-from tandemlift.compiler.jit import machine
+from tandemlift.compiler.machine_code import machine
 made, compiled = [], machine.compiled
 machine.compiled = lambda *args: made.append(args) or compiled(*args)
 tl.fly(tl.load_mission("hover", {"mission.duration": 0.1}, controller=tl.load_controller(sys.argv[1])))

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
-from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.mechanics.air_drag import AirDrag, air_drag_from, air_loads
 from tandemlift.parts.mechanics.loads import resultant
 from tandemlift.parts.mechanics.rigid_body import State

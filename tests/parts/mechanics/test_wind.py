@@ -21,7 +21,7 @@ from scipy.signal import welch
 from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import ZERO, Absent, Vec3
-from tandemlift.engines.models.parts_layout import parts_layout_from
+from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.mechanics.air_drag import AirDrag, air_loads
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.turbulence import (

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.compiler.jit.functions import compiled
+from tandemlift.compiler.machine_code.functions import compiled
 from tandemlift.core.faults import CHECKS, FAULTS
 from tandemlift.core.refusals import REASONS, REQUESTS, refusal_of
 from tandemlift.core.types import flat, unflat

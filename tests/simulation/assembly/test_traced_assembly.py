@@ -19,8 +19,13 @@ from tandemlift.core.types import flat, numbers_of
 from tandemlift.core.vector import layout
 from tandemlift.missions import built_in, changed
 from tandemlift.simulation.assembly.assemble import assemble
-from tandemlift.simulation.assembly.mission_numbers import counts_of_mission, numbers_of_mission, with_numbers
-from tandemlift.simulation.assembly.traced_assembly import trace_assembly, with_values
+from tandemlift.simulation.assembly.traced_assembly import (
+    counts_of_mission,
+    numbers_of_mission,
+    trace_assembly,
+    with_numbers,
+    with_values,
+)
 from tandemlift.simulation.pilot_api import pilot_at_start
 
 INTERACTIVE = ("hover", "zigzag", "iris", "doorway", "rotor-loss")

@@ -10,8 +10,7 @@ from tandemlift.core.types import flat
 from tandemlift.core.vector import layout
 from tandemlift.parts.controllers import load_controller
 from tandemlift.simulation.assembly.assemble import assemble
-from tandemlift.simulation.assembly.mission_numbers import numbers_of_mission
-from tandemlift.simulation.assembly.traced_assembly import trace_assembly, with_values
+from tandemlift.simulation.assembly.traced_assembly import numbers_of_mission, trace_assembly, with_values
 
 OWN = '''
 from typing import NamedTuple

@@ -12,7 +12,7 @@ from tandemlift.analysis.linearization.step_graph import StepGraph
 from tandemlift.compiler.tracer import Symbol
 from tandemlift.core.types import Array
 from tandemlift.parts.rotors.normal_equations import GAMMA
-from tandemlift.simulation.loop_code.traced_step import LimitProblem, TracedSolver
+from tandemlift.simulation.loop_code.limit_solver import LimitProblem, TracedSolver
 
 REFINED = 2  # further steps at the active set, in which the derivative loses the error of a long step
 MADE = ("moved", "solved")  # inputs that are made within the step
@@ -105,7 +105,7 @@ class StepDerivative:
     def _limit_thrusts(self, limits: LimitProblem) -> None:
         d = self.nodes
         problem, plain, search = ([s.node for s in part] for part in (limits.problem, limits.plain, limits.search))
-        d.compute([limits.beyond.node, *problem, *plain, *search])
+        d.compute([s.node for s in limits.symbols])
         self.limits_active = d.truth(limits.beyond.node)
         values, rows = ([table[n] for n in plain] for table in (d.values, d.rows))
         if self.limits_active:
@@ -137,7 +137,7 @@ def solved(
         return [d.values[n] for n in nodes], [d.rows[n] for n in nodes]
 
     now = step(solver.begun, (search, search_rows))
-    for _ in range(8 * solver.rotors):
+    for _ in range(solver.most):
         now = step(solver.after, now)
         if now[0][-1] > 0.0:
             break

@@ -23,9 +23,9 @@ from tandemlift.apps.cli.run import run
 from tandemlift.apps.cli.study import study
 from tandemlift.apps.cli.terminal.console import compile_notices, echo, exit_now, handle_interrupts
 from tandemlift.apps.cli.tune import feel, tune
-from tandemlift.compiler.jit.compile_events import watching
 from tandemlift.core.errors import FlightWarning, InputError, suggestion
 from tandemlift.core.files import __version__
+from tandemlift.core.progress import watching
 
 BAD_INPUT = 2
 INTERRUPTED = 130  # as shells report it

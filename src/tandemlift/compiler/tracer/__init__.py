@@ -1,7 +1,7 @@
 """The tracer of the laws: it writes them as a graph, and the graph as LLVM text.
 
 `symbol` and `graph` build the graph; `fused` makes the copy of a law that is traced; `elementary` has the functions
-without a machine instruction; `llvm` writes the graph as text, which `jit` compiles.
+without a machine instruction; `llvm` writes the graph as text, which `machine_code` compiles.
 """
 
 from tandemlift.compiler.tracer import elementary  # gives symbols their functions

@@ -15,20 +15,24 @@ import builtins
 import copy
 import functools
 import linecache
+import math
+import operator
 import threading
 import traceback
 import types
 from collections.abc import Callable, Iterator
 from contextvars import ContextVar
+from fractions import Fraction
 from typing import Any, Protocol, TypeGuard
 
 from tandemlift.compiler.tracer.graph import LAW
 from tandemlift.compiler.tracer.refusal import is_ours, refused
-from tandemlift.compiler.tracer.symbol import Symbol, fma
+from tandemlift.compiler.tracer.symbol import Symbol, graph_of, made, type_of
 from tandemlift.core import algebra, vector
 from tandemlift.core.algebra import PRIMITIVES
 from tandemlift.core.errors import InputError
 from tandemlift.core.law import LAWS, Choice, Elementwise
+from tandemlift.core.vector import is_set
 
 FMA = "_fma_"
 LEAVES = "_leaves_"
@@ -149,8 +153,6 @@ def _copy(function: Callable[..., Any], fuses: bool, leaves: bool) -> Callable[.
     known = function.__globals__
     used = {name for part in _codes(code) for name in part.co_names}
     scope: dict[str, Any] = {name: traced(known[name]) for name in used if name in known}
-    if leaves:
-        scope |= {name: functools.partial(_run, thing) for name, thing in scope.items() if _is_part_of_law(thing)}
     scope |= {"__builtins__": builtins, FMA: fma, LEAVES: _leave}
     if "int" in used:
         scope["int"] = _elementary("to_integer")
@@ -169,11 +171,6 @@ PRIMITIVE = {operation: operation.__name__[1:] for operation in PRIMITIVES}
 @functools.lru_cache(maxsize=1)
 def _marked(count: int) -> frozenset[Callable[..., Any]]:
     return frozenset(LAWS)
-
-
-def _is_part_of_law(thing: object) -> bool:
-    """Whether an object is an unmarked function of the laws."""
-    return isinstance(thing, types.FunctionType) and thing.__module__.split(".")[:2] == ["tandemlift", "laws"]
 
 
 def _run(law: Callable[..., Any], *args: Any) -> Any:
@@ -232,3 +229,43 @@ def rounded_twice(thing: object) -> Callable[..., Any]:
 def tracer(fuses: bool) -> Callable[[Any], Any]:
     """`traced`, or `rounded_twice` for code that must not fuse."""
     return traced if fuses else rounded_twice
+
+
+# ---- Fused multiply-add
+
+
+def once_rounded(a: Any, b: Any, c: Any) -> Any:
+    """a b + c of numbers or symbols, rounded once."""
+    if any(isinstance(v, Symbol) for v in (a, b, c)):
+        graph = graph_of(a, b, c)
+        if not any(isinstance(v, (Symbol, tuple)) for v in (a, b)) and _is_exact(a, b):
+            return made(graph, "fadd", a * b, c)
+        return made(graph, "fma", a, b, c)
+    if all(isinstance(v, int) for v in (a, b, c)):
+        return a * b + c
+    if not (math.isfinite(a) and math.isfinite(b) and math.isfinite(c)):
+        return c if math.isfinite(a) and math.isfinite(b) else a * b + c
+    exact = Fraction(a) * Fraction(b) + Fraction(c)
+    try:
+        return float(exact) if exact else a * b + c
+    except OverflowError:
+        return math.inf if exact > 0 else -math.inf
+
+
+def _is_exact(a: float, b: float) -> bool:
+    """Whether a product of two numbers needs no rounding."""
+    return math.isfinite(a * b) and Fraction(a) * Fraction(b) == Fraction(a * b)
+
+
+def fma(a: Any, b: Any, c: Any) -> Any:
+    """a · b + c of the source of a law: rounded once for numbers, field by field for linear values."""
+    rolled = any(isinstance(v, Symbol) and v.rolled for v in (a, b, c))
+    if not any(isinstance(v, tuple) and not (rolled and is_set(v)) for v in (a, b, c)):
+        return once_rounded(a, b, c) if all(type_of(v) != "b" for v in (a, b, c)) else operator.add(a * b, c)
+    kind = type(c)
+    fits = all(not isinstance(v, tuple) or type(v) is kind for v in (a, b))
+    product = not isinstance(a, tuple) or not isinstance(b, tuple) or getattr(kind, "componentwise", False)
+    if not (getattr(kind, "linear", False) and fits and product):
+        return a * b + c
+    columns = [v if isinstance(v, tuple) else (v,) * len(c) for v in (a, b)]
+    return kind(*map(fma, *columns, c))

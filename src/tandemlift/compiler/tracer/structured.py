@@ -108,6 +108,11 @@ def as_symbol(graph: Graph, value: object) -> Symbol:
     return value if isinstance(value, Symbol) else Symbol(graph, graph.constant(value), "f")
 
 
+def nodes_of(graph: Graph, value: object) -> list[int]:
+    """The nodes of the numbers of a nested value."""
+    return [as_symbol(graph, x).node for x in numbers_in(value)]
+
+
 class Laws:
     """The laws that a structured trace has entered, each once for every layout of its arguments.
 

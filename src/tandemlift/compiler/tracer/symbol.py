@@ -5,18 +5,47 @@ Operations on constants alone are folded, rounded as IEEE 754 says.
 
 from __future__ import annotations
 
-import math
-import operator
 from collections.abc import Iterator
-from fractions import Fraction
 from types import ModuleType
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Protocol
 
-from tandemlift.compiler.tracer.nodes import Nodes
 from tandemlift.compiler.tracer.refusal import refused_here
 from tandemlift.core.vector import is_set
 
 NAMES = {"f": "a number", "b": "a truth", "i": "an integer"}
+
+
+class Nodes(Protocol):
+    """The interface of a `Graph` for the symbols of its nodes; each method returns the number of a node."""
+
+    counts: list[int]
+
+    def node(self, op: str, args: tuple[Any, ...], kind: str, count: int = -1) -> int:
+        """The node of an operation."""
+
+    def pack(self, values: Any) -> int:
+        """The node of a set of numbers and symbols."""
+
+    def take(self, source: int, first: int, step: int, count: int) -> int:
+        """The node of some values of a set."""
+
+    def get(self, source: int, at: int) -> int:
+        """The node of one value of a set."""
+
+    def constant(self, value: object) -> int:
+        """The node of a constant."""
+
+    def number(self, value: object) -> int:
+        """The node of a value as a double."""
+
+    def truth(self, symbol: Any) -> bool:
+        """Whether a symbol holds, where a branch depends on it."""
+
+    def plain(self, symbol: Any, *, rounded: bool = False) -> float:
+        """The value of a symbol where Python needs a plain number, or one to round to a whole number."""
+
+    def power(self, base: object, exponent: object) -> Any:
+        """A power, written as `**`, of which the base or the exponent is a symbol."""
 
 
 class Symbol:
@@ -78,13 +107,13 @@ class Symbol:
         return _arithmetic("fdiv", "", other, self)
 
     def __neg__(self) -> Symbol:
-        return _made(self.graph, "fneg", self)
+        return made(self.graph, "fneg", self)
 
     def __pos__(self) -> Symbol:
         return self
 
     def __abs__(self) -> Symbol:
-        return _made(self.graph, "fabs", self)
+        return made(self.graph, "fabs", self)
 
     def __lt__(self, other: object) -> Any:
         return _compared("olt", "slt", self, other)
@@ -150,7 +179,8 @@ class Symbol:
         raise refused_here("takes a number apart as if it were a vector")
 
 
-def _graph_of(*values: object) -> Nodes:
+def graph_of(*values: object) -> Nodes:
+    """The graph of the symbols among some values."""
     return next(v.graph for v in values if isinstance(v, Symbol))
 
 
@@ -166,7 +196,8 @@ def _node_of(graph: Nodes, value: object) -> int:
     return value.node if isinstance(value, Symbol) else graph.constant(value)
 
 
-def _type_of(value: object) -> str:
+def type_of(value: object) -> str:
+    """The type of a value in a graph: `f`, `b` or `i`."""
     if isinstance(value, Symbol):
         return value.type
     return "b" if isinstance(value, bool) else "i" if isinstance(value, int) else "f"
@@ -184,14 +215,14 @@ def _is_operand(value: object, other: object) -> bool:
 def _arithmetic(op: str, whole: str, a: object, b: object) -> Any:
     if not (_is_operand(a, b) and _is_operand(b, a)):
         return _with_array(op, whole, a, b)
-    graph = _graph_of(a, b)
+    graph = graph_of(a, b)
     if whole and _is_integer(a) and _is_integer(b):
         return Symbol(graph, graph.node(whole, (_node_of(graph, a), _node_of(graph, b)), "i"), "i")
     if op in ("fmul", "fdiv") and not isinstance(b, Symbol) and b == 1.0:
         return a
     if op == "fmul" and not isinstance(a, Symbol) and a == 1.0:
         return b
-    return _made(graph, op, a, b)
+    return made(graph, op, a, b)
 
 
 def _with_array(op: str, whole: str, a: Any, b: Any) -> Any:
@@ -205,7 +236,7 @@ def _with_array(op: str, whole: str, a: Any, b: Any) -> Any:
     return made
 
 
-def _made(graph: Nodes, op: str, *values: object) -> Symbol:
+def made(graph: Nodes, op: str, *values: object) -> Symbol:
     """A new double from doubles."""
     return Symbol(graph, graph.node(op, tuple([graph.number(v) for v in values]), "f"), "f")
 
@@ -213,8 +244,8 @@ def _made(graph: Nodes, op: str, *values: object) -> Symbol:
 def _compared(predicate: str, whole: str, a: object, b: object) -> Any:
     if not _is_operand(b, a):
         return NotImplemented
-    graph = _graph_of(a, b)
-    if _type_of(a) == _type_of(b) == "b" and whole in ("eq", "ne"):
+    graph = graph_of(a, b)
+    if type_of(a) == type_of(b) == "b" and whole in ("eq", "ne"):
         differs = _bitwise("xor", a, b)
         return differs if whole == "ne" else ~differs
     if _is_integer(a) and _is_integer(b):
@@ -225,9 +256,9 @@ def _compared(predicate: str, whole: str, a: object, b: object) -> Any:
 
 
 def _bitwise(op: str, a: object, b: object) -> Symbol:
-    graph, kind = _graph_of(a, b), _type_of(a)
-    if kind != _type_of(b) or kind == "f":
-        raise refused_here(f"joins {NAMES[kind]} and {NAMES[_type_of(b)]} bit by bit: only truths, or integers")
+    graph, kind = graph_of(a, b), type_of(a)
+    if kind != type_of(b) or kind == "f":
+        raise refused_here(f"joins {NAMES[kind]} and {NAMES[type_of(b)]} bit by bit: only truths, or integers")
     return Symbol(graph, graph.node(op, (_node_of(graph, a), _node_of(graph, b)), kind), kind)
 
 
@@ -239,7 +270,7 @@ def select(condition: object, a: object, b: object) -> Any:
     test = condition if condition.type == "b" else condition != 0
     if a is b:
         return a
-    kind = _type_of(a) if _type_of(a) == _type_of(b) and isinstance(a, Symbol) | isinstance(b, Symbol) else "f"
+    kind = type_of(a) if type_of(a) == type_of(b) and isinstance(a, Symbol) | isinstance(b, Symbol) else "f"
     if kind == "f" and isinstance(a, bool) and isinstance(b, bool):
         kind = "b"
     nodes = [graph.number(v) if kind == "f" else _node_of(graph, v) for v in (a, b)]
@@ -250,46 +281,9 @@ def select(condition: object, a: object, b: object) -> Any:
 
 def unary(op: str, x: Symbol) -> Any:
     """A root, a floor or an absolute value."""
-    return _made(x.graph, op, x)
+    return made(x.graph, op, x)
 
 
 def converted(op: str, x: Symbol, kind: str) -> Any:
     """A value in another type: `bitcast` keeps the bits, `fptosi` truncates to an integer."""
     return Symbol(x.graph, x.graph.node(op, (x.node,), kind), kind)
-
-
-def once_rounded(a: Any, b: Any, c: Any) -> Any:
-    """a b + c of numbers or symbols, rounded once."""
-    if any(isinstance(v, Symbol) for v in (a, b, c)):
-        graph = _graph_of(a, b, c)
-        if not any(isinstance(v, (Symbol, tuple)) for v in (a, b)) and _is_exact(a, b):
-            return _made(graph, "fadd", a * b, c)
-        return _made(graph, "fma", a, b, c)
-    if all(isinstance(v, int) for v in (a, b, c)):
-        return a * b + c
-    if not (math.isfinite(a) and math.isfinite(b) and math.isfinite(c)):
-        return c if math.isfinite(a) and math.isfinite(b) else a * b + c
-    exact = Fraction(a) * Fraction(b) + Fraction(c)
-    try:
-        return float(exact) if exact else a * b + c
-    except OverflowError:
-        return math.inf if exact > 0 else -math.inf
-
-
-def _is_exact(a: float, b: float) -> bool:
-    """Whether a product of two numbers needs no rounding."""
-    return math.isfinite(a * b) and Fraction(a) * Fraction(b) == Fraction(a * b)
-
-
-def fma(a: Any, b: Any, c: Any) -> Any:
-    """a · b + c of the source of a law: rounded once for numbers, field by field for linear values."""
-    rolled = any(isinstance(v, Symbol) and v.rolled for v in (a, b, c))
-    if not any(isinstance(v, tuple) and not (rolled and is_set(v)) for v in (a, b, c)):
-        return once_rounded(a, b, c) if all(_type_of(v) != "b" for v in (a, b, c)) else operator.add(a * b, c)
-    kind = type(c)
-    fits = all(not isinstance(v, tuple) or type(v) is kind for v in (a, b))
-    product = not isinstance(a, tuple) or not isinstance(b, tuple) or getattr(kind, "componentwise", False)
-    if not (getattr(kind, "linear", False) and fits and product):
-        return a * b + c
-    columns = [v if isinstance(v, tuple) else (v,) * len(c) for v in (a, b)]
-    return kind(*map(fma, *columns, c))

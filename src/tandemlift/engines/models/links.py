@@ -1,7 +1,7 @@
-"""The true vehicle as rigid bodies that are fixed to each other, for the model file of another simulator.
+"""A vehicle as rigid bodies: its parts in the form that laws use, and links for the model file of another simulator.
 
-The difference between the true and the nominal vehicle (`plant`) is concentrated at the centre of mass, as in the
-engines. Here it is part of the payload.
+Links are those of the true vehicle, fixed to each other. The difference between the true and the nominal vehicle
+(`plant`) is concentrated at the centre of mass, as in the engines. Here it is part of the payload.
 """
 
 from __future__ import annotations
@@ -10,12 +10,33 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tandemlift.core.caching import cached
 from tandemlift.core.errors import InputError
-from tandemlift.core.types import Array
+from tandemlift.core.types import Array, number
+from tandemlift.core.vector import each, quarters, spread, vec3
 from tandemlift.engines.models.scene import Scene
+from tandemlift.parts.mechanics.loads import PartsLayout
 from tandemlift.parts.mechanics.vehicle import Vehicle, parallel_axis_term
 
 ROUNDING = 1e-9  # relative tolerance of the triangle inequality of principal moments
+
+
+@cached
+def parts_layout_from(vehicle: Vehicle) -> PartsLayout:
+    """The layout of a vehicle's parts."""
+    quadrotors, N = vehicle.quadrotors, vehicle.count
+    x, y = np.array([q.rotors for q in quadrotors]).reshape(4 * N, 2).T
+    torque = [q.torque_per_thrust * spin for q in quadrotors for spin in q.spins]
+    return PartsLayout(
+        payload=vec3(-vehicle.center_of_mass),
+        quadrotors=spread(vehicle.lever_arms),
+        joints=spread([np.subtract(q.joint_position, q.position) for q in quadrotors]),
+        mass=each(N)(*[q.mass for q in quadrotors]),
+        inertia=spread([q.inertia for q in quadrotors]),
+        x=quarters(each(4 * N)(*map(number, x))),
+        y=quarters(each(4 * N)(*map(number, y))),
+        torque=quarters(each(4 * N)(*torque)),
+    )
 
 
 class Link(NamedTuple):

@@ -172,7 +172,7 @@ def set_contact_stiffness(model: Any, floor: Any, walls: Any) -> None:
 
 
 def touching_parts(model: Any) -> dict[tuple[int, int], tuple[str, str, int]]:
-    """Of every pair of shapes (ascending ids) whose contact is a touch: surface, kind and index (`contact_log`)."""
+    """Of every pair of shapes (ascending ids) whose contact is a touch: surface, kind and index (`engines.touches`)."""
     found = {}
     for pair in zip(model.pair_geom1.tolist(), model.pair_geom2.tolist(), strict=True):
         one, other = (model.geom(shape).name for shape in pair)

@@ -7,19 +7,23 @@ on any machine: each product and each sum is rounded separately. Results that de
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
+from pydantic import BaseModel
 
 from tandemlift.compiler.tracer.fused import FUSES
 from tandemlift.compiler.tracer.symbol import Symbol
 from tandemlift.compiler.tracer.valued_graph import Guard, ValuedGraph
 from tandemlift.core.caching import cached_for_a_trace
+from tandemlift.core.errors import dotted
 from tandemlift.core.types import is_value
 from tandemlift.missions import Mission
 from tandemlift.simulation.assembly.assemble import AssembledFlight, assemble
-from tandemlift.simulation.assembly.mission_numbers import counts_of_mission, numbers_of_mission, with_numbers
+
+T = TypeVar("T")
+Place = tuple[str | int, ...]
 
 FIXED = {
     "mission.duration": "determines the number of steps",
@@ -130,3 +134,47 @@ def assembled_flight(mission: Mission) -> AssembledFlight:
     """The flight of a mission at t = 0; if the mission is not fused, bit-identical on every machine."""
     made: AssembledFlight = assembled_by_graph(mission, assemble)
     return made
+
+
+# ---- The numbers of a mission by their dotted keys, as `--set` takes them, and a mission with other numbers or symbols
+
+
+def numbers_of_mission(mission: BaseModel) -> dict[str, float]:
+    """Every real number that a mission's tables hold, by its key; each entry of a list has its own."""
+    return {dotted(place): value for place, value in _leaves(mission, ()) if type(value) is float}
+
+
+def counts_of_mission(mission: BaseModel) -> dict[str, int]:
+    """Every whole number that a mission's tables hold, by its key."""
+    return {dotted(place): value for place, value in _leaves(mission, ()) if type(value) is int}
+
+
+def _leaves(value: Any, place: Place) -> Iterator[tuple[Place, Any]]:
+    for part, inner in _parts(value):
+        yield from _leaves(inner, (*place, part))
+    if not isinstance(value, (BaseModel, tuple, list, Mapping)):
+        yield place, value
+
+
+def _parts(value: Any) -> Iterator[tuple[str | int, Any]]:
+    """The parts of a table or a list with their names or numbers."""
+    if isinstance(value, BaseModel):
+        yield from ((name, getattr(value, name)) for name in type(value).model_fields)
+    elif isinstance(value, (tuple, list)):
+        yield from enumerate(value)
+    elif isinstance(value, Mapping):
+        yield from value.items()
+
+
+def with_numbers(value: T, numbers: Mapping[str, Any], place: Place = ()) -> T:
+    """The mission with other values for some of its numbers, which are not checked and may be symbols."""
+    old = dict(_parts(value))
+    if not old:
+        return numbers.get(dotted(place), value) if place else value
+    new = {part: with_numbers(inner, numbers, (*place, part)) for part, inner in old.items()}
+    changed: dict[Any, Any] = {part: inner for part, inner in new.items() if inner is not old[part]}
+    if not changed:
+        return value
+    if isinstance(value, BaseModel):
+        return value.model_copy(update=changed)
+    return dict(new) if isinstance(value, Mapping) else type(value)(new.values())  # type: ignore[return-value, call-arg]

@@ -15,7 +15,7 @@ from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import Absent, Quarters, Quat, Vec3
 from tandemlift.engines.compiled import BodyStep, advance
 from tandemlift.engines.compiled_contact import CompiledPlant
-from tandemlift.engines.compiled_touches import touches_in
+from tandemlift.engines.touches import touches_in
 from tandemlift.parts.contact.feet import FootGrip
 from tandemlift.parts.contact.touches import Touches, of_turning_rotors
 from tandemlift.parts.contact.walls import NearWalls

@@ -6,10 +6,10 @@ import threading
 from collections.abc import Callable
 from functools import cached_property
 
-from tandemlift.compiler.jit import machine
-from tandemlift.compiler.jit.code import Code, Written
-from tandemlift.compiler.jit.compile_events import always
-from tandemlift.compiler.jit.store import key_of
+from tandemlift.compiler.machine_code import machine
+from tandemlift.compiler.machine_code.code import Code, Written
+from tandemlift.compiler.machine_code.store import key_of
+from tandemlift.core.progress import always
 from tandemlift.simulation.loop.step import FlightModel, StepInputs
 from tandemlift.simulation.loop_code.loops import LoopWriter
 from tandemlift.simulation.loop_code.offsets import delayed_spans

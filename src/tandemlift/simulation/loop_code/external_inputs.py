@@ -7,13 +7,21 @@ steps are drawn at once, several in a vector.
 
 from __future__ import annotations
 
+import operator
 from typing import Any, NamedTuple
 
-from tandemlift.core.types import leaves
-from tandemlift.core.vector import ZERO
-from tandemlift.parts.mechanics.push import SUPPORT, GaussianPush
-from tandemlift.parts.mechanics.wind import Gust
-from tandemlift.simulation.loop.step import StepNoise
+from tandemlift.core.law import law
+from tandemlift.core.types import Condition, Number, is_value, leaves
+from tandemlift.core.vector import ZERO, Vec3
+from tandemlift.parts.contact.clearance import is_fast
+from tandemlift.parts.contact.feet import may_touch
+from tandemlift.parts.contact.wall_geometry import WALL, Wall
+from tandemlift.parts.contact.walls import NearWalls, nearest_with
+from tandemlift.parts.mechanics.push import SUPPORT, GaussianPush, Push, push_at
+from tandemlift.parts.mechanics.wind import Gust, gust_velocity
+from tandemlift.parts.person.person import PATH_LEG
+from tandemlift.simulation.loop.random_numbers import Normals, normals
+from tandemlift.simulation.loop.step import FlightModel, StepNoise
 
 LANES = 8
 SPAN = 16  # steps
@@ -31,12 +39,57 @@ class InputTables(NamedTuple):
     legs: Any
 
 
+ROWS = InputTables(GAUSSIAN, GUST, WALL, PATH_LEG)  # the layout of a row of each table
+
+
 def draw_count(noise: StepNoise) -> int:
     """Number of draws, of four standard normals each, that fill a value like `noise`."""
     return -(-leaves(noise) // 4)
 
 
-def is_active(p: GaussianPush, opens: Any, closes: Any) -> Any:
+@law
+def push_is_active(row: GaussianPush, opens: Number, closes: Number) -> Condition:
     """Whether a push is other than zero somewhere between two times [s]."""
-    around = SUPPORT / p.per_sigma
-    return (p.time + around > opens) & (p.time - around < closes)
+    return (row.time + SUPPORT / row.per_sigma > opens) & (row.time - SUPPORT / row.per_sigma < closes)
+
+
+@law
+def with_push(hand: Push, row: GaussianPush, when: Number) -> Push:
+    """A push at a time [s] added to others."""
+    return _added(hand, push_at(hand, row, when))
+
+
+def _added(a: Any, b: Any) -> Any:
+    return type(a)(*map(_added, a, b)) if is_value(a) else operator.add(a, b)
+
+
+@law
+def with_gust(sum: Vec3, row: Gust, t: Number) -> Vec3:
+    """The velocity of a gust at time t [s] added to that of others."""
+    return _added(sum, gust_velocity(row, t))
+
+
+@law
+def floor_is_near(model: FlightModel, dt: Number) -> Condition:
+    """Whether a foot may touch the floor within a span of steps."""
+    return may_touch(model.plant.floor, model.flight_state.state, dt * float(SPAN))
+
+
+@law
+def walls_are_due(model: FlightModel, dt: Number) -> Condition:
+    """Whether the nearest walls are found anew in a step within a span, too."""
+    return is_fast(model.plant.walls, model.flight_state.state, dt * float(SPAN))
+
+
+@law
+def nearest_walls(model: FlightModel, row: Wall) -> NearWalls:
+    """The nearest walls once a row of the table of walls was looked at."""
+    before = model.flight_state
+    near: Any = before.near  # never `Absent`: this is called where there are walls
+    return nearest_with(model.plant.walls, row, near, model.plant.frame, before.state)
+
+
+@law
+def draw_normals(number: Number, draw: Number, key0: Number, key1: Number) -> Normals:
+    """Four standard normals of a step."""
+    return normals(number, draw, key0, key1)

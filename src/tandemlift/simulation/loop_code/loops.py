@@ -11,8 +11,8 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from tandemlift.compiler.tracer import LEAVES, Function, Place, Symbol, double
-from tandemlift.simulation.loop_code.compiled_limit_solver import write_limits, write_solver
 from tandemlift.simulation.loop_code.external_inputs import SPAN
+from tandemlift.simulation.loop_code.limit_solver import write_limits, write_solver
 from tandemlift.simulation.loop_code.offsets import leaf_offset
 from tandemlift.simulation.loop_code.precompute import (
     write_draw,

@@ -8,17 +8,17 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.compiler.jit.code import Code
+from tandemlift.compiler.machine_code.code import Code
 from tandemlift.core.types import flat
-from tandemlift.parts.contact.wall_geometry import WALL, Wall
+from tandemlift.parts.contact.wall_geometry import Wall
 from tandemlift.parts.mechanics.push import GaussianPush
 from tandemlift.parts.mechanics.wind import Gust
-from tandemlift.parts.person.person import PATH_LEG, PathLeg
+from tandemlift.parts.person.person import PathLeg
 from tandemlift.simulation.loop_code.context import AT, WORDS, aligned
-from tandemlift.simulation.loop_code.external_inputs import GAUSSIAN, GUST, InputTables
+from tandemlift.simulation.loop_code.external_inputs import ROWS, InputTables
 
 Numbers = NDArray[np.float64]
-IDLE = InputTables(GAUSSIAN._replace(per_sigma=1.0), GUST, WALL, PATH_LEG)  # rows without effect
+IDLE = ROWS._replace(pushes=ROWS.pushes._replace(per_sigma=1.0))  # rows without effect
 COUNTS = ("push_count", "gust_count", "wall_count", "leg_count")
 
 

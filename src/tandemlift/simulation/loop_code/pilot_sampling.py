@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.compiler.jit.code import Written
+from tandemlift.compiler.machine_code.code import Code, Written
+from tandemlift.compiler.machine_code.store import key_of
 from tandemlift.compiler.tracer import Function, Module, Place, symbols, tracer, written_out
 from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters, decide
 from tandemlift.parts.rotors.allocation import ConstrainedAllocation
-from tandemlift.simulation.loop_code.compiled_limit_solver import write_limits, write_solver
-from tandemlift.simulation.loop_code.traced_step import check_layout, graph_for, limit_thrusts
+from tandemlift.simulation.loop_code.limit_solver import limit_thrusts, write_limits, write_solver
+from tandemlift.simulation.loop_code.traced_step import check_layout, graph_for
 
 POINTERS = ("numbers", "pilot_input", "thrusts", "work")  # words of the context, and behind them the step [s] as bits
 
@@ -89,3 +90,12 @@ class PilotSampler:
         f.end("i64 0")
         size = solved + len(self.limits.search) if self.limits else 1
         return Written(module.text, {"size": size})
+
+
+def pilot_code(start: PilotData, pilot_input: Any, quadrotors: int, *, fuses: bool) -> Code:
+    """The machine code of the function `sample` of a pilot, traced only if none is on disk."""
+
+    def written() -> Written:
+        return PilotSampler(start, pilot_input, quadrotors, fuses=fuses).written()
+
+    return Code(key_of(start, "sample", fuses), ["sample"], written)

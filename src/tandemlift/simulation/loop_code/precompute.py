@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from tandemlift.compiler.tracer import Function, Place, double
 from tandemlift.core.types import leaves
-from tandemlift.parts.contact.wall_geometry import WALL
-from tandemlift.parts.person.person import PATH_LEG
 from tandemlift.simulation.loop_code.context import MEMORY
-from tandemlift.simulation.loop_code.external_inputs import GAUSSIAN, GUST, HALVES, SPAN
+from tandemlift.simulation.loop_code.external_inputs import HALVES, ROWS, SPAN
 from tandemlift.simulation.loop_code.offsets import leaf_offset
 from tandemlift.simulation.loop_code.step_writer import StepWriter
 from tandemlift.simulation.loop_code.traced_step import Symbols
@@ -23,7 +21,7 @@ def write_push(step: StepWriter) -> None:
     half, twice = f.op(f"fmul double %dt, {double(0.5)}"), f.integer("mul", first, 2)
     pushes, count = step.context_word(f, "pushes"), step.context_word(f, "push_count")
     with f.repeat(count) as i:
-        row = f.at(pushes, f.integer("mul", i, leaves(GAUSSIAN)))
+        row = f.at(pushes, f.integer("mul", i, leaves(ROWS.pushes)))
         f.read |= {"push": lambda m: Place(row, m), "opens": lambda m: opens, "closes": lambda m: closes}
         with f.when(f.any(f.value(step.traced.push_is_active))), f.repeat(HALVES) as j:
             number = f.op(f"sitofp i64 {f.integer('add', twice, j)} to double")
@@ -41,7 +39,7 @@ def write_gust(step: StepWriter) -> None:
         f.store(f.zero, "%work", step.gust + m)
     gusts, count = step.context_word(f, "gusts"), step.context_word(f, "gust_count")
     with f.repeat(count) as i:
-        row = f.at(gusts, f.integer("mul", i, leaves(GUST)))
+        row = f.at(gusts, f.integer("mul", i, leaves(ROWS.gusts)))
         f.read["gusts"] = lambda m: Place(row, m)
         _add_to(f, step.gust, step.traced.gust)
     f.end()
@@ -105,7 +103,7 @@ def write_walls(step: StepWriter) -> None:
         f.put("%flight", at, first)
         walls, count = step.context_word(f, "walls"), step.context_word(f, "wall_count")
         with f.repeat(count) as i:
-            row = f.at(walls, f.integer("mul", i, leaves(WALL)))
+            row = f.at(walls, f.integer("mul", i, leaves(ROWS.walls)))
             f.read["wall"] = lambda m: Place(row, m)
             with f.afresh():
                 f.put("%flight", at, more)
@@ -124,6 +122,6 @@ def _find_legs(step: StepWriter, f: Function) -> None:
         i = f.call("i64", "@llvm.fptosi.sat.i64.f64", number, types=["double"])
         i = f.call("i64", "@llvm.smax.i64", i, "0", types=["i64", "i64"])
         i = f.call("i64", "@llvm.smin.i64", i, last, types=["i64", "i64"])
-        row = f.at(legs, f.integer("mul", i, leaves(PATH_LEG)))
-        for m in range(leaves(PATH_LEG)):
+        row = f.at(legs, f.integer("mul", i, leaves(ROWS.legs)))
+        for m in range(leaves(ROWS.legs)):
             f.store(f.load(row, m * lanes + lane, "double"), "%flight", (leg + m) * lanes + lane, "double")

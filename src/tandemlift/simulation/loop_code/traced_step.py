@@ -13,23 +13,15 @@ from typing import Any, NamedTuple
 
 from tandemlift.compiler.tracer import Graph, Symbol, TraceError, refused, symbols, tracer, written_out
 from tandemlift.core.algebra import chosen, where
-from tandemlift.core.types import leaves
-from tandemlift.core.vector import ZERO, layout, total
+from tandemlift.core.vector import ZERO, layout
 from tandemlift.engines.compiled import BodyStep, first_motion
 from tandemlift.engines.compiled_contact import CompiledPlant, on_feet_only, without_contact
-from tandemlift.parts.contact.clearance import clearance, is_fast, may_touch_wall
-from tandemlift.parts.contact.feet import may_touch
+from tandemlift.parts.contact.clearance import clearance, may_touch_wall
 from tandemlift.parts.contact.hull import hull_may_touch
-from tandemlift.parts.contact.wall_geometry import WALL
-from tandemlift.parts.contact.walls import nearest_with
 from tandemlift.parts.controllers import control
 from tandemlift.parts.mechanics.push import push_at, push_moment
 from tandemlift.parts.mechanics.wind import gust_velocity
-from tandemlift.parts.pilot.pilot import control_input, with_allocation, with_command, with_thrusts
-from tandemlift.parts.rotors.allocation import AllocationState, limits_at, outside_limits, rotor_commands
-from tandemlift.parts.rotors.detection import left_of, with_trials
-from tandemlift.parts.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
-from tandemlift.simulation.loop.random_numbers import normals
+from tandemlift.parts.pilot.pilot import control_input, with_command
 from tandemlift.simulation.loop.step import (
     PilotOutput,
     StepInputs,
@@ -41,7 +33,16 @@ from tandemlift.simulation.loop.step import (
     with_caller_thrusts,
     with_person,
 )
-from tandemlift.simulation.loop_code.external_inputs import GAUSSIAN, GUST, SPAN, draw_count, is_active
+from tandemlift.simulation.loop_code.external_inputs import (
+    ROWS,
+    draw_count,
+    draw_normals,
+    floor_is_near,
+    nearest_walls,
+    push_is_active,
+    walls_are_due,
+)
+from tandemlift.simulation.loop_code.limit_solver import LimitProblem, limit_thrusts
 from tandemlift.simulation.loop_code.templates import COMMAND, Templates
 
 Symbols = list[Symbol]
@@ -51,42 +52,6 @@ MANY = 5  # quadrotors from which on sets are arrays in memory, and operations o
 def graph_for(quadrotors: int, *, rolls: bool = True) -> Graph:
     """An empty graph for the laws of a number of quadrotors; `rolls`: whether large sets may be loops."""
     return Graph(MANY if rolls and quadrotors >= MANY else 0)
-
-
-class TracedSolver:
-    """A traced step of the limit solver; its inputs are `problem` and the `search` so far."""
-
-    def __init__(self, like: BoundedProblem, rolls_from: int = 0) -> None:
-        self.graph, rotors = Graph(rolls_from), like.unlimited
-        self.rotors, self.problem_size = len(rotors), leaves(like)
-        problem = self.graph.inputs("problem", like)
-        search = self.graph.inputs("search", Search(AllocationState(rotors, rotors), 0.0, 0.0, 0.0))
-        self.begun = symbols(self.graph, self._unless_ended(search, start_search(problem.limits, search.found)))
-        self.after = symbols(self.graph, self._unless_ended(search, search_step(problem, search)))
-
-    def _unless_ended(self, s: Search, after: Search) -> Search:
-        """A search that has ended stays as it is."""
-        over = s.ended > 0.0
-        found = AllocationState(*[where(over, a, b) for a, b in zip(s.found, after.found, strict=True)])
-        return Search(found, *[where(over, a, b) for a, b in zip(s[1:], after[1:], strict=True)])
-
-
-class LimitProblem(NamedTuple):
-    """The problem of thrusts within limits.
-
-    Attributes:
-        beyond: whether a thrust exceeds its limits.
-        problem: the numbers of the `BoundedProblem`.
-        plain: the result where no thrust exceeds its limits.
-        search: the search at its start.
-        solver: a traced step of the search.
-    """
-
-    beyond: Symbol
-    problem: Symbols
-    plain: Symbols
-    search: Symbols
-    solver: TracedSolver
 
 
 class BodyInputs(NamedTuple):
@@ -234,66 +199,37 @@ class TracedStep:
     @cached_property
     def push(self) -> Symbols:
         """A row of the table of pushes at the time `when`."""
-        return self.numbers(
-            self.trace(push_at)(self.templates.given.hand.start, self.input_of("push", GAUSSIAN), self.when)
-        )
+        row = self.input_of("push", ROWS.pushes)
+        return self.numbers(self.trace(push_at)(self.templates.given.hand.start, row, self.when))
 
     @cached_property
     def push_is_active(self) -> Symbol:
         """Whether that push is other than zero between the times `opens` and `closes`."""
-        return is_active(self.input_of("push", GAUSSIAN), self.graph.input("opens"), self.graph.input("closes"))
+        opens, closes = self.graph.input("opens"), self.graph.input("closes")
+        active: Symbol = self.trace(push_is_active)(self.input_of("push", ROWS.pushes), opens, closes)
+        return active
 
     @cached_property
     def gust(self) -> Symbols:
         """The velocity of a row of the table of gusts."""
-        return self.numbers(self.trace(gust_velocity)(self.input_of("gusts", GUST), self.t))
+        return self.numbers(self.trace(gust_velocity)(self.input_of("gusts", ROWS.gusts), self.t))
 
     @cached_property
     def normals(self) -> list[Symbols]:
         """The standard normals of step `number`, four for each draw."""
         number, keys = self.graph.input("number", type="i"), [self.graph.input("key", i) for i in (0, 1)]
         draws = range(draw_count(self.templates.given.noise))
-        return [self.numbers(self.trace(normals)(number, i, *keys)) for i in draws]
+        return [self.numbers(self.trace(draw_normals)(number, i, *keys)) for i in draws]
 
     @cached_property
     def wall_search(self) -> tuple[Symbol, Symbols, Symbols]:
         """1 where the nearest walls are `due`: as a span `begins`, and if fast; they at first, and with a row more."""
-        f, walls, g = self.model.flight_state, self.model.plant.walls, self.graph
-        found = self.trace(nearest_with)(walls, self.input_of("wall", WALL), f.near, self.model.plant.frame, f.state)
-        first, more = (self.numbers(chosen(g.input("due"), near, f.near)) for near in (self.templates.nowhere, found))
-        return where(self.trace(is_fast)(walls, f.state, self.dt * float(SPAN)), 1.0, g.input("begins")), first, more
+        before, g = self.model.flight_state.near, self.graph
+        found = self.trace(nearest_walls)(self.model, self.input_of("wall", ROWS.walls))
+        first, more = (self.numbers(chosen(g.input("due"), near, before)) for near in (self.templates.nowhere, found))
+        return where(self.trace(walls_are_due)(self.model, self.dt), 1.0, g.input("begins")), first, more
 
     @cached_property
     def may_touch_floor(self) -> Symbol:
         """Whether a foot may touch the floor within the steps of a span."""
-        return self.trace(may_touch)(self.model.plant.floor, self.model.flight_state.state, self.dt * float(SPAN))
-
-
-def limit_thrusts(owner: Any, pilot: Any, held: Any, output: Any, t: Any) -> Any:
-    """(`LimitProblem`, a decision within them, the memory after it); `held`: the pilot's memory before.
-
-    Args:
-        owner: of the graph; it gives the symbols of an input by `input_of`, those of a value by `numbers`, and the
-            traced form of a law by `trace`.
-        pilot: its parameters.
-        held: its memory before.
-        output: with its decision and its memory after it, without limits.
-        t: time [s].
-    """
-    how, decision = pilot.allocation, output.decision
-    wished = decision.thrusts
-    limits = owner.trace(limits_at)(how, owner.trace(left_of)(pilot.detection, held.detection), t)
-    outside: Any = total(owner.trace(outside_limits)(wished, limits)) > 0.0
-    problem, plain, before = (
-        BoundedProblem(how.rows, how.weights, decision.command.wrench, wished, limits),
-        AllocationState(wished * 0.0, wished),
-        held.allocation,
-    )
-    start = AllocationState(where(outside, before.active, plain.active), where(outside, before.thrusts, plain.thrusts))
-    search = Search(start, 1.0, 0.0, where(outside, 0.0, 1.0))
-    solver = TracedSolver(written_out(problem), owner.graph.rolls_from)
-    needs = LimitProblem(outside, owner.numbers(problem), owner.numbers(plain), owner.numbers(search), solver)
-    solved = owner.input_of("solved", written_out(plain))
-    wanted = owner.trace(rotor_commands)(how, solved.thrusts, t)
-    commands = owner.trace(with_trials)(pilot.detection, held.detection, wanted, t)
-    return needs, owner.trace(with_thrusts)(decision, commands), owner.trace(with_allocation)(output.memory, solved)
+        return self.trace(floor_is_near)(self.model, self.dt)

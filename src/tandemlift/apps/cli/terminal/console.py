@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.compiler.jit.compile_events import Compiled
-from tandemlift.core.progress import shown_progress
+from tandemlift.core.progress import Compiled, shown_progress
 
 if TYPE_CHECKING:
     from tandemlift.core.types import Progress

@@ -10,15 +10,13 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
-from tandemlift.codegen.c.function_text import Statement, token
-from tandemlift.codegen.c.identifiers import Names
-from tandemlift.codegen.c.literals import literal
-from tandemlift.codegen.c.operations import ATOM, CHOSEN, UNARY, Expression, expression
-from tandemlift.codegen.c.structs import Struct, parts_of, type_name
-from tandemlift.codegen.c.unit import Unit
-from tandemlift.codegen.c.variables import Group, Variables
+from tandemlift.codegen.c_expressions import ATOM, CHOSEN, UNARY, Expression, expression, literal
+from tandemlift.codegen.c_source import Unit
+from tandemlift.codegen.c_text import Statement, token
+from tandemlift.codegen.c_types import Names, Struct, parts_of, type_name
+from tandemlift.codegen.c_variables import Group, Variables
 from tandemlift.compiler.tracer import Graph
-from tandemlift.compiler.tracer.structured import as_symbol, calls_in, is_nested, numbers_in
+from tandemlift.compiler.tracer.structured import as_symbol, calls_in, is_nested, nodes_of, numbers_in
 
 FEW = 4  # numbers of a struct whose members need no names where it is written
 
@@ -67,10 +65,15 @@ class Statements:
                 existing.value, UNARY if existing.value[0] == "*" else ATOM
             )
             return
-        nodes = tuple([as_symbol(self.graph, x).node for x in numbers_in(value)])
-        self._existing.setdefault((self.unit.structs.of(value), nodes), existing)
+        self._existing.setdefault((self.unit.structs.of(value), tuple(nodes_of(self.graph, value))), existing)
         for name, part in parts_of(value):
             self._know(part, StructVariable(access + name, "&" + access + name), access + name + ".")
+
+    def argument(self, name: str, value: Any, *, pointer: bool = False) -> str:
+        """The declaration of an argument of the function, which is, or points to, the numbers of a nested value."""
+        self.know(value, name, pointer=pointer)
+        kind = self.unit.type_of(value)
+        return f"const {kind} *{name}" if pointer else f"{kind} {name}"
 
     # branches
 
@@ -84,7 +87,7 @@ class Statements:
     def variable(self, value: Any, wish: str) -> str:
         """A variable of a nested value's type, which the caller fills: its name between marks."""
         name = self._new(wish)
-        self._add("call", ((type_name(self.unit.structs.of(value), self.unit.real), name),), "")
+        self._add("call", ((self.unit.type_of(value), name),), "")
         self.know(value, token(name))
         return token(name)
 
@@ -201,32 +204,28 @@ class Statements:
         if not is_nested(like):
             return self.number(nodes[0]).within(CHOSEN)
         struct = self.unit.structs.of(like)
-        existing = self._existing.get((struct, tuple([n if n >= 0 else -1 - n for n in nodes])))
+        existing = self._found(struct, nodes)
         if existing is not None:
             return existing.address if pointer else existing.value
         literal_text = f"{struct.name}){self._initialiser(like, nodes)}"
         return f"&(const {literal_text}" if pointer else f"({literal_text}"
 
+    def _found(self, struct: Any, nodes: list[int]) -> StructVariable | None:
+        """The struct that holds nodes, those without use among them."""
+        return self._existing.get((struct, tuple([n if n >= 0 else -1 - n for n in nodes])))
+
     def value(self, value: Any) -> str:
         """A nested value, or a number, as an expression."""
-        nodes = [as_symbol(self.graph, x).node for x in numbers_in(value)]
-        return self._argument(value, nodes, pointer=False)
+        return self._argument(value, nodes_of(self.graph, value), pointer=False)
 
     def address(self, value: Any) -> str:
         """The address of a nested value, of a copy if it stands nowhere."""
-        nodes = [as_symbol(self.graph, x).node for x in numbers_in(value)]
-        return self._argument(value, nodes, pointer=True)
-
-    def initialiser(self, value: Any) -> str:
-        """The initial value of a variable of a nested value."""
-        nodes = tuple([as_symbol(self.graph, x).node for x in numbers_in(value)])
-        existing = self._existing.get((self.unit.structs.of(value), nodes)) if is_nested(value) else None
-        return existing.value if existing else self._initialiser(value)
+        return self._argument(value, nodes_of(self.graph, value), pointer=True)
 
     def _initialiser(self, like: Any, nodes: list[int] | None = None) -> str:
         """Members in braces; a node below 0 is one without use."""
         if nodes is None:
-            nodes = [as_symbol(self.graph, x).node for x in numbers_in(like)]
+            nodes = nodes_of(self.graph, like)
         struct: Struct = self.unit.structs.of(like)
         texts, first = [], 0
         for name, part in parts_of(like):
@@ -241,5 +240,5 @@ class Statements:
         if not is_nested(part):
             return self.number(nodes[0]).text if nodes[0] >= 0 else "0"
         struct = self.unit.structs.of(part)
-        existing = self._existing.get((struct, tuple([n if n >= 0 else -1 - n for n in nodes])))
+        existing = self._found(struct, nodes)
         return existing.value if existing else self._initialiser(part, nodes)

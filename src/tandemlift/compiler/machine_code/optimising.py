@@ -1,6 +1,6 @@
 """Optimised machine code, made in a separate process, because LLVM compiles one module at a time in a process.
 
-`python -m tandemlift.compiler.jit.optimising LEVEL KEY CHECKSUM` reads a module as text, stores its object
+`python -m tandemlift.compiler.machine_code.optimising LEVEL KEY CHECKSUM` reads a module as text, stores its object
 code on disk and prints it. The process ends by itself, at most a few seconds after the one that started it.
 """
 
@@ -13,8 +13,8 @@ import os
 import subprocess
 import sys
 
-from tandemlift.compiler.jit import store
-from tandemlift.compiler.jit.machine import Level, compiled
+from tandemlift.compiler.machine_code import store
+from tandemlift.compiler.machine_code.machine import Level, compiled
 
 NICENESS = 10  # of the process, so that flights have priority
 RUNNING: set[subprocess.Popen[bytes]] = set()
@@ -24,7 +24,7 @@ def optimise_in_process(text: str, level: Level, key: str) -> bytes | None:
     """The optimised object code of a module, also stored under the key; None if it cannot be made."""
     data, pipe = text.encode(), subprocess.PIPE
     given = [*[str(int(part)) for part in level], key, hashlib.sha256(data).hexdigest()]
-    command = [sys.executable, "-m", "tandemlift.compiler.jit.optimising", *given]
+    command = [sys.executable, "-m", "tandemlift.compiler.machine_code.optimising", *given]
     try:
         process = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, start_new_session=True)
     except OSError:

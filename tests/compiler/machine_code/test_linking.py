@@ -8,7 +8,7 @@ SCATTERED = """
 import mmap, re
 import tandemlift as tl
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.compiler.jit import machine
+from tandemlift.compiler.machine_code import machine
 
 loop_code = FlightPlan(tl.load_mission("hover", {"mission.duration": 0.1})).loop_code
 text = loop_code._written("loop", 1).text

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any, NamedTuple
 
-from tandemlift.codegen.c.signatures import Signature
-from tandemlift.codegen.c.unit import Unit
+from tandemlift.codegen.c_source import Unit
+from tandemlift.codegen.c_types import Signature
 from tandemlift.compiler.tracer import LEAVES, Graph
-from tandemlift.compiler.tracer.structured import as_symbol, is_nested, numbers_in
+from tandemlift.compiler.tracer.structured import is_nested, nodes_of
 
 LONGEST = 12  # operations in one expression
 
@@ -72,7 +72,7 @@ class Variables:
     def _find_names(self, names: dict[str, Any]) -> None:
         needed, known = set(self._needed), set[tuple[int, ...]]()
         for name, value in names.items():
-            nodes = tuple([as_symbol(self.graph, x).node for x in numbers_in(value)])
+            nodes = tuple(nodes_of(self.graph, value))
             if not nodes or not needed.issuperset(nodes):
                 continue
             if not is_nested(value):

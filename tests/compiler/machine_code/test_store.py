@@ -20,7 +20,7 @@ import pytest
 from patience import PATIENCE
 
 import tandemlift as tl
-from tandemlift.compiler.jit import code, machine, store
+from tandemlift.compiler.machine_code import code, machine, store
 from tandemlift.simulation import plan
 
 CHANGES = {"mission.duration": 0.5}
@@ -52,7 +52,7 @@ def check_output(process):
 
 
 OPTIMISED = """import os; os.environ["TANDEMLIFT_OPTIMISE"] = "1"
-from tandemlift.compiler.jit import code; code.PAYS = 0.0"""
+from tandemlift.compiler.machine_code import code; code.PAYS = 0.0"""
 
 
 def check_entries(cache):

@@ -17,9 +17,9 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import Future, wait
 from typing import Any, NamedTuple
 
-from tandemlift.compiler.jit import machine, store
-from tandemlift.compiler.jit.compile_events import Compiled, Stopped, always, publish
-from tandemlift.compiler.jit.optimising import optimise_in_process
+from tandemlift.compiler.machine_code import machine, store
+from tandemlift.compiler.machine_code.optimising import optimise_in_process
+from tandemlift.core.progress import Compiled, Stopped, always, publish
 
 PAYS = 2.0  # times the compile time of unoptimised code: about a third of that of optimised code
 LOOP = "flight loop"  # the name in notices, unless the module has another
@@ -65,7 +65,7 @@ class Code:
     """The functions of a module; each takes the address of a context and returns an integer.
 
     Args:
-        key: hash of everything that determines the code (`compiler.jit.store.key_of`).
+        key: hash of everything that determines the code (`compiler.machine_code.store.key_of`).
         names: names of its functions.
         write: returns the module as text; called only if no code is on disk.
         best: optimisation level of optimised code.
@@ -74,7 +74,10 @@ class Code:
     Attributes:
         about: facts that the callers need.
         is_best: whether the optimised code is in place.
+        pace: for a caller that runs a loop in stretches, the steps of the last one; 0 before the first.
     """
+
+    pace = 0
 
     def __init__(
         self,

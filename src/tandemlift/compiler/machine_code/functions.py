@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.compiler.jit import machine
+from tandemlift.compiler.machine_code import machine
 from tandemlift.compiler.tracer.fused import traced
 from tandemlift.compiler.tracer.graph import Graph, symbols
 from tandemlift.compiler.tracer.llvm import Function

@@ -193,7 +193,7 @@ def _of_compiler() -> list[Path]:
 
 def key_of_module(text: str, about: Mapping[str, Any]) -> str:
     """The key of a module as text, with the data that its callers need."""
-    from tandemlift.compiler.jit.machine import processor
+    from tandemlift.compiler.machine_code.machine import processor
 
     facts = metadata.version("llvmlite"), processor(), json.dumps(about, sort_keys=True)
     return hashlib.sha256(f"{facts} {text}".encode()).hexdigest()[:32]
@@ -207,7 +207,7 @@ def key_of(value: Any, *more: Any, files: Iterable[Path] = ()) -> str:
         more: further values that determine the code.
         files: its sources beside tracer and compiler, if it is not the code of a flight.
     """
-    from tandemlift.compiler.jit.machine import processor
+    from tandemlift.compiler.machine_code.machine import processor
 
     versions = sys.version_info[:2], metadata.version("llvmlite"), processor()
     digest = hashlib.sha256(f"{versions} {described(value)} {more}".encode())

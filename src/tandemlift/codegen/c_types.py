@@ -1,0 +1,246 @@
+"""Names and types of C: identifiers, structs for the named tuples of the laws, and signatures of functions."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import itertools
+import re
+import textwrap
+from collections.abc import Iterable, Iterator
+from typing import Any, NamedTuple
+
+from tandemlift.compiler.tracer import Symbol
+from tandemlift.compiler.tracer.structured import TracedLaw, is_nested, numbers_in
+from tandemlift.core.vector import is_set
+
+KEYWORDS = """auto bool break case char const continue default do double else enum extern false float for goto if inline
+int long register restrict return short signed sizeof static struct switch true typedef union unsigned void volatile
+while and catch class delete explicit export friend mutable namespace new not operator or private protected public
+template this throw try typename using virtual xor"""
+LIBRARY = """abs acos asin atan atan2 cbrt ceil cos cosh div erf exp exp2 expm1 fabs fdim floor fma fmax fmin fmod frexp
+gamma hypot isfinite isinf isnan j0 j1 jn ldexp lgamma log log10 log1p log2 lrint lround memcpy memset modf nan
+nearbyint pow remainder rint round scalbn signbit sin sinh sqrt tan tanh tgamma trunc y0 y1 yn size_t int32_t int64_t
+uint32_t uint64_t to_integer bits_of number_of shifted_right"""
+NO_MEMBER = frozenset(KEYWORDS.split())
+RESERVED = NO_MEMBER | {"shared"} | set(LIBRARY.split())  # `shared`: of the parts of a function (c_text)
+
+
+def identifier(name: str) -> str:
+    """A name as an identifier of C: no leading underscores, no dots, dashes or other letters."""
+    plain = re.sub(r"\W", "_", name, flags=re.ASCII).strip("_") or "value"
+    return f"_{plain}"[plain[0].isalpha() :]
+
+
+def _numbered(name: str) -> Iterator[str]:
+    return (f"{name}_{i}" for i in itertools.count(2))
+
+
+class Names:
+    """Identifiers in one scope, each given once; `given`: those of an outer scope that it may not hide."""
+
+    def __init__(self, given: Iterable[str] = ()) -> None:
+        self._taken, self._count = set(given), 0
+
+    def knows(self, name: str) -> bool:
+        """Whether a name is taken."""
+        return name in RESERVED or name in self._taken
+
+    def new(self, wish: str) -> str:
+        """The name that is wished for, with a number behind it if it is taken."""
+        plain = identifier(wish)
+        found = plain if not self.knows(plain) else next(n for n in _numbered(plain) if not self.knows(n))
+        self._taken.add(found)
+        return found
+
+    def numbered(self, wish: str) -> str:
+        """A name with a number behind it."""
+        self._count += 1
+        return self.new(f"{wish}{self._count}")
+
+
+BY_VALUE = 4  # numbers of a struct that is passed by value; larger ones are passed by address
+
+
+class Member(NamedTuple):
+    """A member of a struct; `kind`: a `Struct`, or "f", "b", "i" for a number, a truth, an integer."""
+
+    name: str
+    kind: Any
+
+
+class Struct(NamedTuple):
+    """A struct: its name, its members, how many numbers it holds, and whether it is an array of equal numbers."""
+
+    name: str
+    members: tuple[Member, ...]
+    size: int
+    is_set: bool
+
+    def definition(self, prefix: str, real: str) -> str:
+        """The typedef."""
+        if self.is_set:
+            kind = type_name(self.members[0].kind, real, prefix)
+            return f"typedef struct {{ {kind} r[{len(self.members)}]; }} {prefix}{self.name};"
+        lines = [f"    {type_name(m.kind, real, prefix)} {m.name};" for m in self.members]
+        return "\n".join(["typedef struct {", *lines, f"}} {prefix}{self.name};"])
+
+
+def type_name(kind: Any, real: str, prefix: str = "") -> str:
+    """The name of a type in C."""
+    if isinstance(kind, Struct):
+        return prefix + kind.name
+    return {"f": real, "b": "bool", "i": "int64_t"}[kind]
+
+
+def has_numbers(value: Any) -> bool:
+    """Whether a value holds numbers."""
+    return next(numbers_in(value), None) is not None
+
+
+def parts_of(value: Any) -> Iterator[tuple[str, Any]]:
+    """The fields of a nested value that hold numbers, with their access in C."""
+    names = getattr(type(value), "_fields", None)
+    for i, part in enumerate(value):
+        if has_numbers(part):
+            yield (f"r[{i}]" if is_set(value) else member_name(names[i]) if names else f"item{i}"), part
+
+
+def member_name(field: str) -> str:
+    """The name of a member."""
+    plain = identifier(field)
+    return plain + "_" * (plain in NO_MEMBER)
+
+
+def leaf_paths(value: Any) -> Iterator[tuple[str, Any]]:
+    """The numbers of a nested value, with their access in C, as in `.position.x`."""
+    if not is_nested(value):
+        yield "", value
+        return
+    for access, part in parts_of(value):
+        for path, leaf in leaf_paths(part):
+            yield f".{access}{path}", leaf
+
+
+class Structs:
+    """The structs of a file, made on first use; those that a struct contains precede it."""
+
+    def __init__(self, names: Names) -> None:
+        self.names, self.all = names, dict[Any, Struct]()
+
+    def of(self, value: Any) -> Any:
+        """The type of a value: a `Struct`, or the letter of a number's type."""
+        if not is_nested(value):
+            return value.type if isinstance(value, Symbol) else "f"
+        members = tuple(Member(access, self.of(part)) for access, part in parts_of(value))
+        key = type(value), members
+        if key not in self.all:
+            name = self.names.new(type(value).__name__ if hasattr(value, "_fields") else "Items")
+            self.all[key] = Struct(name, members, len(list(numbers_in(value))), is_set(value))
+        return self.all[key]
+
+
+ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
+
+
+class Parameter(NamedTuple):
+    """A parameter: its name, the nested value or number that it stands for, and its numbers among all arguments'."""
+
+    name: str
+    value: Any
+    first: int
+    size: int
+    pointer: bool
+
+
+class Result(NamedTuple):
+    """A result: its name and the nested value or number."""
+
+    name: str
+    value: Any
+
+
+class Signature(NamedTuple):
+    """A function's name, its parameters (those without use left out), its results, and the numbers that it uses."""
+
+    name: str
+    parameters: tuple[Parameter, ...]
+    results: tuple[Result, ...]
+    used: tuple[int, ...]
+
+    @property
+    def returns_many(self) -> bool:
+        """Whether the results are written through pointers."""
+        return len(self.results) > 1
+
+    @property
+    def returns_number(self) -> bool:
+        """Whether a single number is returned."""
+        return len(self.results) == 1 and not is_nested(self.results[0].value)
+
+
+def taken_apart(value: Any, name: str) -> Iterator[tuple[str, Any]]:
+    """The parts of a value outside of named tuples, with names; parts without numbers are left out."""
+    if is_nested(value) and not hasattr(value, "_fields"):
+        for i, part in enumerate(value):
+            yield from taken_apart(part, f"{name}_{i}")
+    elif has_numbers(value):
+        yield name, value
+
+
+def signature_of(law: TracedLaw, name: str, structs: Structs, names: Names) -> Signature:
+    """The signature of a traced law; `names`: those of its function."""
+    parameters, first, used = [], 0, set(law.used)
+    for argument, given in law.arguments.items():
+        for wish, value in taken_apart(given, argument):
+            size = len(list(numbers_in(value)))
+            if not used.isdisjoint(range(first, first + size)):
+                kind = structs.of(value)
+                pointer = isinstance(kind, Struct) and kind.size > BY_VALUE
+                parameters.append(Parameter(names.new(wish), value, first, size, pointer))
+            first += size
+    return Signature(name, tuple(parameters), tuple(_results(law)), tuple(law.used))
+
+
+def _results(law: TracedLaw) -> Iterator[Result]:
+    """The results, named as in the law's return statement."""
+    if not is_nested(law.result) or hasattr(law.result, "_fields"):
+        name = type_word(law.result) if is_nested(law.result) else "v"
+        yield Result(name, law.result)
+        return
+    returned = _returned_names(law.law)
+    for i, part in enumerate(law.result):
+        plain = type_word(part) if hasattr(part, "_fields") else ORDINALS[i % len(ORDINALS)]
+        wish = returned[i] if len(returned) == len(law.result) else plain
+        yield from (Result(name, value) for name, value in taken_apart(part, wish))
+
+
+def type_word(value: Any) -> str:
+    """A named tuple's class as a variable's name."""
+    return snake(type(value).__name__)
+
+
+def snake(name: str) -> str:
+    """A class's name as a variable's; other names unchanged."""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower() if re.match("[A-Z][A-Za-z]*[a-z]", name) else name
+
+
+def _returned_names(law: Any) -> list[str]:
+    """The names in the last statement of a law, if it returns a tuple of names, calls or fields."""
+    try:
+        tree = ast.parse(textwrap.dedent(inspect.getsource(law)))
+    except (OSError, TypeError, SyntaxError):
+        return []
+    last = [n for n in ast.walk(tree) if isinstance(n, ast.Return)][-1:]
+    if not last or not isinstance(last[0].value, ast.Tuple):
+        return []
+    words = [snake(_word(part)) for part in last[0].value.elts]
+    return words if all(words) else []
+
+
+def _word(node: ast.expr) -> str:
+    if isinstance(node, ast.Name):
+        return node.id
+    if isinstance(node, ast.Attribute):
+        return node.attr
+    return node.func.id if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) else ""
