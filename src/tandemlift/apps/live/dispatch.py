@@ -7,22 +7,23 @@ import logging
 from collections.abc import Sequence
 from typing import Protocol
 
-from tandemlift.apps.live.viewers import Viewer, Viewers
-from tandemlift.apps.live.wire.page_messages import (
+from tandemlift.apps.live.session.page_messages import (
     GrabMessage,
     KillMessage,
     MoveMessage,
     PageMessage,
     PingMessage,
+    Refusal,
     ResetMessage,
     RestoreMessage,
     SaveMessage,
     SetMessage,
     TareMessage,
+    read_message,
+    subject_of,
 )
-from tandemlift.apps.live.wire.reading import Refusal, read_message, subject_of
-from tandemlift.apps.live.wire.scene import FlightScene
-from tandemlift.apps.live.wire.server_messages import Answer, FlightStatus, PongMessage
+from tandemlift.apps.live.session.server_messages import Answer, FlightScene, FlightStatus, PongMessage
+from tandemlift.apps.live.viewers import Viewer, Viewers
 from tandemlift.core.errors import InputError
 
 MAX_WAITING = 16  # changes that wait for their turn

@@ -9,24 +9,14 @@ from typing import Any, get_args, get_origin
 
 from tandemlift.apps.live.page_functions import ENDING_PARTS, frame_fields
 from tandemlift.apps.live.session import checks, pacing
-from tandemlift.apps.live.session import refusal_texts as texts
-from tandemlift.apps.live.session.frame_values import phase_times
+from tandemlift.apps.live.session.frames import ECHO, FRESH, RATE, phase_times
 from tandemlift.apps.live.session.hand_control import REQUEST_TIME
 from tandemlift.apps.live.session.interactive_mission import NEVER
-from tandemlift.apps.live.session.parameter_control import RAMP
+from tandemlift.apps.live.session.page_messages import NAME_PATTERN, NAME_RULE, PAGE_MESSAGES, SILENT, NumberedMessage
+from tandemlift.apps.live.session.parameters import BY_KEY, CHOICES, RAMP, bounds_of, keys_of, parameters_of
 from tandemlift.apps.live.session.scene_builder import scene_of
+from tandemlift.apps.live.session.server_messages import SceneParameter
 from tandemlift.apps.live.session.status import in_sentences
-from tandemlift.apps.live.session.tunable_parameters import (
-    BY_KEY,
-    CHOICES,
-    bounds_of,
-    keys_of,
-    parameters_of,
-)
-from tandemlift.apps.live.wire.frames import ECHO, FRESH, RATE
-from tandemlift.apps.live.wire.page_messages import PAGE_MESSAGES, SILENT, NumberedMessage
-from tandemlift.apps.live.wire.quantities import NAME_PATTERN, NAME_RULE
-from tandemlift.apps.live.wire.scene import SceneParameter
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import DIVERGED, ENDING_OF, ENDINGS
 from tandemlift.core.refusals import REQUESTS, refusals_for, sentences_for
@@ -138,7 +128,7 @@ def _tunable(plan: FlightPlan, shown: SceneParameter) -> dict[str, Any]:
         "shown": shown,
         "keys": keys,
         "count": len(value) if isinstance(value, list) else 0,
-        "out_of_bounds": texts.OUT_OF_BOUNDS.format(key="{key}", value="{value}", low=shown["min"], high=shown["max"]),
+        "out_of_bounds": checks.OUT_OF_BOUNDS.format(key="{key}", value="{value}", low=shown["min"], high=shown["max"]),
         "wrong_shape": f"mission: {keys[0]} = {{value}}: {rule}",
     }
 
@@ -193,15 +183,15 @@ def _texts(plan: FlightPlan, rule: checks.TouchRule) -> dict[str, Any]:
     mission = plan.mission
     by_clock = mission.pilot.guidance == "scheduled"
     return {
-        "unknown": texts.UNKNOWN.format(key="{key}", known=", ".join([*CHOICES, *BY_KEY])),
-        "no_number": texts.NO_NUMBER,
-        "over": texts.OVER,
+        "unknown": checks.UNKNOWN.format(key="{key}", known=", ".join([*CHOICES, *BY_KEY])),
+        "no_number": checks.NO_NUMBER,
+        "over": checks.OVER,
         "later": f"{{key}} {LATER}",
         "no_effect": f"{{key}} {NO_EFFECT}",
         "other_laws": OTHER_LAWS,
-        "whole_rotors": texts.WHOLE_ROTORS,
-        "failed_already": texts.FAILED_ALREADY.replace("{time:g}", "{time}"),
-        "no_requests": texts.NO_REQUESTS.format(what="{what}", mission=mission.mission.name) if by_clock else "",
+        "whole_rotors": checks.WHOLE_ROTORS,
+        "failed_already": checks.FAILED_ALREADY.replace("{time:g}", "{time}"),
+        "no_requests": checks.NO_REQUESTS.format(what="{what}", mission=mission.mission.name) if by_clock else "",
         "touch": {str(int(number)): text for number, text in checks.touch_texts(rule).items()},
         "refusals": {request: sentences_for(request) for request in REQUESTS},
         "refused_at_end": {key: in_sentences(refusals_for(key)) for key in ("over", "stopped_early", "error")},

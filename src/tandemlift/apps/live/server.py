@@ -21,10 +21,10 @@ from websockets.http11 import Request, Response
 from tandemlift.apps.live.access import HOST, PORT, AccessControl, RequestHead, listen
 from tandemlift.apps.live.dispatch import Dispatcher, LiveFlight
 from tandemlift.apps.live.page_files import media_type_of
+from tandemlift.apps.live.session.frames import RATE
+from tandemlift.apps.live.session.page_messages import MAX_SIZE
+from tandemlift.apps.live.session.server_messages import SceneMessage
 from tandemlift.apps.live.viewers import FAREWELL, Viewer, Viewers, dismiss
-from tandemlift.apps.live.wire.frames import RATE
-from tandemlift.apps.live.wire.reading import MAX_SIZE
-from tandemlift.apps.live.wire.server_messages import SceneMessage
 
 STATUS_EVERY = RATE // 4  # frames
 MAX_VIEWERS = 16

@@ -9,8 +9,8 @@ from functools import partial
 
 from tandemlift.apps.export.recipes import WRENCH
 from tandemlift.apps.export.topics import ROOT
+from tandemlift.apps.live.session.server_messages import ENDS
 from tandemlift.apps.live.session.session import Session
-from tandemlift.apps.live.wire.quantities import ENDS
 from tandemlift.apps.ros.dds_types import missing_packages
 from tandemlift.apps.ros.diagnostics import FlightDiagnostics
 from tandemlift.apps.ros.middleware import Middleware

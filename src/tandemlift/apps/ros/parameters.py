@@ -12,9 +12,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from tandemlift.apps.live.session.page_messages import SetMessage
+from tandemlift.apps.live.session.parameters import parameters_of
 from tandemlift.apps.live.session.session import Session
-from tandemlift.apps.live.session.tunable_parameters import parameters_of
-from tandemlift.apps.live.wire.page_messages import SetMessage
 from tandemlift.apps.ros.diagnostics import Notify
 from tandemlift.apps.ros.middleware import Middleware
 from tandemlift.core.errors import InputError, shown, unknown

@@ -9,7 +9,7 @@ import numpy as np
 
 from tandemlift.apps.export.coordinate_frames import ALIGNED, BASE, WORLD, quaternions, to_world
 from tandemlift.apps.export.messages import MessageTypes
-from tandemlift.apps.live.session.frame_values import points_of
+from tandemlift.apps.live.session.frames import points_of
 from tandemlift.apps.ros.markers import MARKERS, MarkerWriter
 from tandemlift.core.types import Array
 from tandemlift.engines.models.visuals import PUSH_COLOR, VisualShape, payload_shapes, vehicle_shapes, wall_shape

@@ -5,7 +5,7 @@ from sessions import fly, say, seen
 
 import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import NEVER, interactive_mission, with_whole_rotors
-from tandemlift.apps.live.session.tunable_parameters import BY_KEY, parameters_of
+from tandemlift.apps.live.session.parameters import BY_KEY, parameters_of
 from tandemlift.missions import changed
 
 

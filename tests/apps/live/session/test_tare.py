@@ -8,7 +8,7 @@ from sessions import fly, say, up
 import tandemlift as tl
 from tandemlift.apps.live.session.checks import check_in_time
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
-from tandemlift.apps.live.session.parameter_control import ParameterControl
+from tandemlift.apps.live.session.parameters import ParameterControl
 from tandemlift.missions import changed
 
 

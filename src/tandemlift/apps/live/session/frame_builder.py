@@ -8,9 +8,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.apps.live.session.frame_values import Components, channel_columns, field_values, phase_times
+from tandemlift.apps.live.session.frames import (
+    Components,
+    channel_columns,
+    field_values,
+    layout_for,
+    pack_frames,
+    phase_times,
+)
 from tandemlift.apps.live.session.scene_builder import scene_of
-from tandemlift.apps.live.wire.frames import layout_for, pack_frames
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, tables_of
 from tandemlift.parts.mechanics.vehicle import Vehicle

@@ -15,19 +15,24 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
+from tandemlift.apps.live.session import page_messages as page
 from tandemlift.apps.live.session.checks import check_may_tare, check_takes_requests
 from tandemlift.apps.live.session.frame_builder import FrameBuilder
 from tandemlift.apps.live.session.hand_control import HandControl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission, with_whole_rotors
 from tandemlift.apps.live.session.pacing import Pacer, RealTimeThread
-from tandemlift.apps.live.session.parameter_control import ParameterControl
-from tandemlift.apps.live.session.preparation import Preparation
+from tandemlift.apps.live.session.parameters import CHOICES, ParameterControl, parameters_of
 from tandemlift.apps.live.session.saving import save_in_process
-from tandemlift.apps.live.session.status import FlightFindings, phase_of, refusals_now, status_of
-from tandemlift.apps.live.session.tunable_parameters import CHOICES, parameters_of
-from tandemlift.apps.live.wire import page_messages as page
-from tandemlift.apps.live.wire.scene import FlightScene, SceneSpring
-from tandemlift.apps.live.wire.server_messages import Answer, DoneMessage, FlightStatus, RefusedMessage, SceneMessage
+from tandemlift.apps.live.session.server_messages import (
+    Answer,
+    DoneMessage,
+    FlightScene,
+    FlightStatus,
+    RefusedMessage,
+    SceneMessage,
+    SceneSpring,
+)
+from tandemlift.apps.live.session.status import FlightFindings, Preparation, phase_of, refusals_now, status_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.vector import Quat
