@@ -6,6 +6,7 @@ import difflib
 import json
 import math
 import re
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any, NamedTuple
@@ -17,6 +18,14 @@ class InputError(ValueError):
 
 class FlightWarning(UserWarning):
     """Warns of a mission that can be flown but is expected to fly badly, with the numbers."""
+
+
+@contextmanager
+def without_flight_warnings() -> Iterator[None]:
+    """A context in which missions are loaded that nobody needs to be warned of."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FlightWarning)
+        yield
 
 
 def nearest(given: str, known: Iterable[str]) -> str | None:

@@ -7,14 +7,13 @@ on no clock and no page.
 from __future__ import annotations
 
 import time
-import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.core.errors import FlightWarning, InputError
+from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.files import atomic_write
 from tandemlift.core.findings import Finding
 from tandemlift.core.refusals import Refusals
@@ -75,8 +74,7 @@ class FlightSnapshot:
     def alone(self) -> Flight:
         """The flight by itself, with a mission of the same length that has neither hand nor changes."""
         duration = self.flown.step * self.start.mission.step
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", FlightWarning)
+        with without_flight_warnings():
             p = FlightPlan(changed(self.start, "mission.duration", duration))
         return flight_of(p, self.flown, self.engine)
 
@@ -90,8 +88,7 @@ class FlightSnapshot:
 
 def save_flight(folder: Path, flown: RawResult, engine: str) -> Flight:
     """Write the flight that was flown into the folder of its recorded mission."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)
+    with without_flight_warnings():
         p = FlightPlan(load_mission(folder / MISSION))
     flight = flight_of(p, flown, engine)
     flight.save(folder / FLIGHT)
@@ -252,8 +249,7 @@ class RecordedFlight:
         Raises:
             InputError: it cannot be made in flight.
         """
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", FlightWarning)
+        with without_flight_warnings():
             due = scheduled_change(self._stepper.p, changed(self.now, key, value), key, 0, duration)
         if due.prepared.variant != self._stepper.p.variant:
             Stepper(due.prepared, self._stepper.body)  # its code is compiled

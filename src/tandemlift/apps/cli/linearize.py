@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import sys
-import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,7 +19,7 @@ from tandemlift.apps.cli.terminal.mission_options import (
     set_option,
     style_option,
 )
-from tandemlift.core.errors import FlightWarning, InputError
+from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.files import atomic_write
 
 if TYPE_CHECKING:
@@ -185,8 +184,7 @@ def check(mission: str, settings: tuple[str, ...], controller: str | None, stric
     from tandemlift.apps.cli.terminal.check_table import print_checks
 
     chosen = None if controller is None else chosen_controller(controller)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)  # the table has the same
+    with without_flight_warnings():  # the table has the same
         loaded = load(mission, settings, chosen)
     results = checked(loaded)
     print_checks(results)

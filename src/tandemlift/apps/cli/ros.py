@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import signal
 import sys
-import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +13,7 @@ from tandemlift.apps.cli.live import DEFAULT, session_of
 from tandemlift.apps.cli.terminal.completion import MISSIONS
 from tandemlift.apps.cli.terminal.console import echo
 from tandemlift.apps.cli.terminal.mission_options import FAILED, engine_option, load, set_option
-from tandemlift.core.errors import InputError
+from tandemlift.core.errors import InputError, without_flight_warnings
 
 if TYPE_CHECKING:
     from tandemlift.apps.live.session.session import Session
@@ -151,10 +150,7 @@ def _shut_down(middleware: Middleware) -> list[str]:
 
 
 def _save(session: Session, save: str | None) -> None:
-    from tandemlift.core.errors import FlightWarning
-
     if save:
-        with warnings.catch_warnings():  # the mission was checked when it was loaded
-            warnings.simplefilter("ignore", FlightWarning)
+        with without_flight_warnings():  # the mission was checked when it was loaded
             session.flight.snapshot().save(Path(save))
         echo(f"saved: {save}; `tandemlift run {Path(save) / 'recorded.toml'}` flies it again")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import sys
-import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -23,7 +22,7 @@ from tandemlift.apps.cli.terminal.mission_options import (
     style_option,
 )
 from tandemlift.apps.cli.terminal.results import results_folder
-from tandemlift.core.errors import FlightWarning, InputError
+from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.files import toml_tables
 
 if TYPE_CHECKING:
@@ -262,8 +261,7 @@ def feel(mission: str, settings: tuple[str, ...], out: str | None, strict: bool)
     from tandemlift.apps.cli.terminal.check_table import print_checks
     from tandemlift.pictures.report.study.feel_report import feel as studied
 
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)  # of pushes that are not flown here
+    with without_flight_warnings():  # of pushes that are not flown here
         loaded = load(mission, settings)
     name = loaded.mission.name
     with results_folder(out, Path("out") / name, FEEL_FILES) as folder:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import gzip
 import hashlib
 import json
-import warnings
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -19,7 +18,7 @@ from tandemlift.apps.live.page_functions import page_functions
 from tandemlift.apps.live.page_manifest import page_manifest
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.codegen.mission_module import module_of
-from tandemlift.core.errors import FlightWarning
+from tandemlift.core.errors import without_flight_warnings
 from tandemlift.core.files import DATA, __version__, atomic_write
 from tandemlift.missions import Mission, built_in, changed, load_mission
 from tandemlift.simulation.plan import FlightPlan
@@ -48,15 +47,13 @@ class PackedFlight(NamedTuple):
 
 def page_mission(name: str, changes: Mapping[str, Any] | None = None) -> Mission:
     """A mission, with changes of its keys, as a page flies it: pushed by hand, and rounded alike on every machine."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)
+    with without_flight_warnings():
         return changed(interactive_mission(load_mission(name, changes)), "mission.fma", False)
 
 
 def flight_manifest(mission: Mission) -> tuple[dict[str, Any], bytes]:
     """The manifest of a page's flight, and its module."""
-    with warnings.catch_warnings():  # rotors that may fail raise warnings of their own
-        warnings.simplefilter("ignore", FlightWarning)
+    with without_flight_warnings():  # rotors that may fail raise warnings of their own
         module = module_of(mission, "wasm32", page_functions)
         page = page_manifest(FlightPlan(mission))
     manifest = {"format": FORMAT, "version": __version__, "module": module.manifest, "page": page}
