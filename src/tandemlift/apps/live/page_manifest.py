@@ -24,6 +24,7 @@ from tandemlift.core.types import flat
 from tandemlift.flight.record import ENDING_TEXT
 from tandemlift.missions import changed, tables_of
 from tandemlift.missions.bounds import allowed, bounds, plain
+from tandemlift.missions.changes import Tables
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.loop_code import leaf_offset
@@ -86,14 +87,15 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
     """The manifest of a mission that was made interactive."""
     mission = plan.mission
     scene = scene_of(mission, ENGINE)
-    rule = checks.touch_rule(mission, scene["vehicle"])
+    rule = checks.touch_rule(mission.pilot, mission.estimator, scene["vehicle"])
     tables = tables_of(mission)
     tables.pop("changes", None)
+    parameters = list(parameters_of(tables, tables))
     return {
         "scene": scene,
         "tables": tables,
-        "parameters": [_tunable(plan, shown) for shown in parameters_of(mission, mission) if "choices" not in shown],
-        "absent": _absent(plan),
+        "parameters": [_tunable(plan, tables, shown) for shown in parameters if "choices" not in shown],
+        "absent": _absent(plan, tables, {shown["key"] for shown in parameters}),
         "rotors": [
             {"rotor": 4 * (f.quadrotor - 1) + f.rotor - 1, "key": f"faults.{i}.time"}
             for i, f in enumerate(mission.faults)
@@ -120,9 +122,9 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
     }
 
 
-def _tunable(plan: FlightPlan, shown: SceneParameter) -> dict[str, Any]:
+def _tunable(plan: FlightPlan, tables: Tables, shown: SceneParameter) -> dict[str, Any]:
     """A parameter as the page has it, with the refusals of values out of bounds and of lists of another length."""
-    keys, value = keys_of(plan.mission, shown["key"]), shown["value"]
+    keys, value = keys_of(tables, shown["key"]), shown["value"]
     rule = _refusal(plan, keys[0], [1.0] * (MOST_NUMBERS + 1)).rpartition(": ")[2]
     return {
         "shown": shown,
@@ -133,11 +135,10 @@ def _tunable(plan: FlightPlan, shown: SceneParameter) -> dict[str, Any]:
     }
 
 
-def _absent(plan: FlightPlan) -> dict[str, str]:
+def _absent(plan: FlightPlan, tables: Tables, present: set[str]) -> dict[str, str]:
     """The parameters that a mission does not have, with the reasons of refusal."""
-    present = {shown["key"] for shown in parameters_of(plan.mission, plan.mission)}
     lost = {
-        key: _refusal(plan, keys_of(plan.mission, key)[0], bounds_of(parameter, plan.mission)[1])
+        key: _refusal(plan, keys_of(tables, key)[0], bounds_of(parameter, tables)[1])
         for key, parameter in BY_KEY.items()
         if key not in present
     }

@@ -18,7 +18,8 @@ from tandemlift.apps.live.session.session import Session
 from tandemlift.apps.ros.diagnostics import Notify
 from tandemlift.apps.ros.middleware import Middleware
 from tandemlift.core.errors import InputError, shown, unknown
-from tandemlift.missions import Mission
+from tandemlift.missions import tables_of
+from tandemlift.parts.compliance.admittance import AdmittanceTable
 
 DAMPING, RATIO = "admittance.damping", "admittance.damping_ratio"
 SPRING = ("person.stiffness", "person.damping")  # of a page's hand; here pushes are forces
@@ -36,7 +37,7 @@ class Parameters:
 
     def __init__(self, session: Session, middleware: Middleware, notify: Notify) -> None:
         self._session, self._middleware, self._notify = session, middleware, notify
-        self._first = session.flight.now
+        self._first = tables_of(session.flight.now)
 
     def exchange(self) -> bool:
         """Apply what has been set since the last time, and set all to the present values; whether anything changed."""
@@ -48,10 +49,10 @@ class Parameters:
 
     def _values(self) -> Iterator[tuple[str, Any]]:
         now = self._session.flight.now
-        for parameter in parameters_of(now, self._first):
+        for parameter in parameters_of(tables_of(now), self._first):
             if parameter["key"] not in SPRING:
                 yield parameter["key"], parameter["value"]
-        yield RATIO, damping_ratio(now)
+        yield RATIO, damping_ratio(now.admittance)
 
     def _set(self, key: str, value: object) -> None:
         known = dict(self._values())
@@ -59,7 +60,7 @@ class Parameters:
             if key not in known:
                 raise unknown("parameter", key, known)
             if key == RATIO:
-                key, value = DAMPING, damping_of(self._session.flight.now, value)
+                key, value = DAMPING, damping_of(self._session.flight.now.admittance, value)
             self._session.apply(_message(key, value))
         except InputError as error:
             self._notify(f"parameter refused: {error}")
@@ -77,14 +78,13 @@ def _message(key: str, value: Any) -> SetMessage:
         raise InputError(f"{key} = {shown(value)}: must be a number, a list of numbers, or a word") from None
 
 
-def damping_ratio(mission: Mission) -> list[float]:
+def damping_ratio(admittance: AdmittanceTable) -> list[float]:
     """D/(2 √(M K)) of each axis of the admittance; 0 where there is no stiffness."""
-    a = mission.admittance
-    axes = zip(a.mass, a.damping, a.stiffness, strict=True)
+    axes = zip(admittance.mass, admittance.damping, admittance.stiffness, strict=True)
     return [d / (2.0 * math.sqrt(m * k)) if k > 0.0 else 0.0 for m, d, k in axes]
 
 
-def damping_of(mission: Mission, ratio: object) -> list[float]:
+def damping_of(admittance: AdmittanceTable, ratio: object) -> list[float]:
     """The damping [N s/m] of each axis that has a damping ratio; an axis without stiffness keeps its own.
 
     Raises:
@@ -93,8 +93,8 @@ def damping_of(mission: Mission, ratio: object) -> list[float]:
     numbers = ratio if isinstance(ratio, list) else [ratio] * 3
     if len(numbers) != 3 or not all(isinstance(x, (int, float)) and math.isfinite(x) for x in numbers):
         raise InputError(f"{RATIO} = {shown(ratio)}: must be a number, or three")
-    a, found = mission.admittance, list[float]()
-    for x, m, d, k in zip(numbers, a.mass, a.damping, a.stiffness, strict=True):
+    found = list[float]()
+    for x, m, d, k in zip(numbers, admittance.mass, admittance.damping, admittance.stiffness, strict=True):
         if k == 0.0 and x != 0.0:
             raise InputError(f"{RATIO} = {shown(ratio)}: must be 0 on an axis without stiffness; set {DAMPING} there")
         found.append(2.0 * x * math.sqrt(m * k) if k > 0.0 else d)

@@ -16,7 +16,8 @@ from tandemlift.core.algebra import Number, sqrt, where
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, PHASE_NAMES
 from tandemlift.core.vector import ZERO, Vec3, dot
-from tandemlift.missions import Mission
+from tandemlift.parts.estimation.estimator_table import EstimatorTable
+from tandemlift.parts.guidance.guidance import PilotTable
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 TARE = "estimator.tare_start"
@@ -51,16 +52,14 @@ class TouchRule(NamedTuple):
     tare_end: Number
 
 
-def touch_rule(mission: Mission, vehicle: SceneVehicle) -> TouchRule:
-    """The rule of the present mission."""
-    tare, start = mission.estimator, mission.estimator.tare_start
-    reach = max(_reaches(vehicle))
-    if mission.pilot.push == "truth" or (tare.tare != "hover" and start is None):
+def touch_rule(pilot: PilotTable, estimator: EstimatorTable, vehicle: SceneVehicle) -> TouchRule:
+    """The rule of a mission with such a pilot and estimator."""
+    reach, start = max(_reaches(vehicle)), estimator.tare_start
+    if pilot.push != "truth" and estimator.tare == "hover":
+        return TouchRule(reach, estimator.tare_duration, 0.0)
+    if pilot.push == "truth" or start is None:
         return TouchRule(reach, 0.0, 0.0)
-    if tare.tare == "hover":
-        return TouchRule(reach, tare.tare_duration, 0.0)
-    assert start is not None
-    return TouchRule(reach, 0.0, start + tare.tare_duration)
+    return TouchRule(reach, 0.0, start + estimator.tare_duration)
 
 
 def touch_refusal(rule: TouchRule, at: Number, hover_time: Number, point: Vec3) -> Number:
@@ -96,21 +95,21 @@ def check_touch(flight: RecordedFlight, vehicle: SceneVehicle, point: Sequence[f
     Raises:
         InputError: it is refused.
     """
-    rule = touch_rule(flight.now, vehicle)
+    rule = touch_rule(flight.now.pilot, flight.now.estimator, vehicle)
     hover_time = flight.number(*HOVER_TIME) if rule.tare_duration else 0.0
     refusal = touch_refusal(rule, flight.step * flight.dt, hover_time, Vec3(*point))
     if refusal != ALLOWED:
         raise InputError(touch_texts(rule)[refusal].format(point=list(point)))
 
 
-def check_takes_requests(mission: Mission, what: str) -> None:
-    """Refuse a request to a scheduled pilot.
+def check_takes_requests(pilot: PilotTable, mission: str, what: str) -> None:
+    """Refuse a request to a scheduled pilot; `mission`: its name.
 
     Raises:
         InputError: it is.
     """
-    if mission.pilot.guidance == "scheduled":
-        raise InputError(NO_REQUESTS.format(what=what, mission=mission.mission.name))
+    if pilot.guidance == "scheduled":
+        raise InputError(NO_REQUESTS.format(what=what, mission=mission))
 
 
 def check_may_tare(flight: RecordedFlight, vehicle: SceneVehicle, phase: str) -> None:

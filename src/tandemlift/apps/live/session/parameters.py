@@ -32,8 +32,8 @@ from tandemlift.apps.live.session.server_messages import (
     SceneParameter,
 )
 from tandemlift.core.errors import InputError, shown
-from tandemlift.missions import Mission, tables_of
-from tandemlift.missions.changes import MISSING, value_at
+from tandemlift.missions import tables_of
+from tandemlift.missions.changes import MISSING, Tables, value_at
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
@@ -73,72 +73,59 @@ TUNABLE = (
 )
 BY_KEY = {p.key: p for p in TUNABLE}
 CONTROLLER, GATE = "controller.name", "admittance.gate"
-CHOICES = (CONTROLLER, GATE)
+LABELS = {CONTROLLER: "controller", GATE: "gate"}
+CHOICES = tuple(LABELS)
 
 
-def keys_of(mission: Mission, key: str) -> list[str]:
-    """The keys of a mission that a parameter's key stands for."""
+def keys_of(tables: Tables, key: str) -> list[str]:
+    """The keys of a mission, given as tables, that a parameter's key stands for."""
     if not key.startswith(EVERY):
         return [key]
-    return [f"vehicle.quadrotors.{i}.{key.removeprefix(EVERY)}" for i in range(len(mission.vehicle.quadrotors))]
+    return [f"vehicle.quadrotors.{i}.{key.removeprefix(EVERY)}" for i in range(len(tables["vehicle"]["quadrotors"]))]
 
 
-def value_of(tables: dict[str, Any], key: str) -> Any:
+def value_of(tables: Tables, key: str) -> Any:
     """The value of a parameter in a mission's tables, or `MISSING`."""
     place = key.replace(EVERY, "vehicle.quadrotors.0.").split(".")
     value = value_at(tables, tuple(int(part) if part.isdigit() else part for part in place))
     return "hard" if key == GATE and value is MISSING else value
 
 
-def bounds_of(parameter: TunableParameter, first: Mission) -> tuple[float, float]:
-    """The bounds of a parameter, widened to hold the mission's own value."""
-    value = value_of(tables_of(first), parameter.key)
+def bounds_of(parameter: TunableParameter, first: Tables) -> tuple[float, float]:
+    """The bounds of a parameter, widened to hold the first mission's own value."""
+    value = value_of(first, parameter.key)
     own = [] if value is MISSING else value if isinstance(value, list) else [value]
     return min([parameter.low, *own]), max([parameter.high, *own])
 
 
-def parameters_of(mission: Mission, first: Mission) -> Iterator[SceneParameter]:
-    """The parameters of a mission as a scene has them; `first`: the mission that they can be restored to."""
-    tables, initial = tables_of(mission), tables_of(first)
+def parameters_of(tables: Tables, first: Tables) -> Iterator[SceneParameter]:
+    """The parameters of a mission as a scene has them; `first`: tables of the mission that they can be restored to."""
     for p in TUNABLE:
         value = value_of(tables, p.key)
-        if value is not MISSING and _is_tunable(mission, p.key):
+        if value is not MISSING and _is_tunable(tables, p.key):
             low, high = bounds_of(p, first)
             shown = SceneParameter(key=p.key, label=p.label, group=p.group, unit=p.unit, value=value, min=low, max=high)
-            restored = value_of(initial, p.key)
+            restored = value_of(first, p.key)
             if restored is not MISSING:
                 shown["initial"] = restored
             yield shown
-    yield from _choices(mission, first)
+    yield _choice(tables, first, CONTROLLER, "controller", sorted(CONTROLLERS))
+    if tables["pilot"]["guidance"] == "scheduled":  # other pilots have a dead-band instead
+        yield _choice(tables, first, GATE, "admittance", ["hard", "soft"])
 
 
-def _choices(mission: Mission, first: Mission) -> Iterator[SceneParameter]:
-    yield SceneParameter(
-        key=CONTROLLER,
-        label="controller",
-        group="controller",
-        value=mission.controller.name,
-        initial=first.controller.name,
-        choices=sorted(CONTROLLERS),
-    )
-    if mission.pilot.guidance == "scheduled":  # other pilots have a dead-band instead
-        yield SceneParameter(
-            key=GATE,
-            label="gate",
-            group="admittance",
-            value=mission.admittance.gate or "hard",
-            initial=first.admittance.gate or "hard",
-            choices=["hard", "soft"],
-        )
+def _choice(tables: Tables, first: Tables, key: str, group: str, choices: list[str]) -> SceneParameter:
+    label, value, initial = LABELS[key], value_of(tables, key), value_of(first, key)
+    return SceneParameter(key=key, label=label, group=group, value=value, initial=initial, choices=choices)
 
 
-def _is_tunable(mission: Mission, key: str) -> bool:
+def _is_tunable(tables: Tables, key: str) -> bool:
     """Whether a mission has the part of a key."""
     absent = {
-        "wind": mission.wind.model == "none",
-        "sensors": mission.sensors.model == "none",
-        "vehicle": mission.actuators.model == "ideal",
-        "compliance": mission.pilot.guidance != "interactive",
+        "wind": tables["wind"]["model"] == "none",
+        "sensors": tables["sensors"]["model"] == "none",
+        "vehicle": tables["actuators"]["model"] == "ideal",
+        "compliance": tables["pilot"]["guidance"] != "interactive",
     }
     return not absent.get(key.partition(".")[0], False)
 
@@ -147,14 +134,14 @@ class ParameterControl:
     """Changes flights that began as one mission.
 
     Args:
-        first: the mission that parameters are restored to.
+        first: tables of the mission that parameters are restored to.
         lock: of the flight.
 
     Attributes:
         turn: lock of who changes a flight; to be taken before that of the flight.
     """
 
-    def __init__(self, first: Mission, lock: threading.RLock) -> None:
+    def __init__(self, first: Tables, lock: threading.RLock) -> None:
         self._first, self._lock = first, lock
         self.turn = threading.RLock()
 
@@ -219,9 +206,8 @@ class ParameterControl:
                 raise InputError(OUT_OF_BOUNDS.format(key=key, value=shown(value), low=low, high=high))
 
     def _restore(self, flight: RecordedFlight, key: str) -> list[Answer]:
-        first, now = tables_of(self._first), tables_of(flight.now)
-        keys = keys_of(self._first, key)
-        values = [value_of(first, one) for one in keys]
+        now, keys = tables_of(flight.now), keys_of(self._first, key)
+        values = [value_of(self._first, one) for one in keys]
         if MISSING in values or values == [value_of(now, one) for one in keys]:
             return []
         return self._set_to(flight, key, values)
@@ -239,8 +225,8 @@ class ParameterControl:
         with self.turn:
             if flight.over:
                 raise InputError(OVER.format(key=key))
-            if key == CONTROLLER and value == self._first.controller.name:  # with the mission's own settings
-                key, value = "controller", tables_of(self._first)["controller"]
+            if key == CONTROLLER and value == self._first["controller"]["name"]:  # with the mission's own settings
+                key, value = "controller", self._first["controller"]
             due = flight.prepare(key, value, duration)
             with self._lock:
                 flight.change(due, key, value, duration)

@@ -36,7 +36,7 @@ from tandemlift.apps.live.session.status import FlightFindings, Preparation, pha
 from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.vector import Quat
-from tandemlift.missions import Mission
+from tandemlift.missions import Mission, tables_of
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.simulation.results import channels_of
@@ -65,24 +65,24 @@ class Session:
         self._mission, self._engine, self._out = interactive_mission(mission), engine, out
         self._lock, self.pacer = threading.RLock(), Pacer(mission.mission.step)
         self._thread = RealTimeThread(self.pacer, self._lock, self._is_prepared, self._fly)
-        self._parameters = ParameterControl(self._mission, self._lock)
+        self._parameters = ParameterControl(tables_of(self._mission), self._lock)
         self._failed, self._findings = False, FlightFindings()
         self.generation, self.watchers = 1, list[Callable[[RecordedFlight], None]]()
         self._flight: RecordedFlight
         self._hand: HandControl
         self._preparation, self.is_ready = Preparation(), False
         self._first = setup_flight(self._mission, engine)
-        self._frames = FrameBuilder(self._mission, engine, self._first)
+        self._frames = FrameBuilder(self._first.plan)
 
     def prepare(self) -> None:
         """Compile the flight, and take its first step; once."""
         if not self.is_ready:
             self._preparation.step = "compiling the flight loop"
-            self._begin(self._mission, self._first, self._frames)
+            self._begin(self._first, self._frames)
             self.is_ready = True
 
-    def _begin(self, mission: Mission, setup: FlightSetup, frames: FrameBuilder) -> None:
-        flight = RecordedFlight(mission, self._engine, setup)
+    def _begin(self, setup: FlightSetup, frames: FrameBuilder) -> None:
+        flight = RecordedFlight(setup.plan.mission, self._engine, setup)
         flight.hold(HAND_RELEASED)
         flight.advance()
         with self._lock:
@@ -143,7 +143,7 @@ class Session:
         p, scene = now.person, self._frames.scene.copy()
         scene["threshold"] = list(now.admittance.threshold)
         scene["spring"] = SceneSpring(stiffness=p.stiffness, damping=p.damping, max_force=p.max_force)
-        scene["parameters"] = list(parameters_of(now, self._mission))
+        scene["parameters"] = list(parameters_of(tables_of(now), tables_of(self._mission)))
         return scene
 
     def frame(self) -> bytes:
@@ -200,6 +200,9 @@ class Session:
             with self._lock:
                 self._hand.release()
 
+    def _check_takes_requests(self, what: str) -> None:
+        check_takes_requests(self._mission.pilot, self._mission.mission.name, what)
+
     @singledispatchmethod
     def _handle(self, message: Any) -> list[Answer] | None:
         raise InputError(f"{message.type}: cannot be handled here")
@@ -225,7 +228,7 @@ class Session:
 
     @_handle.register
     def _ask(self, m: page.AskMessage) -> list[Answer]:
-        check_takes_requests(self._mission, m.what)
+        self._check_takes_requests(m.what)
         with self._lock:
             self._hand.request(m)
         refusal = None if m.what == "stop" else getattr(self.refusals, m.what)
@@ -233,7 +236,7 @@ class Session:
 
     @_handle.register
     def _enable(self, m: page.EnableMessage) -> None:
-        check_takes_requests(self._mission, "enable")
+        self._check_takes_requests("enable")
         with self._lock:
             self._hand.enable(m.on)
 
@@ -250,9 +253,8 @@ class Session:
     @_handle.register
     def _reset(self, m: page.ResetMessage) -> None:
         with self._parameters.turn:
-            again = with_whole_rotors(self._flight.now, self._mission)
-            setup = setup_flight(again, self._engine)
-            self._begin(again, setup, FrameBuilder(again, self._engine, setup))
+            setup = setup_flight(with_whole_rotors(self._flight.now, self._mission), self._engine)
+            self._begin(setup, FrameBuilder(setup.plan))
             self.generation += 1
 
     @_handle.register
