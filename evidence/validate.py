@@ -15,8 +15,7 @@ from pathlib import Path
 from validation.census import Census
 from validation.chapters import CHAPTERS, Bench, rows_of, table
 
-from tandemlift.apps.cli.terminal.console import compile_notices
-from tandemlift.compiler.jit.compile_events import watching
+from tandemlift.compiler.jit.compile_events import compile_notices, watching
 from tandemlift.engines.registry import ENGINES
 
 

@@ -18,7 +18,7 @@ from tandemlift.apps.live.page_functions import page_functions
 from tandemlift.apps.live.page_manifest import page_manifest
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.codegen.mission_module import module_of
-from tandemlift.core.errors import without_flight_warnings
+from tandemlift.core.errors import unknown, without_flight_warnings
 from tandemlift.core.files import DATA, __version__, atomic_write
 from tandemlift.missions import Mission, built_in, changed, load_mission
 from tandemlift.simulation.plan import FlightPlan
@@ -82,8 +82,15 @@ def packed_mission(mission: Mission, title: str) -> PackedFlight:
 def packed_flights(
     names: Iterable[str] = MISSIONS, begun: Callable[[str], None] = lambda name: None
 ) -> list[PackedFlight]:
-    """The flights of missions; `begun` is called with the name of each before it is built."""
-    found = []
+    """The flights of missions of the menu; `begun` is called with the name of each before it is built.
+
+    Raises:
+        InputError: a page has no such mission; nothing is built.
+    """
+    names, found = list(names), list[PackedFlight]()
+    for name in names:
+        if name not in MISSIONS:
+            raise unknown("mission of a page", name, MISSIONS)
     for name in names:
         begun(name)
         found.append(packed_flight(name))

@@ -7,7 +7,11 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import os
 import socket
+import sys
+import threading
+import webbrowser
 from collections.abc import Callable, Mapping
 from http import HTTPStatus
 from typing import Self
@@ -192,6 +196,12 @@ async def serve_until_stopped(server: PageServer, opened: Callable[[str], None])
     async with server:
         opened(server.address)
         await server.broadcast()
+
+
+def open_in_browser(address: str) -> None:
+    """Open an address in a graphical browser, if one can open; a text browser would take over the terminal."""
+    if sys.platform in ("win32", "darwin") or os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"):
+        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
 
 
 def _file(path: str, content: bytes, cookie: str | None) -> Response:

@@ -103,6 +103,11 @@ def _make(path: Path, contents: dict[str, Any]) -> None:
         raise InputError(f"--out {path}: cannot be made or written to: {error.strerror or error}") from None
 
 
+def is_study(path: Path) -> bool:
+    """Whether a folder is that of a study, even if it is damaged."""
+    return (path / PLAN).is_file() or (path / STUDY).is_file()
+
+
 def _plan_in(path: Path) -> dict[str, Any]:
     try:
         said: dict[str, Any] = json.loads((path / PLAN).read_text("utf-8"))

@@ -5,9 +5,8 @@ import threading
 
 import pytest
 
-from tandemlift.apps.cli.terminal import console
-from tandemlift.apps.cli.terminal.console import CompileNotices
-from tandemlift.compiler.jit.compile_events import Compiled, publish, watching
+from tandemlift.compiler.jit import compile_events
+from tandemlift.compiler.jit.compile_events import Compiled, CompileNotices, publish, watching
 
 LOOP = Compiled("flight loop", 0.5, is_made=True)
 
@@ -15,7 +14,7 @@ LOOP = Compiled("flight loop", 0.5, is_made=True)
 @pytest.fixture
 def clock(monkeypatch):
     now = [0.0]
-    monkeypatch.setattr("tandemlift.apps.cli.terminal.console.time.perf_counter", lambda: now[0])
+    monkeypatch.setattr("tandemlift.compiler.jit.compile_events.time.perf_counter", lambda: now[0])
     return now
 
 
@@ -71,9 +70,9 @@ def test_what_could_not_be_compiled_is_not_said_to_be(clock, capsys):
 
 
 def test_what_takes_long_is_told_of_before_its_end(monkeypatch, capsys):
-    monkeypatch.setattr(console, "PATIENCE", 0.0)
-    said, say = threading.Event(), console._print_line
-    monkeypatch.setattr(console, "_print_line", lambda line: (say(line), said.set()))
+    monkeypatch.setattr(compile_events, "PATIENCE", 0.0)
+    said, say = threading.Event(), compile_events._print_line
+    monkeypatch.setattr(compile_events, "_print_line", lambda line: (say(line), said.set()))
     with watching(CompileNotices()):
         publish(None)
         assert said.wait(30.0)
