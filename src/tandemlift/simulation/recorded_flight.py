@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.core.errors import InputError, without_flight_warnings
-from tandemlift.core.files import atomic_write
+from tandemlift.core.files import write_file
 from tandemlift.core.findings import Finding
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, flat, leaves, unflat
@@ -67,9 +67,8 @@ class FlightSnapshot:
         steps = np.array([k for k, _ in self.hand], dtype=np.int64)
         hands = np.reshape([hand for _, hand in self.hand], (len(steps), WIDTH))
         write_recording(folder / HAND, Recording(steps, hands, self.engine))
-        with atomic_write(folder / MISSION) as partial:
-            comment = f"# Flies again, in the engine {self.engine}: tandemlift run {MISSION}\n\n"
-            partial.write_text(comment + self._toml(folder.name), "utf-8")
+        comment = f"# Flies again, in the engine {self.engine}: tandemlift run {MISSION}\n\n"
+        write_file(folder / MISSION, comment + self._toml(folder.name))
 
     def alone(self) -> Flight:
         """The flight by itself, with a mission of the same length that has neither hand nor changes."""

@@ -19,7 +19,7 @@ from tandemlift.apps.live.page_manifest import page_manifest
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.codegen.mission_module import module_of
 from tandemlift.core.errors import unknown, without_flight_warnings
-from tandemlift.core.files import DATA, __version__, atomic_write
+from tandemlift.core.files import DATA, __version__, write_file
 from tandemlift.missions import Mission, built_in, changed, load_mission
 from tandemlift.simulation.plan import FlightPlan
 
@@ -103,7 +103,6 @@ def build_modules(folder: Path, names: Iterable[str] = MISSIONS) -> list[Path]:
     written = []
     for flight in packed_flights(names):
         path = folder / f"{flight.name}{ENDING}"
-        with atomic_write(path) as partial:
-            partial.write_bytes(flight.data)
+        write_file(path, flight.data)
         written.append(path)
     return written
