@@ -13,8 +13,8 @@ from tandemlift.apps.export.messages import Maker, MessageTypes, Transforms, mes
 from tandemlift.apps.export.recipes import POSE, Recipe, Source, Topic
 from tandemlift.apps.export.topics import MISSION, ROOT, TF, TF_STATIC, OtherTopic, recipes_for
 from tandemlift.apps.ros import scenery
-from tandemlift.apps.ros.markers import MARKERS
 from tandemlift.apps.ros.middleware import Middleware, TopicPublisher
+from tandemlift.apps.ros.scenery import MARKERS
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.parts.mechanics.vehicle import Vehicle
