@@ -103,10 +103,8 @@ def running_gazebo(
     mission: Mission, views: Sequence[ViewRequest] = (), *, window: bool = False, real_time: bool = False
 ) -> Iterator[GazeboSession]:
     """A Gazebo that engine `gazebo` joins while the context is open; arguments and errors as of `GazeboSession`."""
-    gazebo, before = (
-        GazeboSession(mission, views, window=window),
-        {name: os.environ.get(name) for name in (PORT, REAL_TIME)},
-    )
+    gazebo = GazeboSession(mission, views, window=window)
+    before = {name: os.environ.get(name) for name in (PORT, REAL_TIME)}
     CHECKS[gazebo.port] = gazebo.check
     os.environ |= {PORT: str(gazebo.port), REAL_TIME: str(int(real_time))}
     try:

@@ -52,10 +52,8 @@ class FlightNode:
         self.diagnostics = FlightDiagnostics(middleware)
         self._pushes = Pushes(session, self.diagnostics.add)
         self._parameters = Parameters(session, middleware, self.diagnostics.add)
-        self._samples, self._markers = (
-            SampleTopics(middleware, self._first(), vehicle),
-            MarkerTopics(middleware, vehicle),
-        )
+        self._samples = SampleTopics(middleware, self._first(), vehicle)
+        self._markers = MarkerTopics(middleware, vehicle)
         self._once, self._vehicle = LatchedTopics(middleware), vehicle
         self._due = dict.fromkeys((MARKERS, PATHS, STATUS, STILL), 0.0)
         self._published, self._stopping = 0, threading.Event()

@@ -115,10 +115,8 @@ class MarkerWriter:
 
 def still(types: MessageTypes, scene: Mapping[str, Any], vehicle: Vehicle) -> object:
     """The markers of vehicle, floor and walls; the vehicle's move with its frame."""
-    body, world = (
-        MarkerWriter(types, BASE, "vehicle", locked=True),
-        MarkerWriter(types, WORLD, "surroundings", locked=True),
-    )
+    body = MarkerWriter(types, BASE, "vehicle", locked=True)
+    world = MarkerWriter(types, WORLD, "surroundings", locked=True)
     made = [body.shape(i, shape) for i, shape in enumerate(vehicle_shapes(vehicle))]
     low, high = _around(scene)
     floor = np.array([*(low + high) / 2.0, scene["floor"] - THICK / 2.0])

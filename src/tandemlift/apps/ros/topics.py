@@ -109,10 +109,8 @@ class MarkerTopics:
 
     def __init__(self, middleware: Middleware, vehicle: Vehicle) -> None:
         types = middleware.types
-        self._markers, self._moving = (
-            middleware.advertise(MOVING.name, MOVING.kind),
-            scenery.PushMarkers(types, vehicle),
-        )
+        self._markers = middleware.advertise(MOVING.name, MOVING.kind)
+        self._moving = scenery.PushMarkers(types, vehicle)
         self._paths = [PathTopic(types, middleware.advertise(topic.name, PATH)) for topic in (FLOWN, ASKED)]
 
     def move(self, flight: Flight, stamp: int) -> None:
