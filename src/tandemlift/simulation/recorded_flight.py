@@ -234,8 +234,8 @@ class RecordedFlight:
         if not self.over:
             self._stepper.rest()
 
-    def hold(self, hand: VirtualHandInput) -> None:
-        """Move the hand, from the next step on."""
+    def hold(self, hand: VirtualHandInput = HAND_RELEASED) -> None:
+        """Move the hand, from the next step on; without one given, it lets go."""
         numbers = np.array(flat(hand))
         self._stepper.move_hand(numbers)
         if self._hand and self._hand[-1][0] == self.step:

@@ -25,7 +25,6 @@ from tandemlift.flight.record import ENDING_TEXT
 from tandemlift.missions import changed, tables_of
 from tandemlift.missions.bounds import allowed, bounds, plain
 from tandemlift.missions.changes import Tables
-from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.outcome import NOT_FINITE, limit_of
@@ -87,7 +86,7 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
     """The manifest of a mission that was made interactive."""
     mission = plan.mission
     scene = scene_of(mission, ENGINE)
-    rule = checks.touch_rule(mission.pilot, mission.estimator, scene["vehicle"])
+    rule = checks.touch_rule(mission, scene["vehicle"])
     tables = tables_of(mission)
     tables.pop("changes", None)
     parameters = list(parameters_of(tables, tables))
@@ -170,7 +169,7 @@ def _pacing() -> dict[str, float]:
 def _endings(plan: FlightPlan) -> dict[str, Any]:
     """Outcome and text of each ending by number; the texts of non-finite values by their place in the state."""
     known = {str(int(k.number)): _ending(k.outcome, k.quantity, limit_of(plan, k.number)) for k in ENDINGS}
-    parts = [_ending(ENDING_OF[DIVERGED].outcome, part, NOT_FINITE) for part in State._fields]
+    parts = [_ending(ENDING_OF[DIVERGED].outcome, part, NOT_FINITE) for part in plan.model.flight_state.state._fields]
     return {"by_number": known, "not_finite": parts}
 
 

@@ -16,8 +16,7 @@ from tandemlift.core.algebra import Number, sqrt, where
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, PHASE_NAMES
 from tandemlift.core.vector import ZERO, Vec3, dot
-from tandemlift.parts.estimation.estimator_table import EstimatorTable
-from tandemlift.parts.guidance.guidance import PilotTable
+from tandemlift.missions import Mission
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 TARE = "estimator.tare_start"
@@ -52,12 +51,12 @@ class TouchRule(NamedTuple):
     tare_end: Number
 
 
-def touch_rule(pilot: PilotTable, estimator: EstimatorTable, vehicle: SceneVehicle) -> TouchRule:
-    """The rule of a mission with such a pilot and estimator."""
-    reach, start = max(_reaches(vehicle)), estimator.tare_start
-    if pilot.push != "truth" and estimator.tare == "hover":
+def touch_rule(mission: Mission, vehicle: SceneVehicle) -> TouchRule:
+    """The rule of the present mission."""
+    reach, estimator, start = max(_reaches(vehicle)), mission.estimator, mission.estimator.tare_start
+    if mission.pilot.push != "truth" and estimator.tare == "hover":
         return TouchRule(reach, estimator.tare_duration, 0.0)
-    if pilot.push == "truth" or start is None:
+    if mission.pilot.push == "truth" or start is None:
         return TouchRule(reach, 0.0, 0.0)
     return TouchRule(reach, 0.0, start + estimator.tare_duration)
 
@@ -95,20 +94,25 @@ def check_touch(flight: RecordedFlight, vehicle: SceneVehicle, point: Sequence[f
     Raises:
         InputError: it is refused.
     """
-    rule = touch_rule(flight.now.pilot, flight.now.estimator, vehicle)
+    rule = touch_rule(flight.now, vehicle)
     hover_time = flight.number(*HOVER_TIME) if rule.tare_duration else 0.0
     refusal = touch_refusal(rule, flight.step * flight.dt, hover_time, Vec3(*point))
     if refusal != ALLOWED:
         raise InputError(touch_texts(rule)[refusal].format(point=list(point)))
 
 
-def check_takes_requests(pilot: PilotTable, mission: str, what: str) -> None:
-    """Refuse a request to a scheduled pilot; `mission`: its name.
+def check_takes_requests(guidance: str, mission: str, what: str) -> None:
+    """Refuse a request to a scheduled pilot.
+
+    Args:
+        guidance: of the pilot, as `pilot.guidance` has it.
+        mission: its name.
+        what: the request.
 
     Raises:
         InputError: it is.
     """
-    if pilot.guidance == "scheduled":
+    if guidance == "scheduled":
         raise InputError(NO_REQUESTS.format(what=what, mission=mission))
 
 

@@ -37,7 +37,6 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.vector import Quat
 from tandemlift.missions import Mission, tables_of
-from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.simulation.results import channels_of
 
@@ -83,7 +82,7 @@ class Session:
 
     def _begin(self, setup: FlightSetup, frames: FrameBuilder) -> None:
         flight = RecordedFlight(setup.plan.mission, self._engine, setup)
-        flight.hold(HAND_RELEASED)
+        flight.hold()
         flight.advance()
         with self._lock:
             self._flight, self._frames = flight, frames
@@ -201,7 +200,7 @@ class Session:
                 self._hand.release()
 
     def _check_takes_requests(self, what: str) -> None:
-        check_takes_requests(self._mission.pilot, self._mission.mission.name, what)
+        check_takes_requests(self._mission.pilot.guidance, self._mission.mission.name, what)
 
     @singledispatchmethod
     def _handle(self, message: Any) -> list[Answer] | None:
