@@ -1,7 +1,4 @@
-"""What commands that fly missions share: options, loading, the folder of the results, findings and exit codes.
-
-The folder is made before the flight, and only our own files in it are replaced.
-"""
+"""What commands that fly missions share: options, loading, the files of a flight, findings and exit codes."""
 
 from __future__ import annotations
 
@@ -24,15 +21,7 @@ if TYPE_CHECKING:
     from tandemlift.missions import Mission
     from tandemlift.parts.controllers import Controller
 
-FILES = (
-    "mission.toml",
-    "flight.npz",
-    "metrics.json",
-    "metrics.csv",
-    "metrics.tex",
-    "findings.json",
-    "report.html",
-)
+FILES = ("mission.toml", "flight.npz", "metrics.json", "metrics.csv", "metrics.tex", "findings.json", "report.html")
 FAILED = 3  # exit code of a flight that crashed, diverged or did not lift; with --strict also of one with findings
 
 engine_option = click.option(

@@ -14,7 +14,7 @@ import threading
 import webbrowser
 from collections.abc import Callable, Mapping
 from http import HTTPStatus
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from websockets.asyncio.server import Server as SocketServer
 from websockets.asyncio.server import ServerConnection, serve
@@ -23,12 +23,15 @@ from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
 from tandemlift.apps.live.access import HOST, PORT, AccessControl, RequestHead, listen
-from tandemlift.apps.live.dispatch import Dispatcher, LiveFlight
+from tandemlift.apps.live.dispatch import Dispatcher
 from tandemlift.apps.live.page_files import media_type_of
 from tandemlift.apps.live.session.frames import RATE
 from tandemlift.apps.live.session.page_messages import MAX_SIZE
 from tandemlift.apps.live.session.server_messages import SceneMessage
 from tandemlift.apps.live.viewers import FAREWELL, Viewer, Viewers, dismiss
+
+if TYPE_CHECKING:
+    from tandemlift.apps.live.session.session import Session
 
 STATUS_EVERY = RATE // 4  # frames
 MAX_VIEWERS = 16
@@ -51,7 +54,7 @@ class PageServer:
     """
 
     def __init__(
-        self, files: Mapping[str, bytes], flight: LiveFlight | None = None, host: str = HOST, port: int = PORT
+        self, files: Mapping[str, bytes], flight: Session | None = None, host: str = HOST, port: int = PORT
     ) -> None:
         self._files, self._flight, self._host, self._port = files, flight, host, port
         self.viewers = Viewers()

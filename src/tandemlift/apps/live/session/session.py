@@ -44,7 +44,7 @@ log = logging.getLogger(__name__)
 
 
 class Session:
-    """Flies a mission in real time, as a `server.LiveFlight`.
+    """Flies a mission in real time. There is a scene, a frame and a status also while the flight is being prepared.
 
     Args:
         mission: the flown one, without its pushes and its person.
@@ -52,6 +52,7 @@ class Session:
         out: folder of saved flights, each in a folder of its name.
 
     Attributes:
+        generation: grows with every reset, after which `scene` is a new one.
         is_ready: whether the flight is compiled; until then the vehicle is shown at its start.
         watchers: called after every step, in the flight's thread.
         pacer: the pace of the flight.
