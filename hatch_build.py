@@ -42,7 +42,7 @@ class ShippedData(BuildHookInterface):  # type: ignore[type-arg]
         """Form the words, and compile the flights on all cores, where the package looks for them."""
         root = Path(self.root)
         sys.path.insert(0, str(root / "src"))
-        from tandemlift.apps.cli.terminal.completion import formed_words
+        from tandemlift.apps.cli.completion import formed_words
 
         (root / WORDS).parent.mkdir(exist_ok=True)
         (root / WORDS).write_text(json.dumps(formed_words(), ensure_ascii=False), "utf-8")

@@ -191,7 +191,7 @@ def flown(address: str) -> None:
     """Wait until the flight of a live page has begun."""
     from websockets.sync.client import connect
 
-    from tandemlift.apps.live.wire.frames import read_frames
+    from tandemlift.apps.live.session.frames import read_frames
 
     fields: tuple[tuple[str, int], ...] = ()
     with connect(address.replace("http", "ws") + "ws", origin=address.rstrip("/"), ping_timeout=None) as socket:

@@ -32,7 +32,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from tandemlift.apps.live.page_files import page_files
-from tandemlift.apps.live.wire.frames import read_frames
+from tandemlift.apps.live.session.frames import read_frames
 
 CHROMIUM = "/usr/bin/chromium"
 FLAGS = ("--no-sandbox", "--enable-unsafe-swiftshader", "--disable-background-networking")

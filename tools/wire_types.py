@@ -1,6 +1,6 @@
 """Write the page's TypeScript types from the wire's definitions.
 
-Usage: python tools/wire_types.py (`make page` calls it). The definitions are in src/tandemlift/apps/live/wire/.
+Usage: python tools/wire_types.py (`make page` calls it). The definitions are in src/tandemlift/apps/live/session/.
 """
 
 from __future__ import annotations
@@ -24,18 +24,22 @@ from annotated_types import Ge, Le, MinLen
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from tandemlift.apps.live.wire.frames import FRAME_FIELDS
-from tandemlift.apps.live.wire.page_messages import PAGE_MESSAGES
-from tandemlift.apps.live.wire.quantities import OneOf
-from tandemlift.apps.live.wire.scene import FlightScene
-from tandemlift.apps.live.wire.server_messages import SERVER_MESSAGES, SHOWN_PARAMETERS, FlightStatus
+from tandemlift.apps.live.session.frames import FRAME_FIELDS
+from tandemlift.apps.live.session.page_messages import PAGE_MESSAGES
+from tandemlift.apps.live.session.server_messages import (
+    SERVER_MESSAGES,
+    SHOWN_PARAMETERS,
+    FlightScene,
+    FlightStatus,
+    OneOf,
+)
 
 ROOT = Path(__file__).resolve().parent.parent
 TYPESCRIPT = ROOT / "web" / "src" / "wire" / "messages.generated.ts"
 HUGE = 1e6  # a bound that only keeps numbers finite
 WORDS = {float: "number", int: "number", str: "string", bool: "boolean", type(None): "null"}
 HEAD = """\
-// Written by tools/wire_types.py from src/tandemlift/apps/live/wire/: change it there.
+// Written by tools/wire_types.py from src/tandemlift/apps/live/session/: change it there.
 
 export type Vector = readonly [number, number, number];
 export type Quaternion = readonly [number, number, number, number]; // w, x, y, z: body to world

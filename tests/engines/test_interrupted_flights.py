@@ -13,8 +13,8 @@ from ros_trial import GUIDED, Middleware
 import tandemlift as tl
 from tandemlift.apps.cli.main import main
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
+from tandemlift.apps.live.session.page_messages import ResetMessage
 from tandemlift.apps.live.session.session import Session
-from tandemlift.apps.live.wire.page_messages import ResetMessage
 from tandemlift.engines import gazebo
 from tandemlift.engines.registry import EngineLost
 from tandemlift.simulation.many import fly_each

@@ -27,6 +27,12 @@ def drawing():
     return rooms.draw(PACKAGE)
 
 
+@pytest.fixture(scope="module")
+def files():
+    """The same with each file as a room: layers may also be those of a room's files."""
+    return rooms.draw_files(PACKAGE)
+
+
 def layer_contracts():
     """The import-linter contracts of layers: name, container and the packages of each layer, from the top."""
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]
@@ -57,21 +63,21 @@ def test_no_limit_was_ever_lower():
         assert raised == [], f"lower in {commit[:8]}: cut an arrow instead"
 
 
-def test_no_files_import_each_other_be_it_for_types_alone():
-    circles = [" ".join(circle) for circle in rooms.draw_files(PACKAGE).circles]
+def test_no_files_import_each_other_be_it_for_types_alone(files):
+    circles = [" ".join(circle) for circle in files.circles]
     assert_none(circles, "put what both need into a file below them, or name what one needs of the other by a Protocol")
 
 
 @pytest.mark.parametrize(
     ("container", "layers"), [c[1:] for c in layer_contracts()], ids=[c[0] for c in layer_contracts()]
 )
-def test_no_arrow_leads_up_through_the_layers(container, layers, drawing):
+def test_no_arrow_leads_up_through_the_layers(container, layers, drawing, files):
     height = {f"{container}.{name}": -k for k, layer in enumerate(layers) for name in layer}
 
     def of(module):
         return next((height[name] for name in height if f"{module}.".startswith(f"{name}.")), None)
 
-    imports = [one for behind in drawing.arrows.values() for one in behind]
+    imports = [one for drawn in (drawing, files) for behind in drawn.arrows.values() for one in behind]
     inside = [one for one in imports if of(one.importer) is not None and of(one.imported) is not None]
     assert inside
     up = [str(one) for one in inside if of(one.importer) < of(one.imported)]

@@ -16,7 +16,7 @@ import pytest
 from patience import PATIENCE, ended, joined, said, until
 from PIL import Image
 
-from tandemlift.apps.live.wire.frames import read_frames
+from tandemlift.apps.live.session.frames import read_frames
 
 CHROMIUM = Path("/usr/bin/chromium")
 if not os.environ.get("TANDEMLIFT_REQUIRE_ALL"):

@@ -6,7 +6,7 @@ import json
 import random
 from collections.abc import Callable, Iterator
 
-from tandemlift.apps.live.wire.page_messages import PAGE_MESSAGES
+from tandemlift.apps.live.session.page_messages import PAGE_MESSAGES
 
 GOOD = [
     {"type": "grab", "seq": 1, "point": [0.0, 1.0, 0.0], "target": [1.0, 2.0, 3.0], "at": "point"},

@@ -17,7 +17,7 @@ import pytest
 
 from tandemlift.apps.live.page_files import PAGE_FOLDER
 from tandemlift.apps.live.page_modules import FORMAT, PackedFlight
-from tandemlift.apps.live.wire.frames import read_frames
+from tandemlift.apps.live.session.frames import read_frames
 from tandemlift.core.files import __version__
 
 HERE = Path(__file__).parent

@@ -1,9 +1,9 @@
 """Sessions that tests advance, instead of the clock."""
 
 import tandemlift as tl
+from tandemlift.apps.live.session.frames import read_frames
+from tandemlift.apps.live.session.page_messages import PAGE_MESSAGES
 from tandemlift.apps.live.session.session import Session
-from tandemlift.apps.live.wire.frames import read_frames
-from tandemlift.apps.live.wire.page_messages import PAGE_MESSAGES
 
 GUIDED = {
     "pilot.guidance": "interactive",

@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 from patience import PATIENCE, joined
 
-from tandemlift.apps.live.session.scene_builder import SPRING, scene_of
-from tandemlift.apps.live.wire.frames import layout_for, pack_frames
-from tandemlift.apps.live.wire.page_messages import (
+from tandemlift.apps.live.session.frames import layout_for, pack_frames
+from tandemlift.apps.live.session.page_messages import (
     ForceMessage,
     GrabMessage,
     MoveMessage,
@@ -22,6 +21,7 @@ from tandemlift.apps.live.wire.page_messages import (
     SaveMessage,
     SetMessage,
 )
+from tandemlift.apps.live.session.scene_builder import SPRING, scene_of
 from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
 

@@ -1,4 +1,4 @@
-"""The tables of the live page's messages and frames, from the definitions in `tandemlift.apps.live.wire`."""
+"""The tables of the live page's messages and frames, from the definitions in `tandemlift.apps.live.session`."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ import re
 from wire_types import HUGE, Entry, entries_of, parts_of, summary
 
 from reference_tables.markdown import codes, table
-from tandemlift.apps.live.wire.frames import FRAME_FIELDS
-from tandemlift.apps.live.wire.page_messages import PAGE_MESSAGES
-from tandemlift.apps.live.wire.scene import FlightScene
-from tandemlift.apps.live.wire.server_messages import SERVER_MESSAGES
+from tandemlift.apps.live.session.frames import FRAME_FIELDS
+from tandemlift.apps.live.session.page_messages import PAGE_MESSAGES
+from tandemlift.apps.live.session.server_messages import SERVER_MESSAGES, FlightScene
 
 LONG = {"scene": "see [scene](#scene)", "status": "see [status](#status)"}
 

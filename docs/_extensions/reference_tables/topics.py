@@ -8,7 +8,7 @@ from reference_tables.markdown import codes, table
 from tandemlift.apps.export.coordinate_frames import FRAMES
 from tandemlift.apps.export.recipes import Recipe
 from tandemlift.apps.export.topics import NOT_SAMPLES, ROOT, OtherTopic, all_recipes
-from tandemlift.apps.live.session.tunable_parameters import CHOICES, TUNABLE
+from tandemlift.apps.live.session.parameters import CHOICES, TUNABLE
 from tandemlift.apps.ros.parameters import RATIO, SPRING
 from tandemlift.apps.ros.pushes import REQUESTS
 from tandemlift.apps.ros.ros2 import ONLY_ROS2

@@ -7,15 +7,14 @@ on no clock and no page.
 from __future__ import annotations
 
 import time
-import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.core.errors import FlightWarning, InputError
-from tandemlift.core.files import atomic_write
+from tandemlift.core.errors import InputError, without_flight_warnings
+from tandemlift.core.files import write_file
 from tandemlift.core.findings import Finding
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, flat, leaves, unflat
@@ -68,15 +67,13 @@ class FlightSnapshot:
         steps = np.array([k for k, _ in self.hand], dtype=np.int64)
         hands = np.reshape([hand for _, hand in self.hand], (len(steps), WIDTH))
         write_recording(folder / HAND, Recording(steps, hands, self.engine))
-        with atomic_write(folder / MISSION) as partial:
-            comment = f"# Flies again, in the engine {self.engine}: tandemlift run {MISSION}\n\n"
-            partial.write_text(comment + self._toml(folder.name), "utf-8")
+        comment = f"# Flies again, in the engine {self.engine}: tandemlift run {MISSION}\n\n"
+        write_file(folder / MISSION, comment + self._toml(folder.name))
 
     def alone(self) -> Flight:
         """The flight by itself, with a mission of the same length that has neither hand nor changes."""
         duration = self.flown.step * self.start.mission.step
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", FlightWarning)
+        with without_flight_warnings():
             p = FlightPlan(changed(self.start, "mission.duration", duration))
         return flight_of(p, self.flown, self.engine)
 
@@ -90,8 +87,7 @@ class FlightSnapshot:
 
 def save_flight(folder: Path, flown: RawResult, engine: str) -> Flight:
     """Write the flight that was flown into the folder of its recorded mission."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)
+    with without_flight_warnings():
         p = FlightPlan(load_mission(folder / MISSION))
     flight = flight_of(p, flown, engine)
     flight.save(folder / FLIGHT)
@@ -238,8 +234,8 @@ class RecordedFlight:
         if not self.over:
             self._stepper.rest()
 
-    def hold(self, hand: VirtualHandInput) -> None:
-        """Move the hand, from the next step on."""
+    def hold(self, hand: VirtualHandInput = HAND_RELEASED) -> None:
+        """Move the hand, from the next step on; without one given, it lets go."""
         numbers = np.array(flat(hand))
         self._stepper.move_hand(numbers)
         if self._hand and self._hand[-1][0] == self.step:
@@ -252,8 +248,7 @@ class RecordedFlight:
         Raises:
             InputError: it cannot be made in flight.
         """
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", FlightWarning)
+        with without_flight_warnings():
             due = scheduled_change(self._stepper.p, changed(self.now, key, value), key, 0, duration)
         if due.prepared.variant != self._stepper.p.variant:
             Stepper(due.prepared, self._stepper.body)  # its code is compiled

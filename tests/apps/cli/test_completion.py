@@ -11,8 +11,8 @@ from click.shell_completion import BashComplete
 from click.testing import CliRunner
 
 import tandemlift as tl
+from tandemlift.apps.cli import completion
 from tandemlift.apps.cli.main import cli
-from tandemlift.apps.cli.terminal import completion
 from tandemlift.missions import built_in
 from tools import need
 
@@ -108,7 +108,7 @@ def program(folder, shipped):
     """A program `tandemlift` on the path, with the words as an install has them; an import of what is slow fails."""
     slow = dict.fromkeys(ALONE)
     code = f"import sys; sys.modules |= {slow!r}; sys.path.insert(0, {str(SOURCES)!r})\n"
-    code += "from pathlib import Path\nfrom tandemlift.apps.cli.terminal import completion\n"
+    code += "from pathlib import Path\nfrom tandemlift.apps.cli import completion\n"
     code += f"completion.shipped_text = Path({str(shipped)!r}).read_text\n"
     code += "from tandemlift.apps.cli.main import main\nmain()\n"
     path = folder / "bin" / "tandemlift"

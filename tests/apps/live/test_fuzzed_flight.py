@@ -15,9 +15,9 @@ from tandemlift.apps.live import viewers
 from tandemlift.apps.live.dispatch import Dispatcher
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.server import PageServer
+from tandemlift.apps.live.session.frames import read_frames
+from tandemlift.apps.live.session.page_messages import read_message
 from tandemlift.apps.live.session.session import Session
-from tandemlift.apps.live.wire.frames import read_frames
-from tandemlift.apps.live.wire.reading import read_message
 
 SOCKETS, HOSTILE, RUDE = 5, 15_000, 6_000  # sockets, and messages through each of them
 AT_ONCE = 250

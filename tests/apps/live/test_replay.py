@@ -26,8 +26,8 @@ from tandemlift.apps.live import page_files as pages
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.replay import replay_files, replay_html, scene_and_frames
 from tandemlift.apps.live.server import PageServer
+from tandemlift.apps.live.session.frames import layout_for, read_frames
 from tandemlift.apps.live.session.scene_builder import scene_of
-from tandemlift.apps.live.wire.frames import layout_for, read_frames
 from tandemlift.engines.models.visuals import FRONT, REAR
 
 

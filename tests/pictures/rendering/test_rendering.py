@@ -11,7 +11,7 @@ from patience import completed
 from PIL import Image
 
 import tandemlift as tl
-from tandemlift.apps.cli.render import render as command
+from tandemlift.apps.cli.export import render as command
 from tandemlift.engines.models.visuals import SUN
 from tandemlift.pictures.rendering import Animation, Shot, camera_of, picture, render, studio
 from tandemlift.pictures.rendering.film import Film, look_at

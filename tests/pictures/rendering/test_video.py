@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 import tandemlift as tl
-from tandemlift.apps.cli.render import render as command
+from tandemlift.apps.cli.export import render as command
 from tandemlift.pictures.rendering import Animation, Shot, render, video
 
 SIZE = (160, 90)

@@ -1,4 +1,4 @@
-// What a page is given of a mission: its module, and the manifest that Python wrote with it (`live.offline`).
+// What a page is given of a mission: its module, and the manifest that Python wrote with it (`live.page_manifest`).
 
 import { sha256 } from "@noble/hashes/sha2.js";
 import { bytesToHex } from "@noble/hashes/utils.js";

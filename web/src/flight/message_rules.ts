@@ -1,4 +1,4 @@
-// The bounds of what a page may say. As `live.wire.page_messages` has them.
+// The bounds of what a page may say. As `live.session.page_messages` has them.
 
 import type { PageMessage } from "../wire/messages.generated.ts";
 import type { FieldRule, PageManifest } from "./manifest.ts";

@@ -1,4 +1,4 @@
-// Changes of a flight: parameters set and restored, rotors stopped. As `live.session.parameter_control` does it.
+// Changes of a flight: parameters set and restored, rotors stopped. As `live.session.parameters` does it.
 
 import type { ChangedMessage, ParameterValue, RefusedMessage, SceneParameter } from "../wire/messages.generated.ts";
 import type { Flight } from "./flight.ts";

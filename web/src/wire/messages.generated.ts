@@ -1,4 +1,4 @@
-// Written by tools/wire_types.py from src/tandemlift/apps/live/wire/: change it there.
+// Written by tools/wire_types.py from src/tandemlift/apps/live/session/: change it there.
 
 export type Vector = readonly [number, number, number];
 export type Quaternion = readonly [number, number, number, number]; // w, x, y, z: body to world

@@ -1,8 +1,9 @@
-"""Eigenvalues and frequency response of a linear model."""
+"""Eigenvalues and frequency response of a linear model, and the model in words."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +15,7 @@ from tandemlift.core.types import Array
 DEADBEAT = 1e-6  # of an eigenvalue, below which its mode decays within a few steps
 ROUNDING = 1e-9  # of log z
 MOST_NAMES = 3
+MOST_STATES = 1200  # whose eigenvalues are computed within seconds
 LEAST_SHARE = 0.1
 PART = re.compile(r"(\.[wxyz])?(\.r\d+)?(\[-\d+\])?$")
 
@@ -86,3 +88,37 @@ def frequency_response(model: LinearModel, frequencies: Array) -> NDArray[np.com
     unit = np.eye(len(model.A))
     turns = np.exp(2j * np.pi * np.asarray(frequencies) * model.step)
     return np.array([model.C @ np.linalg.solve(turn * unit - model.A, model.B) + model.D for turn in turns])
+
+
+def model_lines(model: LinearModel, connected: LinearModel, count: int) -> Iterator[str]:
+    """A model in words: its size, its slowest modes, kinks and assumptions.
+
+    Args:
+        model: the whole one.
+        connected: the part of it that connects inputs with outputs.
+        count: of the modes.
+    """
+    n, m, p = len(model.states), len(model.inputs), len(model.outputs)
+    yield f"{model.mission}: the {model.of} at {model.time:g} s, sample time {model.step * 1e3:g} ms"
+    yield f"  {n} states, of which {len(connected.states)} connect the {m} inputs with the {p} outputs at this point"
+    if count:
+        yield from _mode_lines(connected, count)
+    kinks = [kink.text for kink in model.kinks] or ["none within 1e-4 of the point"]
+    for title, rows in (("kinks", kinks), ("assumptions", model.assumptions)):
+        yield f"  {title}:"
+        yield from (f"    - {row}" for row in rows)
+
+
+def _mode_lines(model: LinearModel, count: int) -> Iterator[str]:
+    if len(model.states) > MOST_STATES:
+        yield f"  modes: not computed for more than {MOST_STATES} states; write the matrices with --out"
+        return
+    modes = modes_of(model)
+    yield f"  modes, the slowest {min(count, len(modes.modes))} of {len(modes.modes)}:"
+    yield "    time constant  frequency  damping    |z|     participating states"
+    for mode in modes.modes[:count]:
+        states = ", ".join(f"{name} {100.0 * share:.0f} %" for name, share in mode.states)
+        frequency = f"{mode.frequency:7.3f} Hz" if mode.frequency else " " * 10
+        yield f"    {mode.time_constant:11.4g} s {frequency}  {mode.damping:7.3f}  {abs(mode.z):.5f}  {states}"
+    if modes.deadbeat:
+        yield f"    {modes.deadbeat} more decay within a few samples"

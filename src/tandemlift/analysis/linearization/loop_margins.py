@@ -12,7 +12,6 @@ both, the poles are the eigenvalues of the model.
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -23,7 +22,7 @@ from numpy.typing import NDArray
 from tandemlift.analysis.linearization.analysis import Mode, frequency_response, modes_of
 from tandemlift.analysis.linearization.linear_model import LinearModel
 from tandemlift.analysis.linearization.linearize import linearize
-from tandemlift.core.errors import FlightWarning
+from tandemlift.core.errors import without_flight_warnings
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -126,8 +125,7 @@ def _without_errors(sensors: dict[str, Any]) -> dict[str, Any]:
 
 def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.0) -> tuple[Mission, float]:
     """(A mission that hovers calmly, the time [s]); arguments as for `calm_tables`."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)
+    with without_flight_warnings():
         tables, at = calm_tables(mission, lag=lag, wait=wait)
         return check(tables, mission.mission.name), at
 

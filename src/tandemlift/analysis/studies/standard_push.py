@@ -7,14 +7,13 @@ of two hands across the beam, which rotates with the response of the closed form
 from __future__ import annotations
 
 import math
-import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.studies.closed_form import AXES, YAW, AxisFeel, axes_of, speed_at
-from tandemlift.core.errors import FlightWarning
+from tandemlift.core.errors import without_flight_warnings
 from tandemlift.core.types import Array, Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, merge, tables_of
@@ -147,8 +146,7 @@ def push_mission(m: Mission, k: AxisFeel, start: float, end: float) -> Mission:
         "person": {"model": "none"},
     }
     tables.pop("person", None)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)  # warnings are not needed: the flight is examined
+    with without_flight_warnings():  # warnings are not needed: the flight is examined
         return check(merge(tables, changes), f"{m.mission.name}, pushed along {k.axis}")
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -21,6 +22,7 @@ from tandemlift.analysis.studies.design.sampling import points
 from tandemlift.analysis.studies.design.settings import REFUSED, StudySettings
 from tandemlift.analysis.studies.execution.store import StudyFolder
 from tandemlift.analysis.studies.html import study_html
+from tandemlift.analysis.studies.quantities import share
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
@@ -252,3 +254,18 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
             check_whole(file)
             files.append(ChunkFile(file, first, min(store.count, first + store.rows_per_chunk)))
     return Study(path, store.plan(), tuple(files))
+
+
+def outcome_lines(study: Study) -> Iterator[str]:
+    """How often each outcome occurred, with its interval; the first refused row; the number of missing rows."""
+    read = study.read(["row", "outcome", "reason"])
+    outcomes = read["outcome"].to_pylist()
+    yield f"{'outcome':12}{'rows':>10}   share, and its two-sided 95 % interval"
+    for outcome, count in Counter(outcomes).most_common():
+        s = share(count, len(study))
+        yield f"{outcome:12}{count:>10,}   {100 * s.value:.4g} % ({100 * s.low:.3g} to {100 * s.high:.3g} %)"
+    if REFUSED in outcomes:
+        first = outcomes.index(REFUSED)
+        yield f"row {read['row'][first]} is refused: {read['reason'][first]}"
+    if study.missing:
+        yield f"{study.missing:,} of {study.plan.count:,} rows are still to be flown"

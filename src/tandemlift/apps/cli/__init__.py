@@ -1,1 +1,1 @@
-"""The command line, with its entry point in `main`."""
+"""The command line: its commands, what they share, and the terminal."""

@@ -10,21 +10,21 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.apps.cli.terminal.completion import CONTROLLERS, MISSIONS, names, separated
-from tandemlift.apps.cli.terminal.console import echo, progress_bar
-from tandemlift.apps.cli.terminal.findings import exit_if_found, print_findings, strict_option
-from tandemlift.apps.cli.terminal.mission_options import (
+from tandemlift.apps.cli.completion import CONTROLLERS, MISSIONS, names, separated
+from tandemlift.apps.cli.console import echo, progress_bar
+from tandemlift.apps.cli.flying import (
     FAILED,
     chosen_controller,
     engine_option,
+    exit_if_found,
     kept_style_option,
     load,
-    parse_setting,
+    print_findings,
     set_option,
+    strict_option,
 )
-from tandemlift.apps.cli.terminal.results import FIGURES, results_folder
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import atomic_write
+from tandemlift.core.files import FIGURES, atomic_write, parse_setting, results_folder
 
 if TYPE_CHECKING:
     from tandemlift.analysis.studies.controller_comparison import Entrant, Entry, ScoredPart

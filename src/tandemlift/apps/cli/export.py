@@ -1,21 +1,28 @@
-"""`tandemlift export`: a saved flight as a ROS bag or a table, a mission as a model for other simulators."""
+"""What one takes elsewhere: `tandemlift export`, `compile` and `render`.
+
+A saved flight becomes a ROS bag or a table, a mission a model or code for other machines, and both a picture or an
+animation, drawn without a display.
+"""
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.apps.cli.terminal.completion import FLIGHTS_AND_MISSIONS, MISSIONS, names
-from tandemlift.apps.cli.terminal.console import echo
-from tandemlift.apps.cli.terminal.mission_options import chosen_controller, controller_option, load, set_option
-from tandemlift.apps.cli.terminal.results import flight_file
+from tandemlift.apps.cli.completion import FLIGHTS_AND_MISSIONS, MISSIONS, names
+from tandemlift.apps.cli.console import echo, progress_bar
+from tandemlift.apps.cli.flying import controller_option, engine_option, flight_file, load, saved_flight, set_option
 from tandemlift.core.errors import InputError
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
-    from tandemlift.missions import Mission
+    from tandemlift.pictures.rendering import Shot
+
+CAMERAS = "follow, overview, front, side, top, or AZIMUTH,ELEVATION[,DISTANCE] in degrees and metres"
+PICTURE_OPTIONS, ANIMATION_OPTIONS = ("--time",), ("--from", "--to", "--fps", "--speed")
 
 
 @click.command()
@@ -45,6 +52,7 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
       tandemlift export four --set initial.euler=0.0 --out four.xml
     """
     from tandemlift.apps.export import write as exporting
+    from tandemlift.missions import Mission
 
     path = Path(out)
     model = exporting.is_model(path)
@@ -55,20 +63,11 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
         )
     if not saved and not model:
         raise InputError(f"{flight_or_mission} is no saved flight: give flight.npz or the folder of a run")
-    what = _flight(saved) if saved else load(flight_or_mission, settings)
+    what = saved_flight(saved) if saved else load(flight_or_mission, settings)
     exporting.export(what, path, plugin=int(plugin) if plugin and plugin.isdecimal() else plugin)
     size = path.stat().st_size
-    echo(f"{_name(what)}: {path} ({f'{size / 1e3:.0f} kB' if model else f'{size / 1e6:.1f} MB'})")
-
-
-def _flight(saved: Path) -> Flight:
-    from tandemlift.flight.record import Flight
-
-    return Flight.load(saved)
-
-
-def _name(what: Flight | Mission) -> str:
-    return what.name if hasattr(what, "name") else what.mission.name
+    name = what.mission.name if isinstance(what, Mission) else what.name
+    echo(f"{name}: {path} ({f'{size / 1e3:.0f} kB' if model else f'{size / 1e6:.1f} MB'})")
 
 
 @click.command()
@@ -83,7 +82,7 @@ def _name(what: Flight | Mission) -> str:
 @click.option("--out", metavar="DIR", help="Folder for the files; by default out/NAME-TARGET.")
 @click.option("--single", is_flag=True, help="For C: compute in single precision.")
 @set_option
-@controller_option
+@controller_option()
 def compile(
     mission: str, target: str, out: str | None, single: bool, settings: tuple[str, ...], controller: str | None
 ) -> None:
@@ -107,8 +106,103 @@ def compile(
     """
     from tandemlift.codegen.mission_module import compile_mission
 
-    chosen = None if controller is None else chosen_controller(controller)
-    what = load(mission, settings, chosen)
+    what = load(mission, settings, controller)
     folder = Path(out) if out else Path("out") / f"{what.mission.name}-{target}"
     for path in compile_mission(what, target, folder, single=single):
         echo(f"{path} ({path.stat().st_size / 1e3:.0f} kB)")
+
+
+@click.command()
+@click.argument("flight_or_mission", shell_complete=FLIGHTS_AND_MISSIONS)
+@click.option("--out", metavar="FILE", help="FILE.png, FILE.gif or FILE.mp4.  [default: picture.png beside the flight]")
+@click.option("--time", type=float, help="Time of the picture [s].  [default: that of the strongest push]")
+@click.option("--from", "start", type=float, help="Start of the animation [s].")
+@click.option("--to", "end", type=float, help="End of the animation [s].")
+@click.option("--fps", type=float, help="Frames per second of the animation, 1 to 50.  [default: 20]")
+@click.option(
+    "--speed",
+    type=float,
+    help="Playback speed.  [default: 1, or faster so that it lasts 20 s]",
+)
+@click.option("--size", metavar="WxH", help="Size in pixels.  [default: 1280x720, a GIF 640x360]")
+@click.option("--camera", default="follow", show_default=True, metavar="VIEW", help=f"Camera: {CAMERAS}.")
+@engine_option
+@set_option
+def render(
+    flight_or_mission: str,
+    out: str | None,
+    time: float | None,
+    start: float | None,
+    end: float | None,
+    fps: float | None,
+    speed: float | None,
+    size: str | None,
+    camera: str,
+    engine: str,
+    settings: tuple[str, ...],
+) -> None:
+    """Draw a flight: a picture (PNG) or an animation (GIF, MP4).
+
+    FLIGHT_OR_MISSION is a saved flight (flight.npz or its folder), or a mission, which is flown first. --engine and
+    --set are for a mission only.
+
+    \b
+    Examples:
+      tandemlift render out/paper
+      tandemlift render out/paper --out push.png --time 34 --camera overview
+      tandemlift render out/paper --out pushes.gif --from 20 --to 40 --speed 2
+      tandemlift render out/paper --out pushes.mp4 --from 20 --to 40 --fps 30
+      tandemlift render hover --set mission.duration=5 --out hover.gif
+    """
+    from tandemlift.pictures import rendering
+
+    folder, saved = flight_file(flight_or_mission)
+    path = Path(out) if out else folder / "picture.png"
+    given = {"--time": time, "--from": start, "--to": end, "--fps": fps, "--speed": speed}
+    _check_options(path, [name for name, value in given.items() if value is not None])
+    view = rendering.camera_of(camera)
+    shot = rendering.Shot(time, start, end, fps or 20.0, speed, rendering.size_of(size), view)
+    flight = saved_flight(saved) if saved else _fly(flight_or_mission, settings, engine)
+    _draw(flight, path, shot)
+
+
+def _check_options(path: Path, given: list[str]) -> None:
+    """Reject options that do not fit the kind of file, and kinds that cannot be drawn here, before any flight.
+
+    Raises:
+        InputError: an option does not fit the kind of file, the kind is unknown, or nothing here can draw it.
+    """
+    from tandemlift.pictures.rendering.studio import pyvista
+    from tandemlift.pictures.rendering.video import ffmpeg
+
+    kind = path.suffix.lower()
+    if kind not in (".png", ".gif", ".mp4"):
+        raise InputError(f"--out {path}: the name must end in .png (picture), .gif or .mp4 (animation)")
+    wrong = [name for name in given if name in (ANIMATION_OPTIONS if kind == ".png" else PICTURE_OPTIONS)]
+    if wrong:
+        other = "an animation, --out FILE.gif or FILE.mp4" if kind == ".png" else "a picture, --out FILE.png"
+        raise InputError(f"{', '.join(wrong)} {'are' if len(wrong) > 1 else 'is'} for {other}")
+    pyvista()
+    if kind == ".mp4":
+        ffmpeg()
+
+
+def _fly(mission: str, settings: tuple[str, ...], engine: str) -> Flight:
+    from tandemlift.engines.registry import engine_named
+    from tandemlift.simulation.fly import fly
+
+    engine_named(engine)
+    loaded = load(mission, settings)
+    with progress_bar("Flying", "steps", shown=sys.stderr.isatty()) as progress:
+        return fly(loaded, engine, progress=progress)
+
+
+def _draw(flight: Flight, path: Path, shot: Shot) -> None:
+    from tandemlift.pictures import rendering
+
+    if path.suffix.lower() == ".png":
+        rendering.render(flight, path, shot)
+    else:
+        with progress_bar("Drawing", "pictures", shown=sys.stderr.isatty()) as progress:
+            rendering.render(flight, path, shot, progress)
+    echo(f"{flight.name}: {path}")

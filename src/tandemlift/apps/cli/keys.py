@@ -1,15 +1,15 @@
-"""`tandemlift template`, `explain` and `schema`: the keys of mission files."""
+"""What one looks up: `tandemlift missions`, `controllers`, `engines`, keys of mission files, words for shells."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 
 import click
 
-from tandemlift.apps.cli.terminal.completion import keys
-from tandemlift.apps.cli.terminal.console import echo
-from tandemlift.apps.cli.terminal.mission_options import chosen_controller
-from tandemlift.apps.cli.terminal.shell_scripts import SCRIPTS
+from tandemlift.apps.cli.completion import SCRIPTS, keys
+from tandemlift.apps.cli.console import echo
+from tandemlift.apps.cli.flying import chosen_controller
 
 controller_option = click.option(
     "--controller", metavar="FILE", help="Your own controller (.py file): its keys are included."
@@ -87,4 +87,34 @@ def completion(shell: str) -> None:
       zsh, ~/.zshrc, after compinit:      eval "$(tandemlift completion zsh)"
       fish, ~/.config/fish/config.fish:   tandemlift completion fish | source
     """
-    echo(SCRIPTS[shell], nl=False)
+    echo(SCRIPTS[shell].read_text("utf-8"), nl=False)
+
+
+def _print_table(rows: Mapping[str, str]) -> None:
+    width = max(map(len, rows)) + 2
+    for name, summary in rows.items():
+        echo(f"{name:{width}}{summary}")
+
+
+@click.command()
+def missions() -> None:
+    """List the built-in missions."""
+    from tandemlift.missions import built_in
+
+    _print_table(built_in())
+
+
+@click.command()
+def controllers() -> None:
+    """List the controllers."""
+    from tandemlift.parts.controllers import CONTROLLERS
+
+    _print_table({name: c.summary for name, c in sorted(CONTROLLERS.items())})
+
+
+@click.command()
+def engines() -> None:
+    """List the engines."""
+    from tandemlift.engines.registry import ENGINES
+
+    _print_table({name: e.summary for name, e in ENGINES.items()})

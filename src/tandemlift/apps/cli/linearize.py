@@ -4,30 +4,20 @@ from __future__ import annotations
 
 import json
 import sys
-import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.apps.cli.terminal.completion import CONTROLLERS, MISSIONS
-from tandemlift.apps.cli.terminal.console import echo
-from tandemlift.apps.cli.terminal.mission_options import (
-    FAILED,
-    chosen_controller,
-    controller_option,
-    load,
-    set_option,
-    style_option,
-)
-from tandemlift.core.errors import FlightWarning, InputError
-from tandemlift.core.files import atomic_write
+from tandemlift.apps.cli.completion import MISSIONS
+from tandemlift.apps.cli.console import echo, print_checks
+from tandemlift.apps.cli.flying import FAILED, controller_option, load, set_option, style_option
+from tandemlift.core.errors import InputError, without_flight_warnings
+from tandemlift.core.files import write_file
 
 if TYPE_CHECKING:
-    from tandemlift.analysis.linearization.analysis import Mode, Modes
     from tandemlift.analysis.linearization.linear_model import LinearModel
 
-MOST_STATES = 1200  # whose eigenvalues are computed within seconds
 FIGURES = (".png", ".pdf", ".svg")
 DRAWN = {"loop": ("push_force", "position"), "body": ("disturbance_force", "position")}
 
@@ -45,7 +35,7 @@ DRAWN = {"loop": ("push_force", "position"), "body": ("disturbance_force", "posi
 @click.option("--figure", metavar="FILE", help="Draw modes and frequency response into FILE.png, .pdf or .svg.")
 @style_option
 @set_option
-@controller_option
+@controller_option()
 def linearize(
     mission: str,
     at: float | None,
@@ -74,16 +64,17 @@ def linearize(
       0   the model was printed
       2   bad input: one message, nothing is written
     """
+    from tandemlift.analysis.linearization.analysis import model_lines
     from tandemlift.analysis.linearization.linear_model import ENDINGS
     from tandemlift.analysis.linearization.linearize import linearize as linearized
 
     _check_endings("--out", out, ENDINGS)
     _check_endings("--figure", figure, FIGURES)
-    chosen = None if controller is None else chosen_controller(controller)
     names = [None if given is None else given.split(",") for given in (inputs, outputs)]
-    model = linearized(load(mission, settings, chosen), at, of=of, inputs=names[0], outputs=names[1])
+    model = linearized(load(mission, settings, controller), at, of=of, inputs=names[0], outputs=names[1])
     connected = model.connected()
-    _print_model(model, connected, count)
+    for line in model_lines(model, connected, count):
+        echo(line)
     if out:
         model.save(out)
         echo(f"model: {out}")
@@ -97,70 +88,25 @@ def _check_endings(option: str, path: str | None, endings: tuple[str, ...]) -> N
         raise InputError(f"{option} {path}: must end with {' or '.join(endings)}")
 
 
-def _print_model(model: LinearModel, connected: LinearModel, count: int) -> None:
-    n, m, p = len(model.states), len(model.inputs), len(model.outputs)
-    echo(f"{model.mission}: the {model.of} at {model.time:g} s, sample time {model.step * 1e3:g} ms")
-    echo(f"  {n} states, of which {len(connected.states)} connect the {m} inputs with the {p} outputs at this point")
-    if count:
-        _print_modes(connected, count)
-    _print_list("kinks", [kink.text for kink in model.kinks] or ["none within 1e-4 of the point"])
-    _print_list("assumptions", model.assumptions)
-
-
-def _print_modes(connected: LinearModel, count: int) -> None:
-    if len(connected.states) > MOST_STATES:
-        echo(f"  modes: not computed for more than {MOST_STATES} states; write the matrices with --out")
-        return
-    modes = _modes(connected)
-    echo(f"  modes, the slowest {min(count, len(modes.modes))} of {len(modes.modes)}:")
-    echo("    time constant  frequency  damping    |z|     participating states")
-    for mode in modes.modes[:count]:
-        echo(f"    {_line(mode)}")
-    if modes.deadbeat:
-        echo(f"    {modes.deadbeat} more decay within a few samples")
-
-
-def _modes(model: LinearModel) -> Modes:
-    from tandemlift.analysis.linearization.analysis import modes_of
-
-    return modes_of(model)
-
-
-def _line(mode: Mode) -> str:
-    states = ", ".join(f"{name} {100.0 * share:.0f} %" for name, share in mode.states)
-    frequency = f"{mode.frequency:7.3f} Hz" if mode.frequency else " " * 10
-    return f"{mode.time_constant:11.4g} s {frequency}  {mode.damping:7.3f}  {abs(mode.z):.5f}  {states}"
-
-
-def _print_list(title: str, rows: list[str] | tuple[str, ...]) -> None:
-    echo(f"  {title}:")
-    for row in rows:
-        echo(f"    - {row}")
-
-
 def _draw(connected: LinearModel, path: Path) -> None:
     """Draw the model.
 
     Raises:
         InputError: it has too many states.
     """
+    from tandemlift.analysis.linearization.analysis import MOST_STATES, modes_of
     from tandemlift.pictures.figures.drawing.style import save
     from tandemlift.pictures.figures.linear_model import draw
 
     if len(connected.states) > MOST_STATES:
         raise InputError(f"--figure {path}: {len(connected.states)} states are too many to draw; at most {MOST_STATES}")
-    save(draw(connected, _modes(connected), *DRAWN[connected.of]), path)
+    save(draw(connected, modes_of(connected), *DRAWN[connected.of]), path)
 
 
 @click.command()
 @click.argument("mission", shell_complete=MISSIONS)
 @set_option
-@click.option(
-    "--controller",
-    metavar="NAME|FILE",
-    shell_complete=CONTROLLERS,
-    help="Controller to check: a registered one, or your own .py file.",
-)
+@controller_option("Controller to check")
 @click.option("--strict", is_flag=True, help="Exit with code 3 if a check fails.")
 @click.option("--json", "file", metavar="FILE", help="Write the results to FILE as well.")
 def check(mission: str, settings: tuple[str, ...], controller: str | None, strict: bool, file: str | None) -> None:
@@ -182,18 +128,14 @@ def check(mission: str, settings: tuple[str, ...], controller: str | None, stric
       3   with --strict: a check fails
     """
     from tandemlift.analysis.linearization.mission_check import check as checked
-    from tandemlift.apps.cli.terminal.check_table import print_checks
 
-    chosen = None if controller is None else chosen_controller(controller)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)  # the table has the same
-        loaded = load(mission, settings, chosen)
+    with without_flight_warnings():  # the table has the same
+        loaded = load(mission, settings, controller)
     results = checked(loaded)
     print_checks(results)
     if file:
         rows = [{**result._asdict(), "margin": result.margin} for result in results]
-        with atomic_write(Path(file)) as partial:
-            partial.write_text(json.dumps(rows, indent=1, ensure_ascii=False), "utf-8")
+        write_file(Path(file), json.dumps(rows, indent=1, ensure_ascii=False))
         echo(f"checks: {file}")
     if strict and any(result.verdict == "fails" for result in results):
         sys.exit(FAILED)

@@ -1,21 +1,22 @@
-"""`tandemlift live`: push a flight by hand in a page of the browser; and the serving of pages, also for `replay`."""
+"""Pages of the browser: `tandemlift live`, whose flight is pushed by hand, `replay` for a saved one, and `page`.
+
+`page` writes a page that flies by itself, without a server.
+"""
 
 from __future__ import annotations
 
 import asyncio
-import os
 import sys
-import threading
-import webbrowser
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.apps.cli.terminal.completion import MISSIONS
-from tandemlift.apps.cli.terminal.console import echo, exit_now
-from tandemlift.apps.cli.terminal.mission_options import engine_option, load, set_option
-from tandemlift.core.errors import extra
+from tandemlift.apps.cli.completion import FLIGHTS, MISSIONS
+from tandemlift.apps.cli.console import echo, exit_now
+from tandemlift.apps.cli.flying import engine_option, flight_file, html_path, load, saved_flight, set_option
+from tandemlift.core.errors import InputError, extra
+from tandemlift.core.files import write_file
 
 if TYPE_CHECKING:
     from tandemlift.apps.live.server import PageServer
@@ -27,6 +28,7 @@ DEFAULT, OUT = "zigzag", Path("out/live")
 port_option = click.option(
     "--port", type=int, default=PORT, show_default=True, help="TCP port of the page; 0 for any free one."
 )
+no_browser_option = click.option("--no-browser", is_flag=True, help="Only print the address.")
 
 
 @click.command()
@@ -40,7 +42,7 @@ port_option = click.option(
     help="Address to listen on. If other machines can reach it, the page's address carries a token.",
 )
 @click.option("--out", metavar="DIR", default=str(OUT), show_default=True, help="Folder for flights saved in the page.")
-@click.option("--no-browser", is_flag=True, help="Only print the address.")
+@no_browser_option
 @set_option
 def live(
     mission: str, engine: str, port: int, host: str, out: str, no_browser: bool, settings: tuple[str, ...]
@@ -93,7 +95,7 @@ def check_live_installed() -> None:
 
 def serve_until_interrupt(server: PageServer, what: str, *, browser: bool) -> None:
     """Serve a page until Ctrl-C; print `what` it shows and its address, and optionally open it in a browser."""
-    from tandemlift.apps.live.server import serve_until_stopped
+    from tandemlift.apps.live.server import open_in_browser, serve_until_stopped
 
     def opened(address: str) -> None:
         echo(f"{what}: {address}")
@@ -101,8 +103,8 @@ def serve_until_interrupt(server: PageServer, what: str, *, browser: bool) -> No
         sys.stdout.flush()
         if "token=" in address:
             click.echo("warning: any machine that can reach this one and knows this address can push", err=True)
-        if browser and _has_display():
-            threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+        if browser:
+            open_in_browser(address)
 
     try:
         asyncio.run(serve_until_stopped(server, opened))
@@ -110,6 +112,83 @@ def serve_until_interrupt(server: PageServer, what: str, *, browser: bool) -> No
         echo("stopped")
 
 
-def _has_display() -> bool:
-    """Whether a graphical browser can open; a text browser would take over the terminal."""
-    return sys.platform in ("win32", "darwin") or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+@click.command()
+@click.argument("flight", shell_complete=FLIGHTS)
+@click.option("--html", metavar="FILE", help="Write the page to a file that needs no network, instead of serving it.")
+@port_option
+@no_browser_option
+def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
+    """Play a saved flight in a page of the browser, with a slider for the time.
+
+    FLIGHT is flight.npz or its folder. The page is served on this machine only. Ctrl-C ends it.
+
+    \b
+    Examples:
+      tandemlift replay out/zigzag
+      tandemlift replay out/zigzag --html zigzag.html
+
+    \b
+    Exit code:
+      0   ended by Ctrl-C, or the page was written
+      2   bad input: one message, nothing is written
+    """
+    from tandemlift.apps.live.page_files import page_files
+    from tandemlift.apps.live.replay import replay_files, replay_html
+
+    _, saved = flight_file(flight)
+    if saved is None:
+        raise InputError(f"{flight}: there is no flight.npz; give the file, or the folder that `tandemlift run` wrote")
+    if html:
+        path, loaded = html_path("--html", html), saved_flight(saved)
+        write_file(path, replay_html(loaded, page_files()))
+        echo(f"{loaded.name}: {path}")
+        return
+    loaded = saved_flight(saved)
+    check_live_installed()
+    from tandemlift.apps.live.server import PageServer
+
+    server = PageServer(replay_files(loaded, page_files()), host=HOST, port=port)
+    serve_until_interrupt(server, loaded.name, browser=not no_browser)
+
+
+@click.command()
+@click.argument("missions", nargs=-1, shell_complete=MISSIONS)
+@click.option("--out", metavar="DIR", help="Write the page as files for a web server.")
+@click.option("--html", metavar="FILE", help="Write the page as one file, which works from disk.")
+def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:
+    """Write a page that flies by itself: in the browser, without a server, pushed by hand.
+
+    MISSIONS are those of its menu, the first of which it begins with: hover, zigzag, iris, doorway, rotor-loss, or some
+    of them. The default is all. A flight saved in the page can be flown again by `tandemlift run`.
+
+    \b
+    Examples:
+      tandemlift page --html tandemlift.html
+      tandemlift page --out out/page
+      tandemlift page zigzag doorway --html corridor.html
+
+    \b
+    Exit code:
+      0   the page was written
+      2   bad input: one message, nothing is written
+    """
+    if not out and not html:
+        raise InputError("give the place of the page: --html FILE for one file, --out DIR for a web server")
+    one_file = html_path("--html", html) if html else None
+    if out and Path(out).is_file():
+        raise InputError(f"--out {out}: is a file, not a folder")
+    from tandemlift.apps.live import page_modules, pages
+    from tandemlift.apps.live.page_files import page_files
+
+    files = page_files()
+    names = dict.fromkeys(missions or page_modules.MISSIONS)
+    flights = page_modules.packed_flights(names, lambda name: echo(f"{name} …"))
+    if out:
+        folder, written = Path(out), pages.offline_files(flights, files)
+        for name, content in written.items():
+            write_file(folder / name, content)
+        size = sum(map(len, written.values()))
+        echo(f"{folder}: {len(written)} files, {size / 1e6:.1f} MB; for a web server, such as: python -m http.server")
+    if one_file is not None:
+        write_file(one_file, pages.offline_html(flights, files))
+        echo(f"{one_file}: {one_file.stat().st_size / 1e6:.1f} MB; open it in a browser")

@@ -5,23 +5,19 @@ from __future__ import annotations
 import signal
 import sys
 import warnings
-from collections.abc import Mapping
 
 import click
 
 from tandemlift.apps.cli.compare import compare
-from tandemlift.apps.cli.export import compile, export
-from tandemlift.apps.cli.gazebo import gazebo
-from tandemlift.apps.cli.keys import completion, explain, schema, template
+from tandemlift.apps.cli.console import compile_notices, exit_now, handle_interrupts
+from tandemlift.apps.cli.export import compile, export, render
+from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, schema, template
 from tandemlift.apps.cli.linearize import check, linearize
-from tandemlift.apps.cli.live import live
-from tandemlift.apps.cli.pages import page, replay
-from tandemlift.apps.cli.render import render
+from tandemlift.apps.cli.live import live, page, replay
 from tandemlift.apps.cli.report import paper, report
-from tandemlift.apps.cli.ros import ros
+from tandemlift.apps.cli.ros import gazebo, ros
 from tandemlift.apps.cli.run import run
 from tandemlift.apps.cli.study import study
-from tandemlift.apps.cli.terminal.console import compile_notices, echo, exit_now, handle_interrupts
 from tandemlift.apps.cli.tune import feel, tune
 from tandemlift.core.errors import FlightWarning, InputError, suggestion
 from tandemlift.core.files import __version__
@@ -64,60 +60,12 @@ def cli() -> None:
     """
 
 
-cli.add_command(run)
-cli.add_command(compare)
-cli.add_command(render)
-cli.add_command(live)
-cli.add_command(page)
-cli.add_command(replay)
-cli.add_command(gazebo)
-cli.add_command(ros)
-cli.add_command(study)
-cli.add_command(tune)
-cli.add_command(linearize)
-cli.add_command(check)
-cli.add_command(feel)
-cli.add_command(export)
-cli.add_command(compile)
-cli.add_command(report)
-cli.add_command(paper)
-
-
-def _print_table(rows: Mapping[str, str]) -> None:
-    width = max(map(len, rows)) + 2
-    for name, summary in rows.items():
-        echo(f"{name:{width}}{summary}")
-
-
-@cli.command()
-def missions() -> None:
-    """List the built-in missions."""
-    from tandemlift.missions import built_in
-
-    _print_table(built_in())
-
-
-cli.add_command(template)
-cli.add_command(explain)
-cli.add_command(schema)
-cli.add_command(completion)
-
-
-@cli.command()
-def controllers() -> None:
-    """List the controllers."""
-    from tandemlift.parts.controllers import CONTROLLERS
-
-    _print_table({name: c.summary for name, c in sorted(CONTROLLERS.items())})
-
-
-@cli.command()
-def engines() -> None:
-    """List the engines."""
-    from tandemlift.engines.registry import ENGINES
-
-    _print_table({name: e.summary for name, e in ENGINES.items()})
-
+for command in (
+    *(run, compare, render, live, page, replay, gazebo, ros, study, tune, linearize, check, feel),
+    *(export, compile, report, paper),
+    *(missions, template, explain, schema, completion, controllers, engines),
+):
+    cli.add_command(command)
 
 _shown: set[str] = set()
 

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.apps.cli.terminal.completion import FLIGHTS
-from tandemlift.apps.cli.terminal.console import echo, progress_bar
-from tandemlift.apps.cli.terminal.mission_options import kept_style_option
-from tandemlift.apps.cli.terminal.results import FIGURES, flight_file, html_path, results_folder, write_flight
+from tandemlift.apps.cli.completion import FLIGHTS
+from tandemlift.apps.cli.console import echo, progress_bar
+from tandemlift.apps.cli.flying import (
+    FILES,
+    figures_option,
+    flight_file,
+    html_path,
+    kept_style_option,
+    saved_flight,
+    write_flight,
+)
 from tandemlift.core.errors import InputError
+from tandemlift.core.files import FIGURES, results_folder
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
@@ -28,7 +37,7 @@ BAGS = (".bag", ".mcap")
     help="Folder for the results; of a study the HTML file.  [default: that of the flight; of a bag out/NAME; of a "
     "study report.html in its folder]",
 )
-@click.option("--no-figures", is_flag=True, help="Draw no figures.")
+@figures_option
 @kept_style_option
 @click.option(
     "--for",
@@ -61,23 +70,18 @@ def report(flight: str, out: str | None, no_figures: bool, style: str | None, me
       0   the report was written
       2   bad input: one message, nothing is written
     """
-    if _is_study(Path(flight)):
+    from tandemlift.analysis.studies.execution.store import is_study
+
+    if is_study(Path(flight)):
         _report_study(Path(flight), out, metrics, no_figures=no_figures, keep=style is not None)
         return
     if metrics:
         raise InputError(f"--for {metrics[0]}: {flight} is no study; the report of a flight shows all metrics")
     loaded, default = _load(flight)
-    with results_folder(out, default) as folder:
+    with results_folder(out, default, FILES) as folder:
         echo(repr(loaded).strip("<>"))
         write_flight(loaded, folder, figures=not no_figures)
         echo(f"  report: {folder / 'report.html'}")
-
-
-def _is_study(path: Path) -> bool:
-    """Whether a folder is that of a study, even if it is damaged."""
-    from tandemlift.analysis.studies.execution.store import PLAN, STUDY
-
-    return (path / PLAN).is_file() or (path / STUDY).is_file()
 
 
 def _report_study(folder: Path, out: str | None, metrics: tuple[str, ...], *, no_figures: bool, keep: bool) -> None:
@@ -104,7 +108,6 @@ def _load(given: str) -> tuple[Flight, Path]:
         InputError: there is no such flight.
     """
     from tandemlift.apps.export.reading import read_bag
-    from tandemlift.flight.record import Flight
 
     path = Path(given)
     if path.suffix.lower() in BAGS or (path / "metadata.yaml").exists():
@@ -117,7 +120,7 @@ def _load(given: str) -> tuple[Flight, Path]:
             f"{given}: must be flight.npz, its folder, a bag (.bag, .mcap, or the folder of a ROS 2 bag), or the "
             "folder of a study"
         )
-    return Flight.load(saved), folder
+    return saved_flight(saved), folder
 
 
 OUT = "out/paper.pdf"
@@ -192,23 +195,16 @@ def fly_paper() -> PaperFlights:
     from tandemlift.pictures.report.paper.document import PaperFlights
     from tandemlift.simulation.fly import fly
 
-    changes = [setting.changes for setting in open_settings()]
-    total = 2 + len(changes)
+    missions: list[tuple[str, Mapping[str, Any]]] = [("paper", {}), ("zigzag", {})]
+    missions += [("paper", setting.changes) for setting in open_settings()]
+    flights = []
     with progress_bar("Flying", "flights") as progress:
-
-        def count(done: int) -> None:
+        for done, (name, changes) in enumerate(missions, 1):
+            flights.append(fly(load_mission(name, changes)))
             if progress:
-                progress(done, total)
-
-        flown = fly(load_mission("paper"))
-        count(1)
-        corridor = fly(load_mission("zigzag"))
-        count(2)
-        choices = []
-        for done, change in enumerate(changes, 3):
-            choices.append(fly(load_mission("paper", change)).metrics())
-            count(done)
-    return PaperFlights(flown, corridor, choices)
+                progress(done, len(missions))
+    flown, corridor, *choices = flights
+    return PaperFlights(flown, corridor, [flight.metrics() for flight in choices])
 
 
 def gazebo_sentence() -> str:

@@ -1,24 +1,42 @@
-"""`tandemlift ros`: a flight in real time as a ROS node."""
+"""Flights for robots' software: `tandemlift ros`, in real time as a node, and `gazebo`, with its window and cameras."""
 
 from __future__ import annotations
 
 import signal
 import sys
-import warnings
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from tandemlift.apps.cli.completion import MISSIONS
+from tandemlift.apps.cli.console import echo, progress_bar
+from tandemlift.apps.cli.flying import (
+    FAILED,
+    FILES,
+    after_crash_option,
+    engine_option,
+    exit_if_amiss,
+    figures_option,
+    load,
+    set_option,
+    strict_option,
+    with_after_crash,
+)
 from tandemlift.apps.cli.live import DEFAULT, session_of
-from tandemlift.apps.cli.terminal.completion import MISSIONS
-from tandemlift.apps.cli.terminal.console import echo
-from tandemlift.apps.cli.terminal.mission_options import FAILED, engine_option, load, set_option
-from tandemlift.core.errors import InputError
+from tandemlift.apps.cli.run import write_results
+from tandemlift.core.errors import InputError, without_flight_warnings
+from tandemlift.core.files import results_folder
 
 if TYPE_CHECKING:
     from tandemlift.apps.live.session.session import Session
+    from tandemlift.apps.ros.gazebo_flight import GazeboSession
     from tandemlift.apps.ros.middleware import Middleware
+    from tandemlift.flight.record import Flight
+    from tandemlift.missions import Mission
+
+Photographs = list[tuple[str, bytes]]
 
 
 @click.command()
@@ -151,10 +169,118 @@ def _shut_down(middleware: Middleware) -> list[str]:
 
 
 def _save(session: Session, save: str | None) -> None:
-    from tandemlift.core.errors import FlightWarning
-
     if save:
-        with warnings.catch_warnings():  # the mission was checked when it was loaded
-            warnings.simplefilter("ignore", FlightWarning)
+        with without_flight_warnings():  # the mission was checked when it was loaded
             session.flight.snapshot().save(Path(save))
         echo(f"saved: {save}; `tandemlift run {Path(save) / 'recorded.toml'}` flies it again")
+
+
+@click.command()
+@click.argument("mission", default=DEFAULT, shell_complete=MISSIONS)
+@click.option("--by-hand", is_flag=True, help="Leave out the mission's pushes and person: you push, by a Gazebo topic.")
+@click.option("--fast", is_flag=True, help="Fly as fast as possible instead of in real time.")
+@click.option("--no-window", is_flag=True, help="Do not open Gazebo's window. Without a display, no window opens.")
+@click.option(
+    "--pictures", is_flag=True, help="Take four photographs with Gazebo's cameras, as in the paper's Figure 9."
+)
+@click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/gazebo/NAME]")
+@set_option
+@after_crash_option
+@figures_option
+@strict_option
+def gazebo(
+    mission: str,
+    by_hand: bool,
+    fast: bool,
+    no_window: bool,
+    pictures: bool,
+    out: str | None,
+    settings: tuple[str, ...],
+    after_crash: float | None,
+    no_figures: bool,
+    strict: bool,
+) -> None:
+    """Fly MISSION in Gazebo 11: start the server, the window, the world and the pilot.
+
+    MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file. The default is zigzag, the
+    paper's corridor. Gazebo must be installed on this system, or in a root made by tools/gazebo-root whose path is in
+    TANDEMLIFT_GAZEBO_ROOT. The command prints how to push, and writes the same files as `tandemlift run`. Ctrl-C ends
+    a flight with --by-hand, which is written as well.
+
+    \b
+    Examples:
+      tandemlift gazebo
+      tandemlift gazebo iris --by-hand
+      tandemlift gazebo zigzag --pictures --fast --no-window
+
+    \b
+    Exit code:
+      0   the flight was flown; findings are on standard error, a line each
+      2   bad input: one message, nothing is written
+      3   crashed, diverged, interrupted or not lifted: the flight so far is written; with --strict, also findings
+    """
+    if by_hand and (fast or pictures):
+        raise InputError(
+            f"--by-hand flies in real time and takes no pictures: leave out {'--fast' if fast else '--pictures'}"
+        )
+    from tandemlift.engines.gazebo_server import root
+
+    loaded = load(mission, with_after_crash(settings, after_crash))
+    root()  # raises if there is no Gazebo, before anything is compiled
+    with results_folder(out, Path("out/gazebo") / loaded.mission.name, FILES) as folder:
+        began = time.perf_counter()
+        window = not no_window and _has_display()
+        flight, photographs = (
+            _fly_by_hand(loaded, window) if by_hand else _fly_to_end(loaded, window, not fast, pictures)
+        )
+        recording = None if by_hand else loaded.person.recording
+        write_results(flight, folder, began, recording, figures=not no_figures, photographs=photographs)
+    exit_if_amiss({flight.name: flight}, strict=strict)
+
+
+def _has_display() -> bool:
+    from tandemlift.apps.ros.gazebo_flight import has_display
+
+    if not has_display():
+        click.echo("No window: DISPLAY is not set", err=True)
+    return has_display()
+
+
+def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool) -> tuple[Flight, Photographs]:
+    """Fly a mission to its end; the flight, and its photographs if requested, each with its title."""
+    from tandemlift.apps.ros.gazebo_cameras import views_from
+    from tandemlift.apps.ros.gazebo_flight import running_gazebo
+    from tandemlift.simulation.fly import fly
+
+    views, step = views_from(fly(mission)) if pictures else [], mission.mission.step
+    with running_gazebo(mission, views, window=window, real_time=real_time) as gazebo:
+        _print_how_to_push(mission.mission.name, gazebo)
+        with progress_bar("Flying", "steps") as progress:
+
+            def take_photographs(done: int, total: int) -> None:
+                gazebo.take_due_photographs(done * step)
+                if progress:
+                    progress(done, total)
+
+            flight = fly(mission, "gazebo", progress=take_photographs)
+        return flight, [(f"{p.view.title}, {p.view.time:.0f} s", p.jpeg) for p in gazebo.photos]
+
+
+def _fly_by_hand(mission: Mission, window: bool) -> tuple[Flight, Photographs]:
+    """Fly a mission without its own pushes until Ctrl-C; pushes come by Gazebo's topic."""
+    from tandemlift.apps.ros.gazebo_flight import fly_by_hand
+
+    def begun(gazebo: GazeboSession) -> None:
+        _print_how_to_push(mission.mission.name, gazebo)
+        echo("  Ctrl-C ends it")
+
+    return fly_by_hand(mission, begun, window=window), []
+
+
+def _print_how_to_push(name: str, gazebo: GazeboSession) -> None:
+    from tandemlift.engines.gazebo_server import shell_command_for_user
+
+    push = """gz topic -p /gazebo/default/tandemlift/push -m 'data: "force 2 0 0 point 0 0 0 duration 2"'"""
+    echo(f"{name} flies in Gazebo. To push it, run in another terminal:")
+    echo(f"  {shell_command_for_user(gazebo.master, push)}")
+    sys.stdout.flush()

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.apps.cli.terminal.completion import names
-from tandemlift.apps.cli.terminal.console import compile_notices, echo, progress_bar
-from tandemlift.apps.cli.terminal.mission_options import parse_setting
+from tandemlift.apps.cli.completion import names
+from tandemlift.apps.cli.console import compile_notices, echo, progress_bar
+from tandemlift.core.files import parse_setting
 
 if TYPE_CHECKING:
     from tandemlift.analysis.studies.design.plan import StudyPlan
@@ -96,7 +95,12 @@ def study(
     rows = f"{plan.count:,} rows = {plan.sizes}" if plan.count > 1 else plan.sizes
     echo(f"{plan.settings.study.name}: {rows}")
     if dry_run:
-        _print_estimate(plan, threads or os.cpu_count() or 1)
+        from tandemlift.analysis.studies.execution.estimate import estimate
+
+        with compile_notices.together():
+            expected = estimate(plan)
+        for line in expected.lines(threads or os.cpu_count() or 1):
+            echo(f"  {line}")
         return
     folder = _fly(plan, out, part, threads=threads, scheduler=scheduler, cluster=cluster)
     _print_outcomes(folder.path, metrics, report=not no_report)
@@ -114,49 +118,14 @@ def _fly(plan: StudyPlan, out: str | None, part: str, **where: Any) -> StudyFold
     return folder
 
 
-def _print_estimate(plan: StudyPlan, threads: int) -> None:
-    from tandemlift.analysis.studies.execution.estimate import estimate
-
-    with compile_notices.together():
-        found = estimate(plan)
-    echo(f"  files   {found.chunks:,} of {plan.rows_per_chunk} rows, some {_bytes(found.size)} in all")
-    echo(f"  time    some {_time(found.seconds / threads)} on {threads} threads; {_time(found.seconds)} on one")
-
-
-def _time(seconds: float) -> str:
-    for unit, length in (("days", 86400.0), ("h", 3600.0), ("min", 60.0)):
-        if seconds >= 2.0 * length:
-            return f"{seconds / length:.1f} {unit}"
-    return f"{seconds:.1f} s"
-
-
-def _bytes(size: float) -> str:
-    for unit, length in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6)):
-        if size >= length:
-            return f"{size / length:.1f} {unit}"
-    return f"{size / 1e3:.0f} kB"
-
-
 def _print_outcomes(folder: Path, metrics: tuple[str, ...], *, report: bool) -> None:
     """Print the outcomes of the flights and the place of the table; write the report of a whole study."""
-    from tandemlift.analysis.studies.design.settings import REFUSED
-    from tandemlift.analysis.studies.quantities import share
-    from tandemlift.analysis.studies.table import load_study
+    from tandemlift.analysis.studies.table import load_study, outcome_lines
     from tandemlift.pictures.report.study.study_report import write_study_report
 
     study = load_study(folder)
-    read = study.read(["row", "outcome", "reason"])
-    outcomes = read["outcome"].to_pylist()
-    counts = Counter(outcomes)
-    echo(f"  {'outcome':12}{'rows':>10}   share, and its two-sided 95 % interval")
-    for outcome, count in counts.most_common():
-        s = share(count, len(study))
-        echo(f"  {outcome:12}{count:>10,}   {100 * s.value:.4g} % ({100 * s.low:.3g} to {100 * s.high:.3g} %)")
-    if REFUSED in counts:
-        first = outcomes.index(REFUSED)
-        echo(f"  row {read['row'][first]} is refused: {read['reason'][first]}")
-    if study.missing:
-        echo(f"  {study.missing:,} of {study.plan.count:,} rows are still to be flown")
-    elif report:
+    for line in outcome_lines(study):
+        echo(f"  {line}")
+    if report and not study.missing:
         echo(f"  report: {write_study_report(study, folder / 'report.html', metrics)}")
     echo(f"  table: tl.load_study({str(folder)!r})")

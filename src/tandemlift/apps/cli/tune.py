@@ -4,27 +4,25 @@ from __future__ import annotations
 
 import re
 import sys
-import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.apps.cli.terminal.completion import CONTROLLERS, MISSIONS, keys, names
-from tandemlift.apps.cli.terminal.console import compile_notices, echo, progress_bar
-from tandemlift.apps.cli.terminal.mission_options import (
+from tandemlift.apps.cli.completion import MISSIONS, keys, names
+from tandemlift.apps.cli.console import compile_notices, echo, print_checks, progress_bar
+from tandemlift.apps.cli.flying import (
     FAILED,
     chosen_controller,
+    controller_option,
     load,
-    parse_setting,
     set_option,
     style_option,
 )
-from tandemlift.apps.cli.terminal.results import results_folder
-from tandemlift.core.errors import FlightWarning, InputError
-from tandemlift.core.files import toml_tables
+from tandemlift.core.errors import InputError, without_flight_warnings
+from tandemlift.core.files import parse_setting, results_folder, toml_tables
 
 if TYPE_CHECKING:
     from tandemlift.analysis.studies.tuning.candidates import Cost
@@ -62,12 +60,7 @@ FILES = ("tuned.toml", "evidence.json", "tune.html")
 @click.option("--aim", default="mean", show_default=True, metavar="mean|worst", help="Which of all draws counts.")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Seed of search and draws.")
 @click.option("--threads", type=click.IntRange(min=1), help="Threads that fly.  [default: one for each processor]")
-@click.option(
-    "--controller",
-    metavar="NAME|FILE",
-    shell_complete=CONTROLLERS,
-    help="Tune this controller: a registered one, or your own .py file.",
-)
+@controller_option("Tune this controller")
 @click.option("--strict", is_flag=True, help="A flight with findings counts as a bad outcome, too.")
 @set_option
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-tuned]")
@@ -107,7 +100,9 @@ def tune(
       2    bad input: one message, nothing is written
       130  Ctrl-C: the best so far is written, marked as unfinished
     """
+    from tandemlift.analysis.studies.tuning.tune import tune as tuned
     from tandemlift.missions import load_mission
+    from tandemlift.pictures.report.study.tuning_report import tuning_lines
 
     changes, chosen = dict(map(parse_setting, settings)), controller and chosen_controller(controller).name
     name = load_mission(mission, changes, controller=chosen).mission.name
@@ -118,21 +113,17 @@ def tune(
         "controller": chosen,
     }
     with results_folder(out, Path("out") / f"{name}-tuned", FILES) as folder:
-        found = _search(mission, dict(map(_goal_of, goals)), how)
+        with compile_notices.together(), _progress() as progress:
+            found = tuned(mission, dict(map(_goal_of, goals)), **how, progress=progress)
         _write(found, folder)
-    _print(found, folder)
+    places = f"  mission: {folder / 'tuned.toml'}", f"  page: {folder / 'tune.html'}"
+    for line in (*tuning_lines(found), *places):
+        echo(line)
     if not found.is_finished:
         click.echo("stopped; the best so far is written, and was not flown on holdout draws", err=True)
         sys.exit(INTERRUPTED)
     if not found.is_better:
         sys.exit(NOT_BETTER)
-
-
-def _search(mission: str, goals: dict[str, Any], how: dict[str, Any]) -> Tuning:
-    from tandemlift.analysis.studies.tuning.tune import tune
-
-    with compile_notices.together(), _progress() as progress:
-        return tune(mission, goals, **how, progress=progress)
 
 
 def _goal_of(text: str) -> tuple[str, Any]:
@@ -193,40 +184,6 @@ def _write(found: Tuning, folder: Path) -> None:
     write_tuning(found, folder / "tune.html")
 
 
-def _print(found: Tuning, folder: Path) -> None:
-    """Print the result, old against new, and the places of the files."""
-    from tandemlift.pictures.report.study.tuning_report import cost_words, what_was_done
-
-    echo(f"{found.name}: {what_was_done(found)}")
-    if not found.is_finished:
-        old, new = (cost_words(cost, len(found.draws)) for cost in found.costs)
-        echo(f"  cost on the draws of the search: {old}; now {new}")
-    if found.evidence is not None:
-        words = "better" if found.is_better else "not better"
-        echo(f"  {words} on {len(found.holdout)} holdout draws: {found.evidence.words}")
-        _print_table(found)
-    for place, point in enumerate(found.front, 1):
-        costs = "  ".join(cost_words(cost, len(found.holdout)) for cost in point.holdout or point.costs)
-        echo(f"  front {place}: {costs}")
-    echo(f"  mission: {folder / 'tuned.toml'}")
-    echo(f"  page: {folder / 'tune.html'}")
-
-
-HEADS = ("old median", "worst", "new median", "worst", "difference", "95 % from", "to")
-
-
-def _print_table(found: Tuning) -> None:
-    assert found.evidence is not None
-    rows: list[tuple[str, Sequence[float]]] = [
-        (c.label, (*c.old, *c.new, c.difference, *(c.interval or ()))) for c in found.evidence.comparisons
-    ]
-    width = max((len(label) for label, _ in rows), default=0) + 2
-    if rows:
-        echo("  " + " " * width + "  ".join(head.rjust(10) for head in HEADS))
-    for label, values in rows:
-        echo(f"  {label.ljust(width)}" + "  ".join(f"{value:10.4g}" for value in values))
-
-
 FEEL_FILES = ("feel.json", "feel.html", "feel.png", "feel.pdf")
 
 
@@ -259,11 +216,9 @@ def feel(mission: str, settings: tuple[str, ...], out: str | None, strict: bool)
       2   bad input: one message, nothing is written
       3   with --strict: a check fails
     """
-    from tandemlift.apps.cli.terminal.check_table import print_checks
     from tandemlift.pictures.report.study.feel_report import feel as studied
 
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)  # of pushes that are not flown here
+    with without_flight_warnings():  # of pushes that are not flown here
         loaded = load(mission, settings)
     name = loaded.mission.name
     with results_folder(out, Path("out") / name, FEEL_FILES) as folder:

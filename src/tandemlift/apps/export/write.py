@@ -54,39 +54,30 @@ def export(what: Flight | Mission, path: str | os.PathLike[str], *, plugin: int 
     return path
 
 
-def ending_from(path: Path) -> str:
-    """The ending of a file's name, in small letters.
-
-    Raises:
-        InputError: it belongs to no known format.
-    """
-    ending = path.suffix.lower()
-    if ending not in (*FORMATS, WORLD, MODEL):
-        raise InputError(f"{path}: {ENDINGS}")
-    return ending
-
-
 def is_model(path: Path) -> bool:
     """Whether a file of this name is a model of a mission, or else data of a flight.
 
     Raises:
         InputError: its ending belongs to no known format.
     """
-    return ending_from(path) in (WORLD, MODEL)
+    ending = path.suffix.lower()
+    if ending not in (*FORMATS, WORLD, MODEL):
+        raise InputError(f"{path}: {ENDINGS}")
+    return ending in (WORLD, MODEL)
 
 
-def _writer(what: Flight | Mission, path: Path, plugin: int | str | None) -> Callable[[Path], None]:
+def _writer(what: Flight | Mission, path: Path, plugin: int | str | None) -> Callable[[Path], object]:
     """The function that writes it to a path.
 
     Raises:
         InputError: it cannot be such a file.
     """
-    ending = ending_from(path)
+    ending, is_of_mission = path.suffix.lower(), is_model(path)
     _check_plugin(plugin, path)
-    if is_model(path):
+    if is_of_mission:
         mission = what if isinstance(what, Mission) else check(what.mission, f"flight {what.name!r}")
         text = _model(mission, ending, plugin)
-        return lambda partial: _write_text(text, partial)
+        return lambda partial: partial.write_bytes(text.encode())
     if isinstance(what, Mission):
         raise InputError(f"{path}: mission {what.mission.name!r} is no flight: fly it, or write {OF_MISSION}")
     if not len(what.time):
@@ -97,7 +88,7 @@ def _writer(what: Flight | Mission, path: Path, plugin: int | str | None) -> Cal
 def _check_plugin(plugin: int | str | None, path: Path) -> None:
     if plugin is None:
         return
-    if ending_from(path) != WORLD:
+    if path.suffix.lower() != WORLD:
         raise InputError(f"{path}: only a world, {WORLD}, has a plugin")
     if plugin != "ros" and not (isinstance(plugin, int) and 1 <= plugin <= 65535):
         raise InputError(f"plugin = {plugin}: must be a port, from 1 to 65535, or 'ros'")
@@ -112,7 +103,3 @@ def _model(mission: Mission, ending: str, plugin: int | str | None) -> str:
     from tandemlift.engines.models.mjcf import model_text
 
     return model_text(mission)
-
-
-def _write_text(text: str, path: Path) -> None:
-    path.write_text(text, "utf-8", newline="\n")

@@ -5,68 +5,34 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections.abc import Sequence
-from typing import Protocol
+from typing import TYPE_CHECKING
 
-from tandemlift.apps.live.viewers import Viewer, Viewers
-from tandemlift.apps.live.wire.page_messages import (
+from tandemlift.apps.live.session.page_messages import (
     GrabMessage,
     KillMessage,
     MoveMessage,
     PageMessage,
     PingMessage,
+    Refusal,
     ResetMessage,
     RestoreMessage,
     SaveMessage,
     SetMessage,
     TareMessage,
+    read_message,
+    subject_of,
 )
-from tandemlift.apps.live.wire.reading import Refusal, read_message, subject_of
-from tandemlift.apps.live.wire.scene import FlightScene
-from tandemlift.apps.live.wire.server_messages import Answer, FlightStatus, PongMessage
+from tandemlift.apps.live.session.server_messages import Answer, PongMessage
+from tandemlift.apps.live.viewers import Viewer, Viewers
 from tandemlift.core.errors import InputError
+
+if TYPE_CHECKING:
+    from tandemlift.apps.live.session.session import Session
 
 MAX_WAITING = 16  # changes that wait for their turn
 SLOW = (SetMessage, RestoreMessage, TareMessage, KillMessage, ResetMessage, SaveMessage)  # may compile or write
 
 log = logging.getLogger(__name__)
-
-
-class LiveFlight(Protocol):
-    """A flight that continues while people watch; its methods may be called from any thread.
-
-    There is a scene, a frame and a status from the beginning, also while the flight is still being prepared.
-
-    Attributes:
-        generation: grows with every reset, after which `scene` is a new one.
-    """
-
-    generation: int
-
-    @property
-    def scene(self) -> FlightScene:
-        """The description that a page needs to interpret frames."""
-
-    def start(self) -> None:
-        """Begin to prepare and to fly, in its own thread."""
-
-    def stop(self) -> None:
-        """End that thread, at once."""
-
-    def frame(self) -> bytes:
-        """The latest frame."""
-
-    def status(self) -> FlightStatus:
-        """The state of the flight in words, and its pace relative to the clock."""
-
-    def apply(self, message: PageMessage) -> Sequence[Answer]:
-        """Apply a message; return the answer to its sender, or to all if parameters have changed.
-
-        Raises:
-            InputError: it cannot be done; the text has the reason.
-        """
-
-    def release(self) -> None:
-        """Release the beam."""
 
 
 class Dispatcher:
@@ -77,7 +43,7 @@ class Dispatcher:
         viewers: all who watch, and who of them holds the beam.
     """
 
-    def __init__(self, flight: LiveFlight, viewers: Viewers) -> None:
+    def __init__(self, flight: Session, viewers: Viewers) -> None:
         self._flight, self._viewers = flight, viewers
         self._changing, self._saving = asyncio.Lock(), asyncio.Lock()
         self._tasks = set[asyncio.Task[None]]()

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from tandemlift.apps.live.session.checks import TouchRule, touch_refusal
-from tandemlift.apps.live.session.frame_values import PhaseTimes, fields_of_samples, frame_of_samples
+from tandemlift.apps.live.session.frames import PhaseTimes, fields_of_samples, frame_of_samples
 from tandemlift.apps.live.session.hand_control import grip_offset
 from tandemlift.codegen.module_text import ValuesFunction
 from tandemlift.core.types import zeroed

@@ -9,24 +9,14 @@ from typing import Any, get_args, get_origin
 
 from tandemlift.apps.live.page_functions import ENDING_PARTS, frame_fields
 from tandemlift.apps.live.session import checks, pacing
-from tandemlift.apps.live.session import refusal_texts as texts
-from tandemlift.apps.live.session.frame_values import phase_times
+from tandemlift.apps.live.session.frames import ECHO, FRESH, RATE, phase_times
 from tandemlift.apps.live.session.hand_control import REQUEST_TIME
 from tandemlift.apps.live.session.interactive_mission import NEVER
-from tandemlift.apps.live.session.parameter_control import RAMP
+from tandemlift.apps.live.session.page_messages import NAME_PATTERN, NAME_RULE, PAGE_MESSAGES, SILENT, NumberedMessage
+from tandemlift.apps.live.session.parameters import BY_KEY, CHOICES, RAMP, bounds_of, keys_of, parameters_of
 from tandemlift.apps.live.session.scene_builder import scene_of
+from tandemlift.apps.live.session.server_messages import SceneParameter
 from tandemlift.apps.live.session.status import in_sentences
-from tandemlift.apps.live.session.tunable_parameters import (
-    BY_KEY,
-    CHOICES,
-    bounds_of,
-    keys_of,
-    parameters_of,
-)
-from tandemlift.apps.live.wire.frames import ECHO, FRESH, RATE
-from tandemlift.apps.live.wire.page_messages import PAGE_MESSAGES, SILENT, NumberedMessage
-from tandemlift.apps.live.wire.quantities import NAME_PATTERN, NAME_RULE
-from tandemlift.apps.live.wire.scene import SceneParameter
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import DIVERGED, ENDING_OF, ENDINGS
 from tandemlift.core.refusals import REQUESTS, refusals_for, sentences_for
@@ -34,7 +24,7 @@ from tandemlift.core.types import flat
 from tandemlift.flight.record import ENDING_TEXT
 from tandemlift.missions import changed, tables_of
 from tandemlift.missions.bounds import allowed, bounds, plain
-from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.missions.changes import Tables
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.outcome import NOT_FINITE, limit_of
@@ -99,11 +89,12 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
     rule = checks.touch_rule(mission, scene["vehicle"])
     tables = tables_of(mission)
     tables.pop("changes", None)
+    parameters = list(parameters_of(tables, tables))
     return {
         "scene": scene,
         "tables": tables,
-        "parameters": [_tunable(plan, shown) for shown in parameters_of(mission, mission) if "choices" not in shown],
-        "absent": _absent(plan),
+        "parameters": [_tunable(plan, tables, shown) for shown in parameters if "choices" not in shown],
+        "absent": _absent(plan, tables, {shown["key"] for shown in parameters}),
         "rotors": [
             {"rotor": 4 * (f.quadrotor - 1) + f.rotor - 1, "key": f"faults.{i}.time"}
             for i, f in enumerate(mission.faults)
@@ -130,24 +121,23 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
     }
 
 
-def _tunable(plan: FlightPlan, shown: SceneParameter) -> dict[str, Any]:
+def _tunable(plan: FlightPlan, tables: Tables, shown: SceneParameter) -> dict[str, Any]:
     """A parameter as the page has it, with the refusals of values out of bounds and of lists of another length."""
-    keys, value = keys_of(plan.mission, shown["key"]), shown["value"]
+    keys, value = keys_of(tables, shown["key"]), shown["value"]
     rule = _refusal(plan, keys[0], [1.0] * (MOST_NUMBERS + 1)).rpartition(": ")[2]
     return {
         "shown": shown,
         "keys": keys,
         "count": len(value) if isinstance(value, list) else 0,
-        "out_of_bounds": texts.OUT_OF_BOUNDS.format(key="{key}", value="{value}", low=shown["min"], high=shown["max"]),
+        "out_of_bounds": checks.OUT_OF_BOUNDS.format(key="{key}", value="{value}", low=shown["min"], high=shown["max"]),
         "wrong_shape": f"mission: {keys[0]} = {{value}}: {rule}",
     }
 
 
-def _absent(plan: FlightPlan) -> dict[str, str]:
+def _absent(plan: FlightPlan, tables: Tables, present: set[str]) -> dict[str, str]:
     """The parameters that a mission does not have, with the reasons of refusal."""
-    present = {shown["key"] for shown in parameters_of(plan.mission, plan.mission)}
     lost = {
-        key: _refusal(plan, keys_of(plan.mission, key)[0], bounds_of(parameter, plan.mission)[1])
+        key: _refusal(plan, keys_of(tables, key)[0], bounds_of(parameter, tables)[1])
         for key, parameter in BY_KEY.items()
         if key not in present
     }
@@ -179,7 +169,7 @@ def _pacing() -> dict[str, float]:
 def _endings(plan: FlightPlan) -> dict[str, Any]:
     """Outcome and text of each ending by number; the texts of non-finite values by their place in the state."""
     known = {str(int(k.number)): _ending(k.outcome, k.quantity, limit_of(plan, k.number)) for k in ENDINGS}
-    parts = [_ending(ENDING_OF[DIVERGED].outcome, part, NOT_FINITE) for part in State._fields]
+    parts = [_ending(ENDING_OF[DIVERGED].outcome, part, NOT_FINITE) for part in plan.model.flight_state.state._fields]
     return {"by_number": known, "not_finite": parts}
 
 
@@ -193,15 +183,15 @@ def _texts(plan: FlightPlan, rule: checks.TouchRule) -> dict[str, Any]:
     mission = plan.mission
     by_clock = mission.pilot.guidance == "scheduled"
     return {
-        "unknown": texts.UNKNOWN.format(key="{key}", known=", ".join([*CHOICES, *BY_KEY])),
-        "no_number": texts.NO_NUMBER,
-        "over": texts.OVER,
+        "unknown": checks.UNKNOWN.format(key="{key}", known=", ".join([*CHOICES, *BY_KEY])),
+        "no_number": checks.NO_NUMBER,
+        "over": checks.OVER,
         "later": f"{{key}} {LATER}",
         "no_effect": f"{{key}} {NO_EFFECT}",
         "other_laws": OTHER_LAWS,
-        "whole_rotors": texts.WHOLE_ROTORS,
-        "failed_already": texts.FAILED_ALREADY.replace("{time:g}", "{time}"),
-        "no_requests": texts.NO_REQUESTS.format(what="{what}", mission=mission.mission.name) if by_clock else "",
+        "whole_rotors": checks.WHOLE_ROTORS,
+        "failed_already": checks.FAILED_ALREADY.replace("{time:g}", "{time}"),
+        "no_requests": checks.NO_REQUESTS.format(what="{what}", mission=mission.mission.name) if by_clock else "",
         "touch": {str(int(number)): text for number, text in checks.touch_texts(rule).items()},
         "refusals": {request: sentences_for(request) for request in REQUESTS},
         "refused_at_end": {key: in_sentences(refusals_for(key)) for key in ("over", "stopped_early", "error")},

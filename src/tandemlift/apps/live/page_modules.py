@@ -10,7 +10,6 @@ from __future__ import annotations
 import gzip
 import hashlib
 import json
-import warnings
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -19,8 +18,8 @@ from tandemlift.apps.live.page_functions import page_functions
 from tandemlift.apps.live.page_manifest import page_manifest
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.codegen.mission_module import module_of
-from tandemlift.core.errors import FlightWarning
-from tandemlift.core.files import DATA, __version__, atomic_write
+from tandemlift.core.errors import unknown, without_flight_warnings
+from tandemlift.core.files import DATA, __version__, write_file
 from tandemlift.missions import Mission, built_in, changed, load_mission
 from tandemlift.simulation.plan import FlightPlan
 
@@ -48,15 +47,13 @@ class PackedFlight(NamedTuple):
 
 def page_mission(name: str, changes: Mapping[str, Any] | None = None) -> Mission:
     """A mission, with changes of its keys, as a page flies it: pushed by hand, and rounded alike on every machine."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)
+    with without_flight_warnings():
         return changed(interactive_mission(load_mission(name, changes)), "mission.fma", False)
 
 
 def flight_manifest(mission: Mission) -> tuple[dict[str, Any], bytes]:
     """The manifest of a page's flight, and its module."""
-    with warnings.catch_warnings():  # rotors that may fail raise warnings of their own
-        warnings.simplefilter("ignore", FlightWarning)
+    with without_flight_warnings():  # rotors that may fail raise warnings of their own
         module = module_of(mission, "wasm32", page_functions)
         page = page_manifest(FlightPlan(mission))
     manifest = {"format": FORMAT, "version": __version__, "module": module.manifest, "page": page}
@@ -85,8 +82,15 @@ def packed_mission(mission: Mission, title: str) -> PackedFlight:
 def packed_flights(
     names: Iterable[str] = MISSIONS, begun: Callable[[str], None] = lambda name: None
 ) -> list[PackedFlight]:
-    """The flights of missions; `begun` is called with the name of each before it is built."""
-    found = []
+    """The flights of missions of the menu; `begun` is called with the name of each before it is built.
+
+    Raises:
+        InputError: a page has no such mission; nothing is built.
+    """
+    names, found = list(names), list[PackedFlight]()
+    for name in names:
+        if name not in MISSIONS:
+            raise unknown("mission of a page", name, MISSIONS)
     for name in names:
         begun(name)
         found.append(packed_flight(name))
@@ -99,7 +103,6 @@ def build_modules(folder: Path, names: Iterable[str] = MISSIONS) -> list[Path]:
     written = []
     for flight in packed_flights(names):
         path = folder / f"{flight.name}{ENDING}"
-        with atomic_write(path) as partial:
-            partial.write_bytes(flight.data)
+        write_file(path, flight.data)
         written.append(path)
     return written

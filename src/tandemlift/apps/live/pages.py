@@ -7,16 +7,9 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
 
+from tandemlift.apps.live.page_files import data_element, in_one_file, page_text, text_element, with_data, with_policy
 from tandemlift.apps.live.page_modules import ENDING, FORMAT, PackedFlight
 from tandemlift.apps.live.replay import replay_element
-from tandemlift.apps.live.self_contained import (
-    data_element,
-    in_one_file,
-    page_text,
-    text_element,
-    with_data,
-    with_policy,
-)
 from tandemlift.core.files import __version__
 
 FOLDER = "flights"  # beside the page's other files

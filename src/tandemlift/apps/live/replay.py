@@ -12,12 +12,19 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.apps.live.self_contained import data_element, in_one_file, page_text, with_data
-from tandemlift.apps.live.session.frame_values import arrays_of, components_of, field_values, phase_times
+from tandemlift.apps.live.page_files import data_element, in_one_file, page_text, with_data
+from tandemlift.apps.live.session.frames import (
+    RATE,
+    arrays_of,
+    components_of,
+    field_values,
+    layout_for,
+    pack_frames,
+    phase_times,
+)
 from tandemlift.apps.live.session.scene_builder import scene_of_tables
+from tandemlift.apps.live.session.server_messages import FlightScene, SceneReplay
 from tandemlift.apps.live.session.status import scene_ending
-from tandemlift.apps.live.wire.frames import RATE, layout_for, pack_frames
-from tandemlift.apps.live.wire.scene import FlightScene, SceneReplay
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.rendering.stage import FlightStage

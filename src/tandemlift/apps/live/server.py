@@ -7,10 +7,14 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import os
 import socket
+import sys
+import threading
+import webbrowser
 from collections.abc import Callable, Mapping
 from http import HTTPStatus
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from websockets.asyncio.server import Server as SocketServer
 from websockets.asyncio.server import ServerConnection, serve
@@ -19,12 +23,15 @@ from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
 from tandemlift.apps.live.access import HOST, PORT, AccessControl, RequestHead, listen
-from tandemlift.apps.live.dispatch import Dispatcher, LiveFlight
+from tandemlift.apps.live.dispatch import Dispatcher
 from tandemlift.apps.live.page_files import media_type_of
+from tandemlift.apps.live.session.frames import RATE
+from tandemlift.apps.live.session.page_messages import MAX_SIZE
+from tandemlift.apps.live.session.server_messages import SceneMessage
 from tandemlift.apps.live.viewers import FAREWELL, Viewer, Viewers, dismiss
-from tandemlift.apps.live.wire.frames import RATE
-from tandemlift.apps.live.wire.reading import MAX_SIZE
-from tandemlift.apps.live.wire.server_messages import SceneMessage
+
+if TYPE_CHECKING:
+    from tandemlift.apps.live.session.session import Session
 
 STATUS_EVERY = RATE // 4  # frames
 MAX_VIEWERS = 16
@@ -47,7 +54,7 @@ class PageServer:
     """
 
     def __init__(
-        self, files: Mapping[str, bytes], flight: LiveFlight | None = None, host: str = HOST, port: int = PORT
+        self, files: Mapping[str, bytes], flight: Session | None = None, host: str = HOST, port: int = PORT
     ) -> None:
         self._files, self._flight, self._host, self._port = files, flight, host, port
         self.viewers = Viewers()
@@ -192,6 +199,12 @@ async def serve_until_stopped(server: PageServer, opened: Callable[[str], None])
     async with server:
         opened(server.address)
         await server.broadcast()
+
+
+def open_in_browser(address: str) -> None:
+    """Open an address in a graphical browser, if one can open; a text browser would take over the terminal."""
+    if sys.platform in ("win32", "darwin") or os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"):
+        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
 
 
 def _file(path: str, content: bytes, cookie: str | None) -> Response:

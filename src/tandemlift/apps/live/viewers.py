@@ -12,17 +12,17 @@ from typing import Any, Literal
 from pydantic_core import to_json
 from websockets.asyncio.server import ServerConnection, broadcast
 
-from tandemlift.apps.live.wire.frames import ECHO, FRESH
-from tandemlift.apps.live.wire.page_messages import (
+from tandemlift.apps.live.session.frames import ECHO, FRESH
+from tandemlift.apps.live.session.page_messages import (
     SILENT,
     ForceMessage,
     GrabMessage,
     MoveMessage,
     PageMessage,
+    Refusal,
     ReleaseMessage,
 )
-from tandemlift.apps.live.wire.reading import Refusal
-from tandemlift.apps.live.wire.server_messages import FlightStatus, RefusedMessage, StatusMessage
+from tandemlift.apps.live.session.server_messages import FlightStatus, RefusedMessage, StatusMessage
 
 BEHIND = 4_096  # bytes not yet taken by the network, beyond which a viewer is behind
 LOST = 1_000_000  # bytes, beyond which it is cut off: it reads nothing at all

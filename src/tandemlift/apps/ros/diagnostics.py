@@ -29,10 +29,8 @@ class FlightDiagnostics:
     """
 
     def __init__(self, middleware: Middleware) -> None:
-        self._middleware, self._channel = (
-            middleware,
-            middleware.advertise(DIAGNOSTICS.name, DIAGNOSTICS.kind, depth=MOST),
-        )
+        self._middleware = middleware
+        self._channel = middleware.advertise(DIAGNOSTICS.name, DIAGNOSTICS.kind, depth=MOST)
         self._event, self._status = event_maker(middleware.types), status_maker(middleware.types)
         self._waiting: deque[tuple[int, str]] = deque(maxlen=MOST)
         self._said: dict[str, float] = {}

@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import socket
 import subprocess
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
+from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.apps.ros.gazebo_cameras import ViewRequest
 from tandemlift.core.errors import InputError
 from tandemlift.engines.gazebo import CHECKS, PORT, REAL_TIME, world_from
 from tandemlift.engines.gazebo_server import GazeboServer, free_port, root, shell_command, with_gazebo_environment
 from tandemlift.engines.models.sdf_cameras import PICTURES, add_cameras
+from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission
+from tandemlift.simulation.recorded_flight import RecordedFlight
 
 EVERY = 0.5  # s, from one picture of a camera to the next
 PATIENCE = 60.0  # s, in which every camera must save its first picture
@@ -99,10 +103,8 @@ def running_gazebo(
     mission: Mission, views: Sequence[ViewRequest] = (), *, window: bool = False, real_time: bool = False
 ) -> Iterator[GazeboSession]:
     """A Gazebo that engine `gazebo` joins while the context is open; arguments and errors as of `GazeboSession`."""
-    gazebo, before = (
-        GazeboSession(mission, views, window=window),
-        {name: os.environ.get(name) for name in (PORT, REAL_TIME)},
-    )
+    gazebo = GazeboSession(mission, views, window=window)
+    before = {name: os.environ.get(name) for name in (PORT, REAL_TIME)}
     CHECKS[gazebo.port] = gazebo.check
     os.environ |= {PORT: str(gazebo.port), REAL_TIME: str(int(real_time))}
     try:
@@ -147,3 +149,32 @@ def _window(master: str) -> Iterator[None]:
         finally:
             client.kill()
             client.wait()
+
+
+def fly_by_hand(mission: Mission, begun: Callable[[GazeboSession], None], *, window: bool) -> Flight:
+    """Fly a mission without its own pushes until Ctrl-C, in real time; pushes come by Gazebo's topic.
+
+    Args:
+        mission: whose pushes and person are left out.
+        begun: called before the first step.
+        window: whether to open Gazebo's window.
+    """
+    mission = interactive_mission(mission)
+    with running_gazebo(mission, window=window, real_time=True) as gazebo, _stop_signals() as stopped:
+        recorded = RecordedFlight(mission, "gazebo")
+        begun(gazebo)
+        while not (stopped() or recorded.over):
+            recorded.advance()
+        return recorded.snapshot().alone()
+
+
+@contextmanager
+def _stop_signals() -> Iterator[Callable[[], bool]]:
+    """A function that returns whether SIGINT or SIGTERM has arrived; neither interrupts a step."""
+    received: list[int] = []
+    before = {s: signal.signal(s, lambda number, _: received.append(number)) for s in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield lambda: bool(received)
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -9,8 +9,8 @@ from functools import partial
 
 from tandemlift.apps.export.recipes import WRENCH
 from tandemlift.apps.export.topics import ROOT
+from tandemlift.apps.live.session.server_messages import ENDS
 from tandemlift.apps.live.session.session import Session
-from tandemlift.apps.live.wire.quantities import ENDS
 from tandemlift.apps.ros.dds_types import missing_packages
 from tandemlift.apps.ros.diagnostics import FlightDiagnostics
 from tandemlift.apps.ros.middleware import Middleware
@@ -52,10 +52,8 @@ class FlightNode:
         self.diagnostics = FlightDiagnostics(middleware)
         self._pushes = Pushes(session, self.diagnostics.add)
         self._parameters = Parameters(session, middleware, self.diagnostics.add)
-        self._samples, self._markers = (
-            SampleTopics(middleware, self._first(), vehicle),
-            MarkerTopics(middleware, vehicle),
-        )
+        self._samples = SampleTopics(middleware, self._first(), vehicle)
+        self._markers = MarkerTopics(middleware, vehicle)
         self._once, self._vehicle = LatchedTopics(middleware), vehicle
         self._due = dict.fromkeys((MARKERS, PATHS, STATUS, STILL), 0.0)
         self._published, self._stopping = 0, threading.Event()

@@ -17,8 +17,8 @@ from typing import Any, Literal
 import numpy as np
 
 from tandemlift.apps.export.coordinate_frames import ALIGNED, BASE, WORLD, fixed, to_body, to_world
+from tandemlift.apps.live.session.page_messages import AskMessage, ForceMessage, TareMessage
 from tandemlift.apps.live.session.session import Session
-from tandemlift.apps.live.wire.page_messages import AskMessage, ForceMessage, TareMessage
 from tandemlift.apps.ros.diagnostics import Notify
 from tandemlift.apps.ros.middleware import Answer
 from tandemlift.core.errors import InputError

@@ -13,8 +13,8 @@ from tandemlift.apps.export.messages import Maker, MessageTypes, Transforms, mes
 from tandemlift.apps.export.recipes import POSE, Recipe, Source, Topic
 from tandemlift.apps.export.topics import MISSION, ROOT, TF, TF_STATIC, OtherTopic, recipes_for
 from tandemlift.apps.ros import scenery
-from tandemlift.apps.ros.markers import MARKERS
 from tandemlift.apps.ros.middleware import Middleware, TopicPublisher
+from tandemlift.apps.ros.scenery import MARKERS
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -109,10 +109,8 @@ class MarkerTopics:
 
     def __init__(self, middleware: Middleware, vehicle: Vehicle) -> None:
         types = middleware.types
-        self._markers, self._moving = (
-            middleware.advertise(MOVING.name, MOVING.kind),
-            scenery.PushMarkers(types, vehicle),
-        )
+        self._markers = middleware.advertise(MOVING.name, MOVING.kind)
+        self._moving = scenery.PushMarkers(types, vehicle)
         self._paths = [PathTopic(types, middleware.advertise(topic.name, PATH)) for topic in (FLOWN, ASKED)]
 
     def move(self, flight: Flight, stamp: int) -> None:

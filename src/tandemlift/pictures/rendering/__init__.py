@@ -4,6 +4,6 @@
 """
 
 from tandemlift.engines.models.camera import Camera, camera_of
-from tandemlift.pictures.rendering.film import Animation, Shot, picture, render
+from tandemlift.pictures.rendering.film import Animation, Shot, picture, render, size_of
 
-__all__ = ["Animation", "Camera", "Shot", "camera_of", "picture", "render"]
+__all__ = ["Animation", "Camera", "Shot", "camera_of", "picture", "render", "size_of"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
@@ -251,3 +252,17 @@ def render(flight: Flight, out: str | os.PathLike[str], shot: Shot = SHOT, progr
         else:
             drawn.save(partial, format="PNG")
     return path
+
+
+def size_of(text: str | None) -> tuple[int, int] | None:
+    """Width and height in pixels from WxH; None of None.
+
+    Raises:
+        InputError: the text has another form.
+    """
+    if text is None:
+        return None
+    if not re.fullmatch(r"\d{1,5}x\d{1,5}", text):
+        raise InputError(f"--size {text}: must be WxH in pixels, such as 1280x720")
+    width, height = map(int, text.split("x"))
+    return width, height

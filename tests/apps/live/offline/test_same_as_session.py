@@ -10,9 +10,9 @@ from sessions import fly
 
 import tandemlift as tl
 from tandemlift.apps.live.page_modules import MISSIONS, packed_flight, page_mission
+from tandemlift.apps.live.session.page_messages import read_message
+from tandemlift.apps.live.session.parameters import BY_KEY
 from tandemlift.apps.live.session.session import Session
-from tandemlift.apps.live.session.tunable_parameters import BY_KEY
-from tandemlift.apps.live.wire.reading import read_message
 
 GRAB = {"type": "grab", "point": [0.1, 0.4, 0.0], "target": [0.3, 0.2, 1.2], "at": "point"}
 MOVES = (  # messages, and for how long the flight goes on after each [s]

@@ -4,7 +4,7 @@ import numpy as np
 from patience import PATIENCE, until
 
 from tandemlift.apps.live import viewers
-from tandemlift.apps.live.wire.frames import read_frames
+from tandemlift.apps.live.session.frames import read_frames
 
 
 def at_target(viewer, server, target):

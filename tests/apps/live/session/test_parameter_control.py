@@ -5,8 +5,8 @@ from sessions import fly, say, seen
 
 import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import NEVER, interactive_mission, with_whole_rotors
-from tandemlift.apps.live.session.tunable_parameters import BY_KEY, parameters_of
-from tandemlift.missions import changed
+from tandemlift.apps.live.session.parameters import BY_KEY, parameters_of
+from tandemlift.missions import changed, tables_of
 
 
 def test_a_setting_changes_for_good_and_comes_back_to_what_the_mission_says(session):
@@ -44,7 +44,7 @@ def test_what_cannot_be_changed_is_refused_with_a_reason_and_the_flight_goes_on(
 
 
 def test_a_control_may_be_set_to_what_the_mission_says_though_it_is_beyond_its_bounds():
-    paper = interactive_mission(tl.load_mission("paper"))
+    paper = tables_of(interactive_mission(tl.load_mission("paper")))
     xi = next(c for c in parameters_of(paper, paper) if c["key"] == "controller.gains.xi")
     assert xi["min"] <= min(xi["value"])
     assert xi["max"] >= max(xi["value"])

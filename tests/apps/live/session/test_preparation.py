@@ -13,7 +13,7 @@ import slow_compiler
 from patience import PATIENCE, ended, said, until
 from websockets.sync.client import connect
 
-from tandemlift.apps.live.wire.frames import read_frames
+from tandemlift.apps.live.session.frames import read_frames
 
 
 @pytest.fixture

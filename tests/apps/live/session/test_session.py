@@ -9,8 +9,8 @@ from sessions import fly, say, seen, unprepared
 
 import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
+from tandemlift.apps.live.session.page_messages import PAGE_MESSAGES, PingMessage
 from tandemlift.apps.live.session.session import Session
-from tandemlift.apps.live.wire.page_messages import PAGE_MESSAGES, PingMessage
 
 
 def test_a_flight_that_is_over_says_so_and_changes_no_more(session):

@@ -8,8 +8,8 @@ from sessions import fly, say, up
 import tandemlift as tl
 from tandemlift.apps.live.session.checks import check_in_time
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
-from tandemlift.apps.live.session.parameter_control import ParameterControl
-from tandemlift.missions import changed
+from tandemlift.apps.live.session.parameters import ParameterControl
+from tandemlift.missions import changed, tables_of
 
 
 def test_hands_are_refused_while_the_sensors_are_tared(session, monkeypatch):
@@ -74,7 +74,7 @@ class Flown:
 
 def test_a_tare_begins_a_second_after_it_was_asked_for_or_is_asked_for_again():
     control, flight, slow = (
-        ParameterControl(interactive_mission(tl.load_mission("zigzag")), threading.RLock()),
+        ParameterControl(tables_of(interactive_mission(tl.load_mission("zigzag"))), threading.RLock()),
         Flown(300),
         Flown(999),
     )

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import base64
 import hashlib
-import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from tandemlift.analysis.studies.design.settings import StudyTable
-from tandemlift.core.errors import FlightWarning, InputError, unknown
+from tandemlift.core.errors import InputError, unknown, without_flight_warnings
 from tandemlift.engines.registry import engine_named
 from tandemlift.missions import check
 from tandemlift.missions.changes import Tables, merge, value_at
@@ -103,8 +102,7 @@ def _variant(mission: str, chosen: str | None, folder: Path) -> Variant:
     except RecursionError:
         raise InputError(f"study.missions: {mission} is not a mission: nested too deeply") from None
     _check_known(value_at(tables, ("controller", "name")), f"study.missions: {mission}: controller.name")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)
+    with without_flight_warnings():
         loaded = check(tables, layers[-1].source, layers)
     name = loaded.controller.name
     own = controller(name)

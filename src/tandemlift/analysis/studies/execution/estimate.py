@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,12 +16,18 @@ from tandemlift.analysis.studies.execution.flying import fly_chunk
 
 
 class StudyEstimate(NamedTuple):
-    """The cost of a study: rows, chunks, computing time of one thread [s], and bytes of all its files."""
+    """The cost of a study: rows, chunks, rows of each, computing time of one thread [s], and bytes of all its files."""
 
     rows: int
     chunks: int
+    rows_per_chunk: int
     seconds: float
     size: int
+
+    def lines(self, threads: int) -> Iterator[str]:
+        """The estimate in words, for so many threads."""
+        yield f"files   {self.chunks:,} of {self.rows_per_chunk} rows, some {_bytes(self.size)} in all"
+        yield f"time    some {_time(self.seconds / threads)} on {threads} threads; {_time(self.seconds)} on one"
 
 
 def estimate(plan: StudyPlan) -> StudyEstimate:
@@ -42,10 +49,24 @@ def estimate(plan: StudyPlan) -> StudyEstimate:
                 sizes.append(path.stat().st_size)
             per_row = max(0.0, sizes[1] - sizes[0]) / len(block.rows)
             size += (sizes[0] * chunks + per_row * plan.count) / len(plan.variants)
-    return StudyEstimate(plan.count, chunks, seconds, round(size))
+    return StudyEstimate(plan.count, chunks, plan.rows_per_chunk, seconds, round(size))
 
 
 def _sample(plan: StudyPlan, first: int, last: int) -> Chunk:
     rows = tuple(plan.rows(first, last))
     variants = {row.variant: plan.variants[row.variant] for row in rows}
     return Chunk("sample", first, last, rows, variants, plan.settings.keep)
+
+
+def _time(seconds: float) -> str:
+    for unit, length in (("days", 86400.0), ("h", 3600.0), ("min", 60.0)):
+        if seconds >= 2.0 * length:
+            return f"{seconds / length:.1f} {unit}"
+    return f"{seconds:.1f} s"
+
+
+def _bytes(size: float) -> str:
+    for unit, length in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6)):
+        if size >= length:
+            return f"{size / length:.1f} {unit}"
+    return f"{size / 1e3:.0f} kB"

@@ -14,7 +14,7 @@ from tandemlift.analysis.studies.execution.chunk import chunk_names, sources_dig
 from tandemlift.analysis.studies.execution.files import ChunkFiles
 from tandemlift.analysis.studies.execution.kept import check_kept
 from tandemlift.core.errors import InputError, extra, shown
-from tandemlift.core.files import atomic_write
+from tandemlift.core.files import write_file
 from tandemlift.missions import format_toml
 
 STUDY, PLAN, CHUNKS = "study.toml", "study.json", "chunks"
@@ -95,12 +95,15 @@ def _contents(plan: StudyPlan) -> dict[str, Any]:
 def _make(path: Path, contents: dict[str, Any]) -> None:
     try:
         (path / CHUNKS).mkdir(parents=True, exist_ok=True)
-        with atomic_write(path / STUDY) as partial:
-            partial.write_text(format_toml(contents["settings"]), "utf-8")
-        with atomic_write(path / PLAN) as partial:  # last: with it, the folder is a study's
-            partial.write_text(json.dumps(contents) + "\n", "utf-8")
+        write_file(path / STUDY, format_toml(contents["settings"]))
+        write_file(path / PLAN, json.dumps(contents) + "\n")  # last: with it, the folder is a study's
     except OSError as error:
         raise InputError(f"--out {path}: cannot be made or written to: {error.strerror or error}") from None
+
+
+def is_study(path: Path) -> bool:
+    """Whether a folder is that of a study, even if it is damaged."""
+    return (path / PLAN).is_file() or (path / STUDY).is_file()
 
 
 def _plan_in(path: Path) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from tandemlift.analysis.studies.tuning.holdout import Evidence, as_table
 from tandemlift.analysis.studies.tuning.parameters import Tunable, value_of
 from tandemlift.analysis.studies.tuning.task import Task, Values
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import atomic_write
+from tandemlift.core.files import write_file
 from tandemlift.missions import Mission, built_in, format_toml, tables_of
 from tandemlift.missions.changes import MISSING, Place, Tables, value_at
 
@@ -102,10 +102,8 @@ class Tuning(NamedTuple):
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise InputError(f"{folder}: cannot be made: {error.strerror or error}") from None
-        with atomic_write(folder / EVIDENCE_FILE) as partial:
-            partial.write_text(json.dumps(self.as_table(), indent=1, allow_nan=False) + "\n", "utf-8")
-        with atomic_write(folder / MISSION_FILE) as partial:
-            partial.write_text(self.to_toml(folder), "utf-8")
+        write_file(folder / EVIDENCE_FILE, json.dumps(self.as_table(), indent=1, allow_nan=False) + "\n")
+        write_file(folder / MISSION_FILE, self.to_toml(folder))
         return folder / MISSION_FILE
 
     def to_toml(self, folder: Path = Path()) -> str:

@@ -1,6 +1,8 @@
 """Checks of requests in flight: touching the vehicle, requests to its pilot, taring force sensors; failed rotors.
 
-A tare in flight sets the bias of the force sensors to their readings in hover without a push.
+A tare in flight sets the bias of the force sensors to their readings in hover without a push. The texts of refusals
+have placeholders in braces, which a session fills in; so does a page that flies without a server, to which
+`apps.live.page_manifest` gives them.
 """
 
 from __future__ import annotations
@@ -9,8 +11,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from tandemlift.apps.live.session import refusal_texts as texts
-from tandemlift.apps.live.wire.scene import SceneVehicle
+from tandemlift.apps.live.session.server_messages import SceneVehicle
 from tandemlift.core.algebra import Number, sqrt, where
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, PHASE_NAMES
@@ -22,6 +23,16 @@ TARE = "estimator.tare_start"
 HOVER_TIME = ("memory", "guidance", "phase", "hover_time")  # of a flight's state
 TARE_NOTICE = 1.0  # s, from the request until a tare begins: to prepare it, and to let go
 
+UNKNOWN = "{key}: is not a parameter that can be changed in flight; there are {known}"
+NO_NUMBER = "{key} = {value}: must be a number, or a list of numbers"
+OUT_OF_BOUNDS = "{key} = {value}: must be from {low:g} to {high:g}"
+OVER = "{key}: the flight is over; reset it first"
+WHOLE_ROTORS = "rotor = {rotor}: the rotors of this mission cannot fail"
+FAILED_ALREADY = "rotor = {rotor}: fails at {time:g} s already"
+BESIDE_TEXT = "point = {point}: must be on the vehicle, within {reach:.3g} m of its centre of mass"
+TARED_IN_HOVER_TEXT = "hands off until the force sensors are tared, in steady hover"
+TARED_UNTIL_TEXT = "hands off until {end:g} s: the force sensors are tared in hover"
+NO_REQUESTS = "{what}: mission {mission} is scheduled and takes no requests"
 
 ALLOWED, TARED_IN_HOVER, TARED_UNTIL, BESIDE = 0.0, 1.0, 2.0, 3.0  # whether a push is allowed, else the reason
 
@@ -42,14 +53,12 @@ class TouchRule(NamedTuple):
 
 def touch_rule(mission: Mission, vehicle: SceneVehicle) -> TouchRule:
     """The rule of the present mission."""
-    tare, start = mission.estimator, mission.estimator.tare_start
-    reach = max(_reaches(vehicle))
-    if mission.pilot.push == "truth" or (tare.tare != "hover" and start is None):
+    reach, estimator, start = max(_reaches(vehicle)), mission.estimator, mission.estimator.tare_start
+    if mission.pilot.push != "truth" and estimator.tare == "hover":
+        return TouchRule(reach, estimator.tare_duration, 0.0)
+    if mission.pilot.push == "truth" or start is None:
         return TouchRule(reach, 0.0, 0.0)
-    if tare.tare == "hover":
-        return TouchRule(reach, tare.tare_duration, 0.0)
-    assert start is not None
-    return TouchRule(reach, 0.0, start + tare.tare_duration)
+    return TouchRule(reach, 0.0, start + estimator.tare_duration)
 
 
 def touch_refusal(rule: TouchRule, at: Number, hover_time: Number, point: Vec3) -> Number:
@@ -68,9 +77,9 @@ def touch_refusal(rule: TouchRule, at: Number, hover_time: Number, point: Vec3) 
 
 def touch_texts(rule: TouchRule) -> dict[float, str]:
     """The texts of the refusals, complete but for the point."""
-    beside = texts.BESIDE.format(point="{point}", reach=rule.reach)
-    tared_until = texts.TARED_UNTIL.format(end=rule.tare_end)
-    return {TARED_IN_HOVER: texts.TARED_IN_HOVER, TARED_UNTIL: tared_until, BESIDE: beside}
+    beside = BESIDE_TEXT.format(point="{point}", reach=rule.reach)
+    tared_until = TARED_UNTIL_TEXT.format(end=rule.tare_end)
+    return {TARED_IN_HOVER: TARED_IN_HOVER_TEXT, TARED_UNTIL: tared_until, BESIDE: beside}
 
 
 def failed_rotors(flight: RecordedFlight) -> list[int]:
@@ -92,14 +101,19 @@ def check_touch(flight: RecordedFlight, vehicle: SceneVehicle, point: Sequence[f
         raise InputError(touch_texts(rule)[refusal].format(point=list(point)))
 
 
-def check_takes_requests(mission: Mission, what: str) -> None:
+def check_takes_requests(guidance: str, mission: str, what: str) -> None:
     """Refuse a request to a scheduled pilot.
+
+    Args:
+        guidance: of the pilot, as `pilot.guidance` has it.
+        mission: its name.
+        what: the request.
 
     Raises:
         InputError: it is.
     """
-    if mission.pilot.guidance == "scheduled":
-        raise InputError(texts.NO_REQUESTS.format(what=what, mission=mission.mission.name))
+    if guidance == "scheduled":
+        raise InputError(NO_REQUESTS.format(what=what, mission=mission))
 
 
 def check_may_tare(flight: RecordedFlight, vehicle: SceneVehicle, phase: str) -> None:

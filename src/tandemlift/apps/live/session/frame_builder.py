@@ -8,32 +8,37 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.apps.live.session.frame_values import Components, channel_columns, field_values, phase_times
+from tandemlift.apps.live.session.frames import (
+    Components,
+    channel_columns,
+    field_values,
+    layout_for,
+    pack_frames,
+    phase_times,
+)
 from tandemlift.apps.live.session.scene_builder import scene_of
-from tandemlift.apps.live.wire.frames import layout_for, pack_frames
 from tandemlift.core.types import Array
-from tandemlift.missions import Mission, tables_of
+from tandemlift.missions import tables_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.simulation.recorded_flight import FlightSetup
+from tandemlift.simulation.plan import FlightPlan
 
 
 class FrameBuilder:
     """Builds the frames of a mission's flight.
 
     Args:
-        mission: the flown one.
-        engine: name of the body's engine.
-        setup: of the same mission.
+        plan: of the mission in its engine.
 
     Attributes:
         scene: the description that a page needs to interpret frames.
     """
 
-    def __init__(self, mission: Mission, engine: str, setup: FlightSetup) -> None:
-        self.scene = scene_of(mission, engine)
+    def __init__(self, plan: FlightPlan) -> None:
+        mission = plan.mission
+        self.scene = scene_of(mission, plan.engine)
         self._layout = layout_for(Vehicle.from_settings(mission.vehicle).rotor_count)
-        self._phases, self._columns = phase_times(tables_of(mission)["phases"]), channel_columns(setup.plan.sample)
-        self._start = setup.plan.model.flight_state.state
+        self._phases, self._columns = phase_times(tables_of(mission)["phases"]), channel_columns(plan.sample)
+        self._start = plan.model.flight_state.state
 
     def values(self, sample: Array, at: float) -> dict[str, Components]:
         """The values of the fields in a sample, at a time [s], component by component."""

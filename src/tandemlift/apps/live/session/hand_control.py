@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 from tandemlift.apps.live.session.checks import check_touch
-from tandemlift.apps.live.wire.page_messages import AskMessage, ForceMessage, GrabMessage, MoveMessage
-from tandemlift.apps.live.wire.scene import SceneVehicle
+from tandemlift.apps.live.session.page_messages import AskMessage, ForceMessage, GrabMessage, MoveMessage
+from tandemlift.apps.live.session.server_messages import SceneVehicle
 from tandemlift.core.vector import ZERO, Quat, Vec3, apply
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.simulation.recorded_flight import RecordedFlight

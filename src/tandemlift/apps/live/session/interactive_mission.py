@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import Any
 
-from tandemlift.core.errors import FlightWarning, InputError
+from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.missions import Mission, changed
 
 MAX_DURATION = 3600.0  # s
 NEVER = 1e6  # s
 SPRING = {"model": "virtual-hand", "stiffness": 6.0, "damping": 2.0, "lag": 0.08, "max_force": 4.0}  # N/m, N s/m, s, N
+ALWAYS: dict[str, Any] = {
+    "pushes": [],
+    "mission.duration": MAX_DURATION,
+    "phases.land_start": NEVER,
+    "admittance.feel": None,  # mass and damping, which it comes to, are changed in flight
+}
 FAINT_TURBULENCE = 1e-3  # m/s: the mission has a wind, which can be raised in flight
 
 
@@ -20,34 +26,19 @@ def interactive_mission(mission: Mission) -> Mission:
 
     Where the mission allows it, it also gets a wind, rotors that can fail, rotor-failure detection and supervision.
     """
-    with warnings.catch_warnings():  # rotors that may fail raise warnings of their own
-        warnings.simplefilter("ignore", FlightWarning)
-        return _interactive(mission)
+    hand = SPRING if mission.person.model != "virtual-hand" else {}
+    with without_flight_warnings():  # rotors that may fail raise warnings of their own
+        for key, value in {"person": {**hand, "recording": None}, **ALWAYS}.items():
+            mission = changed(mission, key, value)
+        for key, value in _if_possible(mission):
+            with suppress(InputError):
+                mission = changed(mission, key, value)
+    return mission
 
 
 def with_whole_rotors(now: Mission, first: Mission) -> Mission:
     """The present mission, with the rotor faults of the first one."""
     return now.model_copy(update={"faults": first.faults})
-
-
-def _interactive(mission: Mission) -> Mission:
-    hand = SPRING if mission.person.model != "virtual-hand" else {}
-    mission = changed(mission, "person", {**hand, "recording": None})
-    for key, value in _always(mission):
-        mission = changed(mission, key, value)
-    for key, value in _if_possible(mission):
-        try:
-            mission = changed(mission, key, value)
-        except InputError:
-            continue
-    return mission
-
-
-def _always(mission: Mission) -> Iterator[tuple[str, Any]]:
-    yield "pushes", []
-    yield "mission.duration", MAX_DURATION
-    yield "phases.land_start", NEVER
-    yield "admittance.feel", None  # mass and damping, which it comes to, are changed in flight
 
 
 def _if_possible(mission: Mission) -> Iterator[tuple[str, Any]]:

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.apps.live.wire.frames import RATE, layout_for
-from tandemlift.apps.live.wire.scene import (
+from tandemlift.apps.live.session.frames import RATE, layout_for
+from tandemlift.apps.live.session.server_messages import (
     FlightScene,
     SceneCorridor,
     SceneParameter,

@@ -15,24 +15,28 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
+from tandemlift.apps.live.session import page_messages as page
 from tandemlift.apps.live.session.checks import check_may_tare, check_takes_requests
 from tandemlift.apps.live.session.frame_builder import FrameBuilder
 from tandemlift.apps.live.session.hand_control import HandControl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission, with_whole_rotors
 from tandemlift.apps.live.session.pacing import Pacer, RealTimeThread
-from tandemlift.apps.live.session.parameter_control import ParameterControl
-from tandemlift.apps.live.session.preparation import Preparation
+from tandemlift.apps.live.session.parameters import CHOICES, ParameterControl, parameters_of
 from tandemlift.apps.live.session.saving import save_in_process
-from tandemlift.apps.live.session.status import FlightFindings, phase_of, refusals_now, status_of
-from tandemlift.apps.live.session.tunable_parameters import CHOICES, parameters_of
-from tandemlift.apps.live.wire import page_messages as page
-from tandemlift.apps.live.wire.scene import FlightScene, SceneSpring
-from tandemlift.apps.live.wire.server_messages import Answer, DoneMessage, FlightStatus, RefusedMessage, SceneMessage
+from tandemlift.apps.live.session.server_messages import (
+    Answer,
+    DoneMessage,
+    FlightScene,
+    FlightStatus,
+    RefusedMessage,
+    SceneMessage,
+    SceneSpring,
+)
+from tandemlift.apps.live.session.status import FlightFindings, Preparation, phase_of, refusals_now, status_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.vector import Quat
-from tandemlift.missions import Mission
-from tandemlift.parts.person.virtual_hand import HAND_RELEASED
+from tandemlift.missions import Mission, tables_of
 from tandemlift.simulation.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.simulation.results import channels_of
 
@@ -40,7 +44,7 @@ log = logging.getLogger(__name__)
 
 
 class Session:
-    """Flies a mission in real time, as a `server.LiveFlight`.
+    """Flies a mission in real time. There is a scene, a frame and a status also while the flight is being prepared.
 
     Args:
         mission: the flown one, without its pushes and its person.
@@ -48,6 +52,7 @@ class Session:
         out: folder of saved flights, each in a folder of its name.
 
     Attributes:
+        generation: grows with every reset, after which `scene` is a new one.
         is_ready: whether the flight is compiled; until then the vehicle is shown at its start.
         watchers: called after every step, in the flight's thread.
         pacer: the pace of the flight.
@@ -60,25 +65,25 @@ class Session:
         self._mission, self._engine, self._out = interactive_mission(mission), engine, out
         self._lock, self.pacer = threading.RLock(), Pacer(mission.mission.step)
         self._thread = RealTimeThread(self.pacer, self._lock, self._is_prepared, self._fly)
-        self._parameters = ParameterControl(self._mission, self._lock)
+        self._parameters = ParameterControl(tables_of(self._mission), self._lock)
         self._failed, self._findings = False, FlightFindings()
         self.generation, self.watchers = 1, list[Callable[[RecordedFlight], None]]()
         self._flight: RecordedFlight
         self._hand: HandControl
         self._preparation, self.is_ready = Preparation(), False
         self._first = setup_flight(self._mission, engine)
-        self._frames = FrameBuilder(self._mission, engine, self._first)
+        self._frames = FrameBuilder(self._first.plan)
 
     def prepare(self) -> None:
         """Compile the flight, and take its first step; once."""
         if not self.is_ready:
             self._preparation.step = "compiling the flight loop"
-            self._begin(self._mission, self._first, self._frames)
+            self._begin(self._first, self._frames)
             self.is_ready = True
 
-    def _begin(self, mission: Mission, setup: FlightSetup, frames: FrameBuilder) -> None:
-        flight = RecordedFlight(mission, self._engine, setup)
-        flight.hold(HAND_RELEASED)
+    def _begin(self, setup: FlightSetup, frames: FrameBuilder) -> None:
+        flight = RecordedFlight(setup.plan.mission, self._engine, setup)
+        flight.hold()
         flight.advance()
         with self._lock:
             self._flight, self._frames = flight, frames
@@ -138,7 +143,7 @@ class Session:
         p, scene = now.person, self._frames.scene.copy()
         scene["threshold"] = list(now.admittance.threshold)
         scene["spring"] = SceneSpring(stiffness=p.stiffness, damping=p.damping, max_force=p.max_force)
-        scene["parameters"] = list(parameters_of(now, self._mission))
+        scene["parameters"] = list(parameters_of(tables_of(now), tables_of(self._mission)))
         return scene
 
     def frame(self) -> bytes:
@@ -195,6 +200,9 @@ class Session:
             with self._lock:
                 self._hand.release()
 
+    def _check_takes_requests(self, what: str) -> None:
+        check_takes_requests(self._mission.pilot.guidance, self._mission.mission.name, what)
+
     @singledispatchmethod
     def _handle(self, message: Any) -> list[Answer] | None:
         raise InputError(f"{message.type}: cannot be handled here")
@@ -220,7 +228,7 @@ class Session:
 
     @_handle.register
     def _ask(self, m: page.AskMessage) -> list[Answer]:
-        check_takes_requests(self._mission, m.what)
+        self._check_takes_requests(m.what)
         with self._lock:
             self._hand.request(m)
         refusal = None if m.what == "stop" else getattr(self.refusals, m.what)
@@ -228,7 +236,7 @@ class Session:
 
     @_handle.register
     def _enable(self, m: page.EnableMessage) -> None:
-        check_takes_requests(self._mission, "enable")
+        self._check_takes_requests("enable")
         with self._lock:
             self._hand.enable(m.on)
 
@@ -245,9 +253,8 @@ class Session:
     @_handle.register
     def _reset(self, m: page.ResetMessage) -> None:
         with self._parameters.turn:
-            again = with_whole_rotors(self._flight.now, self._mission)
-            setup = setup_flight(again, self._engine)
-            self._begin(again, setup, FrameBuilder(again, self._engine, setup))
+            setup = setup_flight(with_whole_rotors(self._flight.now, self._mission), self._engine)
+            self._begin(setup, FrameBuilder(setup.plan))
             self.generation += 1
 
     @_handle.register

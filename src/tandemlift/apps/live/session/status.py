@@ -1,16 +1,22 @@
-"""The status of a flight in progress: its state in words, its pace, and the refusals that would apply now."""
+"""The status of a flight, also before its first step: its state in words, its pace, and the refusals that apply now."""
 
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 from tandemlift.apps.live.session.checks import failed_rotors
 from tandemlift.apps.live.session.pacing import Pacer
-from tandemlift.apps.live.wire.quantities import LOST
-from tandemlift.apps.live.wire.scene import SceneEnding
-from tandemlift.apps.live.wire.server_messages import FlightStatus, StatusFinding, StatusRefusals
+from tandemlift.apps.live.session.server_messages import (
+    LOST,
+    PREPARING,
+    FlightStatus,
+    SceneEnding,
+    StatusFinding,
+    StatusRefusals,
+)
 from tandemlift.core.faults import ALARM_TEXTS
 from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.core.refusals import Refusals, refusals_for
@@ -20,6 +26,41 @@ from tandemlift.simulation.recorded_flight import RecordedFlight
 
 FINDINGS_EVERY = 1.0  # s
 NO_REFUSALS = StatusRefusals(lift="", land="", push="")
+
+
+class Preparation:
+    """The progress of a flight's preparation.
+
+    Attributes:
+        step: the present task.
+        failure: the reason why the mission cannot be flown, or "".
+    """
+
+    def __init__(self) -> None:
+        self.step, self.failure, self._began = "putting the flight together", "", time.perf_counter()
+
+    def status(self) -> FlightStatus:
+        """The status of a flight that has not begun."""
+        seconds = round(time.perf_counter() - self._began, 1)
+        return FlightStatus(
+            phase="failed" if self.failure else PREPARING,
+            alarm="",
+            enabled=True,
+            paused=False,
+            speed=1.0,
+            factor=0.0,
+            behind_ms=0.0,
+            recorded_s=0.0,
+            failed_rotors=[],
+            refusals=NO_REFUSALS,
+            ending=None,
+            preparing={"step": self.step, "seconds": seconds, "failure": self.failure},
+        )
+
+    @property
+    def refusal(self) -> str:
+        """The reason for which every message is refused."""
+        return f"the flight cannot be flown: {self.failure}" if self.failure else "the flight is still being prepared"
 
 
 class FlightFindings:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -21,6 +21,7 @@ from tandemlift.pictures.report.study import tuning_figures
 from tandemlift.pictures.report.study.tuning_figures import axis_label, shown_scale
 
 METHODS = {"cma": "CMA-ES", "optuna": "Optuna's tree-structured Parzen estimator"}
+HEADS = ("old median", "worst", "new median", "worst", "difference", "95 % from", "to")  # of the text
 FEW_DRAWS = 12  # draws whose changes are listed
 
 
@@ -50,6 +51,26 @@ def write_tuning(found: Tuning, path: str | os.PathLike[str]) -> Path:
         mission=found.to_toml(path.parent),
         versions=f"Searched with {', '.join(f'{name} {version}' for name, version in versions('compiled').items())}.",
     )
+
+
+def tuning_lines(found: Tuning) -> Iterator[str]:
+    """The result of a tuning in lines of text: the search, old against new on holdout draws, and the front."""
+    yield f"{found.name}: {what_was_done(found)}"
+    if not found.is_finished:
+        old, new = (cost_words(cost, len(found.draws)) for cost in found.costs)
+        yield f"  cost on the draws of the search: {old}; now {new}"
+    if found.evidence is not None:
+        words = "better" if found.is_better else "not better"
+        yield f"  {words} on {len(found.holdout)} holdout draws: {found.evidence.words}"
+        rows = [(c.label, (*c.old, *c.new, c.difference, *(c.interval or ()))) for c in found.evidence.comparisons]
+        width = max((len(label) for label, _ in rows), default=0) + 2
+        if rows:
+            yield "  " + " " * width + "  ".join(head.rjust(10) for head in HEADS)
+        for label, values in rows:
+            yield f"  {label.ljust(width)}" + "  ".join(f"{value:10.4g}" for value in values)
+    for place, point in enumerate(found.front, 1):
+        costs = "  ".join(cost_words(cost, len(found.holdout)) for cost in point.holdout or point.costs)
+        yield f"  front {place}: {costs}"
 
 
 def what_was_done(found: Tuning) -> str:

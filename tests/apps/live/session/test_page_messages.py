@@ -11,9 +11,15 @@ from for_all import for_all
 from hostile import GOOD, hostile
 from hypothesis import given
 
-from tandemlift.apps.live.wire import reading
-from tandemlift.apps.live.wire.page_messages import PAGE_MESSAGES
-from tandemlift.apps.live.wire.reading import MAX_LENGTH, MAX_PARTS, Refusal, read_message, subject_of
+from tandemlift.apps.live.session import page_messages as reading
+from tandemlift.apps.live.session.page_messages import (
+    MAX_LENGTH,
+    MAX_PARTS,
+    PAGE_MESSAGES,
+    Refusal,
+    read_message,
+    subject_of,
+)
 
 MANY = 50_000
 

@@ -15,6 +15,13 @@ from pathlib import Path
 import click
 from click.shell_completion import CompletionItem
 
+from tandemlift.core.files import DATA
+
+SCRIPTS = {shell: DATA / "completion" / f"tandemlift.{shell}" for shell in ("bash", "zsh", "fish")}
+"""Each asks the program itself, by click's protocol: it calls it with the words so far in the environment. Unlike after
+click's own scripts, no space follows a word that goes on (`admittance.`, `KEY=`), and where the program knows no word,
+the shell's own names of files are offered."""
+
 Completion = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
 
 

@@ -10,12 +10,16 @@ from reference_tables.messages import frame, page_messages, scene, server_messag
 
 import tandemlift as tl
 from tandemlift.apps.live.replay import scene_and_frames
+from tandemlift.apps.live.session.frames import FRAME_FIELDS, layout_for
+from tandemlift.apps.live.session.page_messages import PAGE_MESSAGES
+from tandemlift.apps.live.session.server_messages import (
+    SERVER_MESSAGES,
+    SHOWN_PARAMETERS,
+    FlightScene,
+    FlightStatus,
+    OneOf,
+)
 from tandemlift.apps.live.session.session import Session
-from tandemlift.apps.live.wire.frames import FRAME_FIELDS, layout_for
-from tandemlift.apps.live.wire.page_messages import PAGE_MESSAGES
-from tandemlift.apps.live.wire.quantities import OneOf
-from tandemlift.apps.live.wire.scene import FlightScene
-from tandemlift.apps.live.wire.server_messages import SERVER_MESSAGES, SHOWN_PARAMETERS, FlightStatus
 from tandemlift.missions import built_in
 
 

@@ -5,8 +5,8 @@ import threading
 
 import pytest
 
-from tandemlift.apps.cli.terminal import console
-from tandemlift.apps.cli.terminal.console import CompileNotices
+from tandemlift.compiler.machine_code import notices
+from tandemlift.compiler.machine_code.notices import CompileNotices
 from tandemlift.core.progress import Compiled, publish, watching
 
 LOOP = Compiled("flight loop", 0.5, is_made=True)
@@ -15,7 +15,7 @@ LOOP = Compiled("flight loop", 0.5, is_made=True)
 @pytest.fixture
 def clock(monkeypatch):
     now = [0.0]
-    monkeypatch.setattr("tandemlift.apps.cli.terminal.console.time.perf_counter", lambda: now[0])
+    monkeypatch.setattr("tandemlift.compiler.machine_code.notices.time.perf_counter", lambda: now[0])
     return now
 
 
@@ -71,9 +71,9 @@ def test_what_could_not_be_compiled_is_not_said_to_be(clock, capsys):
 
 
 def test_what_takes_long_is_told_of_before_its_end(monkeypatch, capsys):
-    monkeypatch.setattr(console, "PATIENCE", 0.0)
-    said, say = threading.Event(), console._print_line
-    monkeypatch.setattr(console, "_print_line", lambda line: (say(line), said.set()))
+    monkeypatch.setattr(notices, "PATIENCE", 0.0)
+    said, say = threading.Event(), notices._print_line
+    monkeypatch.setattr(notices, "_print_line", lambda line: (say(line), said.set()))
     with watching(CompileNotices()):
         publish(None)
         assert said.wait(30.0)

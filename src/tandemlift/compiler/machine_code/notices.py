@@ -1,55 +1,21 @@
-"""The terminal: output, progress bars, notices about compiling, and the end of the process on Ctrl-C."""
+"""Lines in a terminal on what this machine compiles: `watching(compile_notices)` prints them."""
 
 from __future__ import annotations
 
-import contextlib
-import os
-import signal
 import sys
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
-import click
+from tandemlift.core.progress import Compiled
 
-from tandemlift.core.progress import Compiled, shown_progress
-
-if TYPE_CHECKING:
-    from tandemlift.core.types import Progress
-
-PATIENCE = 2.0  # s of compiling, after which a notice appears before the end
-LEAST = 0.1  # s, less than which no notice appears
-AGAIN = 0.02  # s, until an interrupt that Python has swallowed is raised again
-
-
-def echo(text: str, *, nl: bool = True) -> None:
-    """Print to standard output; if it is closed (`| head`), continue without it."""
-    try:
-        click.echo(text, nl=nl)
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-
-
-@contextmanager
-def progress_bar(label: str, unit: str, *, shown: bool = True) -> Iterator[Progress | None]:
-    """A progress bar on standard error as a callback of (done, total), or None if it is not shown.
-
-    Args:
-        label: text before the bar.
-        unit: of the work.
-        shown: whether to show the bar.
-    """
-    if not shown:
-        yield None
-        return
-    with compile_notices.together(), shown_progress(label, unit) as progress:
-        yield progress
+PATIENCE = 2.0  # s of compiling, after which a line appears in a terminal before the end
+LEAST = 0.1  # s, less than which none appears
 
 
 class CompileNotices:
-    """Prints one line for each compiled loop, or one for several (`together`)."""
+    """Prints one line on standard error for each compiled loop, or one for several (`together`)."""
 
     def __init__(self) -> None:
         self._lock, self._together = threading.RLock(), 0
@@ -107,31 +73,8 @@ class CompileNotices:
             self._print()
 
 
-compile_notices = CompileNotices()
-
-
 def _print_line(line: str) -> None:
-    click.echo(f"\r\033[K{line}" if sys.stderr.isatty() else line, err=True)
+    print(f"\r\033[K{line}" if sys.stderr.isatty() else line, file=sys.stderr, flush=True)
 
 
-def exit_now(status: int) -> None:
-    """End the process at once: Python would wait for a thread that compiles, which cannot be interrupted."""
-    for stream in (sys.stdout, sys.stderr):
-        with contextlib.suppress(OSError, ValueError):
-            stream.flush()
-    os._exit(status)
-
-
-def handle_interrupts() -> None:
-    """Raise a Ctrl-C again that Python has swallowed because it came while an object was finalised."""
-    previous = sys.unraisablehook
-
-    def hook(what: sys.UnraisableHookArgs) -> None:
-        if issubclass(what.exc_type, KeyboardInterrupt):
-            again = threading.Timer(AGAIN, signal.raise_signal, [signal.SIGINT])
-            again.daemon = True
-            again.start()
-        else:
-            previous(what)
-
-    sys.unraisablehook = hook
+compile_notices = CompileNotices()

@@ -1,0 +1,77 @@
+"""The terminal: output, progress bars, the table of checks, and the end of the process on Ctrl-C."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import sys
+import threading
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+import click
+
+from tandemlift.compiler.machine_code.notices import compile_notices
+from tandemlift.core.errors import CLOSE, FAILS, REFUSED, CheckResult, check_lines
+from tandemlift.core.progress import shown_progress
+
+if TYPE_CHECKING:
+    from tandemlift.core.types import Progress
+
+COLOURS = {CLOSE: "yellow", FAILS: "red", REFUSED: "red"}  # of the verdicts of checks
+AGAIN = 0.02  # s, until an interrupt that Python has swallowed is raised again
+
+
+def echo(text: str, *, nl: bool = True) -> None:
+    """Print to standard output; if it is closed (`| head`), continue without it."""
+    try:
+        click.echo(text, nl=nl)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+@contextmanager
+def progress_bar(label: str, unit: str, *, shown: bool = True) -> Iterator[Progress | None]:
+    """A progress bar on standard error as a callback of (done, total), or None if it is not shown.
+
+    Args:
+        label: text before the bar.
+        unit: of the work.
+        shown: whether to show the bar.
+    """
+    if not shown:
+        yield None
+        return
+    with compile_notices.together(), shown_progress(label, unit) as progress:
+        yield progress
+
+
+def print_checks(results: Sequence[CheckResult]) -> None:
+    """Print the table of checks, their texts and their counts, each in the colour of its verdict."""
+    for verdict, line in check_lines(results):
+        echo(click.style(line, fg=COLOURS.get(verdict)) if verdict else line)
+
+
+def exit_now(status: int) -> None:
+    """End the process at once: Python would wait for a thread that compiles, which cannot be interrupted."""
+    for stream in (sys.stdout, sys.stderr):
+        with contextlib.suppress(OSError, ValueError):
+            stream.flush()
+    os._exit(status)
+
+
+def handle_interrupts() -> None:
+    """Raise a Ctrl-C again that Python has swallowed because it came while an object was finalised."""
+    previous = sys.unraisablehook
+
+    def hook(what: sys.UnraisableHookArgs) -> None:
+        if issubclass(what.exc_type, KeyboardInterrupt):
+            again = threading.Timer(AGAIN, signal.raise_signal, [signal.SIGINT])
+            again.daemon = True
+            again.start()
+        else:
+            previous(what)
+
+    sys.unraisablehook = hook

@@ -1,0 +1,190 @@
+"""What commands that fly missions share: options, loading, the files of a flight, findings and exit codes."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tandemlift.apps.cli.completion import CONTROLLERS, names, settings
+from tandemlift.apps.cli.console import progress_bar
+from tandemlift.core.errors import InputError
+from tandemlift.core.files import parse_setting
+from tandemlift.pictures.figures.drawing.figure_style import STYLES, figure_style
+
+if TYPE_CHECKING:
+    from tandemlift.flight.record import Flight
+    from tandemlift.missions import Mission
+    from tandemlift.parts.controllers import Controller
+
+FILES = ("mission.toml", "flight.npz", "metrics.json", "metrics.csv", "metrics.tex", "findings.json", "report.html")
+FAILED = 3  # exit code of a flight that crashed, diverged or did not lift; with --strict also of one with findings
+
+engine_option = click.option(
+    "--engine",
+    default="compiled",
+    shell_complete=names("engine"),
+    show_default=True,
+    help="Engine that simulates the vehicle; see `tandemlift engines`.",
+)
+strict_option: Callable[[Any], Any] = click.option(
+    "--strict", is_flag=True, help="Exit with 3 if there are findings; see `findings.ignore` for kinds to leave out."
+)
+set_option = click.option(
+    "--set",
+    "settings",
+    multiple=True,
+    metavar="KEY=VALUE",
+    shell_complete=settings,
+    help="Set one key of the mission: a dotted key, and a TOML value or a word. Can be repeated.",
+)
+figures_option = click.option("--no-figures", is_flag=True, help="Draw no figures.")
+after_crash_option = click.option(
+    "--after-crash",
+    type=click.FloatRange(min=0.0),
+    metavar="SECONDS",
+    help="Continue after a crash with the rotors stopped, at most until the vehicle is at rest: the key crash.fly_on.",
+)
+
+
+def controller_option(use: str = "Controller to fly") -> Callable[[Any], Any]:
+    """The option of a controller; `use`: what the command does with it."""
+    return click.option(
+        "--controller",
+        metavar="NAME|FILE",
+        shell_complete=CONTROLLERS,
+        help=f"{use}: a registered one, or your own .py file.",
+    )
+
+
+def _draw_in(context: click.Context, option: click.Parameter, style: str | None) -> str | None:
+    """Draw all figures of the command in a style, if one is given."""
+    context.with_resource(figure_style(style))
+    return style
+
+
+style_option, kept_style_option = (
+    click.option(
+        "--style",
+        type=click.Choice(list(STYLES)),
+        callback=_draw_in,
+        expose_value=kept,
+        help="Size, type and colours of the figures: columns of a journal, or slides of 16:9 on white or dark paper."
+        "  [default: ieee]",
+    )
+    for kept in (False, True)
+)
+"""The figures of a command are drawn in this style; the second one passes the name of the style to the command, too."""
+
+
+def with_after_crash(settings: tuple[str, ...], seconds: float | None) -> tuple[str, ...]:
+    """Settings of a mission, with the time of flight after a crash [s], if that is given."""
+    return settings if seconds is None else (*settings, f"crash.fly_on={seconds!r}")
+
+
+def chosen_controller(given: str) -> Controller:
+    """A registered controller by name, or the controller of a Python file.
+
+    Raises:
+        InputError: there is no such controller, or the file defines none.
+    """
+    from tandemlift.parts.controllers import controller, load_controller
+
+    return load_controller(given) if given.endswith(".py") or "/" in given else controller(given)
+
+
+def load(mission: str, settings: tuple[str, ...], controller: Controller | str | None = None) -> Mission:
+    """Load a mission by name or path, with the changes of `--set` and the controller of `--controller`.
+
+    Raises:
+        InputError: there is no such mission or controller, or it is not valid.
+    """
+    from tandemlift.missions import load_mission
+
+    chosen = chosen_controller(controller) if isinstance(controller, str) else controller
+    return load_mission(mission, dict(map(parse_setting, settings)), controller=chosen)
+
+
+# the files of a flight
+
+
+def write_flight(flight: Flight, folder: Path, *, figures: bool, photographs: Sequence[tuple[str, bytes]] = ()) -> None:
+    """Write the files of a flight into the folder, with a progress bar for the figures."""
+    from tandemlift.pictures.report.flight_files import write_flight_files
+
+    with progress_bar("Drawing", "figures", shown=figures and sys.stderr.isatty()) as progress:
+        write_flight_files(flight, folder, figures=figures, photographs=photographs, progress=progress)
+
+
+def flight_file(given: str) -> tuple[Path, Path | None]:
+    """The folder of a flight's results and the file of the saved flight; the file is None if `given` is a mission."""
+    path = Path(given)
+    if path.is_dir() and (path / "flight.npz").exists():
+        return path, path / "flight.npz"
+    if path.suffix == ".npz":
+        return path.parent, path
+    return Path("out") / path.stem, None
+
+
+def saved_flight(path: Path) -> Flight:
+    """Read a saved flight.
+
+    Raises:
+        InputError: the file cannot be read as one.
+    """
+    from tandemlift.flight.record import Flight
+
+    return Flight.load(path)
+
+
+def html_path(option: str, name: str) -> Path:
+    """The path of a page that an option names.
+
+    Raises:
+        InputError: no page can be written there.
+    """
+    path = Path(name)
+    if path.suffix.lower() not in (".html", ".htm"):
+        raise InputError(f"{option} {path}: the name of a page must end in .html")
+    if path.is_dir():
+        raise InputError(f"{option} {path}: is a folder, not a file")
+    return path
+
+
+# findings: a line each on standard error
+
+
+def print_findings(flights: Iterable[tuple[str, Flight]]) -> int:
+    """Print a line on standard error for each finding of flights by name; return their number."""
+    count = 0
+    for name, flight in flights:
+        for finding in flight.findings:
+            click.echo(f"{_coloured(f'{name}: {finding.kind}')} {str(finding).partition(' ')[2]}", err=True)
+            count += 1
+    return count
+
+
+def exit_if_found(count: int, *, strict: bool) -> None:
+    """End the process if there are findings and `--strict` was given."""
+    if count and strict:
+        sys.exit(FAILED)
+
+
+def exit_if_amiss(flights: Mapping[str, Flight], *, strict: bool) -> None:
+    """Print findings and failures of flights by name; end the process if one failed, or, if strict, has findings."""
+    count = print_findings(flights.items())
+    failures = {name: flight.failure for name, flight in flights.items() if flight.failure}
+    for name, failure in failures.items():
+        click.echo(f"{name}: {failure}", err=True)
+    if failures:
+        sys.exit(FAILED)
+    exit_if_found(count, strict=strict)
+
+
+def _coloured(text: str) -> str:
+    """Text in bold yellow; plain where the output is no terminal (which click sees to) or NO_COLOR is set."""
+    return text if os.environ.get("NO_COLOR") else click.style(text, fg="yellow", bold=True)

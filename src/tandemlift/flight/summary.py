@@ -1,0 +1,38 @@
+"""A flight in a few lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tandemlift.flight.record import Flight
+
+NOT_KNOWN = "   not known"
+
+
+def summary_lines(flight: Flight) -> Iterator[str]:
+    """The outcome of a flight, its main metrics and its events."""
+    m = flight.metrics()
+    late = "_after_10s" if m["position_rmse_after_10s_m"] else ""
+    when = "after 10 s" if late else "whole flight"
+    rows = [
+        ("final position", _list(m["final_position_m"], 3), "m"),
+        ("final reference", _list(m["final_reference_m"], 3), "m"),
+        (f"position RMSE, {when}", _list(m[f"position_rmse{late}_m"], 2, 1e3), "mm"),
+        (f"largest position error, {when}", _list(m[f"position_max_error{late}_m"], 2, 1e3), "mm"),
+        ("attitude RMSE", _list(m["attitude_rmse_rad"], 2, 57.29577951308232), "deg"),
+        ("thrust after 10 s", _list([m["thrust_min_after_10s_n"], m["thrust_max_after_10s_n"]], 2), "N (min, max)"),
+        ("human work", *((NOT_KNOWN, "") if m["human_work_j"] is None else (_list([m["human_work_j"]], 2), "J"))),
+    ]
+    yield f"{flight.name}: {flight.outcome}; {m['steps']} steps, flown in {m['wall_s'] * 1e3:.1f} ms"
+    for label, value, unit in rows:
+        if value:
+            yield f"  {label:36}{value} {unit}".rstrip()
+    for at, what in m["events"]:
+        yield f"  {at:.2f} s: {what}"
+
+
+def _list(values: list[float | None] | None, digits: int, scale: float = 1.0) -> str:
+    """Numbers side by side; '' if there are none."""
+    if not values or any(v is None for v in values):
+        return ""
+    return "  ".join(f"{round(v * scale, digits) + 0.0:8.{digits}f}" for v in values if v is not None)
