@@ -17,13 +17,10 @@ from repository import ROOT
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.missions import Mission, check, load_mission, merge, tables_of
-from tandemlift.missions.bounds import plain
 from tandemlift.missions.changes import value_at
-from tandemlift.missions.explaining import explained, index, plain_name
-from tandemlift.missions.markdown import key_tables
-from tandemlift.missions.sections import is_of_the_package, sections
-from tandemlift.missions.tables.setting_checks import standing_of
-from tandemlift.missions.template import template_text
+from tandemlift.missions.checks import standing_of
+from tandemlift.missions.keys import is_of_the_package, plain, sections
+from tandemlift.missions.reference import explained, index, key_tables, plain_name, template_text
 
 LEVEL = {"initial.euler": 0.0, "ground.model": "floor"}
 KEYS = [key for s in sections() if is_of_the_package(s.controller) for key in s.keys]

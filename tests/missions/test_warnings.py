@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 import tandemlift as tl
 from tandemlift.core.types import leaves
 from tandemlift.missions import built_in, load_mission
-from tandemlift.missions.checks import sample_size
-from tandemlift.missions.tables.setting_checks import standing_of
+from tandemlift.missions.checks import sample_size, standing_of
 from tandemlift.parts.contact.feet import sinkage_of, standing_height
 from tandemlift.simulation.assembly.assemble import assemble
 from tandemlift.simulation.plan import FlightPlan

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.core.errors import CLOSE, FAILS, SETTINGS, CheckResult, noted
-from tandemlift.missions.tables.mission import Mission
-from tandemlift.missions.tables.outcomes import promise_of
+from tandemlift.missions.mission import Mission
+from tandemlift.missions.outcomes import promise_of
 from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.person.passage import passage_checks
 from tandemlift.parts.person.person_table import waypoints_from

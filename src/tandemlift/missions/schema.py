@@ -13,9 +13,8 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic.fields import FieldInfo
 
 from tandemlift.core.keys import description_of
-from tandemlift.missions.bounds import Model, bounds, table_in
-from tandemlift.missions.sections import EXTENDS, Section, compact
-from tandemlift.missions.tables.mission import Mission
+from tandemlift.missions.keys import EXTENDS, Model, Section, bounds, compact, table_in
+from tandemlift.missions.mission import Mission
 from tandemlift.parts.compliance.admittance import AdmittanceTable
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
 

@@ -9,7 +9,7 @@ from tandemlift.core.faults import ALARM_TEXTS, CHECKS
 from tandemlift.core.findings import Finding, FindingName, finding
 from tandemlift.core.phases import IDLE, LAND, LIFT, REASONS, STOPPED
 from tandemlift.core.vector import Absent, dot, total
-from tandemlift.missions.tables.outcomes import FindingsTable, Promise, promise_of
+from tandemlift.missions.outcomes import FindingsTable, Promise, promise_of
 from tandemlift.parts.compliance.following import FollowingState
 from tandemlift.parts.guidance.supervision import ALARM, PHASE, EventLog, SupervisionState
 from tandemlift.parts.mechanics.trajectories import PhasesTable

@@ -1,4 +1,8 @@
-"""The `Mission` with all its tables; the tables `[mission]` and `[[changes]]`."""
+"""The `Mission` with all its tables; the tables `[mission]` and `[[changes]]`.
+
+Every table is strict: unknown keys, wrong types and non-finite numbers are refused. A key that is given per axis
+takes one number for all axes or one number each. The built-in missions in `data/missions` hold the numbers.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +15,7 @@ from pydantic import AfterValidator, Field, SerializeAsAny, ValidationError, mod
 
 from tandemlift.core.errors import InputError
 from tandemlift.core.keys import NonNegative, Positive, Table, divisor, key, must
-from tandemlift.missions.tables.outcomes import CrashTable, FindingsTable, OutcomeTable, PromiseTable
+from tandemlift.missions.outcomes import CrashTable, FindingsTable, OutcomeTable, PromiseTable
 from tandemlift.parts.compliance.admittance import AdmittanceTable, with_feel
 from tandemlift.parts.contact.corridor import CorridorTable, WallTable
 from tandemlift.parts.contact.ground_table import GroundTable
