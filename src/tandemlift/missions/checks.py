@@ -56,43 +56,15 @@ def mission_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def refusals(m: Mission) -> Iterator[CheckResult]:
-    """Refusals of missions that no pilot can fly; after the first, further checks may fail to compute."""
+    """Refusals of missions that no pilot can fly; after the first, further checks may fail to compute.
+
+    The order is that in which a mission's first refusal is found.
+    """
+    guidance, step, rotors, s = m.pilot.guidance, m.mission.step, m.actuators.model, m.sensors
+    count, walls = len(m.vehicle.quadrotors), bool(m.all_walls)
     yield from time_checks(m.mission)
     yield from log_checks(m.mission, sample_size(m))
     yield from phase_checks(m.phases)
-    yield from part_refusals(m)
-    yield from recording_checks(m.person, m.vehicle)
-    yield from outcome_refusals(m)
-
-
-def sample_size(m: Mission) -> int:
-    """Size of a logged sample [bytes]: 8 for its time and for each number of the mission's channels."""
-    count = len(m.vehicle.quadrotors)
-    numbers = {
-        "time, state, reference, admittance, push, wrench; rotors and joints": 51 + 10 * count,
-        "commands of real rotors": (5 + 4 * count) * (m.actuators.model == "rotors"),
-        "wind": 6 * (m.wind.model == "air"),
-        "force of floor and walls": 3 * (m.ground.model == "floor"),
-        "readings and estimates": (45 + 6 * count) * (m.sensors.model == "simulated"),
-        "additional sensors": sum(ADDITIONAL[s.name].width for s in m.sensors.additional if s.name in ADDITIONAL),
-        "observer": 12 * (m.observer.model != "none"),
-        "interactive guidance": 10 * (m.pilot.guidance == "interactive"),
-        "contact": 13 * (m.contact.model == "on"),
-        "supervision": 2 * (m.supervision.model == "on"),
-        "rotor-failure detection": 1 * (m.detection.model != "none"),
-    }
-    return 8 * sum(numbers.values())
-
-
-def standing_of(m: Mission) -> standing.Standing:
-    """The vehicle's equilibrium on the floor of a mission."""
-    return standing.standing_on(m.ground, m.vehicle, m.plant.mass_scale, m.mission.step, m.initial)
-
-
-def part_refusals(m: Mission) -> Iterator[CheckResult]:
-    """Check for an invalid vehicle, rotors, sensors, estimators, surroundings, guidance or person."""
-    guidance, step, rotors, s = m.pilot.guidance, m.mission.step, m.actuators.model, m.sensors
-    count, walls = len(m.vehicle.quadrotors), bool(m.all_walls)
     yield from vehicle_checks(m.vehicle, m.allocation.weights)
     yield from admittance_checks(m.admittance, step)
     yield from fault_checks(m.faults, count, rotors)
@@ -106,7 +78,8 @@ def part_refusals(m: Mission) -> Iterator[CheckResult]:
     yield from detection_checks(m.detection, m.allocation.method)
     yield from standing.floor_checks(m.ground, rotors, m.phases, walls=walls)
     if m.ground.model != "none":
-        yield from standing.depth_checks(m.ground, m.initial, standing_of(m))
+        stands = standing.standing_on(m.ground, m.vehicle, m.plant.mass_scale, step, m.initial)
+        yield from standing.depth_checks(m.ground, m.initial, stands)
     yield from wall_checks(m.walls)
     yield from supervision.supervision_checks(m.supervision, guidance)
     yield from request_checks(m.requests, guidance)
@@ -121,23 +94,10 @@ def part_refusals(m: Mission) -> Iterator[CheckResult]:
     for i, push in enumerate(m.pushes):
         yield from point_checks(f"pushes.{i}.point", push.point, Vehicle.from_settings(m.vehicle))
     yield from person_checks(m.person, m.corridor, m.vehicle.payload.length)
-
-
-def _delays(actuators: ActuatorsTable, sensors: SensorsTable, person: PersonTable) -> dict[str, float]:
-    delays = {
-        "actuators.delay": actuators.delay,
-        "sensors.delay": sensors.delay,
-        "sensors.motion.delay": sensors.motion.delay,
-        "person.delay": person.delay,
-    }
-    return delays | {f"sensors.additional.{i}.delay": s.delay for i, s in enumerate(sensors.additional)}
-
-
-def outcome_refusals(m: Mission) -> Iterator[CheckResult]:
-    """Check for promises and thresholds that contradict each other, and for a lift into the floor."""
+    yield from recording_checks(m.person, m.vehicle)
     yield from outcomes.crash_checks(m.crash, m.initial)
-    yield from outcomes.promise_checks(m.promise, m.findings, m.crash, m.pilot.guidance)
-    yield from outcomes.oscillation_checks(m.findings, m.mission.step)
+    yield from outcomes.promise_checks(m.promise, m.findings, m.crash, guidance)
+    yield from outcomes.oscillation_checks(m.findings, step)
     yield from standing.lift_height_checks(m.ground, m.phases)
 
 
@@ -161,7 +121,8 @@ def setting_warnings(m: Mission) -> Iterator[CheckResult]:
         yield from estimator.bias_warnings(e, m.sensors.joints.force_bias, m.pilot.push)
         yield from estimator.tare_warnings(e, p, m.pushes, end)
     if over_floor:
-        limit, stands = hover.mass * HARD if m.crash.impulse is None else m.crash.impulse, standing_of(m)
+        limit = hover.mass * HARD if m.crash.impulse is None else m.crash.impulse
+        stands = standing.standing_on(m.ground, m.vehicle, m.plant.mass_scale, m.mission.step, m.initial)
         yield from standing.floor_warnings(m.ground, m.vehicle, m.actuators.model, m.mission.step, stands)
         yield from standing.start_warnings(p, stands)
         yield from standing.blow_warnings(p, m.initial, hover.mass, limit, stands)
@@ -171,6 +132,25 @@ def setting_warnings(m: Mission) -> Iterator[CheckResult]:
     tared = None if e.tare_start is None or m.pilot.push == "truth" else e.tare_start + e.tare_duration
     yield from person_warnings(m.person, guidance, tared)
     yield from m.controller.checks(m.mission.step)
+
+
+def sample_size(m: Mission) -> int:
+    """Size of a logged sample [bytes]: 8 for its time and for each number of the mission's channels."""
+    count = len(m.vehicle.quadrotors)
+    numbers = {
+        "time, state, reference, admittance, push, wrench; rotors and joints": 51 + 10 * count,
+        "commands of real rotors": (5 + 4 * count) * (m.actuators.model == "rotors"),
+        "wind": 6 * (m.wind.model == "air"),
+        "force of floor and walls": 3 * (m.ground.model == "floor"),
+        "readings and estimates": (45 + 6 * count) * (m.sensors.model == "simulated"),
+        "additional sensors": sum(ADDITIONAL[s.name].width for s in m.sensors.additional if s.name in ADDITIONAL),
+        "observer": 12 * (m.observer.model != "none"),
+        "interactive guidance": 10 * (m.pilot.guidance == "interactive"),
+        "contact": 13 * (m.contact.model == "on"),
+        "supervision": 2 * (m.supervision.model == "on"),
+        "rotor-failure detection": 1 * (m.detection.model != "none"),
+    }
+    return 8 * sum(numbers.values())
 
 
 def time_checks(t: MissionTable) -> Iterator[CheckResult]:
@@ -202,3 +182,13 @@ def recording_checks(person: PersonTable, table: VehicleTable) -> Iterator[Check
         return
     for grip in grips:
         yield from point_checks(f"person.recording: a grip in {path}", grip, Vehicle.from_settings(table))
+
+
+def _delays(actuators: ActuatorsTable, sensors: SensorsTable, person: PersonTable) -> dict[str, float]:
+    delays = {
+        "actuators.delay": actuators.delay,
+        "sensors.delay": sensors.delay,
+        "sensors.motion.delay": sensors.motion.delay,
+        "person.delay": person.delay,
+    }
+    return delays | {f"sensors.additional.{i}.delay": s.delay for i, s in enumerate(sensors.additional)}

@@ -161,6 +161,11 @@ class Mission(Table):
         return (*self.walls, *self.corridor.walls)
 
     @property
+    def by_hand(self) -> ComplianceTable | None:
+        """The limits of interactive guidance; None with scheduled guidance."""
+        return self.compliance if self.pilot.guidance == "interactive" else None
+
+    @property
     def hover(self) -> HoverFacts:
         """The vehicle in hover, with all faults of rotors that the flight has."""
         faults = tuple(f for f in self.faults if f.time < self.mission.duration)

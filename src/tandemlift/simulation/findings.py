@@ -264,7 +264,7 @@ def _by_lost_rotor(p: FlightPlan, flight_state: FlightState) -> Iterator[Finding
 
 def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str, end: float) -> Iterator[Finding]:
     """The finding of a scheduled landing that should be over by the end [s], but is not."""
-    by_hand = p.mission.compliance if p.mission.pilot.guidance == "interactive" else None
+    by_hand = p.mission.by_hand
     asked = _landing_asked(p.mission.phases, p.mission.requests)
     if outcome == "flying" and asked + landing_time(p.mission.phases, by_hand) <= end:
         position = flight_state.state.position

@@ -77,8 +77,8 @@ class AxisMargins(NamedTuple):
         return self.least_gain if 1.0 / self.gain <= self.least_gain else self.gain
 
 
-def calm_tables(mission: Mission, *, lag: float | None, wait: float) -> tuple[dict[str, Any], float]:
-    """(The tables of a mission that hovers calmly, the time at which it does [s]).
+def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.0) -> tuple[Mission, float]:
+    """(A mission that hovers calmly, the time at which it does [s]).
 
     Args:
         mission: the original.
@@ -108,7 +108,9 @@ def calm_tables(mission: Mission, *, lag: float | None, wait: float) -> tuple[di
             e["tare_start"] = at
         at += SETTLED + mission.estimator.tare_duration + (SETTLED if mission.estimator.tare == "hover" else 0.0)
     t["mission"]["duration"] = at + wait + 1.0
-    return t, at + wait
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FlightWarning)
+        return check(t, mission.mission.name), at + wait
 
 
 def _without_errors(sensors: dict[str, Any]) -> dict[str, Any]:
@@ -122,14 +124,6 @@ def _without_errors(sensors: dict[str, Any]) -> dict[str, Any]:
         k: {n: clean(n, v) for n, v in part.items()} if isinstance(part, dict) else part for k, part in sensors.items()
     }
     return {k: v for k, v in kept.items() if k != "additional"}
-
-
-def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.0) -> tuple[Mission, float]:
-    """(A mission that hovers calmly, the time [s]); arguments as for `calm_tables`."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)
-        tables, at = calm_tables(mission, lag=lag, wait=wait)
-        return check(tables, mission.mission.name), at
 
 
 def open_loop(mission: Mission) -> OpenLoop:

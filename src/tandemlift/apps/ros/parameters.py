@@ -18,7 +18,7 @@ from tandemlift.apps.live.wire.page_messages import SetMessage
 from tandemlift.apps.ros.diagnostics import Notify
 from tandemlift.apps.ros.middleware import Middleware
 from tandemlift.core.errors import InputError, shown, unknown
-from tandemlift.missions import Mission
+from tandemlift.core.keys import Triple
 
 DAMPING, RATIO = "admittance.damping", "admittance.damping_ratio"
 SPRING = ("person.stiffness", "person.damping")  # of a page's hand; here pushes are forces
@@ -51,7 +51,8 @@ class Parameters:
         for parameter in parameters_of(now, self._first):
             if parameter["key"] not in SPRING:
                 yield parameter["key"], parameter["value"]
-        yield RATIO, damping_ratio(now)
+        a = now.admittance
+        yield RATIO, damping_ratio(a.mass, a.damping, a.stiffness)
 
     def _set(self, key: str, value: object) -> None:
         known = dict(self._values())
@@ -59,7 +60,8 @@ class Parameters:
             if key not in known:
                 raise unknown("parameter", key, known)
             if key == RATIO:
-                key, value = DAMPING, damping_of(self._session.flight.now, value)
+                a = self._session.flight.now.admittance
+                key, value = DAMPING, damping_of(value, a.mass, a.damping, a.stiffness)
             self._session.apply(_message(key, value))
         except InputError as error:
             self._notify(f"parameter refused: {error}")
@@ -77,14 +79,13 @@ def _message(key: str, value: Any) -> SetMessage:
         raise InputError(f"{key} = {shown(value)}: must be a number, a list of numbers, or a word") from None
 
 
-def damping_ratio(mission: Mission) -> list[float]:
+def damping_ratio(mass: Triple, damping: Triple, stiffness: Triple) -> list[float]:
     """D/(2 √(M K)) of each axis of the admittance; 0 where there is no stiffness."""
-    a = mission.admittance
-    axes = zip(a.mass, a.damping, a.stiffness, strict=True)
+    axes = zip(mass, damping, stiffness, strict=True)
     return [d / (2.0 * math.sqrt(m * k)) if k > 0.0 else 0.0 for m, d, k in axes]
 
 
-def damping_of(mission: Mission, ratio: object) -> list[float]:
+def damping_of(ratio: object, mass: Triple, damping: Triple, stiffness: Triple) -> list[float]:
     """The damping [N s/m] of each axis that has a damping ratio; an axis without stiffness keeps its own.
 
     Raises:
@@ -93,8 +94,8 @@ def damping_of(mission: Mission, ratio: object) -> list[float]:
     numbers = ratio if isinstance(ratio, list) else [ratio] * 3
     if len(numbers) != 3 or not all(isinstance(x, (int, float)) and math.isfinite(x) for x in numbers):
         raise InputError(f"{RATIO} = {shown(ratio)}: must be a number, or three")
-    a, found = mission.admittance, list[float]()
-    for x, m, d, k in zip(numbers, a.mass, a.damping, a.stiffness, strict=True):
+    found = list[float]()
+    for x, m, d, k in zip(numbers, mass, damping, stiffness, strict=True):
         if k == 0.0 and x != 0.0:
             raise InputError(f"{RATIO} = {shown(ratio)}: must be 0 on an axis without stiffness; set {DAMPING} there")
         found.append(2.0 * x * math.sqrt(m * k) if k > 0.0 else d)
