@@ -98,6 +98,11 @@ Tables = dict[str, Any]
 MISSING = object()
 
 
+def place_of(key: str) -> Place:
+    """The place that a dotted key names; a number in it is that of an entry of a list."""
+    return tuple(int(part) if part.isdigit() else part for part in key.split("."))
+
+
 def value_at(tables: Any, place: Place) -> Any:
     """The value at a place in nested tables, or MISSING."""
     for part in place:

@@ -122,9 +122,14 @@ class Section(NamedTuple):
     @property
     def text(self) -> list[str]:
         """The description of the table, in paragraphs of one line each; the first is a phrase."""
-        paragraphs = (inspect.getdoc(self.model) or "").split("\n\n")
-        first, *others = [" ".join(p.split()) for p in paragraphs]
-        return [(first.partition("`: ")[2] or first).removesuffix("."), *others]
+        return text_of(self.model)
+
+
+def text_of(model: Model) -> list[str]:
+    """The description of a table, in paragraphs of one line each; the first is a phrase."""
+    paragraphs = (inspect.getdoc(model) or "").split("\n\n")
+    first, *others = [" ".join(p.split()) for p in paragraphs]
+    return [(first.partition("`: ")[2] or first).removesuffix("."), *others]
 
 
 def compact(field: FieldInfo, value: object) -> object:

@@ -17,7 +17,7 @@ from tandemlift.analysis.studies.design.settings import MAX_ROWS, CaseTable, Stu
 from tandemlift.analysis.studies.design.variants import Variant
 from tandemlift.core.errors import InputError
 from tandemlift.missions import Mission, tables_of
-from tandemlift.missions.changes import MISSING, Tables, value_at
+from tandemlift.missions.changes import MISSING, Tables, place_of, value_at
 from tandemlift.missions.loading import MissionTemplate
 
 SEED = "mission.seed"
@@ -187,8 +187,7 @@ class StudyPlan:
         """The value of a draw, which may be relative to the mission's own."""
         if not self.drawn[key].relative:
             return value
-        place = tuple(int(part) if part.isdigit() else part for part in key.split("."))
-        return _times(value_at(self._own[variant][1], place), value, key, self.variants[variant].mission)
+        return _times(value_at(self._own[variant][1], place_of(key)), value, key, self.variants[variant].mission)
 
     def mission(self, row: StudyRow) -> Mission:
         """The mission of a row.

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from tandemlift.apps.live.wire.scene import SceneParameter
 from tandemlift.apps.live.wire.server_messages import MAX_FORCE, STIFFNESS, THRESHOLD
 from tandemlift.missions import Mission, tables_of
-from tandemlift.missions.changes import MISSING, value_at
+from tandemlift.missions.changes import MISSING, place_of, value_at
 from tandemlift.parts.controllers import CONTROLLERS
 
 EVERY = "vehicle.quadrotors.each."  # begins the key of a parameter that all quadrotors share
@@ -58,8 +58,7 @@ def keys_of(mission: Mission, key: str) -> list[str]:
 
 def value_of(tables: dict[str, Any], key: str) -> Any:
     """The value of a parameter in a mission's tables, or `MISSING`."""
-    place = key.replace(EVERY, "vehicle.quadrotors.0.").split(".")
-    value = value_at(tables, tuple(int(part) if part.isdigit() else part for part in place))
+    value = value_at(tables, place_of(key.replace(EVERY, "vehicle.quadrotors.0.")))
     return "hard" if key == GATE and value is MISSING else value
 
 
