@@ -20,8 +20,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.linearization.analysis import Mode, frequency_response, modes_of
-from tandemlift.analysis.linearization.linear_model import LinearModel
+from tandemlift.analysis.linearization.linear_model import LinearModel, Mode, frequency_response, modes_of
 from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.core.errors import FlightWarning
 from tandemlift.core.types import Array
@@ -32,6 +31,10 @@ AXES = ("z", "roll", "pitch", "yaw")
 LOWEST, HIGHEST, POINTS = 0.1, 3000.0, 240  # rad/s
 LIFT, SETTLED = 4.0, 2.0  # s, of the calm flight's lift, and after it and after the tare
 WAITS = (0.0, 20.0)  # s, in addition, for a vehicle that settles slowly
+REMOVED = (
+    *("pushes", "requests", "changes", "faults", "sensor_faults", "walls"),
+    *("wind", "person", "corridor", "supervision", "detection"),
+)
 NO_KINK = -1.0  # a distance: disables the search for kinks
 ON_CIRCLE = 1e-6  # beyond 1, of an eigenvalue that does not grow
 FASTER = 10.0  # times the largest speed of the rotors, so that no thrust is limited
@@ -85,11 +88,7 @@ def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.
         lag: of all rotors [s], with the mission's delay; None for rotors without delay and lag.
         wait: additional hover time until then [s].
     """
-    t = tables_of(mission)
-    for name in ("pushes", "requests", "changes", "faults", "sensor_faults", "walls"):
-        t.pop(name, None)
-    for name in ("wind", "person", "corridor", "supervision", "detection"):
-        t.pop(name, None)
+    t = {name: table for name, table in tables_of(mission).items() if name not in REMOVED}
     start, floor, by_hand = mission.initial, mission.ground.model == "floor", mission.pilot.guidance == "interactive"
     place = [*(start.position[:2] if by_hand else (0.0, 0.0)), start.position[2] if floor else 0.0]
     t["initial"] = {"position": place, "euler": [0.0, 0.0, start.euler[2] if by_hand else 0.0]}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
-from tandemlift.analysis.linearization.analysis import Mode
+from tandemlift.analysis.linearization.linear_model import Mode
 from tandemlift.analysis.linearization.loop_margins import (
     OpenLoop,
     axis_margins,

@@ -24,8 +24,7 @@ from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.core.files import atomic_write
 
 if TYPE_CHECKING:
-    from tandemlift.analysis.linearization.analysis import Mode, Modes
-    from tandemlift.analysis.linearization.linear_model import LinearModel
+    from tandemlift.analysis.linearization.linear_model import LinearModel, Mode, Modes
 
 MOST_STATES = 1200  # whose eigenvalues are computed within seconds
 FIGURES = (".png", ".pdf", ".svg")
@@ -121,7 +120,7 @@ def _print_modes(connected: LinearModel, count: int) -> None:
 
 
 def _modes(model: LinearModel) -> Modes:
-    from tandemlift.analysis.linearization.analysis import modes_of
+    from tandemlift.analysis.linearization.linear_model import modes_of
 
     return modes_of(model)
 
