@@ -15,9 +15,8 @@ import numpy as np
 from random_missions.values import varied
 from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.missions import Mission, load_mission, tables_of
-from tandemlift.missions.bounds import plain
-from tandemlift.missions.files import built_in
-from tandemlift.missions.sections import Key, is_of_the_package, sections
+from tandemlift.missions.keys import Key, is_of_the_package, plain, sections
+from tandemlift.missions.loading import built_in
 from tandemlift.parts.controllers import CONTROLLERS
 
 Changes = dict[str, Any]

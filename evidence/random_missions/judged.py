@@ -22,7 +22,7 @@ from tandemlift.analysis.studies.execution.chunk import sources_digest
 from tandemlift.analysis.studies.execution.columns import Columns
 from tandemlift.analysis.studies.execution.files import ChunkFiles
 from tandemlift.flight.record import Flight
-from tandemlift.missions.files import built_in, path_of
+from tandemlift.missions.loading import built_in, path_of
 from tandemlift.simulation.many import fly_each
 
 BAD = ("not-lifted", "crashed", "diverged")

@@ -85,7 +85,7 @@ faults.ALARM_TEXTS = faults._alarm_texts()
 
 import tandemlift as tl
 from tandemlift.parts.guidance.fault_detection import ActiveFaults, strongest_reaction
-from tandemlift.missions.markdown import key_tables
+from tandemlift.missions.reference import key_tables
 from tandemlift.apps.live.session.scene_builder import scene_of
 
 mission = tl.load_mission("iris", {"pilot.guidance": "interactive", "supervision.model": "on",

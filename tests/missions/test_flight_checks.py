@@ -11,14 +11,15 @@ import tandemlift as tl
 from tandemlift.core.errors import CLOSE, FAILS, OK, judged
 from tandemlift.core.vector import ZERO, vec3
 from tandemlift.missions import built_in, load_mission, tables_of
-from tandemlift.missions.flight_checks import CHECKS, flight_checks, schedule_of, wind_on_parts
+from tandemlift.missions.flight_checks import CHECKS, flight_checks
 from tandemlift.parts.mechanics.air_drag import air_loads
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.person.passage import least_room, places_of
+from tandemlift.parts.pilot.schedule_checks import Schedule
 from tandemlift.parts.pilot.sensing_checks import noise_of, push_bandwidths
 from tandemlift.parts.rotors.authority import CONTROL
-from tandemlift.parts.rotors.hover_loads import SIGMAS, loads_of
+from tandemlift.parts.rotors.hover_loads import SIGMAS, WindOnParts, loads_of
 from tandemlift.simulation.assembly.assemble import assemble
 
 IRIS = tables_of(load_mission("iris"))["vehicle"]["quadrotors"]
@@ -185,13 +186,20 @@ def test_the_wind_on_the_parts_is_that_of_the_flight():
         loads = air_loads(model.wind.drag, model.plant.frame, state, vec3(air))
         return np.array([*loads.payload.force]) + np.array([sum(part) for part in loads.quadrotors.force])
 
-    air, wound = np.array(mission.wind.velocity), wind_on_parts(mission)
+    air, wound = (
+        np.array(mission.wind.velocity),
+        WindOnParts(mission.wind, mission.hover.vehicle, 0.0, mission.mission.step),
+    )
     force, _, spread, _ = wound.at(None)
     assert force == pytest.approx(flown(air), rel=1e-12)
     slopes = [(flown(air + 1e-6 * eddy) - flown(air - 1e-6 * eddy)) / 2e-6 for eddy in wound.eddies]
     assert spread == pytest.approx(np.sqrt(np.sum(np.square(slopes), axis=0)), rel=1e-6)
     load = next(loads_of(mission.disturbance, wound, mission.pushes, 90.0, yielding_yaw=True))
     assert load.across == pytest.approx(np.hypot(*force[:2]) + SIGMAS * np.hypot(*spread[:2]))
+
+
+def schedule_of(mission):
+    return Schedule(mission.phases, mission.pushes, mission.admittance, mission.by_hand, mission.mission.duration)
 
 
 def test_pushes_move_the_reference_as_they_do_in_flight():

@@ -17,13 +17,10 @@ from repository import ROOT
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.missions import Mission, check, load_mission, merge, tables_of
-from tandemlift.missions.bounds import plain
 from tandemlift.missions.changes import value_at
-from tandemlift.missions.explaining import explained, index, plain_name
-from tandemlift.missions.markdown import key_tables
-from tandemlift.missions.sections import is_of_the_package, sections
-from tandemlift.missions.tables.setting_checks import standing_of
-from tandemlift.missions.template import template_text
+from tandemlift.missions.keys import is_of_the_package, plain, sections
+from tandemlift.missions.reference import explained, index, key_tables, plain_name, template_text
+from tandemlift.parts.contact.standing import standing_on
 
 LEVEL = {"initial.euler": 0.0, "ground.model": "floor"}
 KEYS = [key for s in sections() if is_of_the_package(s.controller) for key in s.keys]
@@ -214,7 +211,9 @@ def test_the_template_is_a_mission_with_all_that_it_keeps_out_as_well():
     assert len(mission.faults) == len(mission.walls) == len(mission.wind.gusts) == 1
     assert mission.vehicle.quadrotors[0].rotors == load_mission("paper").vehicle.quadrotors[0].rotors
     assert mission.vehicle.quadrotors[0].joint_position == load_mission("paper").vehicle.quadrotors[0].joint_position
-    assert mission.ground.height == pytest.approx(standing_of(load_mission("paper", LEVEL)).floor.height, abs=1e-3)
+    paper = load_mission("paper", LEVEL)
+    stands = standing_on(paper.ground, paper.vehicle, 1.0, paper.mission.step, paper.initial)
+    assert mission.ground.height == pytest.approx(stands.floor.height, abs=1e-3)
 
 
 MISSIONS = (ROOT / "docs" / "reference" / "missions.md").read_text("utf-8")

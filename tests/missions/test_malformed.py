@@ -11,8 +11,8 @@ from patience import completed
 
 import tandemlift as tl
 from tandemlift.missions import Mission, built_in, load_mission, tables_of
-from tandemlift.missions.bounds import table_in
 from tandemlift.missions.changes import value_at
+from tandemlift.missions.keys import table_in
 from tandemlift.missions.refusals import keys_of
 
 JARGON = (

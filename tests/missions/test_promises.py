@@ -6,7 +6,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.missions import built_in
-from tandemlift.missions.tables.outcomes import promise_of
+from tandemlift.missions.outcomes import promise_of
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,8 @@ from patience import completed
 
 import tandemlift as tl
 from tandemlift.missions import DATA, Mission, built_in, format_toml, load_mission, merge, tables_of, to_toml
-from tandemlift.missions.bounds import allowed
 from tandemlift.missions.changes import value_at
+from tandemlift.missions.keys import allowed
 
 BUILT_IN = [
     *("doorway", "flight-ready", "four", "gusts", "heavy-payload", "hover", "iris", "narrow-zigzag", "narrow"),

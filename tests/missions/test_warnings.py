@@ -11,8 +11,8 @@ import tandemlift as tl
 from tandemlift.core.types import leaves
 from tandemlift.missions import built_in, load_mission
 from tandemlift.missions.checks import sample_size
-from tandemlift.missions.tables.setting_checks import standing_of
 from tandemlift.parts.contact.feet import sinkage_of, standing_height
+from tandemlift.parts.contact.standing import standing_on
 from tandemlift.simulation.assembly.assemble import assemble
 from tandemlift.simulation.plan import FlightPlan
 
@@ -118,6 +118,11 @@ def test_the_floor_that_is_checked_is_the_one_that_is_flown(changes):
     assert standing.floor == flown
     assert standing.sinkage == pytest.approx(sinkage_of(flown, mission.hover.weight))
     assert standing.rests == pytest.approx(flown.height + standing_height(flown, mission.hover.weight))
+
+
+def standing_of(m):
+    """How the vehicle of a mission stands on the floor."""
+    return standing_on(m.ground, m.vehicle, m.plant.mass_scale, m.mission.step, m.initial)
 
 
 def test_a_level_vehicle_starts_as_deep_in_its_own_floor_as_it_sinks():

@@ -44,10 +44,10 @@ NEW_KEY = '    idle_time: NonNegative = key(0.2, "s", "time of idling after a la
 KEY: Edits = {"parts/guidance/compliance_table.py": [(SPIN_UP, NEW_KEY + SPIN_UP)]}
 KEY_IS_KNOWN = """
 import tandemlift as tl
-from tandemlift.missions.explaining import explained
-from tandemlift.missions.markdown import key_tables
+from tandemlift.missions.reference import explained
+from tandemlift.missions.reference import key_tables
 from tandemlift.missions.schema import mission_schema
-from tandemlift.missions.template import template_text
+from tandemlift.missions.reference import template_text
 
 name, meaning = "compliance.idle_time", "time of idling after a landing"
 assert explained(name).split() == (
@@ -245,7 +245,7 @@ CONTROLLER: Edits = {
 }
 CONTROLLER_FLIES = """
 import tandemlift as tl
-from tandemlift.missions.markdown import key_tables
+from tandemlift.missions.reference import key_tables
 
 metrics = tl.fly(tl.load_mission("hover", {"controller.name": "my-pd", "controller.stiffness": 9.0})).metrics()
 assert abs(metrics["final_position_m"][2] - metrics["final_reference_m"][2]) < 0.01

@@ -8,11 +8,15 @@ import numpy as np
 from law_values import flat, rebuilt
 
 import tandemlift as tl
-from tandemlift.analysis.linearization.delay_lines import values_under_way
 from tandemlift.analysis.linearization.linearize import linearization_plan
 from tandemlift.analysis.linearization.model_inputs import given_at
 from tandemlift.analysis.linearization.operating_point import flown_to
-from tandemlift.analysis.linearization.period import LinearizationPlan, PeriodDerivative, differentiate
+from tandemlift.analysis.linearization.period import (
+    LinearizationPlan,
+    PeriodDerivative,
+    differentiate,
+    values_under_way,
+)
 from tandemlift.analysis.linearization.step_graph import NO_PUSH
 from tandemlift.simulation.loop.step import step_flight
 from tandemlift.simulation.plan import FlightPlan

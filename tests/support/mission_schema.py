@@ -1,7 +1,7 @@
 """All keys of a mission, by walking its tables."""
 
 from tandemlift.missions import Mission
-from tandemlift.missions.bounds import table_in
+from tandemlift.missions.keys import table_in
 from tandemlift.missions.refusals import keys_of
 from tandemlift.parts.controllers import CONTROLLERS
 

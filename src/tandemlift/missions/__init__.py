@@ -4,11 +4,10 @@ A file may start from another mission with `extends = "NAME or path"` and change
 else is replaced, and another `controller.name` starts from that controller's defaults.
 """
 
-from tandemlift.missions.changes import merge
+from tandemlift.missions.changes import merge, tables_of
 from tandemlift.missions.checking import changed, check, in_turn
-from tandemlift.missions.files import DATA, built_in, format_toml, tables_of, to_toml
-from tandemlift.missions.loading import MissionTemplate, load_mission
-from tandemlift.missions.tables.mission import Mission, check_keys
+from tandemlift.missions.loading import DATA, MissionTemplate, built_in, format_toml, load_mission, to_toml
+from tandemlift.missions.mission import Mission, check_keys
 
 __all__ = [
     "DATA",

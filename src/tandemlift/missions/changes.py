@@ -13,8 +13,8 @@ from pydantic.fields import FieldInfo
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.files import parts_of
 from tandemlift.core.keys import PerAxis, is_number
-from tandemlift.missions.bounds import Model, table_in
-from tandemlift.missions.tables.mission import Mission
+from tandemlift.missions.keys import Model, table_in
+from tandemlift.missions.mission import Mission
 from tandemlift.parts.compliance.admittance import with_feel
 from tandemlift.parts.controllers import CONTROLLERS
 
@@ -98,6 +98,11 @@ Tables = dict[str, Any]
 MISSING = object()
 
 
+def place_of(key: str) -> Place:
+    """The place that a dotted key names; a number in it is that of an entry of a list."""
+    return tuple(int(part) if part.isdigit() else part for part in key.split("."))
+
+
 def value_at(tables: Any, place: Place) -> Any:
     """The value at a place in nested tables, or MISSING."""
     for part in place:
@@ -115,3 +120,8 @@ def merge(base: Tables, changes: Tables) -> Tables:
         both = isinstance(value, dict) and isinstance(merged.get(key), dict)
         merged[key] = merge(merged[key], value) if both else value
     return merged
+
+
+def tables_of(mission: Mission) -> Tables:
+    """The mission as nested tables of plain values, all keys resolved; keys that are not set are left out."""
+    return mission.model_dump(mode="json", exclude_none=True)

@@ -9,15 +9,21 @@ from typing import Any, NamedTuple
 from pydantic import BaseModel, ValidationError
 
 from tandemlift.core.errors import FlightWarning, InputError, accepted, shown, suggestion
-from tandemlift.missions.changes import MISSING, Place, Tables, changed_tables, value_at
+from tandemlift.missions.changes import MISSING, Place, Tables, changed_tables, tables_of, value_at
 from tandemlift.missions.checks import mission_checks, refusals
-from tandemlift.missions.files import Layer, tables_of
 from tandemlift.missions.flight_checks import worst_failures
+from tandemlift.missions.mission import Mission
 from tandemlift.missions.refusals import Problem, problems_in
-from tandemlift.missions.tables.mission import Mission
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
 
 MAX_PROBLEMS = 8  # reported at once
+
+
+class Layer(NamedTuple):
+    """The content of one file; `source` names it in messages."""
+
+    source: str
+    tables: Tables
 
 
 class Checked(NamedTuple):

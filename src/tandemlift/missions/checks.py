@@ -10,16 +10,35 @@ from collections.abc import Iterator
 import numpy as np
 
 from tandemlift.core.errors import CheckResult, InputError, refused
+from tandemlift.core.phases import HARD
+from tandemlift.missions import outcomes
 from tandemlift.missions.flight_checks import flight_checks
+from tandemlift.missions.mission import Mission, MissionTable
 from tandemlift.missions.recording import read_recording
-from tandemlift.missions.tables.mission import Mission, MissionTable
-from tandemlift.missions.tables.setting_checks import outcome_refusals, part_refusals, setting_warnings
+from tandemlift.parts.compliance.admittance import admittance_checks, gate_checks
+from tandemlift.parts.contact import standing
+from tandemlift.parts.contact.corridor import wall_checks, wall_warnings
+from tandemlift.parts.estimation import estimator_table as estimator
+from tandemlift.parts.estimation.contact_table import contact_checks
+from tandemlift.parts.estimation.disturbance_observer import observer_checks
+from tandemlift.parts.estimation.wind_compensation import compensation_checks
+from tandemlift.parts.guidance import supervision_table as supervision
+from tandemlift.parts.guidance.guidance import reading_checks
 from tandemlift.parts.mechanics.push import point_checks
-from tandemlift.parts.mechanics.trajectories import phase_checks
+from tandemlift.parts.mechanics.trajectories import phase_checks, phase_warnings
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_checks import vehicle_checks
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
-from tandemlift.parts.person.person_table import PersonTable
+from tandemlift.parts.mechanics.wind import wind_warnings
+from tandemlift.parts.person.person_table import PersonTable, person_checks, person_warnings
+from tandemlift.parts.person.requests import request_checks
+from tandemlift.parts.rotors import lift_checks as lifts
+from tandemlift.parts.rotors.detection_table import detection_checks
+from tandemlift.parts.rotors.rotor_faults import fault_checks, fault_warnings
+from tandemlift.parts.rotors.rotors import ActuatorsTable
+from tandemlift.parts.sensors import sensor_checks as sensors
 from tandemlift.parts.sensors.sensor_list import ADDITIONAL
+from tandemlift.parts.sensors.sensors_table import SensorsTable
 
 MAX_STEPS = 1_000_000_000
 MAX_LOG = 4_000_000_000  # bytes
@@ -37,13 +56,82 @@ def mission_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def refusals(m: Mission) -> Iterator[CheckResult]:
-    """Refusals of missions that no pilot can fly; after the first, further checks may fail to compute."""
+    """Refusals of missions that no pilot can fly; after the first, further checks may fail to compute.
+
+    The order is that in which a mission's first refusal is found.
+    """
+    guidance, step, rotors, s = m.pilot.guidance, m.mission.step, m.actuators.model, m.sensors
+    count, walls = len(m.vehicle.quadrotors), bool(m.all_walls)
     yield from time_checks(m.mission)
     yield from log_checks(m.mission, sample_size(m))
     yield from phase_checks(m.phases)
-    yield from part_refusals(m)
+    yield from vehicle_checks(m.vehicle, m.allocation.weights)
+    yield from admittance_checks(m.admittance, step)
+    yield from fault_checks(m.faults, count, rotors)
+    yield from lifts.lift_checks(m.hover)
+    yield from sensors.delay_checks(_delays(m.actuators, s, m.person), step)
+    yield from sensors.additional_checks(s)
+    yield from reading_checks(m.pilot, s.model)
+    yield from estimator.tare_checks(m.estimator, s.interval, step)
+    yield from compensation_checks(m.estimator.wind_compensation, m.vehicle.quadrotors)
+    yield from observer_checks(m.observer, m.allocation.method)
+    yield from detection_checks(m.detection, m.allocation.method)
+    yield from standing.floor_checks(m.ground, rotors, m.phases, walls=walls)
+    if m.ground.model != "none":
+        stands = standing.standing_on(m.ground, m.vehicle, m.plant.mass_scale, step, m.initial)
+        yield from standing.depth_checks(m.ground, m.initial, stands)
+    yield from wall_checks(m.walls)
+    yield from supervision.supervision_checks(m.supervision, guidance)
+    yield from request_checks(m.requests, guidance)
+    yield from estimator.hover_tare_checks(m.estimator, guidance)
+    yield from gate_checks(m.admittance, guidance)
+    yield from contact_checks(m.contact, guidance, s.model, m.pilot.push)
+    yield from supervision.limit_checks(m.supervision)
+    yield from outcomes.fence_crash_checks(m.crash, m.supervision, m.initial)
+    intervals = {"sensors.interval": s.interval, "sensors.motion.interval": s.motion.interval}
+    yield from supervision.watchdog_checks(m.supervision, intervals, step)
+    yield from sensors.sensor_fault_checks(m.sensor_faults, s, count)
+    for i, push in enumerate(m.pushes):
+        yield from point_checks(f"pushes.{i}.point", push.point, Vehicle.from_settings(m.vehicle))
+    yield from person_checks(m.person, m.corridor, m.vehicle.payload.length)
     yield from recording_checks(m.person, m.vehicle)
-    yield from outcome_refusals(m)
+    yield from outcomes.crash_checks(m.crash, m.initial)
+    yield from outcomes.promise_checks(m.promise, m.findings, m.crash, guidance)
+    yield from outcomes.oscillation_checks(m.findings, step)
+    yield from standing.lift_height_checks(m.ground, m.phases)
+
+
+def setting_warnings(m: Mission) -> Iterator[CheckResult]:
+    """Warnings of settings that do not suit each other."""
+    guidance, hover, p, e, end = m.pilot.guidance, m.hover, m.phases, m.estimator, m.mission.duration
+    simulated, over_floor = m.sensors.model == "simulated", m.ground.model == "floor"
+    yield from phase_warnings(p)
+    if simulated and m.pilot.state != "truth":
+        yield from outcomes.sensed_promise_warnings(m.promise, guidance, m.sensors.motion)
+    if guidance == "interactive" and over_floor and p.land_start is not None and p.land_start < end:
+        yield from outcomes.landing_promise_warnings(m.promise, guidance, m.compliance.touchdown_depth)
+    if m.actuators.model == "rotors":
+        yield from lifts.hover_warnings(hover)
+        yield from fault_warnings(m.faults, hover.weight, hover.faulty_lift, m.allocation.method)
+    else:
+        yield from lifts.ideal_lift_warnings(hover)
+    if simulated:
+        yield from sensors.range_warnings(m.sensors, hover.vehicle, hover.thrusts)
+        yield from lifts.payload_warnings(hover)
+        yield from estimator.bias_warnings(e, m.sensors.joints.force_bias, m.pilot.push)
+        yield from estimator.tare_warnings(e, p, m.pushes, end)
+    if over_floor:
+        limit = hover.mass * HARD if m.crash.impulse is None else m.crash.impulse
+        stands = standing.standing_on(m.ground, m.vehicle, m.plant.mass_scale, m.mission.step, m.initial)
+        yield from standing.floor_warnings(m.ground, m.vehicle, m.actuators.model, m.mission.step, stands)
+        yield from standing.start_warnings(p, stands)
+        yield from standing.blow_warnings(p, m.initial, hover.mass, limit, stands)
+        yield from standing.reference_warnings(p, end, stands)
+        yield from wall_warnings(m.walls, m.corridor, m.initial, hover.vehicle)
+    yield from wind_warnings(m.wind)
+    tared = None if e.tare_start is None or m.pilot.push == "truth" else e.tare_start + e.tare_duration
+    yield from person_warnings(m.person, guidance, tared)
+    yield from m.controller.checks(m.mission.step)
 
 
 def sample_size(m: Mission) -> int:
@@ -94,3 +182,13 @@ def recording_checks(person: PersonTable, table: VehicleTable) -> Iterator[Check
         return
     for grip in grips:
         yield from point_checks(f"person.recording: a grip in {path}", grip, Vehicle.from_settings(table))
+
+
+def _delays(actuators: ActuatorsTable, sensors: SensorsTable, person: PersonTable) -> dict[str, float]:
+    delays = {
+        "actuators.delay": actuators.delay,
+        "sensors.delay": sensors.delay,
+        "sensors.motion.delay": sensors.motion.delay,
+        "person.delay": person.delay,
+    }
+    return delays | {f"sensors.additional.{i}.delay": s.delay for i, s in enumerate(sensors.additional)}

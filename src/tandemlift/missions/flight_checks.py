@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.core.errors import CLOSE, FAILS, SETTINGS, CheckResult, noted
-from tandemlift.missions.tables.mission import Mission
-from tandemlift.missions.tables.outcomes import promise_of
+from tandemlift.missions.mission import Mission
+from tandemlift.missions.outcomes import promise_of
 from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.person.passage import passage_checks
 from tandemlift.parts.person.person_table import waypoints_from
@@ -185,17 +185,6 @@ CHECKS = (
 )
 
 
-def wind_on_parts(m: Mission) -> WindOnParts:
-    """The wind on a mission's vehicle with the heading of its start."""
-    return WindOnParts(m.wind, m.hover.vehicle, m.initial.euler[2], m.mission.step)
-
-
-def schedule_of(m: Mission) -> Schedule:
-    """The schedule of a mission."""
-    by_hand = m.compliance if m.pilot.guidance == "interactive" else None
-    return Schedule(m.phases, m.pushes, m.admittance, by_hand, m.mission.duration)
-
-
 def control_loop(m: Mission) -> ControlLoop:
     """The control loop of a mission."""
     step, hover = m.mission.step, m.hover
@@ -204,27 +193,22 @@ def control_loop(m: Mission) -> ControlLoop:
     return ControlLoop(hover, m.controller, m.observer, readings, push, step)
 
 
+@np.errstate(all="ignore")
 def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
-    """The results of all checks of a mission, by closed forms."""
-    with np.errstate(all="ignore"):
-        return tuple(result for part, results in _parts(m).items() for result in _computable(part, results))
-
-
-def _parts(m: Mission) -> dict[str, Iterator[CheckResult]]:
-    """The checks of each part, in order, each computed on demand."""
-    step, end, pilot, controller = m.mission.step, m.mission.duration, m.pilot, m.controller
-    hover, wind, schedule = m.hover, wind_on_parts(m), schedule_of(m)
-    by_hand, supervised = schedule.compliance, m.supervision.model == "on"
+    """The results of all checks of a mission, by closed forms, in the order of the parts."""
+    step, end, pilot, controller, hover = m.mission.step, m.mission.duration, m.pilot, m.controller, m.hover
+    wind = WindOnParts(m.wind, hover.vehicle, m.initial.euler[2], step)
+    by_hand, schedule = m.by_hand, Schedule(m.phases, m.pushes, m.admittance, m.by_hand, end)
     compliant_yaw = by_hand is not None and by_hand.yaw.model == "compliant"
     loads = loads_of(m.disturbance, wind, m.pushes, end, yielding_yaw=compliant_yaw)
     usable = None if by_hand is None else by_hand.thrust_fraction
-    lifting = m.supervision.checks.thrust_fraction if supervised else None
+    lifting = m.supervision.checks.thrust_fraction if m.supervision.model == "on" else None
     promised, landed = promise_of(m.promise, pilot.guidance).rms_promised(pilot.guidance), m.outcome.landed_height
     lands = m.ground.model == "none" and m.phases.land_start is not None and m.phases.land_start < end
     offsets = (promised, promised, min(promised, landed) if lands else promised)
     windy = wind.blows and pilot.push != "truth"  # wind on the payload counts as a push
     joined = windy or m.person.model != "none" or any(change.key.startswith("admittance") for change in m.changes)
-    return {
+    checks: dict[str, Iterator[CheckResult]] = {  # each is computed on demand
         "authority checks": authority_checks(hover, loads, usable, tilt_limit_of(controller), lifting),
         "start checks": start_checks(m.initial, hover, controller, step, running=m.phases.rotors == "always"),
         "stiffness checks": itertools.chain(
@@ -245,6 +229,7 @@ def _parts(m: Mission) -> dict[str, Iterator[CheckResult]]:
         "point checks": point_checks(m.pushes, hover.vehicle),
         "passage checks": passage_checks(m.person, m.corridor, m.all_walls, m.initial, hover.vehicle),
     }
+    return tuple(result for part, results in checks.items() for result in _computable(part, results))
 
 
 def _computable(part: str, results: Iterator[CheckResult]) -> Iterator[CheckResult]:

@@ -11,8 +11,8 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from tandemlift.core.errors import dotted, nearest, shown
-from tandemlift.missions.bounds import Model, allowed, plain, table_in
 from tandemlift.missions.changes import MISSING, Place, value_at
+from tandemlift.missions.keys import Model, allowed, plain, table_in
 
 BY_ANNOTATION = (  # prefixes of the kinds of error for which the annotation has the allowed values
     *("missing", "axes", "float_", "int_", "bool_", "string_type", "finite_", "greater_", "less_"),

@@ -13,9 +13,8 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic.fields import FieldInfo
 
 from tandemlift.core.keys import description_of
-from tandemlift.missions.bounds import Model, bounds, table_in
-from tandemlift.missions.sections import EXTENDS, Section, compact
-from tandemlift.missions.tables.mission import Mission
+from tandemlift.missions.keys import EXTENDS, Model, bounds, compact, table_in, text_of
+from tandemlift.missions.mission import Mission
 from tandemlift.parts.compliance.admittance import AdmittanceTable
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
 
@@ -54,7 +53,7 @@ def _table(model: Model) -> Schema:
 
 
 def _text(model: Model) -> str:
-    first, *others = Section("", "", model, ()).text
+    first, *others = text_of(model)
     return "\n\n".join([f"{first}.", *others])
 
 

@@ -9,7 +9,7 @@ from tandemlift.core.faults import ALARM_TEXTS, CHECKS
 from tandemlift.core.findings import Finding, FindingName, finding
 from tandemlift.core.phases import IDLE, LAND, LIFT, REASONS, STOPPED
 from tandemlift.core.vector import Absent, dot, total
-from tandemlift.missions.tables.outcomes import FindingsTable, Promise, promise_of
+from tandemlift.missions.outcomes import FindingsTable, Promise, promise_of
 from tandemlift.parts.compliance.following import FollowingState
 from tandemlift.parts.guidance.supervision import ALARM, PHASE, EventLog, SupervisionState
 from tandemlift.parts.mechanics.trajectories import PhasesTable
@@ -264,7 +264,7 @@ def _by_lost_rotor(p: FlightPlan, flight_state: FlightState) -> Iterator[Finding
 
 def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str, end: float) -> Iterator[Finding]:
     """The finding of a scheduled landing that should be over by the end [s], but is not."""
-    by_hand = p.mission.compliance if p.mission.pilot.guidance == "interactive" else None
+    by_hand = p.mission.by_hand
     asked = _landing_asked(p.mission.phases, p.mission.requests)
     if outcome == "flying" and asked + landing_time(p.mission.phases, by_hand) <= end:
         position = flight_state.state.position

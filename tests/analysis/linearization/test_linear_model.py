@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.analysis.linearization.analysis import frequency_response, modes_of
+from tandemlift.analysis.linearization.linear_model import frequency_response, modes_of
 from tandemlift.analysis.linearization.step_graph import CONSTANT, DISCRETE, UNSEEN
 from tandemlift.parts.controllers import control
 from tandemlift.simulation.plan import FlightPlan

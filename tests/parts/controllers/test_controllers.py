@@ -9,7 +9,7 @@ from listings import GUIDE, LISTINGS
 
 import tandemlift as tl
 from tandemlift.core.types import flat
-from tandemlift.missions.markdown import key_tables
+from tandemlift.missions.reference import key_tables
 from tandemlift.parts.controllers import CONTROLLERS, controller, load_controller
 from tandemlift.parts.controllers import control as control_law
 

@@ -12,7 +12,7 @@ from repository import ROOT
 import tandemlift as tl
 from tandemlift.apps.cli import report as command
 from tandemlift.apps.cli.main import cli
-from tandemlift.missions.files import tables_of
+from tandemlift.missions import tables_of
 from tandemlift.pictures.report.paper import files
 from tandemlift.pictures.report.paper.claims import claims, gaussian_displacement
 from tandemlift.pictures.report.paper.contents import open_settings, paper_figures

@@ -75,7 +75,8 @@ def _sum(a: Row, b: Row) -> Row:
     return b if a is None else a if b is None else a + b
 
 
-def _difference(a: Row, b: Row) -> Row:
+def difference(a: Row, b: Row) -> Row:
+    """The derivative of a difference, from those of its terms."""
     return a if b is None else -b if a is None else a - b
 
 
@@ -84,7 +85,7 @@ def _scaled(row: Row, factor: float) -> Row:
 
 
 def _quotient(x: Sequence[float], d: Sequence[Row], v: float) -> Row:
-    top = _difference(d[0], _scaled(d[1], v))
+    top = difference(d[0], _scaled(d[1], v))
     return None if top is None else top / np.float64(x[1])
 
 
@@ -97,7 +98,7 @@ def _root(x: Sequence[float], d: Sequence[Row], v: float) -> Row:
 
 ROW: dict[str, Callable[[Sequence[Any], Sequence[Any], Any], Any]] = {  # of values, rows and the result's value
     "fadd": lambda x, d, v: _sum(*d),
-    "fsub": lambda x, d, v: _difference(*d),
+    "fsub": lambda x, d, v: difference(*d),
     "fmul": lambda x, d, v: _sum(_scaled(d[0], x[1]), _scaled(d[1], x[0])),
     "fdiv": _quotient,
     "fneg": lambda x, d, v: _scaled(d[0], -1.0),

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.linearization.derivative import CURVED, Derivative, Sides, meet
+from tandemlift.analysis.linearization.derivative import CURVED, Derivative, Sides, difference, meet
 from tandemlift.analysis.linearization.period import LinearizationPlan, PeriodDerivative
 from tandemlift.analysis.linearization.step_derivative import StepDerivative
 from tandemlift.compiler.tracer import LEAVES
@@ -100,8 +100,7 @@ def edges_of(r: LinearizationPlan, step: int, d: StepDerivative, tolerance: floa
 def compared(r: LinearizationPlan, d: StepDerivative) -> Iterator[tuple[int, float, Any, bool]]:
     """Decisions by a number's sign: (node, number, its derivative, whether the node is true if it is above 0)."""
     g, rows, values = r.graph.graph, d.nodes.rows, d.nodes.values
-    deciding = deciding_nodes(r)
-    for node in deciding:
+    for node in deciding_nodes(r):
         if node not in values:
             continue
         op, args = g.ops[node], g.args[node]
@@ -109,9 +108,7 @@ def compared(r: LinearizationPlan, d: StepDerivative) -> Iterator[tuple[int, flo
         if op == "fabs":
             row, value = rows[a], values[a]
         else:
-            first, second = rows[a], rows[b]
-            row = first if second is None else -second if first is None else first - second
-            value = values[a] - values[b]
+            row, value = difference(rows[a], rows[b]), values[a] - values[b]
         if row is not None and np.isfinite(value) and np.isfinite(row).all() and not op.endswith(EQUAL):
             yield node, value, row, op == "fabs" or op.endswith(UPWARD)
 
@@ -120,8 +117,8 @@ def deciding_nodes(r: LinearizationPlan) -> list[int]:
     """The comparisons and absolute values that choose between derivatives of the model."""
     g, seen = r.graph.graph, set[int]()
     stack = [g.args[node][0] for node in r.choice.smooth if g.ops[node] == "select"]
-    tests = [s.node for s in [r.graph.traced.limits.beyond]] if r.graph.traced.limits else []
-    stack += tests
+    if r.graph.traced.limits:
+        stack.append(r.graph.traced.limits.beyond.node)
     while stack:
         node = stack.pop()
         if node in seen or g.types[node] != "b":

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.analysis.linearization.delay_lines import delayed_numbers
 from tandemlift.analysis.linearization.kinks import Kink, kinks_near, law_name
 from tandemlift.analysis.linearization.linear_model import LinearizationPoint, LinearModel
 from tandemlift.analysis.linearization.model_inputs import given_at, input_columns, operating_values, push_sum
@@ -20,7 +19,7 @@ from tandemlift.analysis.linearization.operating_point import (
     tare_left,
     with_mean_lag,
 )
-from tandemlift.analysis.linearization.period import LinearizationPlan, PeriodDerivative, differentiate
+from tandemlift.analysis.linearization.period import LinearizationPlan, PeriodDerivative, delayed_numbers, differentiate
 from tandemlift.analysis.linearization.step_graph import step_graph
 from tandemlift.analysis.linearization.variables import Outputs, outputs_from, state_variable
 from tandemlift.core.errors import InputError, shown, unknown

@@ -19,8 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.linearization.analysis import Mode, frequency_response, modes_of
-from tandemlift.analysis.linearization.linear_model import LinearModel
+from tandemlift.analysis.linearization.linear_model import LinearModel, Mode, frequency_response, modes_of
 from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.core.errors import without_flight_warnings
 from tandemlift.core.types import Array
@@ -31,6 +30,10 @@ AXES = ("z", "roll", "pitch", "yaw")
 LOWEST, HIGHEST, POINTS = 0.1, 3000.0, 240  # rad/s
 LIFT, SETTLED = 4.0, 2.0  # s, of the calm flight's lift, and after it and after the tare
 WAITS = (0.0, 20.0)  # s, in addition, for a vehicle that settles slowly
+REMOVED = (
+    *("pushes", "requests", "changes", "faults", "sensor_faults", "walls"),
+    *("wind", "person", "corridor", "supervision", "detection"),
+)
 NO_KINK = -1.0  # a distance: disables the search for kinks
 ON_CIRCLE = 1e-6  # beyond 1, of an eigenvalue that does not grow
 FASTER = 10.0  # times the largest speed of the rotors, so that no thrust is limited
@@ -76,19 +79,15 @@ class AxisMargins(NamedTuple):
         return self.least_gain if 1.0 / self.gain <= self.least_gain else self.gain
 
 
-def calm_tables(mission: Mission, *, lag: float | None, wait: float) -> tuple[dict[str, Any], float]:
-    """(The tables of a mission that hovers calmly, the time at which it does [s]).
+def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.0) -> tuple[Mission, float]:
+    """(A mission that hovers calmly, the time at which it does [s]).
 
     Args:
         mission: the original.
         lag: of all rotors [s], with the mission's delay; None for rotors without delay and lag.
         wait: additional hover time until then [s].
     """
-    t = tables_of(mission)
-    for name in ("pushes", "requests", "changes", "faults", "sensor_faults", "walls"):
-        t.pop(name, None)
-    for name in ("wind", "person", "corridor", "supervision", "detection"):
-        t.pop(name, None)
+    t = {name: table for name, table in tables_of(mission).items() if name not in REMOVED}
     start, floor, by_hand = mission.initial, mission.ground.model == "floor", mission.pilot.guidance == "interactive"
     place = [*(start.position[:2] if by_hand else (0.0, 0.0)), start.position[2] if floor else 0.0]
     t["initial"] = {"position": place, "euler": [0.0, 0.0, start.euler[2] if by_hand else 0.0]}
@@ -107,7 +106,8 @@ def calm_tables(mission: Mission, *, lag: float | None, wait: float) -> tuple[di
             e["tare_start"] = at
         at += SETTLED + mission.estimator.tare_duration + (SETTLED if mission.estimator.tare == "hover" else 0.0)
     t["mission"]["duration"] = at + wait + 1.0
-    return t, at + wait
+    with without_flight_warnings():
+        return check(t, mission.mission.name), at + wait
 
 
 def _without_errors(sensors: dict[str, Any]) -> dict[str, Any]:
@@ -121,13 +121,6 @@ def _without_errors(sensors: dict[str, Any]) -> dict[str, Any]:
         k: {n: clean(n, v) for n, v in part.items()} if isinstance(part, dict) else part for k, part in sensors.items()
     }
     return {k: v for k, v in kept.items() if k != "additional"}
-
-
-def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.0) -> tuple[Mission, float]:
-    """(A mission that hovers calmly, the time [s]); arguments as for `calm_tables`."""
-    with without_flight_warnings():
-        tables, at = calm_tables(mission, lag=lag, wait=wait)
-        return check(tables, mission.mission.name), at
 
 
 def open_loop(mission: Mission) -> OpenLoop:

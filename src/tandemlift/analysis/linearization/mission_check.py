@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
+from tandemlift.analysis.linearization.linear_model import Mode
 from tandemlift.analysis.linearization.loop_margins import (
     OpenLoop,
     axis_margins,
@@ -84,7 +85,7 @@ def loop_results(mission: Mission) -> Iterator[CheckResult]:
     yield from delay_and_lag_limits(loop, delay, lag)
     if is_stable(loop, delay, lag):
         yield from margins(loop, delay, lag)
-        yield from modes(mission, lag)
+        yield from modes(slowest_modes(mission, lag))
 
 
 def delay_and_lag_limits(loop: OpenLoop, delay: float, lag: float) -> Iterator[CheckResult]:
@@ -125,9 +126,9 @@ def margins(loop: OpenLoop, delay: float, lag: float) -> Iterator[CheckResult]:
             yield judged("loop gain", value, limit, "1", "", subject=subject, near=NEAR_GAIN)
 
 
-def modes(mission: Mission, lag: float) -> Iterator[CheckResult]:
-    """The least damped modes of the closed step with the rotors' delay and lag."""
-    for mode in slowest_modes(mission, lag):
+def modes(least_damped: Iterable[Mode]) -> Iterator[CheckResult]:
+    """Check that no mode grows."""
+    for mode in least_damped:
         names = ", ".join(name for name, _ in mode.states[:2])
         text = f"a mode of {mode.frequency:.3g} Hz grows: {names}"
         yield judged("loop mode", -mode.damping, 0.0, "1", text, subject=f"{mode.frequency:.3g} Hz: {names}")

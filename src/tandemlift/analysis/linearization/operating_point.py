@@ -10,6 +10,7 @@ import numpy as np
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import Array, flat
 from tandemlift.missions import Mission
+from tandemlift.missions.mission import MissionTable
 from tandemlift.parts.mechanics.push import SUPPORT
 from tandemlift.parts.rotors.rotor_lag import lag
 from tandemlift.simulation.loop_code import leaf_offset
@@ -41,15 +42,12 @@ def calm_time(mission: Mission) -> float:
 
     This is before the first push, fault or landing and before a person begins; without any, it is the mission's end.
     """
-    phases, m = mission.phases, mission.mission
+    phases, person, end = mission.phases, mission.person, mission.mission.duration
+    ends = [push.time - SUPPORT * push.sigma for push in mission.pushes] + [fault.time for fault in mission.faults]
+    ends += [] if phases.land_start is None else [phases.land_start]
+    ends += [] if person.model == "none" else [person.start_time]
     hovers = phases.lift_start + phases.lift_duration
-    ends = [push.time - SUPPORT * push.sigma for push in mission.pushes]
-    ends += [m.duration] if phases.land_start is None else [phases.land_start, m.duration]
-    ends += [fault.time for fault in mission.faults]
-    if mission.person.model != "none":
-        ends.append(mission.person.start_time)
-    later = [end for end in ends if end > hovers]
-    return max(min([*later, m.duration]), 0.0)
+    return max(min([end, *(calm for calm in ends if calm > hovers)]), 0.0)
 
 
 def tare_left(p: FlightPlan, numbers: Array, t: float) -> float:
@@ -62,21 +60,20 @@ def tare_left(p: FlightPlan, numbers: Array, t: float) -> float:
     return e.tare_duration - float(numbers[leaf_offset(p.model, *GUIDANCE_MEMORY, "phase", "hover_time").at])
 
 
-def is_noisy(mission: Mission) -> bool:
-    """Whether noise of sensors, turbulence or tremor moves the rotors all the time."""
-    s, w, person = mission.sensors, mission.wind, mission.person
-    read = s.model == "simulated" and (mission.pilot.state, mission.pilot.push) != ("truth", "truth")
+def averaged_lags(m: Mission) -> list[tuple[float, float]]:
+    """The lags of each rotor up and down [s] that a linear model takes in the mean.
+
+    None where they are equal, or where no noise of sensors, turbulence or tremor moves the rotors all the time.
+    """
+    lags = [(q.lag_up, q.lag_down) for q in m.vehicle.quadrotors for _ in range(4)]
+    if m.actuators.model != "rotors" or all(up == down for up, down in lags):
+        return []
+    s, wind, person = m.sensors, m.wind, m.person
+    read = s.model == "simulated" and (m.pilot.state, m.pilot.push) != ("truth", "truth")
     parts = (s.joints, s.accelerometer, s.gyroscope, s.motion)
-    noises = [value for part in parts for name, value in part if name.endswith("noise")]
+    noisy = read and any(value for part in parts for name, value in part if name.endswith("noise"))
     trembles = person.model not in ("none", "virtual-hand") and person.tremor > 0.0
-    return (read and any(noises)) or (w.model == "air" and w.turbulence > 0.0) or trembles
-
-
-def averaged_lags(mission: Mission) -> list[tuple[float, float]]:
-    """The lags of each rotor up and down [s] that a linear model takes in the mean; none where they are equal."""
-    lags = [(q.lag_up, q.lag_down) for q in mission.vehicle.quadrotors for _ in range(4)]
-    differ = any(up != down for up, down in lags) and mission.actuators.model == "rotors"
-    return lags if differ and is_noisy(mission) else []
+    return lags if noisy or (wind.model == "air" and wind.turbulence > 0.0) or trembles else []
 
 
 def with_mean_lag(point: OperatingPoint) -> OperatingPoint:
@@ -90,15 +87,12 @@ def with_mean_lag(point: OperatingPoint) -> OperatingPoint:
     return point._replace(numbers=numbers)
 
 
-def step_at(mission: Mission, at: float | None) -> int:
+def step_at(m: MissionTable, at: float) -> int:
     """The number of the step that begins at a time.
 
     Raises:
         InputError: the time is not within the mission.
     """
-    m = mission.mission
-    if at is None:
-        return min(int(calm_time(mission) / m.step + 1e-9), m.steps - 1)
     if not isinstance(at, (int, float)) or not math.isfinite(at) or not 0.0 <= at <= m.duration:
         raise InputError(f"at = {shown(at)}: must be a time from 0 to mission.duration = {m.duration:g} s")
     return min(round(at / m.step), m.steps - 1)
@@ -110,7 +104,8 @@ def flown_to(mission: Mission, at: float | None) -> OperatingPoint:
     Raises:
         InputError: the time is not within the mission, the flight is lost before, or its step has no derivative.
     """
-    k = step_at(mission, at)
+    t = mission.mission
+    k = min(int(calm_time(mission) / t.step + 1e-9), t.steps - 1) if at is None else step_at(t, at)
     plan = FlightPlan(mission)
     _check(plan)
     stepper = Stepper(plan)

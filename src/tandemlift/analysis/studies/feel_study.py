@@ -12,11 +12,11 @@ from tandemlift.core.errors import FAILS, CheckResult, judged, noted
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import GRAVITY, Progress
 from tandemlift.missions import Mission
-from tandemlift.missions.flight_checks import schedule_of, wind_on_parts
 from tandemlift.parts.compliance.admittance import LN_20
 from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.person.passage import least_room, passage_checks, places_of
+from tandemlift.parts.pilot.schedule_checks import Schedule
 from tandemlift.parts.pilot.sensing_checks import (
     NOISE_SIGMAS,
     SensorDrift,
@@ -27,6 +27,7 @@ from tandemlift.parts.pilot.sensing_checks import (
 )
 from tandemlift.parts.rotors.authority import CONTROL
 from tandemlift.parts.rotors.hover import HoverFacts
+from tandemlift.parts.rotors.hover_loads import WindOnParts
 
 DRIFT_SIGMAS = 2.0  # standard deviations of the sensors' drift
 SATURATED = 0.01  # of the time, at most, with a rotor at its limit
@@ -35,8 +36,9 @@ APART = 0.25  # of the final speed, at most, between closed form and flight
 
 def feel_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
     """The checks by closed forms."""
-    hover, wind, schedule, s, e = m.hover, wind_on_parts(m), schedule_of(m), m.sensors, m.estimator
-    vehicle, by_hand = hover.vehicle, schedule.compliance
+    hover, by_hand, s, e = m.hover, m.by_hand, m.sensors, m.estimator
+    schedule = Schedule(m.phases, m.pushes, m.admittance, by_hand, m.mission.duration)
+    vehicle, wind = hover.vehicle, WindOnParts(m.wind, hover.vehicle, m.initial.euler[2], m.mission.step)
     if by_hand is not None:
         for limits in zip(axes, by_hand.max_speed, by_hand.max_acceleration, strict=False):
             yield from limit_checks(*limits)

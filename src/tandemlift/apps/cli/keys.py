@@ -25,7 +25,7 @@ def template() -> None:
       tandemlift template > mine.toml
       tandemlift run mine.toml
     """
-    from tandemlift.missions.template import template_text
+    from tandemlift.missions.reference import template_text
 
     echo(template_text(), nl=False)
 
@@ -47,8 +47,7 @@ def explain(key: str | None, controller: str | None, markdown: bool) -> None:
       tandemlift explain controller.stiffness --controller my_pd.py
       tandemlift explain controller --controller my_pd.py
     """
-    from tandemlift.missions.explaining import explained, index
-    from tandemlift.missions.markdown import key_tables
+    from tandemlift.missions.reference import explained, index, key_tables
 
     own = "" if controller is None else chosen_controller(controller).name
     if markdown:

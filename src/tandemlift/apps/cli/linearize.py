@@ -64,8 +64,7 @@ def linearize(
       0   the model was printed
       2   bad input: one message, nothing is written
     """
-    from tandemlift.analysis.linearization.analysis import model_lines
-    from tandemlift.analysis.linearization.linear_model import ENDINGS
+    from tandemlift.analysis.linearization.linear_model import ENDINGS, model_lines
     from tandemlift.analysis.linearization.linearize import linearize as linearized
 
     _check_endings("--out", out, ENDINGS)

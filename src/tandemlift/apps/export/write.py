@@ -76,7 +76,14 @@ def _writer(what: Flight | Mission, path: Path, plugin: int | str | None) -> Cal
     _check_plugin(plugin, path)
     if is_of_mission:
         mission = what if isinstance(what, Mission) else check(what.mission, f"flight {what.name!r}")
-        text = _model(mission, ending, plugin)
+        if ending == WORLD:
+            from tandemlift.engines.models.sdf import world
+
+            text = world(mission, plugin)
+        else:
+            from tandemlift.engines.models.mjcf import model_text
+
+            text = model_text(mission)
         return lambda partial: partial.write_bytes(text.encode())
     if isinstance(what, Mission):
         raise InputError(f"{path}: mission {what.mission.name!r} is no flight: fly it, or write {OF_MISSION}")
@@ -92,14 +99,3 @@ def _check_plugin(plugin: int | str | None, path: Path) -> None:
         raise InputError(f"{path}: only a world, {WORLD}, has a plugin")
     if plugin != "ros" and not (isinstance(plugin, int) and 1 <= plugin <= 65535):
         raise InputError(f"plugin = {plugin}: must be a port, from 1 to 65535, or 'ros'")
-
-
-def _model(mission: Mission, ending: str, plugin: int | str | None) -> str:
-    """The text of a mission's world or model."""
-    if ending == WORLD:
-        from tandemlift.engines.models.sdf import world
-
-        return world(mission, plugin)
-    from tandemlift.engines.models.mjcf import model_text
-
-    return model_text(mission)

@@ -23,8 +23,8 @@ from tandemlift.core.refusals import REQUESTS, refusals_for, sentences_for
 from tandemlift.core.types import flat
 from tandemlift.flight.record import ENDING_TEXT
 from tandemlift.missions import changed, tables_of
-from tandemlift.missions.bounds import allowed, bounds, plain
 from tandemlift.missions.changes import Tables
+from tandemlift.missions.keys import allowed, bounds, plain
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.outcome import NOT_FINITE, limit_of

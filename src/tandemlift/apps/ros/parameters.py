@@ -7,7 +7,7 @@ controller calls them, and mean the same; the ratio is D/(2 √(M K)) of each ax
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any
 
 from pydantic import ValidationError
@@ -18,11 +18,11 @@ from tandemlift.apps.live.session.session import Session
 from tandemlift.apps.ros.diagnostics import Notify
 from tandemlift.apps.ros.middleware import Middleware
 from tandemlift.core.errors import InputError, shown, unknown
+from tandemlift.core.keys import Triple
 from tandemlift.missions import tables_of
 
 DAMPING, RATIO = "admittance.damping", "admittance.damping_ratio"
 SPRING = ("person.stiffness", "person.damping")  # of a page's hand; here pushes are forces
-Axes = Sequence[float]  # kg, N s/m or N/m, of each axis of the admittance
 LAST = (DAMPING, RATIO)  # are set after mass and stiffness, of which they are formed
 
 
@@ -80,13 +80,13 @@ def _message(key: str, value: Any) -> SetMessage:
         raise InputError(f"{key} = {shown(value)}: must be a number, a list of numbers, or a word") from None
 
 
-def damping_ratio(mass: Axes, damping: Axes, stiffness: Axes) -> list[float]:
+def damping_ratio(mass: Triple, damping: Triple, stiffness: Triple) -> list[float]:
     """D/(2 √(M K)) of each axis of the admittance; 0 where there is no stiffness."""
     axes = zip(mass, damping, stiffness, strict=True)
     return [d / (2.0 * math.sqrt(m * k)) if k > 0.0 else 0.0 for m, d, k in axes]
 
 
-def damping_of(ratio: object, mass: Axes, damping: Axes, stiffness: Axes) -> list[float]:
+def damping_of(ratio: object, mass: Triple, damping: Triple, stiffness: Triple) -> list[float]:
     """The damping [N s/m] of each axis that has a damping ratio; an axis without stiffness keeps its own.
 
     Raises:

@@ -9,8 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tandemlift.analysis.linearization.analysis import Modes, frequency_response
-from tandemlift.analysis.linearization.linear_model import LinearModel
+from tandemlift.analysis.linearization.linear_model import LinearModel, Modes, frequency_response
 from tandemlift.pictures.figures.drawing.style import (
     BLUE,
     COMPONENTS,

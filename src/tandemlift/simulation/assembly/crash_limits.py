@@ -8,7 +8,7 @@ from tandemlift.core.algebra import cos
 from tandemlift.core.phases import FLIES, HARD
 from tandemlift.core.types import GRAVITY, Number
 from tandemlift.core.vector import Absent, vec3
-from tandemlift.missions.tables.outcomes import CrashTable
+from tandemlift.missions.outcomes import CrashTable
 from tandemlift.parts.guidance.supervision_table import SupervisionTable
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.simulation.loop.ending import Aftermath, CrashLimits, CrashMemory, OuterFence, Strike

@@ -9,7 +9,7 @@ from tandemlift.core.caching import cached
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Vec3
 from tandemlift.missions import Mission
-from tandemlift.missions.tables.outcomes import FindingsTable, promise_of
+from tandemlift.missions.outcomes import FindingsTable, promise_of
 from tandemlift.parts.compliance.admittance import AdmittanceTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotors import ActuatorsTable

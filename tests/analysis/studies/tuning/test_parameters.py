@@ -65,7 +65,7 @@ def test_a_value_is_flown_with_three_digits_within_its_bounds(mission):
 
 def test_components_that_are_not_searched_stay(mission):
     numbers = parameters_of(mission, {"controller.gains.xi.1": None, "controller.gains.xi.4": None}, FACTOR)
-    assert changes_at(numbers, (7.0, 9.0), mission) == {"controller.gains.xi": [1.2, 7.0, 3.0, 6.0, 9.0, 0.8]}
+    assert changes_at(numbers, (7.0, 9.0)) == {"controller.gains.xi": [1.2, 7.0, 3.0, 6.0, 9.0, 0.8]}
 
 
 @pytest.mark.parametrize(
@@ -103,7 +103,7 @@ def test_a_key_without_a_value_is_searched_in_the_range_that_is_given(mission):
 def test_a_feel_is_searched_as_one_number_for_all_axes_or_as_one_for_each():
     light = tl.load_mission("zigzag", {"admittance.feel.preset": "light"})
     (speed,) = parameters_of(light, {"admittance.feel.speed": [0.2, 0.8]}, FACTOR)
-    found = tl.load_mission("zigzag", {"admittance.feel.preset": "light", **changes_at([speed], [0.35], light)})
+    found = tl.load_mission("zigzag", {"admittance.feel.preset": "light", **changes_at([speed], [0.35])})
     assert found.admittance.damping == pytest.approx([(1.0 - 0.3) / 0.35] * 3)
     numbers = {"admittance.feel": {"force": 1.0, "speed": 0.5, "time": 2.5}}
     assert len(parameters_of(tl.load_mission("zigzag", numbers), {"admittance.feel": None}, FACTOR)) == 9

@@ -12,7 +12,6 @@ from typing import Any
 from tandemlift.analysis.studies.design.distributions import Horizontal, Uniform
 from tandemlift.analysis.studies.design.draws import Drawn
 from tandemlift.core.errors import InputError
-from tandemlift.missions import Mission
 
 SCALED = (
     *("stiffness", "damping", "lag", "gain", "speed"),
@@ -33,19 +32,17 @@ def random_person() -> Drawn:
     }
 
 
-def check_has_person(mission: Mission) -> None:
-    """Check that a mission has a person.
+def check_has_person(model: str, name: str) -> None:
+    """Check that a mission has a person: `model` is that of `[person]`, `name` the mission's.
 
     Raises:
         InputError: it has none.
     """
-    if mission.person.model == "none":
-        raise InputError(
-            f"study.persons = 'random': mission {mission.mission.name!r} has no person; person.model must not be 'none'"
-        )
+    if model == "none":
+        raise InputError(f"study.persons = 'random': mission {name!r} has no person; person.model must not be 'none'")
 
 
-def person_changes(mission: Mission, drawn: dict[str, Any]) -> dict[str, Any]:
-    """The changes of a mission for a drawn person."""
-    changes = {key: value for key, value in drawn.items() if key != GRIP or mission.person.model == "steer"}
-    return {"mission.duration": LONGER * mission.mission.duration, **changes}
+def person_changes(model: str, duration: float, drawn: dict[str, Any]) -> dict[str, Any]:
+    """The changes of a mission with this `person.model` and duration [s] for a drawn person."""
+    changes = {key: value for key, value in drawn.items() if key != GRIP or model == "steer"}
+    return {"mission.duration": LONGER * duration, **changes}

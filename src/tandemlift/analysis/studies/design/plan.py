@@ -17,7 +17,7 @@ from tandemlift.analysis.studies.design.settings import MAX_ROWS, CaseTable, Stu
 from tandemlift.analysis.studies.design.variants import Variant
 from tandemlift.core.errors import InputError
 from tandemlift.missions import Mission, tables_of
-from tandemlift.missions.changes import MISSING, Tables, value_at
+from tandemlift.missions.changes import MISSING, Tables, place_of, value_at
 from tandemlift.missions.loading import MissionTemplate
 
 SEED = "mission.seed"
@@ -96,7 +96,8 @@ class StudyPlan:
     def _add_persons(self, said: Mapping[str, str]) -> None:
         """Draw persons, too, except for keys that the study sets."""
         for variant in self.variants:
-            check_has_person(variant.template(self.common).mission({}))
+            own = variant.template(self.common).mission({})
+            check_has_person(own.person.model, own.mission.name)
         self.persons = {key: distribution for key, distribution in random_person().items() if key not in said}
         self.drawn = {**self.drawn, **self.persons}
 
@@ -175,7 +176,9 @@ class StudyPlan:
     def _with_person(
         self, changes: dict[str, Any], varied: dict[str, Any], variant: int
     ) -> tuple[dict[str, Any], dict[str, Any]]:
-        made = person_changes(self._own[variant][0], {key: varied[key] for key in self.persons})
+        mission, _ = self._own[variant]
+        drawn = {key: varied[key] for key in self.persons}
+        made = person_changes(mission.person.model, mission.mission.duration, drawn)
         left_out = self.persons.keys() - made.keys()
         own = {key: value for key, value in changes.items() if key not in left_out}
         return {**made, **own}, {key: value for key, value in varied.items() if key not in left_out}
@@ -184,8 +187,7 @@ class StudyPlan:
         """The value of a draw, which may be relative to the mission's own."""
         if not self.drawn[key].relative:
             return value
-        place = tuple(int(part) if part.isdigit() else part for part in key.split("."))
-        return _times(value_at(self._own[variant][1], place), value, key, self.variants[variant].mission)
+        return _times(value_at(self._own[variant][1], place_of(key)), value, key, self.variants[variant].mission)
 
     def mission(self, row: StudyRow) -> Mission:
         """The mission of a row.

@@ -15,7 +15,7 @@ from tandemlift.analysis.studies.design.variants import variants_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import toml_tables
 from tandemlift.missions.changes import changed_tables
-from tandemlift.missions.files import MAX_FILE
+from tandemlift.missions.loading import MAX_FILE
 from tandemlift.missions.refusals import problems_in
 
 

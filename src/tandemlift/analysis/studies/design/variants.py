@@ -17,7 +17,7 @@ from tandemlift.core.errors import InputError, unknown, without_flight_warnings
 from tandemlift.engines.registry import engine_named
 from tandemlift.missions import check
 from tandemlift.missions.changes import Tables, merge, value_at
-from tandemlift.missions.files import Layer
+from tandemlift.missions.checking import Layer
 from tandemlift.missions.loading import MissionTemplate, read_tables
 from tandemlift.missions.recording import hold_recording
 from tandemlift.parts.controllers import CONTROLLERS, controller, file_of, load_controller

@@ -18,7 +18,7 @@ from pydantic import BaseModel
 from tandemlift.core.errors import InputError, shown, suggestion
 from tandemlift.core.keys import is_number
 from tandemlift.missions import Mission
-from tandemlift.missions.bounds import bounds, innermost, plain
+from tandemlift.missions.keys import bounds, innermost, plain
 
 DIGITS = 3  # of a flown number
 LIMITS = {"a", "max_tilt", "velocity_i_limit", "rate_i_limit", "integral_limit", "tracking"}
@@ -41,6 +41,7 @@ class Tunable(NamedTuple):
         is_log: whether it is searched by its logarithm.
         is_whole: whether it is a whole number.
         choices: its values, if it is a choice; then it has no bounds.
+        own: the value of the key now, with all of its components; None of a key without one.
     """
 
     key: str
@@ -51,6 +52,7 @@ class Tunable(NamedTuple):
     is_log: bool = False
     is_whole: bool = False
     choices: tuple[Any, ...] = ()
+    own: Any = None
 
     @property
     def name(self) -> str:
@@ -156,7 +158,7 @@ def _check_range(asked: str, limits: Range) -> None:
 
 def _parameters(leaf: _Leaf, limits: Range, factor: float) -> Iterator[Tunable]:
     if (choices := _choices(leaf, limits)) is not None:
-        yield Tunable(leaf.key, None, leaf.value, choices=choices)
+        yield Tunable(leaf.key, None, leaf.value, choices=choices, own=leaf.value)
         return
     whole = plain(leaf.annotation) is int
     if leaf.value is None and limits is not None:
@@ -210,7 +212,7 @@ def _number(leaf: _Leaf, place: int | None, value: Any, limits: Range, factor: f
     is_log = low > 0.0
     if value is None:
         value = math.sqrt(low * high) if is_log else 0.5 * (low + high)
-    return Tunable(leaf.key, place, min(max(value, low), high), low, high, is_log, whole)
+    return Tunable(leaf.key, place, min(max(value, low), high), low, high, is_log, whole, own=leaf.value)
 
 
 def _bounds_of(leaf: _Leaf) -> tuple[float, float]:
@@ -228,20 +230,12 @@ def _bounds_of(leaf: _Leaf) -> tuple[float, float]:
     return float(low), float(high) if "lt" in found or "le" in found else math.inf
 
 
-def changes_at(parameters: Sequence[Tunable], values: Sequence[Any], mission: Mission) -> dict[str, Any]:
-    """The values of parameters as changes of the mission by dotted key; other components of a vector stay."""
+def changes_at(parameters: Sequence[Tunable], values: Sequence[Any]) -> dict[str, Any]:
+    """The values of parameters as changes of their mission by dotted key; other components of a vector stay."""
     changes: dict[str, Any] = {}
     for p, value in zip(parameters, values, strict=True):
         if p.place is None:
             changes[p.key] = value
         else:
-            changes.setdefault(p.key, list(value_of(mission, p.key)))[p.place] = value
+            changes.setdefault(p.key, list(p.own))[p.place] = value
     return changes
-
-
-def value_of(mission: Mission, key: str) -> Any:
-    """The value of a mission's dotted key."""
-    at: Any = mission
-    for part in key.split("."):
-        at = at[int(part)] if isinstance(at, tuple) else getattr(at, part)
-    return at

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from tandemlift.analysis.studies.tuning.candidates import Cost
 from tandemlift.analysis.studies.tuning.draws import Draw
 from tandemlift.analysis.studies.tuning.holdout import Evidence, as_table
-from tandemlift.analysis.studies.tuning.parameters import Tunable, value_of
+from tandemlift.analysis.studies.tuning.parameters import Tunable
 from tandemlift.analysis.studies.tuning.task import Task, Values
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import write_file
@@ -163,11 +163,7 @@ class Tuning(NamedTuple):
 
 def present_values(task: Task) -> Values:
     """The present values of a task's parameters, exactly."""
-    found = []
-    for p in task.parameters:
-        value = value_of(task.mission, p.key)
-        found.append(value if p.place is None else value[p.place])
-    return tuple(found)
+    return tuple(p.own if p.place is None else p.own[p.place] for p in task.parameters)
 
 
 def _bounds(p: Tunable) -> dict[str, Any]:

@@ -58,7 +58,7 @@ class Task(NamedTuple):
 
     def changes(self, values: Values) -> Changes:
         """The values of parameters as changes of the mission."""
-        return changes_at(self.parameters, values, self.mission)
+        return changes_at(self.parameters, values)
 
     def fly(self, candidates: Sequence[Changes], draws: Sequence[Draw]) -> list[Trial]:
         """The trials of candidates on draws."""

@@ -33,7 +33,7 @@ from tandemlift.apps.live.session.server_messages import (
 )
 from tandemlift.core.errors import InputError, shown
 from tandemlift.missions import tables_of
-from tandemlift.missions.changes import MISSING, Tables, value_at
+from tandemlift.missions.changes import MISSING, Tables, place_of, value_at
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
@@ -86,8 +86,7 @@ def keys_of(tables: Tables, key: str) -> list[str]:
 
 def value_of(tables: Tables, key: str) -> Any:
     """The value of a parameter in a mission's tables, or `MISSING`."""
-    place = key.replace(EVERY, "vehicle.quadrotors.0.").split(".")
-    value = value_at(tables, tuple(int(part) if part.isdigit() else part for part in place))
+    value = value_at(tables, place_of(key.replace(EVERY, "vehicle.quadrotors.0.")))
     return "hard" if key == GATE and value is MISSING else value
 
 

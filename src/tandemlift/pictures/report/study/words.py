@@ -12,8 +12,8 @@ import numpy as np
 
 from tandemlift.analysis.studies.quantities import Quantity
 from tandemlift.core.types import Array
-from tandemlift.missions.explaining import plain_name
-from tandemlift.missions.sections import sections
+from tandemlift.missions.keys import sections
+from tandemlift.missions.reference import plain_name
 from tandemlift.pictures.report.flight_report import split_unit
 
 FAR = 30.0  # times the median, from where on values are shown on a logarithmic scale

@@ -1,24 +1,85 @@
-"""All tables of a mission with their keys, in the template's order, and those of every registered controller."""
+"""All tables of a mission with their keys, and the allowed values of each key in words.
+
+The tables are in the template's order, with those of every registered controller. The allowed values are read from the
+type of a key, which also covers the keys of a user's controller.
+"""
 
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterator
-from typing import NamedTuple, get_origin
+import types
+from collections.abc import Iterable, Iterator
+from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_origin
 
+from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from tandemlift.core.errors import written
+from tandemlift.core.errors import shown, written
 from tandemlift.core.keys import KeyDescription, description_of
-from tandemlift.missions.bounds import Model, allowed, table_in
-from tandemlift.missions.tables.mission import Mission
+from tandemlift.missions.mission import Mission
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
 
+Model = type[BaseModel]
+WORDS: dict[object, str] = {float: "a number", int: "a whole number", bool: "true or false", str: "text in quotes"}
+LIMITS = {"gt": ">", "ge": "≥", "lt": "<", "le": "≤"}
 PAPER = "nftsmc"  # whose keys stand for `[controller]` in the template
 EXTENDS = KeyDescription(
     meaning="start from this mission and write only what differs: a built-in name, or a path relative to this file",
     example="paper",
 )
+
+
+def table_in(annotation: object) -> Model | None:
+    """The table inside an annotation such as `tuple[Quadrotor, ...]`."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    return next((t for t in map(table_in, get_args(annotation)) if t is not None), None)
+
+
+def allowed(annotation: object, marks: Iterable[Any] = ()) -> str:
+    """The allowed values of a key with this annotation, in words."""
+    kind, parts = get_origin(annotation), [a for a in get_args(annotation) if a not in (type(None), Ellipsis)]
+    if kind is Annotated:
+        return allowed(parts[0], (*parts[1:], *marks))
+    if kind is Literal:
+        *others, last = map(shown, parts)
+        return f"{', '.join(others)} or {last}" if others else last
+    if kind in (Union, types.UnionType):
+        return " or ".join(dict.fromkeys(allowed(part, marks) for part in parts))
+    table = table_in(annotation)
+    if table is not None:
+        return "a list of tables" if kind is tuple else f"a table with {', '.join(table.model_fields)}"
+    axes = next((mark for mark in marks if hasattr(mark, "describe")), None)
+    if axes is not None:
+        return axes.describe(limits(innermost(annotation)))
+    size = f" of {len(parts)}" if kind is tuple and Ellipsis not in get_args(annotation) else ""
+    otherwise = {None: "another kind of value", dict: "a table"}.get(kind, f"a list{size}")
+    return f"{WORDS.get(annotation, otherwise)} {limits(marks)}".rstrip()
+
+
+def innermost(annotation: object) -> tuple[Any, ...]:
+    """The marks of the numbers in nested tuples."""
+    while get_origin(annotation) is tuple:
+        annotation = get_args(annotation)[0]
+    return get_args(annotation)[1:]
+
+
+def bounds(marks: Iterable[Any]) -> dict[str, float]:
+    """The bounds that marks set, by their names `gt`, `ge`, `lt` and `le`."""
+    flat = [inner for mark in marks for inner in getattr(mark, "metadata", [mark])]
+    return {name: getattr(mark, name) for mark in flat for name in LIMITS if hasattr(mark, name)}
+
+
+def limits(marks: Iterable[Any]) -> str:
+    """The bounds as text, such as '> 0 and ≤ 0.02'."""
+    return " and ".join(f"{LIMITS[name]} {limit:g}" for name, limit in bounds(marks).items())
+
+
+def plain(annotation: object) -> object:
+    """An annotation without its marks and without the None of a key that may be left out."""
+    while get_origin(annotation) in (Annotated, Union, types.UnionType):
+        annotation = get_args(annotation)[0]
+    return annotation
 
 
 class Key(NamedTuple):
@@ -61,9 +122,14 @@ class Section(NamedTuple):
     @property
     def text(self) -> list[str]:
         """The description of the table, in paragraphs of one line each; the first is a phrase."""
-        paragraphs = (inspect.getdoc(self.model) or "").split("\n\n")
-        first, *others = [" ".join(p.split()) for p in paragraphs]
-        return [(first.partition("`: ")[2] or first).removesuffix("."), *others]
+        return text_of(self.model)
+
+
+def text_of(model: Model) -> list[str]:
+    """The description of a table, in paragraphs of one line each; the first is a phrase."""
+    paragraphs = (inspect.getdoc(model) or "").split("\n\n")
+    first, *others = [" ".join(p.split()) for p in paragraphs]
+    return [(first.partition("`: ")[2] or first).removesuffix("."), *others]
 
 
 def compact(field: FieldInfo, value: object) -> object:

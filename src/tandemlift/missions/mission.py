@@ -1,4 +1,8 @@
-"""The `Mission` with all its tables; the tables `[mission]` and `[[changes]]`."""
+"""The `Mission` with all its tables; the tables `[mission]` and `[[changes]]`.
+
+Every table is strict: unknown keys, wrong types and non-finite numbers are refused. A key that is given per axis
+takes one number for all axes or one number each. The built-in missions in `data/missions` hold the numbers.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +15,7 @@ from pydantic import AfterValidator, Field, SerializeAsAny, ValidationError, mod
 
 from tandemlift.core.errors import InputError
 from tandemlift.core.keys import NonNegative, Positive, Table, divisor, key, must
-from tandemlift.missions.tables.outcomes import CrashTable, FindingsTable, OutcomeTable, PromiseTable
+from tandemlift.missions.outcomes import CrashTable, FindingsTable, OutcomeTable, PromiseTable
 from tandemlift.parts.compliance.admittance import AdmittanceTable, with_feel
 from tandemlift.parts.contact.corridor import CorridorTable, WallTable
 from tandemlift.parts.contact.ground_table import GroundTable
@@ -155,6 +159,11 @@ class Mission(Table):
     def all_walls(self) -> tuple[WallTable, ...]:
         """All walls: those of `walls`, then the corridor's."""
         return (*self.walls, *self.corridor.walls)
+
+    @property
+    def by_hand(self) -> ComplianceTable | None:
+        """The limits of interactive guidance; None with scheduled guidance."""
+        return self.compliance if self.pilot.guidance == "interactive" else None
 
     @property
     def hover(self) -> HoverFacts:
