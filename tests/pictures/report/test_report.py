@@ -18,7 +18,8 @@ from tandemlift.flight.record import Ending, Flight
 from tandemlift.missions import tables_of
 from tandemlift.pictures.figures.registry import captions, figures_for, save_figures
 from tandemlift.pictures.report.flight_files import write_flight_files
-from tandemlift.pictures.report.flight_report import number, split_unit, write_report
+from tandemlift.pictures.report.flight_report import split_unit, write_report
+from tandemlift.pictures.report.page import number
 
 HOSTILE = "<script>alert('x')</script>\"&<img src=http://evil.example/x.png>"
 

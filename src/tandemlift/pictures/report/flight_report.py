@@ -5,50 +5,23 @@ Captions stand with their figures in `pictures.figures`.
 
 from __future__ import annotations
 
-import base64
 import math
 import os
 import re
-import struct
 from collections.abc import Iterable, Mapping
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tandemlift.flight.metric_descriptions import metric_of
 from tandemlift.flight.record import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
-from tandemlift.pictures.figures.drawing.figure_style import DARK, current_style
 from tandemlift.pictures.figures.registry import VIEWS, captions, figures_for
 from tandemlift.pictures.report.findings_section import html_findings, html_place
-from tandemlift.pictures.report.page import html, write_page
-from tandemlift.pictures.report.setup_section import setup_rows
-
-if TYPE_CHECKING:
-    from tandemlift.pictures.figures.drawing.figure import Caption
-
-DASH = "–"  # a value that could not be computed
-NO_BREAK = "\u00a0"
-SCREEN = 0.45  # CSS pixels for a dot of print: figures are read at arm's length
-WIDE = 600  # CSS pixels from where a figure scrolls sideways on a narrow screen instead of shrinking
+from tandemlift.pictures.report.page import DASH, NO_BREAK, html, html_figure, number, write_page
+from tandemlift.pictures.report.setup_section import html_setup
 
 ARRIVED = 0.5  # m: a vehicle that ends farther from its reference has not arrived
-
-
-def number(value: object) -> str:
-    """A metric's value as HTML: four significant digits, or a power of ten; a dash for None."""
-    if value is None:
-        return DASH
-    if not isinstance(value, (int, float)) or isinstance(value, bool) or not math.isfinite(value):
-        return escape(str(value))
-    if isinstance(value, int) or 1e4 <= abs(value) < 1e7:
-        text = f"{value:,.0f}".replace(",", "\u202f")
-    elif value == 0 or 1e-3 <= abs(value) < 1e4:
-        text = f"{value:#.4g}".rstrip(".") if value else "0"
-    else:
-        digits, power = f"{value:.2e}".split("e")
-        text = f"{digits} × 10<sup>{int(power)}</sup>"
-    return text.replace("-", "−")
 
 
 def split_unit(name: str) -> tuple[str, str]:
@@ -142,34 +115,6 @@ def _engine(flight: Flight) -> str:
     return f"Flown in engine <b>{escape(name)}</b>" if name else "Engine unknown"
 
 
-def html_table(head: str, rows: Iterable[str], look: str) -> str:
-    """A table of rows as HTML, that scrolls sideways where it is too wide; `head` is its first row, '' for none."""
-    top = f"<thead>{head}</thead>\n" if head else ""
-    body = f"<tbody>\n{chr(10).join(rows)}\n</tbody>"
-    return f'<div class="table">\n<table class="{look}">\n{top}{body}\n</table>\n</div>'
-
-
-def _setup(flight: Flight) -> str:
-    """Vehicle, pilot, rotors, sensors and surroundings as a table, a row each."""
-    rows = (f'<tr><th scope="row">{escape(what)}</th><td>{escape(said)}</td></tr>' for what, said in setup_rows(flight))
-    return html_table("", rows, "setup")
-
-
-def html_figure(place: int, name: str, png: Path, caption: Caption) -> str:
-    """A picture in the page, with its number and caption.
-
-    On a dark page, a drawing on white is inverted, and its hues turned back; a photograph is not.
-    """
-    data = png.read_bytes()
-    width, height = (round(SCREEN * dots) for dots in struct.unpack(">II", data[16:24]))  # of the PNG's header
-    source = f"data:image/png;base64,{base64.b64encode(data).decode()}"
-    looks = ["wide"] * (width > WIDE) + ["drawn"] * (name != VIEWS and current_style().palette != DARK)
-    look = f' class="{" ".join(looks)}"' if looks else ""
-    image = f'<img{look} width="{width}" height="{height}" alt="{escape(caption.alt)}" src="{source}">'
-    text = f"<b>Figure {place}. {escape(caption.title)}.</b> {escape(caption.text)}"
-    return f'<figure id="{name}">\n<div class="sheet">{image}</div>\n<figcaption>{text}</figcaption>\n</figure>'
-
-
 def _again(flight: Flight) -> str:
     """The command that flies the same mission."""
     name = flight.name
@@ -203,7 +148,7 @@ def write_report(
         name=flight.name,
         about=html(_engine(flight)),
         verdict=html(_verdict(flight) + html_findings(flight)),
-        setup=html(_setup(flight)),
+        setup=html(html_setup(flight)),
         figures=html("\n".join(shown)),
         metrics=html(_metrics(flight.metrics())),
         mission=format_toml(flight.mission),

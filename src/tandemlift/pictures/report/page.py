@@ -1,17 +1,39 @@
-"""The pages of reports: templates in data/report, each of which becomes one HTML file that needs nothing else."""
+"""The pages of reports: templates in data/report, each of which becomes one HTML file that needs nothing else.
+
+Numbers, tables and figures as HTML, for all of them.
+"""
 
 from __future__ import annotations
 
+import base64
+import math
 import os
+import struct
+import tempfile
+from collections.abc import Iterable, Mapping
 from functools import cache
+from html import escape
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from tandemlift.core.files import DATA, atomic_write
+from tandemlift.flight.record import Flight
+from tandemlift.pictures.figures.drawing.figure_style import DARK, current_style
+from tandemlift.pictures.figures.registry import VIEWS
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from tandemlift.pictures.figures.drawing.figure import Caption
 
 TEMPLATES = DATA / "report"
+DASH = "–"  # a value that could not be computed
+NO_BREAK = "\u00a0"
+SCREEN = 0.45  # CSS pixels for a dot of print: figures are read at arm's length
+WIDE = 600  # CSS pixels from where a figure scrolls sideways on a narrow screen instead of shrinking
 
 html = Markup
 """Marks text as HTML; all other text is escaped by the templates."""
@@ -43,3 +65,63 @@ def write_page(path: str | os.PathLike[str], template: str, **values: object) ->
     with atomic_write(Path(path)) as partial:
         partial.write_text(text, "utf-8")
     return Path(path)
+
+
+def number(value: object) -> str:
+    """A metric's value as HTML: four significant digits, or a power of ten; a dash for None."""
+    if value is None:
+        return DASH
+    if not isinstance(value, (int, float)) or isinstance(value, bool) or not math.isfinite(value):
+        return escape(str(value))
+    if isinstance(value, int) or 1e4 <= abs(value) < 1e7:
+        text = f"{value:,.0f}".replace(",", "\u202f")
+    elif value == 0 or 1e-3 <= abs(value) < 1e4:
+        text = f"{value:#.4g}".rstrip(".") if value else "0"
+    else:
+        digits, power = f"{value:.2e}".split("e")
+        text = f"{digits} × 10<sup>{int(power)}</sup>"
+    return text.replace("-", "−")
+
+
+def html_table(head: str, rows: Iterable[str], look: str) -> str:
+    """A table of rows as HTML, that scrolls sideways where it is too wide; `head` is its first row, '' for none."""
+    top = f"<thead>{head}</thead>\n" if head else ""
+    body = f"<tbody>\n{chr(10).join(rows)}\n</tbody>"
+    return f'<div class="table">\n<table class="{look}">\n{top}{body}\n</table>\n</div>'
+
+
+def html_figure(place: int, name: str, png: Path, caption: Caption) -> str:
+    """A picture in the page, with its number and caption.
+
+    On a dark page, a drawing on white is inverted, and its hues turned back; a photograph is not.
+    """
+    data = png.read_bytes()
+    width, height = (round(SCREEN * dots) for dots in struct.unpack(">II", data[16:24]))  # of the PNG's header
+    source = f"data:image/png;base64,{base64.b64encode(data).decode()}"
+    looks = ["wide"] * (width > WIDE) + ["drawn"] * (name != VIEWS and current_style().palette != DARK)
+    look = f' class="{" ".join(looks)}"' if looks else ""
+    image = f'<img{look} width="{width}" height="{height}" alt="{escape(caption.alt)}" src="{source}">'
+    text = f"<b>Figure {place}. {escape(caption.title)}.</b> {escape(caption.text)}"
+    return f'<figure id="{name}">\n<div class="sheet">{image}</div>\n<figcaption>{text}</figcaption>\n</figure>'
+
+
+def html_figures(drawn: Mapping[str, Figure], captions: Mapping[str, Caption], folder: Path | None = None) -> str:
+    """The section of a page with figures, by name, each with the caption of that name.
+
+    They are also written as NAME.png and NAME.pdf into a folder, if one is given; it is made.
+    """
+    from tandemlift.pictures.figures.drawing.style import save
+
+    shown = []
+    with tempfile.TemporaryDirectory() as aside:
+        for place, (name, figure) in enumerate(drawn.items(), 1):
+            png = save(figure, (folder or Path(aside)) / f"{name}.png")
+            shown.append(html_figure(place, name, png, captions[name]))
+            if folder:
+                save(figure, folder / f"{name}.pdf")
+    return f"<section>\n<h2>Figures</h2>\n{chr(10).join(shown)}\n</section>"
+
+
+def versions_of(flight: Flight) -> str:
+    """The set-up of a flight, without its engine."""
+    return ", ".join(f"{name} {version}" for name, version in flight.version.items() if name != "engine")

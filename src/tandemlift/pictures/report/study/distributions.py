@@ -12,7 +12,7 @@ from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.core.types import Array
 from tandemlift.pictures.figures.drawing.figure import Caption
 from tandemlift.pictures.figures.drawing.style import page_figure, styled
-from tandemlift.pictures.report.controller_figures import look
+from tandemlift.pictures.report.comparison_figures import look
 from tandemlift.pictures.report.study.curves import compared
 from tandemlift.pictures.report.study.words import is_far, shown_quantity
 

@@ -34,9 +34,7 @@ from tandemlift.pictures.figures.drawing.style import (
     page_figure,
     styled,
 )
-from tandemlift.pictures.report.controller_comparison import html_figures, versions_of
-from tandemlift.pictures.report.flight_report import DASH, NO_BREAK, html_table
-from tandemlift.pictures.report.page import html, write_page
+from tandemlift.pictures.report.page import DASH, NO_BREAK, html, html_figures, html_table, versions_of, write_page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -18,8 +18,8 @@ from tandemlift.analysis.studies.worst import WorstRow, reasons, worst_rows
 from tandemlift.core.files import atomic_write
 from tandemlift.core.phases import OUTCOMES
 from tandemlift.pictures.report.findings_section import with_keys
-from tandemlift.pictures.report.flight_report import html_table, number
 from tandemlift.pictures.report.latex import NUMBER, latex_number, latex_table, latex_text
+from tandemlift.pictures.report.page import html_table, number
 from tandemlift.pictures.report.study.words import html_row_command, shown_column, shown_quantity
 
 MOST_GROUPS = 24  # rows of a table to be read

@@ -20,7 +20,7 @@ from tandemlift.core.findings import KIND_OF
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
 from tandemlift.pictures.report.findings_section import with_keys
-from tandemlift.pictures.report.flight_report import DASH, html_table, number
+from tandemlift.pictures.report.page import DASH, html_table, number
 from tandemlift.pictures.report.study.outcome_tables import MOST_GROUPS, outcome_counts, tabled_groups
 from tandemlift.pictures.report.study.words import QuantityDisplay, html_row_command, shown_column, shown_quantity
 

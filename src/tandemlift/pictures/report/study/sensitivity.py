@@ -17,7 +17,7 @@ from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.core.errors import InputError
 from tandemlift.pictures.figures.drawing.figure import Caption
 from tandemlift.pictures.figures.drawing.style import BLUE, INK, LIGHT_BLUE, page_figure, points, styled
-from tandemlift.pictures.report.flight_report import DASH, html_table, number
+from tandemlift.pictures.report.page import DASH, html_table, number
 from tandemlift.pictures.report.study.curves import compared
 from tandemlift.pictures.report.study.words import shown_quantity
 

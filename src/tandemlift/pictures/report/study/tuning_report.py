@@ -14,9 +14,7 @@ from tandemlift.analysis.studies.tuning.parameters import Tunable
 from tandemlift.analysis.studies.tuning.result import MISSION_FILE, Tuning
 from tandemlift.core.errors import shown
 from tandemlift.core.files import versions
-from tandemlift.pictures.report.controller_comparison import html_figures
-from tandemlift.pictures.report.flight_report import DASH, html_table, number
-from tandemlift.pictures.report.page import html, write_page
+from tandemlift.pictures.report.page import DASH, html, html_figures, html_table, number, write_page
 from tandemlift.pictures.report.study import tuning_figures
 from tandemlift.pictures.report.study.tuning_figures import axis_label, shown_scale
 
