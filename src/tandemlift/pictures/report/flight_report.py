@@ -5,20 +5,24 @@ Captions stand with their figures in `pictures.figures`.
 
 from __future__ import annotations
 
+import json
 import math
 import os
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import Any
 
+from tandemlift.core.files import atomic_write
+from tandemlift.core.findings import Finding
+from tandemlift.core.types import Progress
 from tandemlift.flight.metric_descriptions import metric_of
 from tandemlift.flight.record import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
-from tandemlift.pictures.figures.registry import VIEWS, captions, figures_for
-from tandemlift.pictures.report.findings_section import html_findings, html_place
-from tandemlift.pictures.report.page import DASH, NO_BREAK, html, html_figure, number, write_page
+from tandemlift.pictures.figures.registry import VIEWS, captions, figures_for, save_figures, save_photographs
+from tandemlift.pictures.report.metric_tables import write_metric_tables
+from tandemlift.pictures.report.page import DASH, NO_BREAK, html, html_figure, number, with_keys, write_page
 from tandemlift.pictures.report.setup_section import html_setup
 
 ARRIVED = 0.5  # m: a vehicle that ends farther from its reference has not arrived
@@ -99,6 +103,25 @@ def _length(metres: float) -> str:
     return f"{number(metres * 1e3)} mm" if metres < 1.0 else f"{number(metres)} m"
 
 
+def html_findings(flight: Flight) -> str:
+    """The findings as a list; a sentence if there are none, nothing for a flight that was never searched for any."""
+    if not flight.findings:
+        return '\n<p class="soft">No findings.</p>' if "findings" in flight.results else ""
+    items = "\n".join(f"<li>{_item(finding)}</li>" for finding in flight.findings)
+    return f'\n<h3>Findings</h3>\n<ul class="findings">\n{items}\n</ul>'
+
+
+def _item(finding: Finding) -> str:
+    where = "" if finding.place is None else f", at {html_place(finding.place)}"
+    what = f"<strong>{escape(finding.kind)}</strong> at {finding.time:.2f} s{where}: {escape(finding.text)}."
+    return f'{what}<br><span class="soft">What to do: {with_keys(finding.remedy)}.</span>'
+
+
+def html_place(point: Iterable[float]) -> str:
+    """A point of space in metres, to the millimetre."""
+    return f"({', '.join(f'{round(v, 3) + 0.0:.3f}'.replace('-', '−') for v in point)}) m"
+
+
 def _pngs(flight: Flight, figures: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> dict[str, Path]:
     """The existing PNG files of a flight's figures by name."""
     names = (VIEWS, *figures_for(flight))
@@ -155,3 +178,41 @@ def write_report(
         again=html(_again(flight)),
         versions=f"Flown with {', '.join(f'{name} {version}' for name, version in flight.version.items())}.",
     )
+
+
+def write_flight_files(
+    flight: Flight,
+    folder: Path,
+    *,
+    figures: bool = True,
+    photographs: Sequence[tuple[str, bytes]] = (),
+    progress: Progress | None = None,
+) -> None:
+    """Write the files of a flight, and its figures and report; figures of an earlier flight are removed.
+
+    Args:
+        flight: a flight, also one that diverged.
+        folder: an existing folder.
+        figures: whether to draw the figures.
+        photographs: title and JPEG of each photograph of a flight in Gazebo.
+        progress: called after each figure with (figures written, figures in all).
+    """
+    with atomic_write(folder / "mission.toml") as partial:
+        partial.write_text(format_toml(flight.mission), "utf-8")
+    flight.save(folder / "flight.npz")
+    with atomic_write(folder / "metrics.json") as partial:
+        partial.write_text(json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n", "utf-8")
+    write_metric_tables(
+        {"value": flight.metrics()}, folder, "metrics", f"Metrics of a flight of the mission {flight.name}"
+    )
+    with atomic_write(folder / "findings.json") as partial:
+        found = [finding.as_table() for finding in flight.findings]
+        partial.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", "utf-8")
+    for name in captions():
+        for kind in ("png", "pdf"):
+            (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
+    if figures:
+        save_figures(flight, folder / "figures", progress)
+    if photographs:
+        save_photographs(photographs, folder / "figures")
+    write_report(flight, folder / "figures", folder / "report.html")

@@ -8,6 +8,7 @@ from __future__ import annotations
 import base64
 import math
 import os
+import re
 import struct
 import tempfile
 from collections.abc import Iterable, Mapping
@@ -123,5 +124,10 @@ def html_figures(drawn: Mapping[str, Figure], captions: Mapping[str, Caption], f
 
 
 def versions_of(flight: Flight) -> str:
-    """The set-up of a flight, without its engine."""
+    """The packages and their versions that flew a flight; its engine is no package."""
     return ", ".join(f"{name} {version}" for name, version in flight.version.items() if name != "engine")
+
+
+def with_keys(text: str) -> str:
+    """A text as HTML whose `keys` are set as code."""
+    return re.sub(r"`([^`]+)`", r"<code>\1</code>", escape(text))

@@ -19,8 +19,7 @@ from tandemlift.core.errors import shown
 from tandemlift.core.findings import KIND_OF
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
-from tandemlift.pictures.report.findings_section import with_keys
-from tandemlift.pictures.report.page import DASH, html_table, number
+from tandemlift.pictures.report.page import DASH, html_table, number, with_keys
 from tandemlift.pictures.report.study.outcome_tables import MOST_GROUPS, outcome_counts, tabled_groups
 from tandemlift.pictures.report.study.words import QuantityDisplay, html_row_command, shown_column, shown_quantity
 
