@@ -8,7 +8,6 @@ from __future__ import annotations
 import json
 import math
 import os
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
@@ -17,25 +16,24 @@ from typing import Any
 from tandemlift.core.files import atomic_write
 from tandemlift.core.findings import Finding
 from tandemlift.core.types import Progress
-from tandemlift.flight.metric_descriptions import metric_of
 from tandemlift.flight.record import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
 from tandemlift.pictures.figures.registry import VIEWS, captions, figures_for, save_figures, save_photographs
 from tandemlift.pictures.report.metric_tables import write_metric_tables
-from tandemlift.pictures.report.page import DASH, NO_BREAK, html, html_figure, number, with_keys, write_page
+from tandemlift.pictures.report.page import (
+    DASH,
+    NO_BREAK,
+    html,
+    html_figure,
+    html_table,
+    number,
+    split_unit,
+    with_keys,
+    write_page,
+)
 from tandemlift.pictures.report.setup_section import html_setup
 
 ARRIVED = 0.5  # m: a vehicle that ends farther from its reference has not arrived
-
-
-def split_unit(name: str) -> tuple[str, str]:
-    """A metric's name in words, and its unit ('' if it has none, or several)."""
-    metric = metric_of(name)
-    unit = "" if metric.units else metric.unit_of(0)
-    stem = name.removesuffix("_" + re.sub("[ /]", "_", unit.lower())) if unit else name
-    words = re.sub(r"(\d)s\b", r"\1 s", stem.replace("_", " ").replace("rmse", "RMSE"))
-    words = "wall time" if words == "wall" else words
-    return words[:1].upper() + words[1:], unit
 
 
 def _cells(name: str, value: object, unit: str) -> str:
@@ -65,14 +63,12 @@ def _metrics(metrics: Mapping[str, Any]) -> str:
         words, unit = split_unit(name)
         head = f'<th scope="row">{escape(words)}<br><code>{escape(name)}</code></th>'
         rows.append(f"<tr>{head}{_cells(name, value, unit)}<td>{unit}</td></tr>")
-    columns = "".join(f'<th scope="col">{c}</th>' for c in ("Metric", "x or φ", "y or θ", "z or ψ", "Unit"))
     source = (
         "From every step, not from the log" if "steps" in metrics else "From the samples of a bag, not from every step"
     )
     note = f"{source}. Errors are desired minus actual. A dash ({DASH}): could not be formed."
-    table = f"<table>\n<thead><tr>{columns}</tr></thead>\n<tbody>\n"
-    shown = f'<p class="soft">{note}</p>\n<div class="table">\n{table}{chr(10).join(rows)}\n</tbody>\n</table>\n</div>'
-    return shown + _events(metrics.get("events", []))
+    table = html_table(("Metric", "x or φ", "y or θ", "z or ψ", "Unit"), rows, "metrics")
+    return f'<p class="soft">{note}</p>\n{table}{_events(metrics.get("events", []))}'
 
 
 def _events(events: Iterable[tuple[float, str]]) -> str:

@@ -21,6 +21,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from tandemlift.core.files import DATA, atomic_write
+from tandemlift.flight.metric_descriptions import metric_of
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure_style import DARK, current_style
 from tandemlift.pictures.figures.registry import VIEWS
@@ -84,11 +85,33 @@ def number(value: object) -> str:
     return text.replace("-", "−")
 
 
-def html_table(head: str, rows: Iterable[str], look: str) -> str:
-    """A table of rows as HTML, that scrolls sideways where it is too wide; `head` is its first row, '' for none."""
-    top = f"<thead>{head}</thead>\n" if head else ""
+def split_unit(name: str) -> tuple[str, str]:
+    """A metric's name in words, and its unit ('' if it has none, or several)."""
+    metric = metric_of(name)
+    unit = "" if metric.units else metric.unit_of(0)
+    stem = name.removesuffix("_" + re.sub("[ /]", "_", unit.lower())) if unit else name
+    words = re.sub(r"(\d)s\b", r"\1 s", stem.replace("_", " ").replace("rmse", "RMSE"))
+    words = "wall time" if words == "wall" else words
+    return words[:1].upper() + words[1:], unit
+
+
+def html_row(title: str, *cells: str) -> str:
+    """A row of a table: its title and its cells, as HTML."""
+    return f'<tr><th scope="row">{title}</th>{"".join(f"<td>{cell}</td>" for cell in cells)}</tr>'
+
+
+def html_table(titles: Iterable[str], rows: Iterable[str], look: str) -> str:
+    """A table as HTML, that scrolls sideways where it is too wide.
+
+    Args:
+        titles: of the columns; none for a table without a head.
+        rows: each from `html_row`.
+        look: its class in style.css.
+    """
+    cells = "".join(f'<th scope="col">{title}</th>' for title in titles)
+    head = f"<thead><tr>{cells}</tr></thead>\n" if cells else ""
     body = f"<tbody>\n{chr(10).join(rows)}\n</tbody>"
-    return f'<div class="table">\n<table class="{look}">\n{top}{body}\n</table>\n</div>'
+    return f'<div class="table">\n<table class="{look}">\n{head}{body}\n</table>\n</div>'
 
 
 def html_figure(place: int, name: str, png: Path, caption: Caption) -> str:

@@ -12,7 +12,7 @@ from tandemlift.core.errors import InputError, shown
 from tandemlift.flight import Flight
 from tandemlift.missions import Mission
 from tandemlift.pictures.figures.drawing.ground import floor_height
-from tandemlift.pictures.report.page import html_table
+from tandemlift.pictures.report.page import html_row, html_table
 
 Row = tuple[str, str]
 
@@ -223,9 +223,5 @@ def setup_rows(flight: Flight) -> list[Row]:
 
 def html_setup(flight: Flight, without: Sequence[str] = ()) -> str:
     """The set-up of a flight as a table, a row each; without some parts."""
-    rows = (
-        f'<tr><th scope="row">{escape(name)}</th><td>{escape(description)}</td></tr>'
-        for name, description in setup_rows(flight)
-        if name not in without
-    )
-    return html_table("", rows, "setup")
+    rows = (html_row(escape(name), escape(said)) for name, said in setup_rows(flight) if name not in without)
+    return html_table((), rows, "setup")

@@ -85,9 +85,8 @@ def html_worst(rows: StudyRows) -> str:
         return "<p>No row flew.</p>"
     lines = [_line(rows, one, said) for one, said in zip(worst, reasons(rows, worst), strict=True)]
     titles = ("Row", "Why", "What varied", "Fly it again, with figures")
-    head = "<tr>" + "".join(f'<th scope="col">{title}</th>' for title in titles) + "</tr>"
     note = "Failed flights first, the soonest stopped first; then the worst values of each quantity in turn."
-    return f'<p class="soft">{note}</p>\n{html_table(head, lines, "worst")}'
+    return f'<p class="soft">{note}</p>\n{html_table(titles, lines, "worst")}'
 
 
 def _line(rows: StudyRows, one: WorstRow, said: dict[str, Any]) -> str:
