@@ -15,7 +15,8 @@ import numpy as np
 from machine import describe, heading, table
 
 import tandemlift as tl
-from tandemlift.analysis.studies.engine_comparison import angles_between, differences, fly_in
+from tandemlift.analysis.studies.comparison import in_engines
+from tandemlift.analysis.studies.comparison_scores import angles_between, differences
 from tandemlift.compiler.machine_code.functions import compiled
 from tandemlift.compiler.tracer import traced
 from tandemlift.core.types import flat, unflat
@@ -127,7 +128,7 @@ def looked_at(engine: str, t: Any) -> Any:
 
 def both(engine: str, name: str, changes: dict[str, Any]) -> tuple[tl.Flight, tl.Flight]:
     """A mission flown in the compiled engine and in another."""
-    a, b = fly_in(tl.load_mission(name, changes), ["compiled", engine]).values()
+    a, b = in_engines(tl.load_mission(name, changes), ["compiled", engine]).fly().flights.values()
     return a, b
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from repository import ROOT
 
-from tandemlift.pictures.report.paper.errata import errata
+from tandemlift.pictures.report.errata import errata
 
 SOURCE, TESTS = ROOT / "src" / "tandemlift", ROOT / "tests"
 PAPER = ROOT.parent / "shared" / "paper.tex"

@@ -10,12 +10,11 @@ import pytest
 from html_page import check_page
 
 import tandemlift as tl
-from tandemlift.analysis.studies.controller_comparison import (
-    Entrant,
-    Entry,
+from tandemlift.analysis.studies.comparison import Entry, MissionComparison, with_controllers
+from tandemlift.analysis.studies.comparison_scores import (
+    OF_A_FLIGHT,
+    OF_A_PART,
     best_of,
-    compare,
-    entrants,
     moving_axes,
     parts_of,
     scores,
@@ -23,8 +22,8 @@ from tandemlift.analysis.studies.controller_comparison import (
 from tandemlift.apps.cli.main import main
 from tandemlift.missions import built_in, tables_of, to_toml
 from tandemlift.parts.controllers import CONTROLLERS
-from tandemlift.pictures.report.controller_comparison import COLUMNS, write_comparison
-from tandemlift.pictures.report.controller_figures import draw_errors, draw_thrusts
+from tandemlift.pictures.report.comparison import write_comparison
+from tandemlift.pictures.report.comparison_figures import draw_errors, draw_thrusts
 
 SHORT = ("--set", "mission.duration=0.6")
 WILD = ("lambda_1=0", "lambda_2=0", "xi=[4,2,11,0.1,0.1,0.1]")  # of nftsmc
@@ -75,9 +74,9 @@ def test_the_page_needs_nothing_but_itself_and_has_a_row_and_the_settings_of_eac
     assert not [a for _, a in page.elements if "href" in a or not a.get("src", "data:").startswith("data:")]
     assert len([tag for tag, _ in page.elements if tag == "img"]) == 2
     for name in ("nftsmc", "pid"):
-        assert len(page.row(name)) == len(COLUMNS) + 2
+        assert len(page.row(name)) == len(OF_A_PART) + len(OF_A_FLIGHT) + 2
         assert page.row(name)[-1] == "flown to the end"
-        assert f"name = &quot;{name}&quot;" in page.text
+        assert f"name = &#34;{name}&#34;" in page.text
     assert "script" not in {tag for tag, _ in page.elements}
 
 
@@ -123,16 +122,14 @@ def test_bad_input_is_refused_and_nothing_is_written(arguments, pieces, run, tmp
 
 def test_a_folder_that_is_in_the_way_is_refused_before_the_flight(run, tmp_path, monkeypatch):
     (tmp_path / "taken" / "compare.html").mkdir(parents=True)
-    monkeypatch.setattr(
-        "tandemlift.analysis.studies.controller_comparison.fly_each", lambda *_, **__: pytest.fail("flown")
-    )
+    monkeypatch.setattr("tandemlift.analysis.studies.comparison.fly_each", lambda *_, **__: pytest.fail("flown"))
     code, _, err = run("compare", "hover", "--out", "taken")
     assert code == 2
     assert "taken/compare.html is in the way" in err
 
 
 def test_all_controllers_enter_by_default_the_mission_s_own_first_with_its_settings():
-    entered = entrants("hover", {"controller.boundary_layer": 0.7, "mission.duration": 1.0})
+    entered = with_controllers("hover", {"controller.boundary_layer": 0.7, "mission.duration": 1.0}).entries
     assert [e.name for e in entered] == ["nftsmc", *sorted(CONTROLLERS.keys() - {"nftsmc"})]
     assert entered[0].mission.controller.boundary_layer == (0.7,) * 6
     for e in entered:
@@ -149,17 +146,17 @@ def test_a_controller_has_the_settings_of_the_mission_that_is_extended(tmp_path)
     assert tl.load_mission(file, controller="smc") == tl.load_mission("hover", controller="smc")
     alone = tmp_path / "alone.toml"
     alone.write_text(to_toml(tl.load_mission(file)))
-    entered = {e.name: e for e in entrants(str(alone), {})}
+    entered = {e.name: e for e in with_controllers(str(alone), {}).entries}
     assert [name for name, e in entered.items() if e.mission is None] == ["nftsmc"]
     assert "controller.gains" in entered["nftsmc"].refusal
     with pytest.raises(tl.InputError, match=r"controller\.gains"):
-        entrants(str(alone), {}, [CONTROLLERS["nftsmc"]])
+        with_controllers(str(alone), {}, [CONTROLLERS["nftsmc"]])
 
 
 def test_a_controller_that_is_refused_is_a_row_of_the_page(tmp_path):
-    entered = entrants("hover", {"mission.duration": 0.2}, [CONTROLLERS["pid"]])
-    entries = [*compare(entered), Entry("other", None, "lacks <everything>")]
-    page = check_page(write_comparison(entries, tmp_path / "compare.html"))
+    (flown,) = with_controllers("hover", {"mission.duration": 0.2}, [CONTROLLERS["pid"]]).fly().entries
+    found = MissionComparison("controllers", [flown, Entry("other", refusal="lacks <everything>")])
+    page = check_page(write_comparison(found, tmp_path / "compare.html"))
     assert page.row("other") == ["other", "–", "lacks <everything>"]
 
 
@@ -167,11 +164,12 @@ def test_another_engine_flies_them_one_by_one(tmp_path):
     pytest.importorskip("mujoco")
     seen = []
     changes = {"mission.duration": 0.1}
-    entered = [*entrants("hover", changes, [CONTROLLERS["pid"]]), Entrant("other", None, "lacks everything")]
-    entries = compare(entered, "mujoco", lambda *done: seen.append(done))
+    entered = with_controllers("hover", changes, [CONTROLLERS["pid"]], "mujoco")
+    other = Entry("other", refusal="lacks everything")
+    found = MissionComparison("controllers", [*entered.entries, other]).fly(lambda *done: seen.append(done))
     assert seen == [(1, 1)]
-    assert entries[0].flight.version["engine"] == "mujoco"
-    assert entries[1] == Entry("other", None, "lacks everything")
+    assert found.entries[0].flight.version["engine"] == "mujoco"
+    assert found.entries[1] == other
 
 
 FAILING = '''
@@ -283,8 +281,8 @@ def test_who_wins_a_column_wins_by_what_is_physical(values, best):
 
 def test_the_page_has_no_winner_below_a_micrometre_and_prints_none_of_its_digits(tmp_path):
     errors = {"a": 3e-8, "b": 1e-9, "c": 0.0}
-    path = write_comparison([Entry(name, made([e, e, e])) for name, e in errors.items()], tmp_path / "compare.html")
-    page = check_page(path)
+    entries = [Entry(name, flight=made([e, e, e])) for name, e in errors.items()]
+    page = check_page(write_comparison(MissionComparison("controllers", entries), tmp_path / "compare.html"))
     assert "<td><b>" not in page.text
     assert page.row("a")[1] == page.row("b")[1] == "< 0.001"
     assert page.row("c")[1] == "0"

@@ -9,7 +9,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.analysis.studies.engine_comparison import differences, fly_in, largest_differences
+from tandemlift.analysis.studies.comparison import in_engines
+from tandemlift.analysis.studies.comparison_scores import differences, largest_differences
 from tandemlift.apps.cli.main import main
 from tandemlift.core.errors import InputError
 from tandemlift.missions import tables_of
@@ -109,4 +110,4 @@ def test_bad_input_is_refused_and_nothing_is_written(arguments, pieces, run, tmp
 
 def test_an_engine_may_not_be_named_twice():
     with pytest.raises(InputError, match="without repetition"):
-        fly_in(tl.load_mission("paper", SHORT), ["compiled", "compiled"])
+        in_engines(tl.load_mission("paper", SHORT), ["compiled", "compiled"])

@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from study_runs import TWELVE, fly
 
 import tandemlift as tl
-from tandemlift.analysis.studies import controller_comparison
+from tandemlift.analysis.studies import comparison_scores
 from tandemlift.analysis.studies.closed_form import _free, axes_of, speed_at
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution import estimate
@@ -132,10 +132,10 @@ def test_parts_begin_at_the_first_push_of_any_flight(monkeypatch):
 
         return Flown(push_force=np.where(Flown.time[:, None] >= first, [[0.0, 3.0, 4.0]], 0.0))
 
-    monkeypatch.setattr(controller_comparison, "airborne", lambda f: np.ones(len(f.time), bool))
-    late, whole = controller_comparison.parts_of([flight(3.0), flight(1.5), flight(99.0)]), [flight(99.0)]
+    monkeypatch.setattr(comparison_scores, "airborne", lambda f: np.ones(len(f.time), bool))
+    late, whole = comparison_scores.parts_of([flight(3.0), flight(1.5), flight(99.0)]), [flight(99.0)]
     assert [(part.first, part.last) for part in late] == [(1.5, np.inf), (0.0, 1.5)]
-    assert [(part.first, part.last) for part in controller_comparison.parts_of(whole)] == [(0.0, np.inf)]
+    assert [(part.first, part.last) for part in comparison_scores.parts_of(whole)] == [(0.0, np.inf)]
 
 
 def test_the_share_of_a_trial_is_how_far_it_got():

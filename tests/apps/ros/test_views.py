@@ -16,7 +16,7 @@ from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.engines.models.sdf import world
 from tandemlift.engines.models.sdf_cameras import FixedCamera, add_cameras
 from tandemlift.missions import tables_of
-from tandemlift.pictures.report.flight_files import write_flight_files
+from tandemlift.pictures.report.flight_report import write_flight_files
 
 STANDS, FLIES, LANDS = 5.0, 25.0, 30.0  # s
 

@@ -7,8 +7,7 @@ from colour_contrast import contrast, inverted, on_screen
 
 from tandemlift.pictures.figures.drawing.figure_style import IEEE, figure_style
 from tandemlift.pictures.figures.registry import captions
-from tandemlift.pictures.report.flight_report import html_figure
-from tandemlift.pictures.report.page import TEMPLATES
+from tandemlift.pictures.report.page import TEMPLATES, html_figure
 
 STYLE = (TEMPLATES / "style.css").read_text("utf-8")
 

@@ -13,14 +13,12 @@ import tandemlift as tl
 from tandemlift.apps.cli import report as command
 from tandemlift.apps.cli.main import cli
 from tandemlift.missions import tables_of
-from tandemlift.pictures.report.paper import files
-from tandemlift.pictures.report.paper.claims import claims, gaussian_displacement
-from tandemlift.pictures.report.paper.contents import open_settings, paper_figures
-from tandemlift.pictures.report.paper.document import PaperFlights
-from tandemlift.pictures.report.paper.drawings import write_drawing
-from tandemlift.pictures.report.paper.errata import DATA, errata
-from tandemlift.pictures.report.paper.files import typeset
-from tandemlift.pictures.report.paper.tables import agrees, nomenclature, paper_tables, value_at
+from tandemlift.pictures.report import paper_report
+from tandemlift.pictures.report.errata import DATA, errata
+from tandemlift.pictures.report.paper_claims import claims, gaussian_displacement
+from tandemlift.pictures.report.paper_figures import open_settings, paper_figures, write_drawing
+from tandemlift.pictures.report.paper_report import PaperFlights, typeset
+from tandemlift.pictures.report.paper_tables import agrees, nomenclature, paper_tables, value_at
 
 PAPER = ROOT.parent / "shared" / "paper.tex"
 SHORT = {"mission.duration": 16.0, "mission.log_interval": 0.05}
@@ -48,7 +46,9 @@ def without_typst(flights, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(sys.modules, "typst", None)
         patch.setattr(command, "fly_paper", lambda: flights)
-        patch.setattr(files, "write_drawing", lambda name, *to: write_drawing("path" if name in SLOW else name, *to))
+        patch.setattr(
+            paper_report, "write_drawing", lambda name, *to: write_drawing("path" if name in SLOW else name, *to)
+        )
         result = CliRunner().invoke(cli, ["paper", "--out", str(path)])
     return str(result.exception), path
 

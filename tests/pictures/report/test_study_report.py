@@ -10,7 +10,7 @@ from small_studies import GUSTS, flown, made_up, without_file
 
 import tandemlift as tl
 from tandemlift.core.findings import FINDING_NAMES
-from tandemlift.pictures.report.flight_report import number
+from tandemlift.pictures.report.page import number
 from tandemlift.pictures.report.study.sections import percent
 from tandemlift.pictures.report.study.study_report import write_study_report
 

@@ -114,7 +114,7 @@ def load(mission: str, settings: tuple[str, ...], controller: Controller | str |
 
 def write_flight(flight: Flight, folder: Path, *, figures: bool, photographs: Sequence[tuple[str, bytes]] = ()) -> None:
     """Write the files of a flight into the folder, with a progress bar for the figures."""
-    from tandemlift.pictures.report.flight_files import write_flight_files
+    from tandemlift.pictures.report.flight_report import write_flight_files
 
     with progress_bar("Drawing", "figures", shown=figures and sys.stderr.isatty()) as progress:
         write_flight_files(flight, folder, figures=figures, photographs=photographs, progress=progress)

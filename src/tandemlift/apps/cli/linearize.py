@@ -93,7 +93,7 @@ def _draw(connected: LinearModel, path: Path) -> None:
     Raises:
         InputError: it has too many states.
     """
-    from tandemlift.analysis.linearization.analysis import MOST_STATES, modes_of
+    from tandemlift.analysis.linearization.linear_model import MOST_STATES, modes_of
     from tandemlift.pictures.figures.drawing.style import save
     from tandemlift.pictures.figures.linear_model import draw
 

@@ -24,7 +24,7 @@ from tandemlift.core.files import FIGURES, results_folder
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
-    from tandemlift.pictures.report.paper.document import PaperFlights
+    from tandemlift.pictures.report.paper_report import PaperFlights
 
 BAGS = (".bag", ".mcap")
 
@@ -154,7 +154,7 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
       0   everything was written
       2   bad input, or no typst: one message
     """
-    from tandemlift.pictures.report.paper.files import typeset, write_paper_files
+    from tandemlift.pictures.report.paper_report import typeset, write_paper_files
 
     path = _pdf_path(out)
     with results_folder(str(path.parent), path.parent, (path.name,)):
@@ -191,8 +191,8 @@ def _command(out: str, style: str | None, no_pdf: bool) -> str:
 def fly_paper() -> PaperFlights:
     """Fly the missions of the report, with a progress bar."""
     from tandemlift.missions import load_mission
-    from tandemlift.pictures.report.paper.contents import open_settings
-    from tandemlift.pictures.report.paper.document import PaperFlights
+    from tandemlift.pictures.report.paper_figures import open_settings
+    from tandemlift.pictures.report.paper_report import PaperFlights
     from tandemlift.simulation.fly import fly
 
     missions: list[tuple[str, Mapping[str, Any]]] = [("paper", {}), ("zigzag", {})]

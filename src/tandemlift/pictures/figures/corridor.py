@@ -140,9 +140,8 @@ def _from_above(ax: Axes, flight: Flight, shown: list[int], found: list[tuple[Ar
     ax.plot(*_desired(flight).T, color=GREY, lw=0.7, ls=(0, (4, 3)), zorder=1, gid="desired")
     for k in shown:
         _vehicle(ax, flight, k, INK if k in (shown[0], shown[-1]) else GREY)
-    path = flight["position"]
-    thin = path[np.unique(np.concatenate([decimate(coordinate) for coordinate in path[:, :2].T]))]
-    ax.plot(*thin[:, :2].T, color=BLUE, lw=1.2, zorder=5, gid="path")
+    path = flight["position"][:, :2]
+    ax.plot(*path[decimate(path)].T, color=BLUE, lw=1.2, zorder=5, gid="path")
     _pushes(ax, found)
     ax.set_aspect("equal")
     ax.set_xlabel("$x$ (m)")

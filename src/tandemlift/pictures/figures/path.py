@@ -149,7 +149,7 @@ def _legend(scene: Scene3D, found: list[PushArrow], walls: list[WallOutline], ha
 
 def _draw_path(scene: Scene3D, path: Array) -> list[Any]:
     """Draw the path (T, 3) [m], its shadow, start and end; returns the handles for the legend."""
-    thin = path[np.unique(np.concatenate([decimate(coordinate) for coordinate in path.T]))]
+    thin = path[decimate(path)]
     shadow = np.column_stack([thin[:, :2], np.full(len(thin), scene.box[2, 0])])
     ends: dict[str, Any] = {"color": BLUE, "mfc": PAPER, "ms": 4, "ls": "none", "zorder": 41}
     return [

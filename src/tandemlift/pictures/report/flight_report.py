@@ -5,60 +5,35 @@ Captions stand with their figures in `pictures.figures`.
 
 from __future__ import annotations
 
-import base64
+import json
 import math
 import os
-import re
-import struct
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from tandemlift.flight.metric_descriptions import metric_of
+from tandemlift.core.files import atomic_write
+from tandemlift.core.findings import Finding
+from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
-from tandemlift.pictures.figures.drawing.figure_style import DARK, current_style
-from tandemlift.pictures.figures.registry import VIEWS, captions, figures_for
-from tandemlift.pictures.report.findings_section import html_findings, html_place
-from tandemlift.pictures.report.page import html, write_page
-from tandemlift.pictures.report.setup_section import setup_rows
-
-if TYPE_CHECKING:
-    from tandemlift.pictures.figures.drawing.figure import Caption
-
-DASH = "–"  # a value that could not be computed
-NO_BREAK = "\u00a0"
-SCREEN = 0.45  # CSS pixels for a dot of print: figures are read at arm's length
-WIDE = 600  # CSS pixels from where a figure scrolls sideways on a narrow screen instead of shrinking
+from tandemlift.pictures.figures.registry import VIEWS, captions, figures_for, save_figures, save_photographs
+from tandemlift.pictures.report.metric_tables import write_metric_tables
+from tandemlift.pictures.report.page import (
+    DASH,
+    NO_BREAK,
+    html,
+    html_figure,
+    html_table,
+    number,
+    split_unit,
+    with_keys,
+    write_page,
+)
+from tandemlift.pictures.report.setup_section import html_setup
 
 ARRIVED = 0.5  # m: a vehicle that ends farther from its reference has not arrived
-
-
-def number(value: object) -> str:
-    """A metric's value as HTML: four significant digits, or a power of ten; a dash for None."""
-    if value is None:
-        return DASH
-    if not isinstance(value, (int, float)) or isinstance(value, bool) or not math.isfinite(value):
-        return escape(str(value))
-    if isinstance(value, int) or 1e4 <= abs(value) < 1e7:
-        text = f"{value:,.0f}".replace(",", "\u202f")
-    elif value == 0 or 1e-3 <= abs(value) < 1e4:
-        text = f"{value:#.4g}".rstrip(".") if value else "0"
-    else:
-        digits, power = f"{value:.2e}".split("e")
-        text = f"{digits} × 10<sup>{int(power)}</sup>"
-    return text.replace("-", "−")
-
-
-def split_unit(name: str) -> tuple[str, str]:
-    """A metric's name in words, and its unit ('' if it has none, or several)."""
-    metric = metric_of(name)
-    unit = "" if metric.units else metric.unit_of(0)
-    stem = name.removesuffix("_" + re.sub("[ /]", "_", unit.lower())) if unit else name
-    words = re.sub(r"(\d)s\b", r"\1 s", stem.replace("_", " ").replace("rmse", "RMSE"))
-    words = "wall time" if words == "wall" else words
-    return words[:1].upper() + words[1:], unit
 
 
 def _cells(name: str, value: object, unit: str) -> str:
@@ -88,14 +63,12 @@ def _metrics(metrics: Mapping[str, Any]) -> str:
         words, unit = split_unit(name)
         head = f'<th scope="row">{escape(words)}<br><code>{escape(name)}</code></th>'
         rows.append(f"<tr>{head}{_cells(name, value, unit)}<td>{unit}</td></tr>")
-    columns = "".join(f'<th scope="col">{c}</th>' for c in ("Metric", "x or φ", "y or θ", "z or ψ", "Unit"))
     source = (
         "From every step, not from the log" if "steps" in metrics else "From the samples of a bag, not from every step"
     )
     note = f"{source}. Errors are desired minus actual. A dash ({DASH}): could not be formed."
-    table = f"<table>\n<thead><tr>{columns}</tr></thead>\n<tbody>\n"
-    shown = f'<p class="soft">{note}</p>\n<div class="table">\n{table}{chr(10).join(rows)}\n</tbody>\n</table>\n</div>'
-    return shown + _events(metrics.get("events", []))
+    table = html_table(("Metric", "x or φ", "y or θ", "z or ψ", "Unit"), rows, "metrics")
+    return f'<p class="soft">{note}</p>\n{table}{_events(metrics.get("events", []))}'
 
 
 def _events(events: Iterable[tuple[float, str]]) -> str:
@@ -126,6 +99,25 @@ def _length(metres: float) -> str:
     return f"{number(metres * 1e3)} mm" if metres < 1.0 else f"{number(metres)} m"
 
 
+def html_findings(flight: Flight) -> str:
+    """The findings as a list; a sentence if there are none, nothing for a flight that was never searched for any."""
+    if not flight.findings:
+        return '\n<p class="soft">No findings.</p>' if "findings" in flight.results else ""
+    items = "\n".join(f"<li>{_item(finding)}</li>" for finding in flight.findings)
+    return f'\n<h3>Findings</h3>\n<ul class="findings">\n{items}\n</ul>'
+
+
+def _item(finding: Finding) -> str:
+    where = "" if finding.place is None else f", at {html_place(finding.place)}"
+    what = f"<strong>{escape(finding.kind)}</strong> at {finding.time:.2f} s{where}: {escape(finding.text)}."
+    return f'{what}<br><span class="soft">What to do: {with_keys(finding.remedy)}.</span>'
+
+
+def html_place(point: Iterable[float]) -> str:
+    """A point of space in metres, to the millimetre."""
+    return f"({', '.join(f'{round(v, 3) + 0.0:.3f}'.replace('-', '−') for v in point)}) m"
+
+
 def _pngs(flight: Flight, figures: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> dict[str, Path]:
     """The existing PNG files of a flight's figures by name."""
     names = (VIEWS, *figures_for(flight))
@@ -140,34 +132,6 @@ def _engine(flight: Flight) -> str:
     """The engine of the body, if the flight records it."""
     name = flight.version.get("engine")
     return f"Flown in engine <b>{escape(name)}</b>" if name else "Engine unknown"
-
-
-def html_table(head: str, rows: Iterable[str], look: str) -> str:
-    """A table of rows as HTML, that scrolls sideways where it is too wide; `head` is its first row, '' for none."""
-    top = f"<thead>{head}</thead>\n" if head else ""
-    body = f"<tbody>\n{chr(10).join(rows)}\n</tbody>"
-    return f'<div class="table">\n<table class="{look}">\n{top}{body}\n</table>\n</div>'
-
-
-def _setup(flight: Flight) -> str:
-    """Vehicle, pilot, rotors, sensors and surroundings as a table, a row each."""
-    rows = (f'<tr><th scope="row">{escape(what)}</th><td>{escape(said)}</td></tr>' for what, said in setup_rows(flight))
-    return html_table("", rows, "setup")
-
-
-def html_figure(place: int, name: str, png: Path, caption: Caption) -> str:
-    """A picture in the page, with its number and caption.
-
-    On a dark page, a drawing on white is inverted, and its hues turned back; a photograph is not.
-    """
-    data = png.read_bytes()
-    width, height = (round(SCREEN * dots) for dots in struct.unpack(">II", data[16:24]))  # of the PNG's header
-    source = f"data:image/png;base64,{base64.b64encode(data).decode()}"
-    looks = ["wide"] * (width > WIDE) + ["drawn"] * (name != VIEWS and current_style().palette != DARK)
-    look = f' class="{" ".join(looks)}"' if looks else ""
-    image = f'<img{look} width="{width}" height="{height}" alt="{escape(caption.alt)}" src="{source}">'
-    text = f"<b>Figure {place}. {escape(caption.title)}.</b> {escape(caption.text)}"
-    return f'<figure id="{name}">\n<div class="sheet">{image}</div>\n<figcaption>{text}</figcaption>\n</figure>'
 
 
 def _again(flight: Flight) -> str:
@@ -203,10 +167,48 @@ def write_report(
         name=flight.name,
         about=html(_engine(flight)),
         verdict=html(_verdict(flight) + html_findings(flight)),
-        setup=html(_setup(flight)),
+        setup=html(html_setup(flight)),
         figures=html("\n".join(shown)),
         metrics=html(_metrics(flight.metrics())),
         mission=format_toml(flight.mission),
         again=html(_again(flight)),
         versions=f"Flown with {', '.join(f'{name} {version}' for name, version in flight.version.items())}.",
     )
+
+
+def write_flight_files(
+    flight: Flight,
+    folder: Path,
+    *,
+    figures: bool = True,
+    photographs: Sequence[tuple[str, bytes]] = (),
+    progress: Progress | None = None,
+) -> None:
+    """Write the files of a flight, and its figures and report; figures of an earlier flight are removed.
+
+    Args:
+        flight: a flight, also one that diverged.
+        folder: an existing folder.
+        figures: whether to draw the figures.
+        photographs: title and JPEG of each photograph of a flight in Gazebo.
+        progress: called after each figure with (figures written, figures in all).
+    """
+    with atomic_write(folder / "mission.toml") as partial:
+        partial.write_text(format_toml(flight.mission), "utf-8")
+    flight.save(folder / "flight.npz")
+    with atomic_write(folder / "metrics.json") as partial:
+        partial.write_text(json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n", "utf-8")
+    write_metric_tables(
+        {"value": flight.metrics()}, folder, "metrics", f"Metrics of a flight of the mission {flight.name}"
+    )
+    with atomic_write(folder / "findings.json") as partial:
+        found = [finding.as_table() for finding in flight.findings]
+        partial.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", "utf-8")
+    for name in captions():
+        for kind in ("png", "pdf"):
+            (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
+    if figures:
+        save_figures(flight, folder / "figures", progress)
+    if photographs:
+        save_photographs(photographs, folder / "figures")
+    write_report(flight, folder / "figures", folder / "report.html")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from html import escape
 from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
@@ -11,6 +12,7 @@ from tandemlift.core.errors import InputError, shown
 from tandemlift.flight import Flight
 from tandemlift.missions import Mission
 from tandemlift.pictures.figures.drawing.ground import floor_height
+from tandemlift.pictures.report.page import html_row, html_table
 
 Row = tuple[str, str]
 
@@ -217,3 +219,9 @@ def setup_rows(flight: Flight) -> list[Row]:
     """The set-up of a flight: rows of a name and a description."""
     parts = (_vehicle, _pilot, _guidance, _watch, _rotors, _sensors, _surroundings, _person)
     return [row for part in parts for row in part(flight)]
+
+
+def html_setup(flight: Flight, without: Sequence[str] = ()) -> str:
+    """The set-up of a flight as a table, a row each; without some parts."""
+    rows = (html_row(escape(name), escape(said)) for name, said in setup_rows(flight) if name not in without)
+    return html_table((), rows, "setup")

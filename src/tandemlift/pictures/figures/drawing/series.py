@@ -24,8 +24,11 @@ def drawable(values: Array) -> Array:
 def decimate(values: Array, buckets: int = BUCKETS) -> Indices:
     """The samples of a series (T,) to draw: the lowest and highest of each of `buckets` stretches, and both ends.
 
-    NaN is passed over where its stretch has a number. At most 2 buckets + 2 places are returned, in order.
+    NaN is passed over where its stretch has a number. At most 2 buckets + 2 places are returned, in order. Of a path
+    (T, n) they are those of any coordinate.
     """
+    if values.ndim > 1:
+        return np.unique(np.concatenate([decimate(coordinate, buckets) for coordinate in values.T]))
     count = len(values)
     if count <= 2 * buckets + 2:
         return np.arange(count)

@@ -11,10 +11,10 @@ from tandemlift.analysis.studies.quantities import Quantity, finite
 from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.core.types import Array
 from tandemlift.pictures.figures.drawing.figure import Caption
+from tandemlift.pictures.figures.drawing.panels import legend_above
 from tandemlift.pictures.figures.drawing.style import page_figure, styled
-from tandemlift.pictures.report.controller_figures import look
-from tandemlift.pictures.report.study.curves import compared
-from tandemlift.pictures.report.study.words import is_far, shown_quantity
+from tandemlift.pictures.report.comparison_figures import look
+from tandemlift.pictures.report.study.words import compared, is_far, shown_quantity
 
 MOST_CURVES = 8
 POINTS = 1_000  # of a curve
@@ -64,7 +64,5 @@ def draw_distributions(rows: StudyRows) -> Figure:
     groups = compared(rows, MOST_CURVES)
     if len(groups) > 1:
         handles = [Line2D([], [], lw=1.1, **look(place)) for place in range(len(groups))]
-        names = [group.name for group in groups]
-        columns = 4 if max(map(len, names)) < 25 else 2
-        figure.legend(handles, names, loc="outside upper left", ncols=min(len(names), columns), columnspacing=1.2)
+        legend_above(figure, handles, [group.name for group in groups], "outside upper left")
     return figure

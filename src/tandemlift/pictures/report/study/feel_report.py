@@ -8,7 +8,7 @@ import os
 from collections.abc import Iterable
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -34,12 +34,16 @@ from tandemlift.pictures.figures.drawing.style import (
     page_figure,
     styled,
 )
-from tandemlift.pictures.report.controller_comparison import html_figures, versions_of
-from tandemlift.pictures.report.flight_report import DASH, NO_BREAK, html_table
-from tandemlift.pictures.report.page import html, write_page
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from tandemlift.pictures.report.page import (
+    DASH,
+    NO_BREAK,
+    html,
+    html_figures,
+    html_row,
+    html_table,
+    versions_of,
+    write_page,
+)
 
 CAPTION = Caption(
     "Standard push",
@@ -129,7 +133,6 @@ class FeelReport:
 
     def figure(self) -> Figure:
         """The speed over time along each axis, by closed form and flown."""
-
         return draw(self.study)
 
     def save(self, folder: str | os.PathLike[str]) -> list[Path]:
@@ -202,25 +205,18 @@ def _verdict(checks: Iterable[CheckResult]) -> str:
 
 
 def _axes(rows: Iterable[tuple[str, ...]]) -> str:
-    heads = "".join(f'<th scope="col">{head}</th>' for head in ("Axis", *HEADS))
-    cells = (
-        f'<tr><th scope="row">{name}</th>{"".join(f"<td>{escape(cell)}</td>" for cell in row)}</tr>'
-        for name, *row in rows
-    )
-    return html_table(f"<tr>{heads}</tr>", cells, "axes")
+    return html_table(("Axis", *HEADS), (html_row(name, *map(escape, row)) for name, *row in rows), "axes")
 
 
 def _checks(checks: Iterable[CheckResult]) -> str:
-    heads = "".join(f'<th scope="col">{head}</th>' for head in ("Check", "Value", "Limit", "Margin", "What to do"))
     rows = []
     for c in checks:
         shown = [_with_unit(x, c.unit) for x in (c.value, c.limit)]
         margin = DASH if c.margin is None else f"{100.0 * c.margin:.0f} %"
-        cells = "".join(f"<td>{cell}</td>" for cell in (*shown, margin.replace("-", "−")))
         said = f"<strong>{c.verdict}</strong>: {escape(c.text)}" if c.text else c.verdict
         name = escape(f"{c.check} {c.subject}").replace(" ", NO_BREAK)
-        rows.append(f'<tr><th scope="row">{name}</th>{cells}<td>{said}</td></tr>')
-    return html_table(f"<tr>{heads}</tr>", rows, "compared")
+        rows.append(html_row(name, *shown, margin.replace("-", "−"), said))
+    return html_table(("Check", "Value", "Limit", "Margin", "What to do"), rows, "compared")
 
 
 def _with_unit(value: float | None, unit: str) -> str:

@@ -18,8 +18,7 @@ from tandemlift.analysis.studies.study_rows import Places, RowGroup, StudyRows
 from tandemlift.core.types import Array
 from tandemlift.pictures.figures.drawing.figure import Caption
 from tandemlift.pictures.figures.drawing.style import BLUE, GREY, LIGHT_BLUE, VERMILLION, page_figure, points, styled
-from tandemlift.pictures.report.study.curves import compared
-from tandemlift.pictures.report.study.words import QuantityDisplay, is_far, shown_column, shown_quantity
+from tandemlift.pictures.report.study.words import QuantityDisplay, compared, is_far, shown_column, shown_quantity
 
 MOST_GROUPS = 3
 MOST_QUANTITIES = 2  # beside the share of bad outcomes

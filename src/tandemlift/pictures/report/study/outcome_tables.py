@@ -17,9 +17,8 @@ from tandemlift.analysis.studies.study_rows import WHO, RowGroup, StudyRows
 from tandemlift.analysis.studies.worst import WorstRow, reasons, worst_rows
 from tandemlift.core.files import atomic_write
 from tandemlift.core.phases import OUTCOMES
-from tandemlift.pictures.report.findings_section import with_keys
-from tandemlift.pictures.report.flight_report import html_table, number
 from tandemlift.pictures.report.latex import NUMBER, latex_number, latex_table, latex_text
+from tandemlift.pictures.report.page import html_table, number, with_keys
 from tandemlift.pictures.report.study.words import html_row_command, shown_column, shown_quantity
 
 MOST_GROUPS = 24  # rows of a table to be read
@@ -86,9 +85,8 @@ def html_worst(rows: StudyRows) -> str:
         return "<p>No row flew.</p>"
     lines = [_line(rows, one, said) for one, said in zip(worst, reasons(rows, worst), strict=True)]
     titles = ("Row", "Why", "What varied", "Fly it again, with figures")
-    head = "<tr>" + "".join(f'<th scope="col">{title}</th>' for title in titles) + "</tr>"
     note = "Failed flights first, the soonest stopped first; then the worst values of each quantity in turn."
-    return f'<p class="soft">{note}</p>\n{html_table(head, lines, "worst")}'
+    return f'<p class="soft">{note}</p>\n{html_table(titles, lines, "worst")}'
 
 
 def _line(rows: StudyRows, one: WorstRow, said: dict[str, Any]) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from html import escape
 from typing import Any
 
@@ -19,8 +19,7 @@ from tandemlift.core.errors import shown
 from tandemlift.core.findings import KIND_OF
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
-from tandemlift.pictures.report.findings_section import with_keys
-from tandemlift.pictures.report.flight_report import DASH, html_table, number
+from tandemlift.pictures.report.page import DASH, html_row, html_table, number, with_keys
 from tandemlift.pictures.report.study.outcome_tables import MOST_GROUPS, outcome_counts, tabled_groups
 from tandemlift.pictures.report.study.words import QuantityDisplay, html_row_command, shown_column, shown_quantity
 
@@ -50,14 +49,6 @@ def html_share(part: Share) -> str:
     return f"{percent(part.value)}<br><small>{low} to {high}</small>"
 
 
-def _head(*titles: str) -> str:
-    return "<tr>" + "".join(f'<th scope="col">{title}</th>' for title in titles) + "</tr>"
-
-
-def _row(title: str, cells: Iterable[str]) -> str:
-    return f'<tr><th scope="row">{title}</th>{"".join(f"<td>{cell}</td>" for cell in cells)}</tr>'
-
-
 def verdict(rows: StudyRows) -> str:
     """The share of failed flights with its interval; the numbers of refused and missing rows."""
     flown = len(rows) - int(rows.refused.sum())
@@ -82,8 +73,7 @@ def verdict(rows: StudyRows) -> str:
 
 def what_was_flown(study: Study) -> str:
     """Missions, controllers and varied keys, as a table."""
-    rows = [f'<tr><th scope="row">{escape(what)}</th><td>{escape(said)}</td></tr>' for what, said in _flown(study)]
-    return html_table("", rows, "setup")
+    return html_table((), (html_row(escape(what), escape(said)) for what, said in _flown(study)), "setup")
 
 
 def _flown(study: Study) -> Iterator[tuple[str, str]]:
@@ -138,11 +128,11 @@ def outcomes(rows: StudyRows) -> str:
     lines, names = [], list[str]()
     for group, bad, numbers in outcome_counts(rows, tabled_groups(rows)):
         cells, names = [count(bad.total), html_share(bad), *map(count, numbers.values())], list(numbers)
-        lines.append(_row(escape(group), cells))
+        lines.append(html_row(escape(group), *cells))
     bad_names = ", ".join([*FAILURES, *([REFUSED] if rows.refused.any() else [])])
-    head = _head("", "rows", "bad<br><small>95 % interval</small>", *map(escape, names))
+    titles = ("", "rows", "bad<br><small>95 % interval</small>", *map(escape, names))
     said = f'<p class="soft">Bad: {bad_names}. Intervals are those of Clopper and Pearson.</p>'
-    return f"{said}\n{html_table(head, lines, 'counts')}{_left_out(rows)}{_refusals(rows)}"
+    return f"{said}\n{html_table(titles, lines, 'counts')}{_left_out(rows)}{_refusals(rows)}"
 
 
 def _refusals(rows: StudyRows) -> str:
@@ -175,9 +165,9 @@ def findings(rows: StudyRows) -> str:
         parts = [share(int(has[g.places].sum()), int(flown[g.places].sum())) for g in groups]
         whole = share(int(has.sum()), int(flown.sum()))
         cells = [count(int(has.sum())), html_share(whole), *map(html_share, parts)]
-        lines.append(_row(f'{escape(kind)}<br><small class="meaning">{with_keys(meaning)}</small>', cells))
-    head = _head("kind", "rows", "share<br><small>95 % interval</small>", *[escape(g.name) for g in groups])
-    return html_table(head, lines, "counts")
+        lines.append(html_row(f'{escape(kind)}<br><small class="meaning">{with_keys(meaning)}</small>', *cells))
+    titles = ("kind", "rows", "share<br><small>95 % interval</small>", *[escape(g.name) for g in groups])
+    return html_table(titles, lines, "counts")
 
 
 def measured(rows: StudyRows) -> str:
@@ -187,13 +177,13 @@ def measured(rows: StudyRows) -> str:
         values = rows.values[quantity.name]
         look = shown_quantity(quantity, values)
         of_group = ((g.name, _quantiles(values[g.places], look, quantity.low_is_bad)) for g in tabled_groups(rows))
-        lines = [_row(escape(name), quantiles) for name, quantiles in of_group]
+        lines = [html_row(escape(name), *quantiles) for name, quantiles in of_group]
         worst = "lowest" if quantity.low_is_bad else "highest"
-        head = _head("", "rows", "median<br><small>95 % interval</small>", "5 %", "95 %", worst)
+        titles = ("", "rows", "median<br><small>95 % interval</small>", "5 %", "95 %", worst)
         unit = f" [{look.unit}]" if look.unit else ""
         name = f"<code>{escape(quantity.name)}</code>" + (f", {quantity.combined}" if quantity.combined else "")
         title = f'<h3>{escape(look.words)}{unit}</h3>\n<p class="soft">{name}</p>'
-        parts.append(f"{title}\n{html_table(head, lines, 'counts')}{_left_out(rows)}")
+        parts.append(f"{title}\n{html_table(titles, lines, 'counts')}{_left_out(rows)}")
     if not parts:
         return ""
     left_out = int(rows.bad.sum())

@@ -17,9 +17,8 @@ from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.core.errors import InputError
 from tandemlift.pictures.figures.drawing.figure import Caption
 from tandemlift.pictures.figures.drawing.style import BLUE, INK, LIGHT_BLUE, page_figure, points, styled
-from tandemlift.pictures.report.flight_report import DASH, html_table, number
-from tandemlift.pictures.report.study.curves import compared
-from tandemlift.pictures.report.study.words import shown_quantity
+from tandemlift.pictures.report.page import DASH, html_row, html_table, number
+from tandemlift.pictures.report.study.words import compared, shown_quantity
 
 MOST_GROUPS = 3
 MOST_INPUTS = 10  # of a panel, the most influential ones
@@ -121,12 +120,15 @@ def _title(one: Analysed, many: bool) -> str:
 
 def _table(one: Analysed, found: Sensitivity, many: bool) -> str:
     lines = [
-        f'<tr><th scope="row">{escape(name)}</th><td>{_estimate(found.first[name])}</td>'
-        f"<td>{_estimate(found.total.get(name))}</td><td>{_rank(found.ranks.get(name, math.nan))}</td></tr>"
+        html_row(
+            escape(name),
+            _estimate(found.first[name]),
+            _estimate(found.total.get(name)),
+            _rank(found.ranks.get(name, math.nan)),
+        )
         for name in found.strongest
     ]
     titles = ("Input", "first order", "total", "rank correlation")
-    head = "<tr>" + "".join(f'<th scope="col">{title}</th>' for title in titles) + "</tr>"
     left_out = f"; {found.left_out} rows without a value are left out" if found.left_out else ""
     pairs = sorted(found.second.items(), key=lambda pair: -pair[1].value)[:MOST_PAIRS]
     second = ""
@@ -136,7 +138,7 @@ def _table(one: Analysed, found: Sensitivity, many: bool) -> str:
     method = (
         f'<p class="soft">{escape(found.method[:1].upper() + found.method[1:])}, of {found.rows} rows{left_out}.</p>'
     )
-    return f"<h3>{escape(_title(one, many))}</h3>\n{method}\n{html_table(head, lines, 'counts')}{second}"
+    return f"<h3>{escape(_title(one, many))}</h3>\n{method}\n{html_table(titles, lines, 'counts')}{second}"
 
 
 def _estimate(estimate: IntervalEstimate | None, flat: bool = False) -> str:

@@ -11,8 +11,7 @@ from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.analysis.studies.table import Study
 from tandemlift.core.errors import InputError
 from tandemlift.missions import format_toml
-from tandemlift.pictures.report.controller_comparison import html_figures
-from tandemlift.pictures.report.page import html, write_page
+from tandemlift.pictures.report.page import html, html_figures, write_page
 from tandemlift.pictures.report.study import distributions, maps, sections, sensitivity
 from tandemlift.pictures.report.study.outcome_tables import html_worst, write_outcomes
 from tandemlift.pictures.report.study.words import html_command

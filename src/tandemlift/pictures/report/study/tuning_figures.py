@@ -21,7 +21,7 @@ from tandemlift.pictures.figures.drawing.style import (
     page_figure,
     styled,
 )
-from tandemlift.pictures.report.flight_report import split_unit
+from tandemlift.pictures.report.page import split_unit
 
 CAPTIONS = {
     "search": Caption(

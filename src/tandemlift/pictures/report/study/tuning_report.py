@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -14,9 +14,7 @@ from tandemlift.analysis.studies.tuning.parameters import Tunable
 from tandemlift.analysis.studies.tuning.result import MISSION_FILE, Tuning
 from tandemlift.core.errors import shown
 from tandemlift.core.files import versions
-from tandemlift.pictures.report.controller_comparison import html_figures
-from tandemlift.pictures.report.flight_report import DASH, html_table, number
-from tandemlift.pictures.report.page import html, write_page
+from tandemlift.pictures.report.page import DASH, html, html_figures, html_row, html_table, number, write_page
 from tandemlift.pictures.report.study import tuning_figures
 from tandemlift.pictures.report.study.tuning_figures import axis_label, shown_scale
 
@@ -107,7 +105,7 @@ def _evidence(found: Tuning) -> str:
         interval = DASH if c.interval is None else f"{number(c.interval[0] * scale)} to {number(c.interval[1] * scale)}"
         cells = [DASH if math.isnan(x) else number(x * scale) for x in (*c.old, *c.new, c.difference)]
         cells += [interval, DASH if math.isnan(c.improved) else f"{100.0 * c.improved:.0f} %", unit]
-        rows.append(_row(f"{escape(words)}<br><code>{escape(c.label)}</code>", cells))
+        rows.append(html_row(f"{escape(words)}<br><code>{escape(c.label)}</code>", *cells))
     count = len(found.holdout)
     rows.append(_bad_row(found, count))
     of_values = ("Present<br>median", "<br>worst", "New<br>median", "<br>worst")
@@ -117,7 +115,7 @@ def _evidence(found: Tuning) -> str:
         "of draws that went well. The difference is new minus present, draw by draw, over draws that went well with "
         "both; its interval holds for any distribution."
     )
-    table = html_table(_head(heads), rows, "compared part")
+    table = html_table(heads, rows, "compared part")
     return f'<section>\n<h2>Evidence</h2>\n<p class="soft">{note}</p>\n{table}\n</section>'
 
 
@@ -137,29 +135,25 @@ def _front(found: Tuning) -> str:
     goals = [axis_label(goal.name)[0] for goal in found.task.goals]
     heads = ("", *(f"{g}<br>search" for g in goals), *(f"{g}<br>holdout" for g in goals), "")
     rows = [
-        _row(
+        html_row(
             f"{place}{' (the mission below)' if point.values == found.new else ''}",
-            [
-                *(cost_words(cost, len(found.draws)) for cost in point.costs),
-                *(cost_words(cost, len(found.holdout)) for cost in point.holdout),
-                "",
-            ],
+            *(cost_words(cost, len(found.draws)) for cost in point.costs),
+            *(cost_words(cost, len(found.holdout)) for cost in point.holdout),
+            "",
         )
         for place, point in enumerate(found.front, 1)
     ]
     note = "Costs of candidates that no other one beats in all goals; the present values have a cost of about one."
-    head = _head(heads)
-    return (
-        f'<section>\n<h2>Front</h2>\n<p class="soft">{note}</p>\n{html_table(head, rows, "compared part")}\n</section>'
-    )
+    table = html_table(heads, rows, "compared part")
+    return f'<section>\n<h2>Front</h2>\n<p class="soft">{note}</p>\n{table}\n</section>'
 
 
 def _values(found: Tuning) -> str:
     rows = [
-        _row(f"<code>{escape(p.name)}</code>", [_value(old), _value(new), _span(p)])
+        html_row(f"<code>{escape(p.name)}</code>", _value(old), _value(new), _span(p))
         for p, old, new in zip(found.task.parameters, found.old, found.new, strict=True)
     ]
-    return html_table(_head(("Key", "Present", "New", "Searched")), rows, "compared part")
+    return html_table(("Key", "Present", "New", "Searched"), rows, "compared part")
 
 
 def _value(value: object) -> str:
@@ -176,8 +170,7 @@ def _draws(found: Tuning) -> str:
     """The keys that the draws of the search change."""
     listed = found.draws[:FEW_DRAWS]
     rows = [
-        f'<tr><th scope="row">{i}{f" {escape(draw.case)}" if draw.case else ""}</th>'
-        f"<td><code>{escape(_words(draw.changes))}</code></td></tr>"
+        html_row(f"{i} {escape(draw.case or '')}".rstrip(), f"<code>{escape(_words(draw.changes))}</code>")
         for i, draw in enumerate(listed, 1)
     ]
     more = f"; the first {len(listed)} are listed" if len(found.draws) > len(listed) else ""
@@ -185,7 +178,7 @@ def _draws(found: Tuning) -> str:
         f"Every candidate flew the same {len(found.draws)} draws{more}. <code>evidence.json</code> lists all "
         "draws, holdout ones too, with outcomes and values."
     )
-    return f'<p class="soft">{note}</p>\n{html_table("", rows, "setup")}'
+    return f'<p class="soft">{note}</p>\n{html_table((), rows, "setup")}'
 
 
 def _words(changes: Mapping[str, Any]) -> str:
@@ -197,11 +190,3 @@ def _short(value: object) -> object:
     if isinstance(value, float):
         return float(f"{value:.4g}")
     return [_short(v) for v in value] if isinstance(value, (list, tuple)) else value
-
-
-def _head(cells: Sequence[str]) -> str:
-    return "<tr>" + "".join(f'<th scope="col">{cell}</th>' for cell in cells) + "</tr>"
-
-
-def _row(head: str, cells: Sequence[str]) -> str:
-    return f'<tr><th scope="row">{head}</th>' + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"

@@ -1,4 +1,4 @@
-"""The labels and units of a study's quantities and columns in its report."""
+"""The labels and units of a study's quantities and columns in its report, and the groups of rows that it compares."""
 
 from __future__ import annotations
 
@@ -11,13 +11,15 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.analysis.studies.quantities import Quantity
+from tandemlift.analysis.studies.study_rows import RowGroup, StudyRows
 from tandemlift.core.types import Array
 from tandemlift.missions.keys import sections
 from tandemlift.missions.reference import plain_name
-from tandemlift.pictures.report.flight_report import split_unit
+from tandemlift.pictures.report.page import split_unit
 
 FAR = 30.0  # times the median, from where on values are shown on a logarithmic scale
 SMALL = 0.5  # m, below which lengths are shown in mm
+BY = ("controller", "case", "mission", "engine")  # the comparison if there are too many groups
 
 
 class QuantityDisplay(NamedTuple):
@@ -71,3 +73,14 @@ def html_command(*words: object) -> str:
 def html_row_command(folder: Path, row: int) -> str:
     """The command that flies a row of a study alone."""
     return html_command("run", "--from", folder, "--row", row)
+
+
+def compared(rows: StudyRows, most: int) -> list[RowGroup]:
+    """Groups of rows, at most that many: all, those of each controller, case, mission or engine, or one."""
+    if len(rows.groups) <= most:
+        return rows.groups
+    for name in BY:
+        codes, names = rows.labels[name]
+        if 1 < len(names) <= most:
+            return [RowGroup(text, np.flatnonzero(codes == i)) for i, text in enumerate(names)]
+    return [RowGroup("all rows", np.arange(len(rows)))]

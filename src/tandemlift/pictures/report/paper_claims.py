@@ -11,7 +11,7 @@ import numpy as np
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.report.paper.tables import agrees
+from tandemlift.pictures.report.paper_tables import agrees
 
 CALM = 10.0  # s, from which on the disturbed start is over
 UNTIL = 20.0  # s, before the pushes along x and y

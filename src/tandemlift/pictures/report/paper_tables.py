@@ -1,7 +1,10 @@
-"""The paper's tables beside the numbers of the mission `paper`, as data."""
+"""The paper's tables beside the numbers of the mission `paper`, as data, CSV and LaTeX."""
 
 from __future__ import annotations
 
+import csv
+import io
+import re
 import tomllib
 from collections.abc import Mapping
 from decimal import Decimal
@@ -12,7 +15,8 @@ import numpy as np
 
 from tandemlift.core.types import GRAVITY
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.report.paper.errata import DATA, errata
+from tandemlift.pictures.report.errata import DATA, errata
+from tandemlift.pictures.report.latex import latex_table, latex_text
 
 AXES = {"position": slice(0, 3), "attitude": slice(3, 6), "one": slice(None)}
 DERIVED = {
@@ -129,3 +133,45 @@ def _row(row: Mapping[str, Any], mission: Mapping[str, Any]) -> TableRow:
 def _plain(printed: str) -> str:
     """A printed number without a power of ten."""
     return format(Decimal(printed), "f")
+
+
+HEADINGS = ("symbol", "meaning", "printed", "unit", "here", "unit here", "from", "agrees")
+GREEK = {"ξ": "xi", "η": "eta", "λ": "lambda", "φ": "phi", "θ": "theta", "ψ": "psi"}
+INDEX = str.maketrans({"₁": "_1", "₂": "_2"})
+POWER = str.maketrans({"²": "^2"})
+WORD = re.compile(r"[a-z]{2,}")
+
+
+def as_csv(table: PaperTable) -> str:
+    """A table as CSV."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(HEADINGS)
+    writer.writerows([*row[:-1], row.mark or "yes"] for row in table.rows)
+    return text.getvalue().replace("`", "")
+
+
+def as_latex(table: PaperTable) -> str:
+    """A table as LaTeX, without the column of our numbers' sources."""
+    rows = []
+    for row in table.rows:
+        cells = [latex_text(row.meaning), row.printed, _unit(row.unit), row.ours, _unit(row.right), row.mark or "yes"]
+        rows.append([_symbols(row.symbol), *cells])
+    head = [heading for heading in HEADINGS if heading != "from"]
+    return latex_table("l" * len(head), head, rows, f"Table {table.number} of the paper beside the mission paper")
+
+
+def _symbols(text: str) -> str:
+    """Symbols such as ξ_φ or J_tx as mathematics; words stay words."""
+    parts = text.translate(INDEX).split(", ")
+    return ", ".join(part if WORD.fullmatch(part) else f"${_symbol(part)}$" for part in parts)
+
+
+def _symbol(text: str) -> str:
+    named = "".join(f"\\{GREEK[c]} " if c in GREEK else c for c in text)
+    return re.sub(r"_(.+)", lambda index: f"_{{{index[1].strip()}}}", named)
+
+
+def _unit(text: str) -> str:
+    """A unit with its powers."""
+    return re.sub(r"\^\d", lambda power: f"${power[0]}$", text.translate(POWER))

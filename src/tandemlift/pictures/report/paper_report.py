@@ -1,19 +1,36 @@
-"""The report as data: everything that `data/paper/report.typ` sets, so that no text of ours is ever code of Typst."""
+"""The report on the paper: figures, tables, data and source in a folder, and the PDF that Typst sets from them.
+
+`data/paper/report.typ` sets what `document` says, so that no text of ours is ever code of Typst.
+"""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from tandemlift.core.errors import InputError, extra
+from tandemlift.core.files import atomic_write
+from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.report.paper.claims import claims
-from tandemlift.pictures.report.paper.contents import PaperFigure, open_settings, paper_figures
-from tandemlift.pictures.report.paper.drawings import caption_of, file_of
-from tandemlift.pictures.report.paper.errata import errata
-from tandemlift.pictures.report.paper.tables import nomenclature, paper_tables, value_at
+from tandemlift.pictures.report.errata import DATA, errata
+from tandemlift.pictures.report.page import versions_of
+from tandemlift.pictures.report.paper_claims import claims
+from tandemlift.pictures.report.paper_figures import (
+    PaperFigure,
+    caption_of,
+    file_of,
+    open_settings,
+    paper_figures,
+    write_drawing,
+)
+from tandemlift.pictures.report.paper_tables import as_csv, as_latex, nomenclature, paper_tables, value_at
+
+SOURCE = "report.typ"
 
 
 class PaperFlights(NamedTuple):
@@ -38,10 +55,9 @@ def document(flights: PaperFlights, command: str, gazebo: str) -> dict[str, Any]
         command: the command that made it.
         gazebo: whether Gazebo can fly the corridor on this machine, as a sentence.
     """
-    versions = {key: value for key, value in flights.paper.version.items() if key != "engine"}
     return {
         "command": command,
-        "versions": ", ".join(f"{name} {version}" for name, version in versions.items()),
+        "versions": versions_of(flights.paper),
         "engine": flights.paper.version.get("engine", ""),
         "claims": [claim._asdict() for claim in claims(flights.paper, flights.corridor)],
         "nomenclature": nomenclature(),
@@ -102,3 +118,61 @@ def _shown(value: ArrayLike) -> str:
     if np.all(flat == flat[0]):
         return f"{flat[0]:g}"
     return ", ".join(f"{number:g}" for number in flat).replace("-", "−")
+
+
+def write_paper_files(
+    flights: PaperFlights, folder: Path, command: str, gazebo: str, progress: Progress | None = None
+) -> None:
+    """Write figures (PDF, SVG), tables (CSV, LaTeX), report.json and report.typ into a folder.
+
+    Args:
+        flights: those of the report.
+        folder: where to; made if it does not exist.
+        command: the command that made the report.
+        gazebo: whether Gazebo can fly the corridor on this machine, as a sentence.
+        progress: called after each drawing with (drawings done, drawings in all).
+    """
+    given = {"mission": None, "paper flight": flights.paper, "zigzag flight": flights.corridor}
+    parts = [(figure, name, of) for figure in paper_figures() for name, of, _ in figure.parts]
+    for done, (figure, name, of) in enumerate(parts, 1):
+        write_drawing(name, given[of], folder / file_of(figure, name))
+        if progress:
+            progress(done, len(parts))
+    for table in paper_tables(flights.paper.mission):
+        for suffix, written in (("csv", as_csv), ("tex", as_latex)):
+            _write(folder / "tables" / f"table-{table.number}.{suffix}", written(table))
+    text = json.dumps(document(flights, command, gazebo), indent=1, ensure_ascii=False, allow_nan=False)
+    _write(folder / "report.json", text + "\n")
+    _write(folder / SOURCE, (DATA / SOURCE).read_text("utf-8"))
+
+
+def _write(path: Path, text: str) -> None:
+    with atomic_write(path) as partial:
+        partial.write_text(text, "utf-8")
+
+
+def check_typesetting() -> None:
+    """Find out whether the PDF can be set.
+
+    Raises:
+        InputError: the package that sets it is not installed.
+    """
+    with extra("paper", "the PDF of the paper's report"):
+        import typst  # noqa: F401
+
+
+def typeset(folder: Path, path: Path) -> None:
+    """Set the report in a folder as a PDF; the same files give the same bytes.
+
+    Raises:
+        InputError: the package that sets it is not installed, or is too old to place figures in PDF.
+    """
+    check_typesetting()
+    import typst
+
+    try:
+        pdf = typst.compile(folder / SOURCE, ignore_system_fonts=True, timestamp=0)
+    except typst.TypstError as error:
+        raise InputError(f"{folder / SOURCE} cannot be set by typst, 0.14 or newer: {error.message}") from error
+    with atomic_write(path) as partial:
+        partial.write_bytes(pdf)

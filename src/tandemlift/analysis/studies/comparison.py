@@ -1,0 +1,212 @@
+"""Comparison of flights of one mission, by several controllers or in several engines: who takes part, and the flights.
+
+`comparison_scores` has the scores.
+"""
+
+from __future__ import annotations
+
+import re
+import traceback
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, Literal, NamedTuple
+
+from tandemlift.analysis.studies.comparison_scores import (
+    ScoreTable,
+    controller_tables,
+    engine_table,
+    largest_differences,
+    speed,
+)
+from tandemlift.core.errors import InputError
+from tandemlift.core.types import Progress
+from tandemlift.engines.registry import ENGINES
+from tandemlift.flight.record import Flight
+from tandemlift.missions import Mission, load_mission
+from tandemlift.missions.loading import MissionTemplate
+from tandemlift.parts.controllers import CONTROLLERS, Controller, controller, error_text, file_of
+from tandemlift.simulation.many import fly_each
+
+
+class Entry(NamedTuple):
+    """A controller or an engine in a comparison.
+
+    Attributes:
+        name: of the controller or the engine.
+        mission: that is flown; None if the controller cannot fly it.
+        engine: in which it is flown.
+        refusal: why the controller cannot fly it.
+        flight: once it is flown.
+    """
+
+    name: str
+    mission: Mission | None = None
+    engine: str = "compiled"
+    refusal: str = ""
+    flight: Flight | None = None
+
+    @property
+    def summary(self) -> str:
+        """The description in a sentence; "" for a controller that is not registered, such as a user's file."""
+        known = CONTROLLERS.get(self.name) or ENGINES.get(self.name)
+        return known.summary if known else ""
+
+
+@dataclass(frozen=True)
+class MissionComparison:
+    """Flights of one mission that differ in one thing, from `with_controllers` or `in_engines`.
+
+    Attributes:
+        of: what differs.
+        entries: in the order of the tables.
+    """
+
+    of: Literal["controllers", "engines"]
+    entries: Sequence[Entry]
+
+    @property
+    def name(self) -> str:
+        """The name of the mission."""
+        return next(e.mission.mission.name for e in self.entries if e.mission)
+
+    @cached_property
+    def flights(self) -> dict[str, Flight]:
+        """The flights by the name of the controller or engine; at least one has flown."""
+        return {e.name: e.flight for e in self.entries if e.flight}
+
+    @cached_property
+    def tables(self) -> list[ScoreTable]:
+        """The tables of scores, the decisive one first."""
+        return controller_tables(self.flights) if self.of == "controllers" else [engine_table(self.flights)]
+
+    def fly(self, progress: Progress | None = None) -> MissionComparison:
+        """Fly every entry that has a mission, in the order given.
+
+        Args:
+            progress: called with (flights flown, flights in all).
+
+        Raises:
+            InputError: an engine is unknown or cannot fly the mission, or a user's controller fails.
+        """
+        missions, engines = zip(*((e.mission, e.engine) for e in self.entries if e.mission), strict=True)
+        try:  # on one thread, because their speed is compared
+            flights = fly_each(missions, engines, keep="flights", interrupted=True, threads=1, progress=progress)
+        except InputError:
+            raise
+        except Exception as error:
+            raise _explained(error, missions) from error
+        flown = iter(flights)
+        return replace(self, entries=[e._replace(flight=next(flown)) if e.mission else e for e in self.entries])
+
+    def as_json(self) -> dict[str, Any]:
+        """The comparison as JSON, an object for each entry; SI units.
+
+        The scores of a controller are those of the decisive part, from `from_s` on; those of the other part are in
+        `before_first_push`. Differences of engines are from the first.
+        """
+        if self.of == "engines":
+            first = next(iter(self.flights.values()))
+            return {"mission": self.name, "engines": [_engine_json(*one, first) for one in self.flights.items()]}
+        rows = [_controller_json(entry, *self.tables) for entry in self.entries]
+        return {"mission": self.name, "engine": self.entries[0].engine, "controllers": rows}
+
+
+def _controller_json(entry: Entry, counts: ScoreTable, *others: ScoreTable) -> dict[str, Any]:
+    row: dict[str, Any] = {"controller": entry.name, "flown": entry.flight is not None, "refused": entry.refusal}
+    if entry.flight:
+        row |= {"from_s": counts.part.first, **counts.rows[entry.name]}
+        if others:
+            row["before_first_push"] = others[0].rows[entry.name]
+        row |= {"findings": [finding.as_table() for finding in entry.flight.findings]}
+        row |= {"settings": entry.flight.mission["controller"], "metrics": entry.flight.metrics()}
+    return row
+
+
+def _engine_json(name: str, flight: Flight, first: Flight) -> dict[str, Any]:
+    return {
+        "engine": name,
+        "difference": largest_differences(flight, first),
+        "final_position_m": flight.metrics()["final_position_m"],
+        "steps_per_s": speed(flight),
+        "findings": [finding.as_table() for finding in flight.findings],
+        "failure": flight.failure or None,
+        "version": flight.version,
+    }
+
+
+def in_engines(mission: Mission, engines: Sequence[str]) -> MissionComparison:
+    """A mission in several engines, not yet flown.
+
+    Args:
+        mission: from `load_mission`.
+        engines: names of the engines, without repetition.
+
+    Raises:
+        InputError: fewer than two engines are named, or one twice.
+    """
+    if len(set(engines)) < max(2, len(engines)):
+        raise InputError(f"engines = {', '.join(engines)}: must be two or more, without repetition")
+    return MissionComparison("engines", [Entry(engine, mission, engine) for engine in engines])
+
+
+def with_controllers(
+    name: str, changes: Mapping[str, Any], chosen: Sequence[Controller] | None = None, engine: str = "compiled"
+) -> MissionComparison:
+    """A mission with several controllers, not yet flown.
+
+    Args:
+        name: name of a built-in mission, or path of a TOML file.
+        changes: values by dotted key; those of `controller` apply to the mission's own controller only.
+        chosen: the controllers; if None, the mission's own and then all others by name. Of these, one that lacks
+            settings is refused, and the others fly.
+        engine: name of the engine.
+
+    Raises:
+        InputError: the mission cannot be loaded, or a chosen controller cannot fly it.
+    """
+    others = {key: value for key, value in changes.items() if key.partition(".")[0] != "controller"}
+    own = _own_mission(name, changes, others)
+
+    def enter(entrant: Controller) -> Entry:
+        same = entrant.name == own.controller.name
+        return Entry(entrant.name, own if same else load_mission(name, others, controller=entrant), engine)
+
+    if chosen is not None:
+        return MissionComparison("controllers", [enter(one) for one in chosen])
+    entries = [Entry(own.controller.name, own, engine)]
+    for other in sorted(CONTROLLERS.keys() - {own.controller.name}):
+        try:
+            entries.append(enter(controller(other)))
+        except InputError as error:
+            entries.append(Entry(other, None, engine, str(error)))
+    return MissionComparison("controllers", entries)
+
+
+def _own_mission(name: str, changes: Mapping[str, Any], others: Mapping[str, Any]) -> Mission:
+    """The mission with its own controller; keys of another one are rejected, with the right place for them.
+
+    Args:
+        name: of the mission.
+        changes: values by dotted key.
+        others: those that are not of `controller`.
+    """
+    try:
+        return load_mission(name, changes)
+    except InputError as error:
+        if "controller.name" in changes or not re.search(r"\bcontroller\.[^\n]*: unknown key", str(error)):
+            raise
+        own = MissionTemplate.read(name, others, quiet=True).mission({})
+        raise InputError(
+            f"{error}\n--set gives keys to {own.controller.name} only, the controller of mission {own.mission.name}. "
+            "Give those of another one by a mission file that has its [controller]."
+        ) from None
+
+
+def _explained(error: Exception, missions: Iterable[Mission]) -> Exception:
+    """The error of a user's controller, with the line of its file; any other error unchanged."""
+    files = {frame.filename for frame in traceback.extract_tb(error.__traceback__)}
+    for own in (controller(mission.controller.name) for mission in missions):
+        if not own.start.__module__.startswith("tandemlift.") and file_of(own) in files:
+            return InputError(f"controller {own.name!r} fails: {error_text(error, file_of(own))}")
+    return error

@@ -1,1 +1,0 @@
-"""The paper beside our flights: its figures, tables and errata, as one document."""
