@@ -32,6 +32,7 @@ from tandemlift.pictures.figures.drawing.style import (
     PAPER,
     StyledFigure,
     page_figure,
+    save,
     styled,
 )
 from tandemlift.pictures.report.page import (
@@ -141,14 +142,12 @@ class FeelReport:
         Returns:
             The files.
         """
-        from tandemlift.pictures.figures.registry import save_figure
-
         folder, figure = Path(folder), self.figure()
         folder.mkdir(parents=True, exist_ok=True)
         files = [folder / f"{FIGURE}.json", folder / f"{FIGURE}.html"]
         _write(files[0], json.dumps(_plain(self.summary()), indent=1, ensure_ascii=False, allow_nan=False))
         self._write_page(files[1], html_figures({FIGURE: figure}, {FIGURE: CAPTION}))
-        return [*files, *(save_figure(figure, folder / f"{FIGURE}.{kind}") for kind in ("png", "pdf"))]
+        return [*files, *(save(figure, folder / f"{FIGURE}.{kind}") for kind in ("png", "pdf"))]
 
     def _write_page(self, path: Path, figures: str) -> None:
         tables = {"admittance": tables_of(self.study.mission)["admittance"]}
