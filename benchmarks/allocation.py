@@ -28,7 +28,7 @@ from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
 from tandemlift.parts.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
-from tandemlift.simulation.loop_code.limit_solver import TracedSolver, write_solver
+from tandemlift.simulation.preparation.limit_solver import TracedSolver, write_solver
 
 PLACES = {
     1: [(0.0, 0.0)],

@@ -20,8 +20,8 @@ import numpy as np
 
 import tandemlift as tl
 from tandemlift.compiler.machine_code.code import Code
-from tandemlift.simulation.loop_code import LANES, FlightMemory
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import LANES, FlightMemory
 
 DURATION = 90.0  # s, of each
 WIND = {  # on top of iris: then every part is on

@@ -12,8 +12,8 @@ import tandemlift as tl
 from tandemlift.codegen.c_package import code_texts, written
 from tandemlift.core.types import leaves
 from tandemlift.missions import built_in, changed
-from tandemlift.simulation.assembly.traced_assembly import trace_assembly
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation.traced_assembly import trace_assembly
 from tools import need
 
 

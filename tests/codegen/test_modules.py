@@ -19,9 +19,9 @@ from tandemlift.codegen.module_text import write_flight_loop, write_ramp
 from tandemlift.compiler.machine_code import machine
 from tandemlift.compiler.machine_code.wasm_linker import LinkError, Reader, linked, signed, unsigned
 from tandemlift.compiler.tracer import Module
-from tandemlift.simulation.loop_code.context import WORDS
 from tandemlift.simulation.parameter_changes import ParameterRamp, ScheduledChange
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation.memory import WORDS
 
 
 def wasm_object(mission: tl.Mission) -> bytes:

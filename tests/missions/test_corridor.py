@@ -12,7 +12,7 @@ from tandemlift.core.types import unflat
 from tandemlift.missions import check, tables_of
 from tandemlift.parts.contact.corridor import CorridorTable, wall_tables
 from tandemlift.parts.person.person import PATH_LEG
-from tandemlift.simulation.assembly.assemble import assemble
+from tandemlift.simulation.preparation.assemble import assemble
 
 LINE = ((0.0, 0.0), (5.0, 0.0), (10.0, 3.0), (15.0, 0.0))
 WALKED = {"ground.model": "floor", "initial.euler": 0.0, "phases.rotors": "always"}

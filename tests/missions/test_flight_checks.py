@@ -20,7 +20,7 @@ from tandemlift.parts.pilot.schedule_checks import Schedule
 from tandemlift.parts.pilot.sensing_checks import noise_of, push_bandwidths
 from tandemlift.parts.rotors.authority import CONTROL
 from tandemlift.parts.rotors.hover_loads import SIGMAS, WindOnParts, loads_of
-from tandemlift.simulation.assembly.assemble import assemble
+from tandemlift.simulation.preparation.assemble import assemble
 
 IRIS = tables_of(load_mission("iris"))["vehicle"]["quadrotors"]
 

@@ -13,8 +13,8 @@ from tandemlift.missions import built_in, load_mission
 from tandemlift.missions.checks import sample_size
 from tandemlift.parts.contact.feet import sinkage_of, standing_height
 from tandemlift.parts.contact.standing import standing_on
-from tandemlift.simulation.assembly.assemble import assemble
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation.assemble import assemble
 
 WEAK = [{"quadrotor": 1, "rotor": r, "time": 1.0, "efficiency": 0.1, "known_after": 0.0} for r in (1, 2, 3)]
 ALONG = [{"start": [0.2, -3.0], "end": [0.2, 3.0]}]

@@ -10,8 +10,8 @@ from law_values import flat, rebuilt
 
 import tandemlift as tl
 from tandemlift.core.vector import Quat, Vec3
-from tandemlift.simulation.assembly.assemble import assemble
 from tandemlift.simulation.loop.step import step_flight
+from tandemlift.simulation.preparation.assemble import assemble
 
 SETTINGS: dict[str, tuple[str, dict[str, Any]]] = {
     "paper": ("paper", {}),

@@ -12,8 +12,8 @@ from machine_code import answers
 
 import tandemlift as tl
 from tandemlift.core.types import leaves
-from tandemlift.simulation.assembly.assemble import assemble
 from tandemlift.simulation.loop.step import FlightModel, StepInputs, step_flight
+from tandemlift.simulation.preparation.assemble import assemble
 
 IDEAL: dict[str, dict[str, Any]] = {
     "tanh, hard gate, zero derivatives, exact rates, exact tilt, cubic, diagonal inertia, central pushes": {},

@@ -9,7 +9,7 @@ import tandemlift as tl
 from tandemlift.compiler.machine_code.functions import compiled
 from tandemlift.core.types import flat, leaves, unflat
 from tandemlift.parts.controllers import CONTROLLERS, Measured, Reference, control, nftsmc, register
-from tandemlift.simulation.loop_code import COMMAND
+from tandemlift.simulation.preparation import COMMAND
 
 SIZE = leaves(COMMAND)
 

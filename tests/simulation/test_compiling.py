@@ -17,8 +17,8 @@ from tandemlift.compiler.machine_code import machine, store
 from tandemlift.compiler.machine_code.store import key_of, sources
 from tandemlift.core.law import LAWS
 from tandemlift.missions import built_in
-from tandemlift.simulation.loop_code import LANES
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import LANES
 
 PACKAGE = Path(tl.__file__).parent
 LEVELS = {"quick": machine.QUICK, "best": machine.BEST, "best of blocks": machine.BEST_OF_VECTORS}

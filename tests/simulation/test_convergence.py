@@ -10,7 +10,7 @@ from tandemlift.parts.mechanics.push import CentralPush
 from tandemlift.parts.mechanics.rigid_body import State, motion
 from tandemlift.parts.pilot.pilot import PilotInput, decide
 from tandemlift.parts.rotors.allocation import wrench
-from tandemlift.simulation.assembly.assemble import assemble
+from tandemlift.simulation.preparation.assemble import assemble
 
 DURATION = 6.0  # s: the lift of `paper`, from 2 to 8 s
 

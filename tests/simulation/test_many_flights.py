@@ -10,8 +10,8 @@ import tandemlift as tl
 from tandemlift.core.errors import InputError
 from tandemlift.missions import MissionTemplate
 from tandemlift.simulation import fly as fly_module
-from tandemlift.simulation.loop_code import LANES
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import LANES
 
 SHORT = {"mission.duration": 20.0}
 FOUR_IDEAL = {"controller.attitude_reference_derivatives": "zero", "admittance.gate": "hard"}

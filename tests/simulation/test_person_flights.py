@@ -10,8 +10,8 @@ from tandemlift.core.vector import vec3
 from tandemlift.missions import built_in
 from tandemlift.parts.person.person import PersonView
 from tandemlift.pictures.figures.drawing.clearances import clearances
-from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.stepping import Stepper, fly_stepwise
 
 LEAST = {"zigzag": 0.4, "narrow": 0.3, "narrow-zigzag": 0.1, "doorway": 0.05}  # m

@@ -16,10 +16,10 @@ from tandemlift.parts.mechanics.wind import gust_velocity
 from tandemlift.parts.pilot.pilot import with_allocation
 from tandemlift.parts.rotors.allocation import AllocationState
 from tandemlift.parts.sensors.readings import Readings
-from tandemlift.simulation.assembly.assemble import assemble
 from tandemlift.simulation.loop.random_numbers import normals
 from tandemlift.simulation.loop.step import StepInputs, finish_step, run_pilot, with_person
-from tandemlift.simulation.loop_code import GAUSSIAN, GUST, SPAN
+from tandemlift.simulation.preparation import GAUSSIAN, GUST, SPAN
+from tandemlift.simulation.preparation.assemble import assemble
 
 
 def different(a: tl.Flight, b: tl.Flight) -> list[str]:

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 from storm import COMMAND, DT, storm, storms
 
 import tandemlift as tl
-from tandemlift.simulation.assembly.assemble import assemble
+from tandemlift.simulation.preparation.assemble import assemble
 
 FAULT, LEFT = 0.45, 0.8  # s; share of the thrust
 EVERY = {

@@ -10,8 +10,8 @@ from flights import LOST, different, lanes
 
 import tandemlift as tl
 from tandemlift.missions import built_in
-from tandemlift.simulation.loop_code import LANES
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import LANES
 from tandemlift.simulation.results import flight_of
 from tandemlift.simulation.stepping import fly_stepwise
 

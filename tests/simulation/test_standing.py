@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.core.types import GRAVITY
-from tandemlift.simulation.assembly.assemble import assemble
+from tandemlift.simulation.preparation.assemble import assemble
 
 DT = 0.001
 STOPPED = {"phases.lift_start": 100.0, "phases.land_start": 200.0, "estimator.tare_start": 300.0, "pushes": []}

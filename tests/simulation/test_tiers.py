@@ -11,8 +11,8 @@ import tandemlift as tl
 from tandemlift.compiler.machine_code import code, store
 from tandemlift.core.types import leaves
 from tandemlift.simulation import fly, plan
-from tandemlift.simulation.loop_code import LANES, FlightMemory
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import LANES, FlightMemory
 
 
 @pytest.fixture

@@ -23,7 +23,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
 from tandemlift.parts.rotors.normal_equations import GAMMA
 from tandemlift.parts.rotors.thrust_limit_solver import BoundedProblem
-from tandemlift.simulation.loop_code.limit_solver import TracedSolver, write_solver
+from tandemlift.simulation.preparation.limit_solver import TracedSolver, write_solver
 
 PRIORITIES = (30.0, 900.0, 900.0, 1.0)
 LIMIT = 7.066  # N, of IRIS

@@ -11,8 +11,8 @@ import numpy as np
 from tandemlift.codegen.c_package import code_texts, written
 from tandemlift.core.types import leaves
 from tandemlift.missions import changed
-from tandemlift.simulation.loop_code import FlightMemory, leaf_offset
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import FlightMemory, leaf_offset
 
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-ffp-contract=off")
 HARNESS = """#include "{p}_flight.h"

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.missions import Mission
-from tandemlift.simulation.assembly.traced_assembly import numbers_of_mission, with_numbers
+from tandemlift.simulation.preparation.traced_assembly import numbers_of_mission, with_numbers
 
 SCALED = (  # key, or its beginning; largest relative change
     ("vehicle.payload.mass", 0.1),

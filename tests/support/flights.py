@@ -3,7 +3,7 @@
 import numpy as np
 
 import tandemlift as tl
-from tandemlift.simulation.loop_code import LANES
+from tandemlift.simulation.preparation import LANES
 
 LOST = {5: 60.0, 7: -90.0}  # lanes, and what throws them over [N m]
 

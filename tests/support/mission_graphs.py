@@ -13,8 +13,8 @@ import numpy as np
 from tandemlift.compiler.machine_code.machine import QUICK, Loaded, compiled
 from tandemlift.compiler.tracer import Function, Module, Place, Symbol
 from tandemlift.core.types import numbers_of
-from tandemlift.simulation.assembly.traced_assembly import TracedAssembly
-from tandemlift.simulation.loop_code.context import aligned
+from tandemlift.simulation.preparation.memory import aligned
+from tandemlift.simulation.preparation.traced_assembly import TracedAssembly
 
 CHOOSES = re.compile(r"controller\.gains\.a\.\d|vehicle\.quadrotors\.\d\.spins")  # a number of these picks a law
 PART = re.compile(r"(vehicle\.quadrotors)\.\d+\.")

@@ -92,7 +92,7 @@ class Touched:
     def _watch_compiled_code(self) -> None:
         """Once the package is imported: whoever asks for compiled code has called what was traced for it."""
         from tandemlift.compiler.machine_code.code import Code
-        from tandemlift.simulation.loop_code.compiled_flight import LoopCode
+        from tandemlift.simulation.preparation.compiled_flight import LoopCode
 
         if hasattr(Code, "touched"):
             return

@@ -18,16 +18,16 @@ from tandemlift.codegen.c_statements import Statements
 from tandemlift.codegen.c_text import FunctionHead, function
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import ZERO
-from tandemlift.simulation.loop_code import external_inputs
-from tandemlift.simulation.loop_code.external_inputs import ROWS, draw_count
-from tandemlift.simulation.loop_code.memory import COUNTS
-from tandemlift.simulation.loop_code.step_output import COMMAND_LINE
-from tandemlift.simulation.loop_code.templates import templates_from
-from tandemlift.simulation.loop_code.traced_step import Symbols, TracedStep
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import external_inputs
+from tandemlift.simulation.preparation.external_inputs import ROWS, draw_count
+from tandemlift.simulation.preparation.memory import COUNTS
+from tandemlift.simulation.preparation.step_writer import COMMAND_LINE
+from tandemlift.simulation.preparation.templates import templates_from
+from tandemlift.simulation.preparation.traced_step import Symbols, TracedStep
 
 STEP = """/* One step of a flight from time t [s] by dt [s]: its state after it, and the sample at its start
- * (tandemlift.simulation.loop_code.traced_step). */
+ * (tandemlift.simulation.preparation.traced_step). */
 """
 
 

@@ -6,7 +6,7 @@ from tandemlift.codegen.c_laws import write_functions
 from tandemlift.codegen.c_source import Unit
 from tandemlift.codegen.c_statements import Statements
 from tandemlift.core.types import leaves, rebuilt
-from tandemlift.simulation.loop_code.limit_solver import LimitProblem, TracedSolver
+from tandemlift.simulation.preparation.limit_solver import LimitProblem, TracedSolver
 
 SOLVE = """/* The thrusts within limits that come closest to the desired wrench
  * (tandemlift.parts.rotors.thrust_limit_solver.limited_thrusts); it ends after {most} steps at the latest. */

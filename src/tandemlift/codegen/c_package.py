@@ -15,12 +15,12 @@ from tandemlift.codegen.c_text import wrapped
 from tandemlift.codegen.prepare import PrepareFile
 from tandemlift.core.types import Array, leaves
 from tandemlift.missions import Mission
-from tandemlift.simulation.assembly.traced_assembly import assembled_by_graph, trace_assembly
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.fly import fly
-from tandemlift.simulation.loop_code import FlightMemory
 from tandemlift.simulation.pilot_api import INPUT, Pilot, pilot_at_start
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import FlightMemory
+from tandemlift.simulation.preparation.traced_assembly import assembled_by_graph, trace_assembly
 
 VECTORS = 40  # stored samples of a pilot
 ROWS = 12  # stored samples of a flight

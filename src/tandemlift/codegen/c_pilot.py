@@ -11,10 +11,10 @@ from tandemlift.codegen.c_statements import Statements
 from tandemlift.codegen.c_text import FunctionHead, function
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import each
-from tandemlift.simulation.loop_code.pilot_sampling import PilotData, PilotDataState, PilotSampler
 from tandemlift.simulation.pilot_api import INPUT
+from tandemlift.simulation.preparation.pilot_sampling import PilotData, PilotDataState, PilotSampler
 
-SAMPLE = "/* A sample of the pilot (tandemlift.simulation.loop_code.pilot_sampling). */\n"
+SAMPLE = "/* A sample of the pilot (tandemlift.simulation.preparation.pilot_sampling). */\n"
 
 
 class PilotFile:

@@ -26,11 +26,11 @@ from tandemlift.core.types import leaves
 from tandemlift.flight.channels import channel_of
 from tandemlift.missions import Mission
 from tandemlift.missions.schema import schema_of
-from tandemlift.simulation.assembly.traced_assembly import TracedAssembly, trace_assembly
 from tandemlift.simulation.caller_values import portable_mission
-from tandemlift.simulation.loop_code.context import POINTERS, WORDS
 from tandemlift.simulation.parameter_changes import hand_place
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation.memory import POINTERS, WORDS
+from tandemlift.simulation.preparation.traced_assembly import TracedAssembly, trace_assembly
 from tandemlift.simulation.results import channels_of
 
 BOUNDS = ("minimum", "exclusiveMinimum", "maximum", "exclusiveMaximum")

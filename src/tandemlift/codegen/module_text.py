@@ -16,8 +16,8 @@ from typing import Any, NamedTuple
 
 from tandemlift.compiler.tracer import Function, Graph, Module, Place, double, rounded_twice, symbols
 from tandemlift.core.types import leaves
-from tandemlift.simulation.loop_code import LoopCode
-from tandemlift.simulation.loop_code.loops import LoopWriter
+from tandemlift.simulation.preparation import LoopCode
+from tandemlift.simulation.preparation.loops import LoopWriter
 
 
 class ValuesFunction(NamedTuple):

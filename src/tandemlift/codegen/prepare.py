@@ -16,11 +16,11 @@ from tandemlift.codegen.c_text import FunctionHead, function
 from tandemlift.codegen.c_types import Names, leaf_paths
 from tandemlift.compiler.tracer import LEAVES, Function, Module, Place, Symbol, symbols
 from tandemlift.core.types import rebuilt
-from tandemlift.simulation.assembly.assemble import AssembledFlight
-from tandemlift.simulation.assembly.traced_assembly import TracedAssembly
-from tandemlift.simulation.loop_code.context import ScratchLayout
-from tandemlift.simulation.loop_code.external_inputs import ROWS
-from tandemlift.simulation.loop_code.scratch import ScratchValues
+from tandemlift.simulation.preparation.assemble import AssembledFlight
+from tandemlift.simulation.preparation.external_inputs import ROWS
+from tandemlift.simulation.preparation.memory import ScratchLayout
+from tandemlift.simulation.preparation.precompute import ScratchValues
+from tandemlift.simulation.preparation.traced_assembly import TracedAssembly
 
 PIECE = 600  # operations of a function
 ARGUMENTS = "ptr noalias %numbers, ptr noalias %work"
@@ -87,7 +87,7 @@ def _function(module: Module, traced: TracedAssembly, kept: ScratchValues, head:
 
 # ---- C
 
-NOTE = "/* The numbers, one after the other (tandemlift.simulation.assembly.traced_assembly). */\n"
+NOTE = "/* The numbers, one after the other (tandemlift.simulation.preparation.traced_assembly). */\n"
 
 
 class PrepareFile:

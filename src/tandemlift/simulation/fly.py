@@ -17,9 +17,9 @@ from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission
 from tandemlift.missions.recording import engine_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
-from tandemlift.simulation.loop_code import LANES, FlightMemory
 from tandemlift.simulation.parameter_changes import changes_in_flight
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import LANES, FlightMemory
 from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
 from tandemlift.simulation.stepping import body_of, fly_stepwise
 

@@ -18,8 +18,8 @@ from tandemlift.core.types import Array, flat, leaves
 from tandemlift.core.vector import Absent, layout
 from tandemlift.missions import Mission, in_turn
 from tandemlift.missions.recording import read_recording
-from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import leaf_offset
 
 STEADY = {"changes": ()}
 LATER = "is chosen before a flight begins, and cannot be changed in flight"

@@ -18,10 +18,10 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.person.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.parts.pilot.pilot import PilotInput
 from tandemlift.parts.pilot.refusals import refusals_of
-from tandemlift.simulation.assembly.pilot import start_pilot
-from tandemlift.simulation.assembly.traced_assembly import assembled_by_graph
-from tandemlift.simulation.loop_code.context import aligned
-from tandemlift.simulation.loop_code.pilot_sampling import PilotData, pilot_code
+from tandemlift.simulation.preparation.memory import aligned
+from tandemlift.simulation.preparation.pilot_sampling import PilotData, pilot_code
+from tandemlift.simulation.preparation.start_pilot import start_pilot
+from tandemlift.simulation.preparation.traced_assembly import assembled_by_graph
 
 INPUT = PilotInput(
     State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Absent(), NO_REQUEST, UNKNOWN_STATUS

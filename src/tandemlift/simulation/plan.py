@@ -16,9 +16,9 @@ from tandemlift.missions import Mission
 from tandemlift.parts.controllers import NoMemory, control
 from tandemlift.parts.person.caller_inputs import CallerInput
 from tandemlift.parts.person.outside_push import OutsidePush
-from tandemlift.simulation.assembly.traced_assembly import assembled_flight
 from tandemlift.simulation.loop.log_sample import Sample
-from tandemlift.simulation.loop_code import FlightStart, LoopCode, PythonController, TimeGrid
+from tandemlift.simulation.preparation import FlightStart, LoopCode, PythonController, TimeGrid
+from tandemlift.simulation.preparation.traced_assembly import assembled_flight
 
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second
 

@@ -27,10 +27,10 @@ from tandemlift.parts.person.virtual_hand import HAND_RELEASED, VirtualHandInput
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.loop.step import FlightState
-from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.outcome import ending_of, place_of
 from tandemlift.simulation.parameter_changes import ScheduledChange, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.results import RawResult, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_of
 

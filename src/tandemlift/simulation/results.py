@@ -22,9 +22,9 @@ from tandemlift.parts.guidance.supervision import ALARM, CONTACT, PHASE, Supervi
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.loop.running_metrics import EMPTY, RunningMetrics, summary
 from tandemlift.simulation.loop.step import FlightModel, FlightState
-from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.outcome import ending_of, outcome_of
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.touches import describe_contact
 
 DETECTION = ("rotor_failure_detections", "rotor_failure_detection_delay_s")  # metrics with detection of a lost rotor

@@ -22,9 +22,9 @@ from tandemlift.parts.mechanics.push import point_checks
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.simulation.caller_values import numbers, with_seed
 from tandemlift.simulation.loop.running_metrics import EMPTY
-from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.outcome import ending_of
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.results import RawResult, channels_of, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_of
 

@@ -22,9 +22,9 @@ from tandemlift.parts.controllers import control
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.refusals import refusals_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
-from tandemlift.simulation.loop_code import GIVEN, FlightMemory, leaf_offset
 from tandemlift.simulation.parameter_changes import ParameterChanges, ScheduledChange, hand_place
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import GIVEN, FlightMemory, leaf_offset
 from tandemlift.simulation.results import RawResult, take_metrics
 
 PROGRESS_EVERY = 1000  # steps

@@ -19,7 +19,7 @@ from tandemlift.compiler.tracer.elementary import floor
 from tandemlift.compiler.tracer.fused import fma
 from tandemlift.core.algebra import absolute, maximum, minimum, sqrt, where
 from tandemlift.core.vector import each
-from tandemlift.simulation.loop_code.context import aligned
+from tandemlift.simulation.preparation.memory import aligned
 
 LANES, INPUTS, SHARED, OPERATIONS, ROWS = 8, 5, 2, 60, 24
 TRACED: dict[str, Callable[..., Any]] = {

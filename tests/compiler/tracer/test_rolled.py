@@ -11,8 +11,8 @@ from tandemlift.compiler.machine_code.machine import BEST, QUICK
 from tandemlift.core.algebra import absolute, clip, exp, greatest, maximum, sqrt, tanh, where
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.vector import Vec3, cross, dot, each, quarters, set_of, total
-from tandemlift.simulation.loop_code import traced_step
 from tandemlift.simulation.plan import LOOP_CODE
+from tandemlift.simulation.preparation import traced_step
 
 ROWS = 13
 

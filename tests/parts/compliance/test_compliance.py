@@ -22,7 +22,7 @@ from tandemlift.parts.guidance.yaw_compliance import yaw_step
 from tandemlift.parts.mechanics.trajectories import SmoothStep
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import NoFaults
-from tandemlift.simulation.assembly.hand_guidance import start_hand_guidance
+from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
 
 H = 1e-3
 BAND = DeadBand(0.3, 0.2, 0.016, 1.0 / 20.0)

@@ -26,7 +26,7 @@ from tandemlift.parts.compliance.following import (
 )
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import NoFaults, rotor_faults
-from tandemlift.simulation.assembly.hand_guidance import start_hand_guidance
+from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
 
 H = 1e-3
 WEIGHT = Vec3(0.0, 0.0, 30.0)

@@ -27,7 +27,7 @@ from tandemlift.parts.controllers.sliding_surface import (
     wanted_acceleration,
 )
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates
-from tandemlift.simulation.assembly.assemble import assemble
+from tandemlift.simulation.preparation.assemble import assemble
 
 XI, ETA = (4.0, 2.0, 11.0, 25.0, 80.0, 25.0), (0.2, 0.1, 0.2, 0.2, 0.2, 0.2)
 L1, L2 = (0.2, 0.1, 200.0, 40.0, 40.0, 40.0), (2.0, 1.0, 100.0, 30.0, 30.0, 30.0)

@@ -38,7 +38,7 @@ from tandemlift.parts.mechanics.rotation import (
     wrap_angle,
 )
 from tandemlift.parts.mechanics.trajectories import Trajectory
-from tandemlift.simulation.assembly.assemble import assemble
+from tandemlift.simulation.preparation.assemble import assemble
 
 DRAG = Vec3(0.1, 0.2, 0.3)
 

@@ -21,7 +21,7 @@ from tandemlift.parts.guidance.supervision import (
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import NoFaults
 from tandemlift.parts.sensors.health import WELL
-from tandemlift.simulation.assembly.hand_guidance import start_hand_guidance
+from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
 
 MISSION = tl.load_mission("iris", {"supervision.model": "on"})
 GUIDANCE, MEMORY = start_hand_guidance(

@@ -21,7 +21,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.person.person import PathLeg, PersonState, hand_target, landing_request, person_step, person_view
 from tandemlift.parts.person.person_table import Walk, path_legs_from, start_person
 from tandemlift.parts.person.tremor import STILL, TremorNoise, tremor, tremor_step
-from tandemlift.simulation.assembly.assemble import assemble
+from tandemlift.simulation.preparation.assemble import assemble
 
 DT = 0.001
 NOBODY = PointPush(ZERO, mat3([[0.0] * 3] * 3))

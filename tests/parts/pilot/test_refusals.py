@@ -9,7 +9,7 @@ from tandemlift.core.faults import CHECKS, FAULTS
 from tandemlift.core.refusals import REASONS, REQUESTS, refusal_of
 from tandemlift.core.types import flat, unflat
 from tandemlift.parts.pilot.refusals import refusal_numbers
-from tandemlift.simulation.loop_code.pilot_sampling import PilotData
+from tandemlift.simulation.preparation.pilot_sampling import PilotData
 
 BY_HAND = {"pilot.guidance": "interactive", "phases.rotors": "flight", "ground.model": "floor"}
 SUPERVISED = BY_HAND | {"supervision.model": "on", "phases.lift_start": 1e6, "phases.land_start": 2e6}

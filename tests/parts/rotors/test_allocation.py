@@ -26,7 +26,7 @@ from tandemlift.parts.rotors.allocation import (
     wrench,
 )
 from tandemlift.parts.rotors.rotor_faults import RotorFaults
-from tandemlift.simulation.assembly.pilot import start_pilot
+from tandemlift.simulation.preparation.start_pilot import start_pilot
 
 counts = st.integers(1, 4)
 ONE = ((1.0, 1.0, 1.0, 1.0),)

@@ -30,7 +30,7 @@ from scipy.optimize import linprog
 
 from tandemlift.parts.rotors.allocation import AllocationState, weighted_rows, weights_of
 from tandemlift.parts.rotors.thrust_limit_solver import limited_thrusts
-from tandemlift.simulation.loop_code.context import aligned
+from tandemlift.simulation.preparation.memory import aligned
 
 
 @EVERY

@@ -13,8 +13,8 @@ from tandemlift.missions import Mission
 from tandemlift.missions.mission import MissionTable
 from tandemlift.parts.mechanics.push import SUPPORT
 from tandemlift.parts.rotors.rotor_lag import lag
-from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.simulation import Simulation
 from tandemlift.simulation.stepping import GUIDANCE_MEMORY, Stepper
 

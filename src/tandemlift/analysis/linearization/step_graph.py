@@ -15,10 +15,9 @@ from tandemlift.analysis.linearization.derivative import smooth_arguments
 from tandemlift.core.types import is_value, leaves
 from tandemlift.core.vector import ZERO, Absent, Mat3
 from tandemlift.parts.mechanics.push import PointPush, PushSamples
-from tandemlift.simulation.loop_code.offsets import leaf_offset
-from tandemlift.simulation.loop_code.templates import templates_from
-from tandemlift.simulation.loop_code.traced_step import TracedStep
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation.templates import leaf_offset, templates_from
+from tandemlift.simulation.preparation.traced_step import TracedStep
 
 NO_PUSH = PointPush(ZERO, Mat3(ZERO, ZERO, ZERO))
 CONSTANT, DISCRETE = "never changes", "a flag, a counter or a mode"

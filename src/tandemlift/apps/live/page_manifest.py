@@ -26,10 +26,10 @@ from tandemlift.missions import changed, tables_of
 from tandemlift.missions.changes import Tables
 from tandemlift.missions.keys import allowed, bounds, plain
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
-from tandemlift.simulation.loop_code import leaf_offset
 from tandemlift.simulation.outcome import NOT_FINITE, limit_of
 from tandemlift.simulation.parameter_changes import LATER, NO_EFFECT, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND, MISSION
 from tandemlift.simulation.stepping import GUIDANCE_MEMORY
 

@@ -34,7 +34,7 @@ MOST_BYTES = 256 * 2**20
 CHECKSUM = 32  # bytes
 
 PACKAGE = Path(__file__).resolve().parents[2]
-FOLDERS = ("core", "parts", "compiler", "engines", "simulation/loop_code", "simulation/loop")
+FOLDERS = ("core", "parts", "compiler", "engines", "simulation/preparation", "simulation/loop")
 FILES = ("simulation/pilot_api",)
 
 

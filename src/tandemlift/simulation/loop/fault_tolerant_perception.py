@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from tandemlift.core.algebra import chosen, maximum, where
 from tandemlift.core.law import choice, law
@@ -18,10 +18,18 @@ from tandemlift.parts.guidance.preflight_checks import SensorStatus, sensor_stat
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.health import WatchdogReport
-from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState, sense
+from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState, readings_of, sense
 from tandemlift.parts.sensors.sensor_faults import SensorFaults, SensorFaultState, apply_faults
+from tandemlift.parts.sensors.sensors_table import SensorsTable
 from tandemlift.parts.sensors.substitutes import PredictedReadings
-from tandemlift.parts.sensors.watchdog import Watchdog, WatchdogState, watchdog_step
+from tandemlift.parts.sensors.watchdog import (
+    Watchdog,
+    WatchdogState,
+    WatchTable,
+    start_watchdog,
+    watchdog_from,
+    watchdog_step,
+)
 from tandemlift.simulation.loop.estimate_channels import EstimatedChannels, estimated_channels
 from tandemlift.simulation.loop.perception import (
     Estimates,
@@ -185,3 +193,20 @@ def _refuted(known: CheckedEstimates) -> Vec3:
 @sensor_status.register(PerceptionData)
 def _senses(what: PerceptionData, payload: Number) -> SensorStatus:
     return reported_by(what.known)
+
+
+def with_faults(faults: SensorFaults, devices: Any, sensing: Any) -> tuple[Any, Any]:
+    """Sensors and their memory, with these faults."""
+    if not isinstance(sensing, SensorState):
+        return devices, sensing
+    return FaultySensors(devices, faults), FaultySensorsState(sensing, SensorFaultState(readings_of(sensing), 0.0))
+
+
+def with_watchdogs(
+    table: WatchTable, sensors: SensorsTable, step: float, estimators: Any, memory: Any, readings: Any
+) -> tuple[Any, Any]:
+    """Estimators and their memory, with watchdogs before them."""
+    if isinstance(estimators, Absent):
+        return estimators, memory
+    watchdog = watchdog_from(table, sensors, step)
+    return WatchedEstimators(watchdog, estimators), WatchedEstimatorsState(start_watchdog(readings), memory)

@@ -15,8 +15,8 @@ from tandemlift.apps.cli.main import cli
 from tandemlift.apps.live import page_modules, pages
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.page_manifest import page_manifest
-from tandemlift.simulation.assembly.traced_assembly import trace_assembly
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation.traced_assembly import trace_assembly
 from tandemlift.simulation.stepping import fly_stepwise
 
 

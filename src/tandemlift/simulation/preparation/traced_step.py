@@ -33,7 +33,7 @@ from tandemlift.simulation.loop.step import (
     with_caller_thrusts,
     with_person,
 )
-from tandemlift.simulation.loop_code.external_inputs import (
+from tandemlift.simulation.preparation.external_inputs import (
     ROWS,
     draw_count,
     draw_normals,
@@ -42,8 +42,8 @@ from tandemlift.simulation.loop_code.external_inputs import (
     push_is_active,
     walls_are_due,
 )
-from tandemlift.simulation.loop_code.limit_solver import LimitProblem, limit_thrusts
-from tandemlift.simulation.loop_code.templates import COMMAND, Templates
+from tandemlift.simulation.preparation.limit_solver import LimitProblem, limit_thrusts
+from tandemlift.simulation.preparation.templates import COMMAND, Templates
 
 Symbols = list[Symbol]
 MANY = 5  # quadrotors from which on sets are arrays in memory, and operations on them loops

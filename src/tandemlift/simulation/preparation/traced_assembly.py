@@ -20,7 +20,7 @@ from tandemlift.core.caching import cached_for_a_trace
 from tandemlift.core.errors import dotted
 from tandemlift.core.types import is_value
 from tandemlift.missions import Mission
-from tandemlift.simulation.assembly.assemble import AssembledFlight, assemble
+from tandemlift.simulation.preparation.assemble import AssembledFlight, assemble
 
 T = TypeVar("T")
 Place = tuple[str | int, ...]

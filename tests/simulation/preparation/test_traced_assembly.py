@@ -18,15 +18,15 @@ from tandemlift.compiler.tracer.valued_graph import evaluated
 from tandemlift.core.types import flat, numbers_of
 from tandemlift.core.vector import layout
 from tandemlift.missions import built_in, changed
-from tandemlift.simulation.assembly.assemble import assemble
-from tandemlift.simulation.assembly.traced_assembly import (
+from tandemlift.simulation.pilot_api import pilot_at_start
+from tandemlift.simulation.preparation.assemble import assemble
+from tandemlift.simulation.preparation.traced_assembly import (
     counts_of_mission,
     numbers_of_mission,
     trace_assembly,
     with_numbers,
     with_values,
 )
-from tandemlift.simulation.pilot_api import pilot_at_start
 
 INTERACTIVE = ("hover", "zigzag", "iris", "doorway", "rotor-loss")
 MISSIONS = [*built_in(), *[f"{name}, interactive" for name in INTERACTIVE], "iris, other parts"]

@@ -9,8 +9,8 @@ import tandemlift as tl
 from tandemlift.core.types import flat
 from tandemlift.core.vector import layout
 from tandemlift.parts.controllers import load_controller
-from tandemlift.simulation.assembly.assemble import assemble
-from tandemlift.simulation.assembly.traced_assembly import numbers_of_mission, trace_assembly, with_values
+from tandemlift.simulation.preparation.assemble import assemble
+from tandemlift.simulation.preparation.traced_assembly import numbers_of_mission, trace_assembly, with_values
 
 OWN = '''
 from typing import NamedTuple

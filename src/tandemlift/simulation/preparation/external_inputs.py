@@ -2,24 +2,41 @@
 
 Pushes and gusts depend on time alone. The force of the person is evaluated SPAN steps ahead at every half step, so that
 a push that is over costs nothing and the number of pushes is data. For a flight alone, the standard normals of SPAN
-steps are drawn at once, several in a vector.
+steps are drawn at once, several in a vector. `input_tables_from` makes the tables of a mission.
 """
 
 from __future__ import annotations
 
 import operator
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.core.arrays import array
+from tandemlift.core.caching import cached
 from tandemlift.core.law import law
-from tandemlift.core.types import Condition, Number, is_value, leaves
-from tandemlift.core.vector import ZERO, Vec3
+from tandemlift.core.types import Condition, Number, is_value, leaves, numbers_of
+from tandemlift.core.vector import ZERO, Absent, Vec3, mat3, vec3
 from tandemlift.parts.contact.clearance import is_fast
+from tandemlift.parts.contact.corridor import WallTable
 from tandemlift.parts.contact.feet import may_touch
-from tandemlift.parts.contact.wall_geometry import WALL, Wall
-from tandemlift.parts.contact.walls import NearWalls, nearest_with
-from tandemlift.parts.mechanics.push import SUPPORT, GaussianPush, Push, push_at
-from tandemlift.parts.mechanics.wind import Gust, gust_velocity
-from tandemlift.parts.person.person import PATH_LEG
+from tandemlift.parts.contact.wall_geometry import WALL, Wall, wall
+from tandemlift.parts.contact.walls import NearWalls, nearest_with, no_walls_near
+from tandemlift.parts.mechanics.push import (
+    SUPPORT,
+    CentralPush,
+    GaussianPush,
+    PointPush,
+    Push,
+    PushSamples,
+    PushTable,
+    push_at,
+)
+from tandemlift.parts.mechanics.wind import Gust, WindTable, gust_velocity, gusts_from
+from tandemlift.parts.person.person import PATH_LEG, PathLeg
+from tandemlift.parts.person.person_table import PersonTable
 from tandemlift.simulation.loop.random_numbers import Normals, normals
 from tandemlift.simulation.loop.step import FlightModel, StepNoise
 
@@ -28,6 +45,8 @@ SPAN = 16  # steps
 HALVES = 2 * SPAN + 1
 GAUSSIAN = GaussianPush(ZERO, 0.0, 0.0, ZERO)
 GUST = Gust(ZERO, 0.0, 0.0, 0.0)
+CENTRAL = PushSamples(*[CentralPush(ZERO)] * 3)
+AT_A_POINT = PushSamples(*[PointPush(ZERO, mat3([[0.0] * 3] * 3))] * 3)
 
 
 class InputTables(NamedTuple):
@@ -93,3 +112,29 @@ def nearest_walls(model: FlightModel, row: Wall) -> NearWalls:
 def draw_normals(number: Number, draw: Number, key0: Number, key1: Number) -> Normals:
     """Four standard normals of a step."""
     return normals(number, draw, key0, key1)
+
+
+def push_kind(pushes: Sequence[PushTable], person: PersonTable) -> PushSamples[Push]:
+    """Zero pushes of the type that a flight needs: with a moment only if a push has one."""
+    central = all(p.point == ZERO for p in pushes) and person.model == "none"
+    return CENTRAL if central else AT_A_POINT
+
+
+def input_tables_from(
+    pushes: Sequence[PushTable], wind: WindTable, walls: Sequence[WallTable], legs: list[PathLeg]
+) -> InputTables:
+    """The tables of pushes, gusts, walls and the legs of a person's path, a row each."""
+    bells = [GaussianPush(vec3(p.force), p.time, 1.0 / p.sigma, vec3(p.point)) for p in pushes]
+    upright = [wall(w.start, w.end, w.top) for w in walls]
+    rows: tuple[list[Any], ...] = (bells, gusts_from(wind), upright, legs)
+    return InputTables(*map(_table, rows, map(leaves, ROWS)))
+
+
+def _table(rows: list[Any], width: int) -> NDArray[np.float64]:
+    return array([numbers_of(row) for row in rows]).reshape(len(rows), width)
+
+
+@cached
+def near_walls_from(settings: Any) -> NearWalls | Absent:
+    """The nearest walls before the first search, or `Absent`."""
+    return settings if isinstance(settings, Absent) else no_walls_near(settings)

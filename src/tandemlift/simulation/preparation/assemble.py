@@ -37,25 +37,28 @@ from tandemlift.parts.sensors.readings import (
 )
 from tandemlift.parts.sensors.sensor_faults import sensor_faults_from
 from tandemlift.parts.sensors.sensors_table import SensorsTable, sensors_from
-from tandemlift.simulation.assembly.crash_limits import crash_limits_from, start_crash
-from tandemlift.simulation.assembly.detector_limits import finding_limits_from, start_detectors
-from tandemlift.simulation.assembly.estimators import start_estimators
-from tandemlift.simulation.assembly.inputs import input_tables_from, near_walls_from, push_kind
-from tandemlift.simulation.assembly.pilot import start_pilot
-from tandemlift.simulation.assembly.watchdogs import with_faults, with_watchdogs
 from tandemlift.simulation.loop.delays import Delayed, DelayLines
 from tandemlift.simulation.loop.fault_tolerant_perception import (
     FaultySensors,
     FaultySensorsState,
     WatchedEstimators,
     WatchedEstimatorsState,
+    with_faults,
+    with_watchdogs,
 )
 from tandemlift.simulation.loop.perception import Estimators, EstimatorState
 from tandemlift.simulation.loop.random_numbers import key_from_seed
 from tandemlift.simulation.loop.running_metrics import EMPTY, NO_EFFORT, RunningMetrics
 from tandemlift.simulation.loop.sources import MAPS, READS, PilotSources
 from tandemlift.simulation.loop.step import FlightModel, FlightState, StepInputs, StepNoise
-from tandemlift.simulation.loop_code.external_inputs import InputTables
+from tandemlift.simulation.preparation.external_inputs import InputTables, input_tables_from, near_walls_from, push_kind
+from tandemlift.simulation.preparation.limits import (
+    crash_limits_from,
+    finding_limits_from,
+    start_crash,
+    start_detectors,
+)
+from tandemlift.simulation.preparation.start_pilot import start_estimators, start_pilot
 
 _grip, _clearance = cached(start_foot_grip), cached(clearance)
 

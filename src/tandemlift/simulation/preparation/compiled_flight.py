@@ -11,10 +11,9 @@ from tandemlift.compiler.machine_code.code import Code, Written
 from tandemlift.compiler.machine_code.store import key_of
 from tandemlift.core.progress import always
 from tandemlift.simulation.loop.step import FlightModel, StepInputs
-from tandemlift.simulation.loop_code.loops import LoopWriter
-from tandemlift.simulation.loop_code.offsets import delayed_spans
-from tandemlift.simulation.loop_code.templates import PythonController, templates_from
-from tandemlift.simulation.loop_code.traced_step import TracedStep
+from tandemlift.simulation.preparation.loops import LoopWriter
+from tandemlift.simulation.preparation.templates import PythonController, delayed_spans, templates_from
+from tandemlift.simulation.preparation.traced_step import TracedStep
 
 
 class LoopCode:

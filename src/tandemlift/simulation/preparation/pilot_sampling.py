@@ -9,8 +9,8 @@ from tandemlift.compiler.machine_code.store import key_of
 from tandemlift.compiler.tracer import Function, Module, Place, symbols, tracer, written_out
 from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters, decide
 from tandemlift.parts.rotors.allocation import ConstrainedAllocation
-from tandemlift.simulation.loop_code.limit_solver import limit_thrusts, write_limits, write_solver
-from tandemlift.simulation.loop_code.traced_step import check_layout, graph_for
+from tandemlift.simulation.preparation.limit_solver import limit_thrusts, write_limits, write_solver
+from tandemlift.simulation.preparation.traced_step import check_layout, graph_for
 
 POINTERS = ("numbers", "pilot_input", "thrusts", "work")  # words of the context, and behind them the step [s] as bits
 

@@ -11,20 +11,20 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from tandemlift.compiler.tracer import LEAVES, Function, Place, Symbol, double
-from tandemlift.simulation.loop_code.external_inputs import SPAN
-from tandemlift.simulation.loop_code.limit_solver import write_limits, write_solver
-from tandemlift.simulation.loop_code.offsets import leaf_offset
-from tandemlift.simulation.loop_code.precompute import (
+from tandemlift.simulation.preparation.external_inputs import SPAN
+from tandemlift.simulation.preparation.limit_solver import write_limits, write_solver
+from tandemlift.simulation.preparation.precompute import (
+    ScratchValues,
+    steady,
     write_draw,
     write_gust,
     write_push,
     write_surroundings,
     write_walls,
 )
-from tandemlift.simulation.loop_code.scratch import ScratchValues, steady
-from tandemlift.simulation.loop_code.step_output import write_next_state, write_sample
-from tandemlift.simulation.loop_code.step_writer import StepWriter
-from tandemlift.simulation.loop_code.traced_step import Symbols
+from tandemlift.simulation.preparation.step_writer import StepWriter, write_next_state, write_sample
+from tandemlift.simulation.preparation.templates import leaf_offset
+from tandemlift.simulation.preparation.traced_step import Symbols
 
 
 class StepHalves(NamedTuple):

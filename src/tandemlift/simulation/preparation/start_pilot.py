@@ -1,0 +1,177 @@
+"""A pilot made from a mission, for its nominal vehicle: controller, guidance, observer, allocation, estimators."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from tandemlift.core.algebra import minimum
+from tandemlift.core.types import NEVER
+from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
+from tandemlift.missions import Mission
+from tandemlift.parts.compliance.above_ground import GroundClearance
+from tandemlift.parts.compliance.admittance import (
+    Admittance,
+    AdmittanceState,
+    admittance_from,
+)
+from tandemlift.parts.compliance.available import start_available
+from tandemlift.parts.compliance.compliance import start_compliance
+from tandemlift.parts.compliance.energy_tank import start_tank
+from tandemlift.parts.compliance.following import AT_REST, start_following
+from tandemlift.parts.controllers import controller
+from tandemlift.parts.estimation.contact_table import start_contact_detection
+from tandemlift.parts.estimation.disturbance_observer import start_observer
+from tandemlift.parts.estimation.navigation import navigator_from, start_navigation
+from tandemlift.parts.estimation.push_confirmation import (
+    start_confirmation,
+)
+from tandemlift.parts.estimation.push_estimate import push_estimator, start_push
+from tandemlift.parts.estimation.wind_compensation import payload_drag_from
+from tandemlift.parts.guidance.compliance_table import ComplianceTable, compliance_from, push_filters
+from tandemlift.parts.guidance.contact_hold import start_contact_hold
+from tandemlift.parts.guidance.guidance import running_from
+from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
+from tandemlift.parts.guidance.phases import PhaseSettings, start_phases
+from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
+from tandemlift.parts.guidance.supervision_table import start_supervision
+from tandemlift.parts.guidance.yaw_compliance import start_heading
+from tandemlift.parts.mechanics.low_pass import LowPassState
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.trajectories import PhasesTable, scheduled_phases
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.person.requests import RequestTable, start_requests
+from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters
+from tandemlift.parts.rotors.allocation import (
+    mixer_of,
+    start_allocation,
+)
+from tandemlift.parts.rotors.detection_table import start_detection
+from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults, known_faults
+from tandemlift.parts.sensors.readings import Readings
+from tandemlift.parts.sensors.sensors_table import steps_of
+from tandemlift.simulation.loop.perception import Estimators, EstimatorState, TareAtTime, TareInHover
+from tandemlift.simulation.loop.sources import NominalVehicle
+
+
+def _guidance(
+    mission: Mission, vehicle: Vehicle, known: NoFaults | RotorFaults
+) -> tuple[HandGuidance | ScheduledGuidance, AdmittanceState | HandGuidanceState]:
+    """The guidance of a mission and its memory; `known`: the known rotor faults."""
+    admittance = admittance_from(mission.admittance)
+    if mission.pilot.guidance == "interactive":
+        return start_hand_guidance(mission, vehicle, admittance, known)
+    guidance = ScheduledGuidance(admittance, scheduled_phases(mission.phases), 0.0, running_from(mission.phases))
+    return guidance, AdmittanceState(ZERO, ZERO, ZERO)
+
+
+def start_pilot(mission: Mission, vehicle: Vehicle) -> tuple[PilotParameters, PilotMemory]:
+    """The pilot of a mission before its first sample, for its nominal vehicle.
+
+    Raises:
+        InputError: the controller is not registered, or the allocation weights do not fit the vehicle.
+    """
+    step, initial, hovers = mission.mission.step, mission.initial, mission.actuators.start == "hover"
+    known, effect = known_faults(mission.faults, vehicle), mixer_of(vehicle)
+    gains, memory = controller(mission.controller.name).start(mission.controller, vehicle, step)
+    guidance, guidance_memory = _guidance(mission, vehicle, known)
+    observer, observer_memory = start_observer(mission.observer, vehicle, effect, step, initial, hovers=hovers)
+    allocation, allocation_memory = start_allocation(mission.allocation, vehicle, known)
+    detection, detection_memory = start_detection(mission.detection, vehicle, effect, step, initial, hovers=hovers)
+    parameters = PilotParameters(guidance, observer, gains, allocation, detection)
+    return parameters, PilotMemory(guidance_memory, observer_memory, memory, allocation_memory, detection_memory)
+
+
+NO_PUSH = LowPassState(ZERO, ZERO)
+
+
+def phase_settings(p: PhasesTable, c: ComplianceTable, requests: Sequence[RequestTable]) -> PhaseSettings:
+    """The parameters of lift and landing."""
+    return PhaseSettings(
+        height=p.height,
+        lift_start=p.lift_start,
+        lift_rate=1.0 / p.lift_duration,
+        land_start=NEVER if p.land_start is None else p.land_start,
+        land_rate=1.0 / p.land_duration,
+        touchdown_depth=c.touchdown_depth,
+        spin_up_time=c.spin_up_time,
+        always_running=1.0 if p.rotors == "always" else 0.0,
+        max_descent_speed=c.max_descent_speed,
+        requests=start_requests(requests),
+    )
+
+
+def start_hand_guidance(
+    mission: Mission, vehicle: Vehicle, admittance: Admittance, known: NoFaults | RotorFaults
+) -> tuple[HandGuidance, HandGuidanceState]:
+    """Interactive guidance before its first sample, and its memory; `known`: the known rotor faults."""
+    c, of_controller = mission.compliance, getattr(mission.controller, "max_tilt", None)
+    push, at_rest = push_filters(c, mission.mission.step), mission.phases.rotors == "always"
+    at = ZERO if at_rest else Vec3(*mission.initial.position)
+    supervision, supervising = start_supervision(mission.supervision, vehicle, mission.initial, known)
+    tank, filled = start_tank(c.tank)
+    heading, turned = start_heading(c.yaw, push, vehicle, 0.0 if at_rest else mission.initial.euler[2])
+    contact, touching = start_contact_hold(mission.contact)
+    max_tilt = c.max_tilt if of_controller is None else minimum(c.max_tilt, of_controller)
+    guided = HandGuidance(
+        phasing=phase_settings(mission.phases, c, mission.requests),
+        compliance=compliance_from(c, push, admittance, vec3(mission.admittance.threshold)),
+        tank=tank,
+        heading=heading,
+        moment=push.input,
+        moment_lead=c.moment_lead,
+        available=start_available(vehicle, c.thrust_fraction, c.max_tilt, known),
+        clearance=GroundClearance(c.min_height) if mission.ground.model == "floor" else Absent(),
+        following=start_following(c.following, vehicle, max_tilt, c.yaw.max_lead_angle),
+        supervision=supervision,
+        contact=contact,
+    )
+    memory = HandGuidanceState(
+        start_phases(at.z), start_compliance(at), filled, turned, NO_PUSH, AT_REST, supervising, touching
+    )
+    return guided, memory
+
+
+def start_estimators(
+    mission: Mission, vehicle: Vehicle, state: State, readings: Readings | Absent
+) -> tuple[Estimators | Absent, EstimatorState | Absent]:
+    """The estimators of a mission and their memory at t = 0, for the nominal vehicle; or `Absent`."""
+    if isinstance(readings, Absent):
+        return Absent(), Absent()
+    e, s, step = mission.estimator, mission.sensors, mission.mission.step
+    payload, quadrotors = vehicle.payload, vehicle.quadrotors
+    push = push_estimator(
+        mass=payload.mass,
+        inertia=payload.moments,
+        joints=[q.joint_position for q in quadrotors],
+        quadrotors=[q.position for q in quadrotors],
+        quadrotor_masses=[q.mass for q in quadrotors],
+        step=step,
+        imu_period=steps_of(s.interval, step),
+        length=math.inf if payload.length is None else payload.length,
+        bandwidth=e.push_bandwidth,
+        min_force=e.min_force,
+        tare_start=0.0 if e.tare == "hover" else e.tare_start,
+        tare_duration=e.tare_duration,
+        identify_mass=e.identify_mass,
+        disagreement_limit=e.disagreement_limit,
+        windage=Absent() if e.wind_compensation == "none" else payload_drag_from(vehicle, e.wind_bandwidth, step),
+        system=vehicle.center_of_mass,
+    )
+    observer = navigator_from(e, s, vehicle, step)
+    drag = vehicle.drag
+    believed = NominalVehicle(vec3(-vehicle.center_of_mass), vec3(drag.force), vec3(drag.moment))
+    tare = TareInHover() if e.tare == "hover" else TareAtTime()
+    contact, no_contact = start_contact_detection(mission.contact, vehicle, step)
+    confirmation, unconfirmed = start_confirmation(
+        e,
+        vehicle,
+        step,
+        threshold=mission.admittance.threshold,
+        moment_threshold=mission.compliance.yaw.threshold,
+        limited=mission.allocation.method == "constrained",
+    )
+    known = Estimators(push, observer, believed, tare, contact, confirmation)
+    return known, EstimatorState(
+        start_push(push, readings.imu), start_navigation(observer, state), no_contact, unconfirmed
+    )
