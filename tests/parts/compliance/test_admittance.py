@@ -30,16 +30,16 @@ AT_REST = AdmittanceState(ZERO, ZERO, ZERO)
 PUSH = GaussianPush(Vec3(3.0, -2.0, 1.0), 3.0, 1.0 / 0.6, ZERO)
 
 
-def admittance(kind=None, stiffness: Vec3 = STIFFNESS, hold_after_release: float = 0.0) -> Admittance:
+def admittance(stiffness: Vec3 = STIFFNESS, hold_after_release: float = 0.0) -> Admittance:
     inverse = Vec3(*(1.0 / m for m in MASS))
-    return Admittance(kind or HardGate(THRESHOLD), inverse, DAMPING, stiffness, hold_after_release)
+    return Admittance(inverse, DAMPING, stiffness, hold_after_release)
 
 
-def answered(a: Admittance, force, duration: float, dt: float) -> AdmittanceState:
+def answered(a: Admittance, force, duration: float, dt: float, kind=HardGate(THRESHOLD)) -> AdmittanceState:  # noqa: B008
     """The memory after a push force(t) [N] has been read every dt."""
     m = AT_REST
     for k in range(round(duration / dt)):
-        F = gate(a.gate, force(k * dt))
+        F = gate(kind, force(k * dt))
         m = admittance_step(a, m, F, admittance_response(a, m, F), dt)
     return m
 
@@ -89,7 +89,7 @@ def test_the_sampled_answer_tends_to_the_differential_equations_at_first_order()
     exact = solve_ivp(rate, (0.0, 5.0), np.zeros(6), method="DOP853", rtol=1e-12, atol=1e-13, max_step=0.1).y[:3, -1]
     steps, errors = np.array([0.04, 0.02, 0.01, 0.005]), []
     for dt in steps:
-        m = answered(admittance(HardGate(ZERO)), lambda t: gaussian_force(PUSH, t), 5.0, dt)
+        m = answered(admittance(), lambda t: gaussian_force(PUSH, t), 5.0, dt, HardGate(ZERO))
         errors.append(np.abs(array(m.position) - exact).max())
     assert order_of(steps, errors) == pytest.approx(1.0, abs=0.1)
     assert errors[-1] < 0.02
@@ -97,8 +97,8 @@ def test_the_sampled_answer_tends_to_the_differential_equations_at_first_order()
 
 def test_a_free_mass_under_a_steady_push_moves_on_an_exact_parabola():
     """T̈_r is held over a step, so that nothing is lost where it is constant."""
-    a = admittance(HardGate(ZERO), ZERO)._replace(damping=ZERO)
-    m = answered(a, lambda t: Vec3(1.0, -2.0, 3.0), 2.0, 0.02)
+    a = admittance(ZERO)._replace(damping=ZERO)
+    m = answered(a, lambda t: Vec3(1.0, -2.0, 3.0), 2.0, 0.02, HardGate(ZERO))
     assert array(m.velocity) == pytest.approx([2.0, -2.0, 12.0], rel=1e-13)
     assert array(m.position) == pytest.approx([2.0, -2.0, 12.0], rel=1e-13)
 
@@ -117,9 +117,9 @@ def test_a_steady_push_is_answered_as_by_a_mass_with_damper_and_spring(axis):
 def test_one_push_without_a_spring_displaces_by_its_gated_impulse_over_the_damping(kind, share):
     """A σ √(2π) erf(d/(σ√2))/C, d = σ √(2 ln(A/threshold)); soft: 2 d threshold/C less."""
     A, sigma, threshold, C = 3.0, 0.6, 0.3, 1.6
-    a = Admittance(kind(Vec3(*[threshold] * 3)), Vec3(1.0, 1.0, 1.0), Vec3(C, C, C), ZERO, 0.0)
+    a = Admittance(Vec3(1.0, 1.0, 1.0), Vec3(C, C, C), ZERO, 0.0)
     push = GaussianPush(Vec3(A, 0.0, -A), 4.0, 1.0 / sigma, ZERO)
-    m = answered(a, lambda t: gaussian_force(push, t), 20.0, 0.001)
+    m = answered(a, lambda t: gaussian_force(push, t), 20.0, 0.001, kind(Vec3(*[threshold] * 3)))
     d = sigma * math.sqrt(2.0 * math.log(A / threshold))
     impulse = A * sigma * math.sqrt(2.0 * math.pi) * math.erf(d / (sigma * math.sqrt(2.0)))
     expected = (impulse - share * 2.0 * d * threshold) / C
@@ -134,9 +134,9 @@ def test_an_anchored_spring_brings_the_reference_back():
 
 def test_reanchoring_keeps_the_reference_where_the_push_left_it():
     """With K > 0: held against the spring and let go, T_r stays, and T_d has moved there."""
-    a = admittance(HardGate(Vec3(0.3, 0.3, 0.3)), Vec3(1.0, 1.0, 1.0), 1.0)
+    a = admittance(Vec3(1.0, 1.0, 1.0), 1.0)
     held = Vec3(2.0, -1.0, 0.0)
-    m = answered(a, lambda t: held if t < 40.0 else ZERO, 60.0, 0.01)
+    m = answered(a, lambda t: held if t < 40.0 else ZERO, 60.0, 0.01, HardGate(Vec3(0.3, 0.3, 0.3)))
     assert array(m.position) == pytest.approx([2.0, -1.0, 0.0], abs=0.02)  # F/K
     assert array(m.anchor) == pytest.approx(array(m.position), abs=1e-6)
     assert array(m.velocity) == pytest.approx(np.zeros(3), abs=1e-6)
@@ -144,10 +144,10 @@ def test_reanchoring_keeps_the_reference_where_the_push_left_it():
 
 def test_reanchoring_lets_the_reference_coast_to_the_end_of_its_motion():
     """Let go on the way out, T_r goes on until the spring has stopped it, and is not pulled back."""
-    a = admittance(HardGate(Vec3(0.3, 0.3, 0.3)), Vec3(1.0, 1.0, 1.0), 1.0)
+    a = admittance(Vec3(1.0, 1.0, 1.0), 1.0)
     m, far, dt = AT_REST, 0.0, 0.01
     for k in range(4000):
-        F = gate(a.gate, Vec3(5.0, 0.0, 0.0) if k * dt < 0.5 else ZERO)
+        F = gate(HardGate(Vec3(0.3, 0.3, 0.3)), Vec3(5.0, 0.0, 0.0) if k * dt < 0.5 else ZERO)
         m = admittance_step(a, m, F, admittance_response(a, m, F), dt)
         far = max(far, m.position.x)
     assert far > 0.5

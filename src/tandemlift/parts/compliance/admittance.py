@@ -150,12 +150,11 @@ class SoftGate(NamedTuple):
 
 
 class Admittance(NamedTuple):
-    """Gate, 1/M [1/kg], C [N·s/m], K [N/m] per world axis.
+    """1/M [1/kg], C [N·s/m], K [N/m] per world axis.
 
     `hold_after_release`: 1 if T_d moves to T_r after a push, else 0.
     """
 
-    gate: HardGate | SoftGate
     inverse_mass: Vec3
     damping: Vec3
     stiffness: Vec3
@@ -225,12 +224,16 @@ def admittance_step(a: Admittance, m: AdmittanceState, F: Vec3, now: Trajectory,
 
 @cached
 def admittance_from(a: AdmittanceTable) -> Admittance:
-    """M, C, K and the gate of a mission."""
-    kind = SoftGate if a.gate == "soft" else HardGate
+    """M, C and K of a mission."""
     inverse_mass = vec3(1.0 / m for m in a.mass)
-    return Admittance(
-        kind(vec3(a.threshold)), inverse_mass, vec3(a.damping), vec3(a.stiffness), float(a.hold_after_release)
-    )
+    return Admittance(inverse_mass, vec3(a.damping), vec3(a.stiffness), float(a.hold_after_release))
+
+
+@cached
+def gate_from(a: AdmittanceTable) -> HardGate | SoftGate:
+    """The gate of scheduled guidance; interactive guidance has the dead band of its compliance instead."""
+    kind = SoftGate if a.gate == "soft" else HardGate
+    return kind(vec3(a.threshold))
 
 
 def gate_checks(a: AdmittanceTable, guidance: str) -> Iterator[CheckResult]:

@@ -10,6 +10,8 @@ from tandemlift.core.vector import ZERO
 from tandemlift.parts.compliance.admittance import (
     Admittance,
     AdmittanceState,
+    HardGate,
+    SoftGate,
     admittance_response,
     admittance_step,
     gate,
@@ -30,6 +32,7 @@ from tandemlift.parts.mechanics.trajectories import Reference, ScheduledPhases, 
 class ScheduledGuidance(NamedTuple):
     """The paper's guidance; `yaw` is ψ_d [rad]. The types of its members pick the laws."""
 
+    gate: HardGate | SoftGate
     admittance: Admittance
     phases: ScheduledPhases
     yaw: Number
@@ -53,7 +56,7 @@ def _by_schedule(
     t: Number,
     dt: Number,
 ) -> tuple[Guidance, AdmittanceState]:
-    force = gate(g.admittance.gate, pilot_input.push)
+    force = gate(g.gate, pilot_input.push)
     motion = admittance_response(g.admittance, m, force)
     guidance = Guidance(
         force=force,

@@ -14,6 +14,7 @@ from tandemlift.parts.compliance.admittance import (
     Admittance,
     AdmittanceState,
     admittance_from,
+    gate_from,
 )
 from tandemlift.parts.compliance.available import start_available
 from tandemlift.parts.compliance.compliance import start_compliance
@@ -61,8 +62,8 @@ def _guidance(
     admittance = admittance_from(mission.admittance)
     if mission.pilot.guidance == "interactive":
         return start_hand_guidance(mission, vehicle, admittance, known)
-    guidance = ScheduledGuidance(admittance, scheduled_phases(mission.phases), 0.0, running_from(mission.phases))
-    return guidance, AdmittanceState(ZERO, ZERO, ZERO)
+    gate, phases, rotors = gate_from(mission.admittance), scheduled_phases(mission.phases), running_from(mission.phases)
+    return ScheduledGuidance(gate, admittance, phases, 0.0, rotors), AdmittanceState(ZERO, ZERO, ZERO)
 
 
 def start_pilot(mission: Mission, vehicle: Vehicle) -> tuple[PilotParameters, PilotMemory]:
