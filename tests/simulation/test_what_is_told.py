@@ -62,10 +62,10 @@ def test_a_vehicle_that_cannot_follow_is_told_why(number):
     assert findings(mission) == []
 
 
-def test_a_refused_lift_is_told_unless_the_vehicle_lifts_later():
+@pytest.mark.parametrize("check", [check for check in CHECKS if check.before == "lift"], ids=lambda check: check.key)
+def test_a_refused_lift_is_told_unless_the_vehicle_lifts_later(check):
     mission = tl.load_mission("iris", {"supervision.model": "on"})
     supervision = FlightPlan(mission).model.flight_state.memory.guidance.supervision
-    check = next(check for check in CHECKS if check.before == "lift")
     refused, lift, guided = IDLE * PHASE + check.number, LIFT * PHASE, GUIDED * PHASE
 
     def told(*codes):

@@ -20,7 +20,14 @@ from tandemlift.simulation.loop.detectors import (
 )
 from tandemlift.simulation.loop.excess import NO_EXCESS
 from tandemlift.simulation.loop.oscillation import OscillationLimits, Swings
-from tandemlift.simulation.loop.push_detectors import NO_RESPONSE, PushLimits, push_step
+from tandemlift.simulation.loop.push_detectors import (
+    ECHO_TIME,
+    NO_RESPONSE,
+    UNMOVED,
+    PushLimits,
+    push_step,
+    unpushed_step,
+)
 
 DT = 0.01
 LIMITS = PushLimits(
@@ -99,6 +106,38 @@ def test_the_thrust_that_the_reference_needs_is_that_of_newton():
     assert thrust_needed(NO_EXCESS, 3.0, Vec3(1.0, -2.0, 0.5)) == pytest.approx(needed**2)
 
 
+def unpushed(story, seconds):
+    """The memory after each step of `story(t)`: 1 while pushed, 1 while a push is followed, and the reference [m]."""
+    memory, seen = UNMOVED, []
+    for k in range(round(seconds / DT)):
+        pushed, followed, x = story(k * DT)
+        memory = unpushed_step(0.5, memory, (pushed, followed), Vec3(x, 0.0, 0.0), ZERO, k * DT, DT)
+        seen.append(memory)
+    return seen
+
+
+def test_a_reference_that_moves_without_any_push_is_found_by_its_way_from_where_that_began():
+    last = unpushed(lambda t: (0.0, float(t >= 1.0), 3.0 + t), 4.0)[-1]
+    assert last.origin.x == pytest.approx(4.0, abs=2 * DT)
+    assert last.excess.start == pytest.approx(1.5, abs=2 * DT)
+    assert last.excess.worst == pytest.approx(3.0, abs=2 * DT)
+    assert not unpushed(lambda t: (0.0, 0.0, 3.0 + t), 4.0)[-1].excess.steps  # nothing is followed: a lift, say
+
+
+def test_what_filters_pass_on_shortly_after_a_push_counts_for_the_push_and_what_comes_later_does_not():
+    def story(t):
+        return float(1.0 <= t < 2.0), float(1.0 <= t < 2.4 or t >= 5.0), t
+
+    seen = unpushed(story, 7.0)
+    assert seen[-1].last == pytest.approx(2.0, abs=2 * DT)
+    assert not seen[round(5.4 / DT)].excess.steps
+    assert seen[-1].excess.start == pytest.approx(5.5, abs=2 * DT)
+    assert not unpushed(lambda t: (1.0, 1.0, t), 4.0)[-1].excess.steps
+    late = unpushed(lambda t: (float(t < 2.0), 1.0, t), 4.0)[-1]  # followed for longer than filters explain
+    assert late.origin.x == pytest.approx(2.0 + ECHO_TIME, abs=3 * DT)
+    assert late.excess.worst == pytest.approx(1.5, abs=3 * DT)
+
+
 # All detectors together, on a vehicle whose motion and reference are given
 
 CALM = {
@@ -151,6 +190,13 @@ def test_each_limit_wakes_its_detector_and_no_other_and_counts_only_once_settled
     assert found.awake == 0.0
     assert detected(lambda t: BAD[name]).awake == 1.0
     assert detected(lambda t: BAD[name], running=0.0).distance.steps == 0.0
+
+
+def test_a_heading_is_compared_with_that_of_the_reference():
+    same = {"euler": Vec3(0.1, 0.0, 3.0), "reference_euler": Vec3(0.0, 0.1, 3.1)}
+    assert detected(lambda t: same).heading.steps == 0.0
+    across = {"euler": Vec3(0.0, 0.0, -3.1), "reference_euler": Vec3(0.0, 0.0, 3.1)}  # 0.08 rad apart
+    assert detected(lambda t: across).heading.steps == 0.0
 
 
 def test_what_each_detector_remembers_is_what_was_exceeded():

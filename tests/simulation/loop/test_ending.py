@@ -73,7 +73,7 @@ def test_a_crash_is_kept_as_it_was_whatever_comes_after():
 def test_a_flight_ends_once_the_vehicle_lies_still_or_the_aftermath_is_over(moves, ends):
     found = flown(lambda t: STRUCK if t > 0.2 else FLIES, lambda t: MOVING if moves or t < 0.2 else STILL, 3.0, 2.0)
     over = next(k * DT for k, (_, ending) in enumerate(found) if ending)
-    assert over == pytest.approx(ends, abs=4 * DT)
+    assert over == pytest.approx(ends, abs=1.5 * DT)
     assert found[-1][1] == STRUCK
     turning = STILL._replace(rates=Vec3(0.0, 0.06, 0.0))
     assert not any(ending for _, ending in flown(lambda t: STRUCK, lambda t: turning, 1.0))

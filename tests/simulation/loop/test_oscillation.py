@@ -59,6 +59,7 @@ def test_each_motion_is_watched_alone(axis):
         sine(2.0, 20.0, decay=2.0 * math.pi * 2.0 * 0.1),  # a tenth of critical damping
         lambda t: 2.0 + sine(2.0, 1.0)(t),  # on one side of zero
         lambda t: sine(2.0, 1.0)(t) if t < 1.2 else 0.0,  # two periods and a half
+        lambda t: 1.0 if t % 0.5 < 0.1 else -1.0,  # pulses: every second half period is four times as long
     ],
 )
 def test_what_is_no_oscillation_is_not_found(signal):

@@ -7,8 +7,9 @@ from scipy.spatial.transform import Rotation
 from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, vec3
 from tandemlift.parts.estimation.push_estimate import PushEstimate
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.sensors.health import WatchdogReport
 from tandemlift.simulation.loop.estimate_channels import estimated_channels
-from tandemlift.simulation.loop.fault_tolerant_perception import CheckedEstimates
+from tandemlift.simulation.loop.fault_tolerant_perception import CheckedEstimates, reported_by, trusted_push
 from tandemlift.simulation.loop.perception import Estimates
 from tandemlift.simulation.loop.sources import EstimateSource, MeasurementSource, NominalVehicle, read_push
 
@@ -52,6 +53,22 @@ def test_the_wrench_on_the_payload_is_moved_to_the_centre_of_mass_less_the_drag(
 def test_a_push_that_is_not_trusted_or_not_armed_is_none(source, doubt):
     for part in used(source, **doubt):
         assert not part.any()
+
+
+@pytest.mark.parametrize("broken", ["joints", "accelerometer", "imu"])
+def test_a_broken_sensor_takes_the_trust_and_is_no_inconsistency(broken):
+    sound = WatchdogReport(*[0.0] * len(WatchdogReport._fields))
+    failed, push = sound._replace(**{broken: 1.0}), PUSH._replace(usable=vec3([1.0, 2.0, 3.0]))
+    assert trusted_push(push, sound) == push
+    lost = trusted_push(push, failed)
+    assert (lost.trusted, lost.usable) == (0.0, ZERO)
+
+    def doubt(report, **changes):
+        fields = dict.fromkeys(CheckedEstimates._fields) | {"push": push._replace(**changes), "report": report}
+        return reported_by(CheckedEstimates(**fields)).joints_inconsistent
+
+    assert doubt(sound) == doubt(failed) == doubt(failed, trusted=0.0) == 0.0
+    assert doubt(sound, trusted=0.0) == 1.0
 
 
 @pytest.mark.parametrize(("trusted", "armed"), [(1.0, 1.0), (0.0, 1.0), (1.0, 0.0)])
