@@ -65,7 +65,7 @@ def test_a_model_that_cannot_be_written_leaves_what_was_there(ending, mujoco, tm
     def full(self, *_, **__):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(Path, "write_text", full)
+    monkeypatch.setattr(Path, "write_bytes", full)
     assert "cannot be written: No space left on device" in check_refused(tl.load_mission("paper"), path)
 
 
