@@ -1,17 +1,16 @@
-"""The package's version and files, atomic writing, folders for results, and reading of untrusted TOML.
+"""The package's version and files, atomic writing of files, and reading of untrusted TOML.
 
 The memory for reading TOML grows with the square of the number of a key's parts, so that number is bounded.
 """
 
 from __future__ import annotations
 
-import os
 import re
 import secrets
 import tomllib
 import zipfile
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -21,7 +20,6 @@ from tandemlift.core.errors import InputError
 
 __version__ = "0.2.0"
 DATA = Path(__file__).resolve().parents[1] / "data"  # missions, pages, templates: everything but Python
-FIGURES = "figures"  # folder of the figures among results
 
 
 @cache
@@ -52,61 +50,11 @@ def write_file(path: Path, content: str | bytes) -> None:
         partial.write_bytes(content.encode() if isinstance(content, str) else content)
 
 
-@contextmanager
-def results_folder(out: str | None, default: Path, files: Sequence[str]) -> Iterator[Path]:
-    """Make the folder for the results before the flight, and remove it again if the flight fails.
-
-    Args:
-        out: the folder that the user named; None for the default.
-        default: the folder if none is named.
-        files: names of the files that will be written.
-
-    Raises:
-        InputError: the folder cannot be made or written to.
-    """
-    folder = default if out is None else Path(out)
-    made: list[Path] = []
-    try:
-        _make(folder, made)
-        _check_writable(folder, files)
-        yield folder
-    except BaseException:
-        for path in reversed(made):
-            with suppress(OSError):
-                path.rmdir()
-        raise
-
-
-def _make(folder: Path, made: list[Path]) -> None:
-    """Make a folder and its parents; `made` receives those that are new."""
-    try:
-        for path in reversed((folder, *folder.parents)):
-            if not path.is_dir():
-                path.mkdir()
-                made.append(path)
-    except (FileExistsError, NotADirectoryError):
-        raise InputError(f"--out {folder}: {path} is a file, not a folder") from None
-    except (OSError, ValueError) as error:
-        raise InputError(f"--out {folder}: cannot be made: {getattr(error, 'strerror', error)}") from None
-
-
-def _check_writable(folder: Path, files: Sequence[str]) -> None:
-    if not os.access(folder, os.W_OK | os.X_OK):
-        raise InputError(f"--out {folder}: the folder cannot be written to")
-    figures = folder / FIGURES
-    in_the_way = [path for path in (folder / name for name in files) if path.is_dir()]
-    if figures.exists() and not figures.is_dir():
-        in_the_way.append(figures)
-    if in_the_way:
-        raise InputError(f"--out {folder}: {in_the_way[0]} is in the way of a file or folder of that name")
-
-
 def unpacked_size(archive: zipfile.ZipFile) -> int:
     """Unpacked size of all files of an archive [bytes], by its directory; no more than that is ever read."""
     return sum(file.file_size for file in archive.infolist())
 
 
-WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set accepts without quotes
 MAX_PARTS = 16  # of a dotted key; no key of a mission or of a study has half as many
 
 _PART = r"""(?:[\w-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')"""
@@ -124,28 +72,6 @@ def toml_tables(text: str) -> dict[str, Any]:
     if deep := _TOO_DEEP.search(text):
         raise _too_deep(deep[0])
     return tomllib.loads(text)
-
-
-def parse_setting(text: str) -> tuple[str, Any]:
-    """The dotted key and the value of KEY=VALUE; VALUE is a TOML literal, or an unquoted word for a string.
-
-    Raises:
-        InputError: the text has another form.
-    """
-    key, equals, literal = (part.strip() for part in text.partition("="))
-    if not equals or not re.fullmatch(r"[A-Za-z0-9_]+(\.[A-Za-z0-9_]+)*", key):
-        raise InputError(f"--set {text}: must be KEY=VALUE with a dotted key, such as mission.duration=5.0")
-    try:
-        parsed = toml_tables(f"value = {literal}")
-    except (ValueError, RecursionError):
-        if re.fullmatch(WORD, literal):
-            return key, literal
-        parsed = {}
-    if list(parsed) != ["value"]:
-        shown = repr(literal if len(literal) <= 80 else f"{literal[:79]}…")
-        allowed = "a number such as 0.5, true, false, a list such as [1, 2, 3], a word, or '\"text in quotes\"'"
-        raise InputError(f"--set {key}={shown}: the value must be {allowed}")
-    return key, parsed["value"]
 
 
 def parts_of(key: str) -> list[str]:

@@ -13,17 +13,19 @@ from tandemlift.apps.cli.completion import CONTROLLERS, MISSIONS, names, separat
 from tandemlift.apps.cli.console import echo, progress_bar
 from tandemlift.apps.cli.flying import (
     FAILED,
+    FIGURES,
     chosen_controller,
     engine_option,
     exit_if_found,
     kept_style_option,
     load,
+    parse_setting,
     print_findings,
+    results_folder,
     set_option,
     strict_option,
 )
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import FIGURES, parse_setting, results_folder
 
 if TYPE_CHECKING:
     from tandemlift.analysis.studies.comparison import MissionComparison

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +15,7 @@ import click
 from tandemlift.apps.cli.completion import CONTROLLERS, names, settings
 from tandemlift.apps.cli.console import progress_bar
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import parse_setting
+from tandemlift.core.files import toml_tables
 from tandemlift.pictures.figures.drawing.figure_style import STYLES, figure_style
 
 if TYPE_CHECKING:
@@ -21,6 +23,8 @@ if TYPE_CHECKING:
     from tandemlift.missions import Mission
     from tandemlift.parts.controllers import Controller
 
+FIGURES = "figures"  # folder of the figures among results
+WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set accepts without quotes
 FILES = ("mission.toml", "flight.npz", "metrics.json", "metrics.csv", "metrics.tex", "findings.json", "report.html")
 FAILED = 3  # exit code of a flight that crashed, diverged or did not lift; with --strict also of one with findings
 
@@ -188,3 +192,74 @@ def exit_if_amiss(flights: Mapping[str, Flight], *, strict: bool) -> None:
 def _coloured(text: str) -> str:
     """Text in bold yellow; plain where the output is no terminal (which click sees to) or NO_COLOR is set."""
     return text if os.environ.get("NO_COLOR") else click.style(text, fg="yellow", bold=True)
+
+
+@contextmanager
+def results_folder(out: str | None, default: Path, files: Sequence[str]) -> Iterator[Path]:
+    """Make the folder for the results before the flight, and remove it again if the flight fails.
+
+    Args:
+        out: the folder that the user named; None for the default.
+        default: the folder if none is named.
+        files: names of the files that will be written.
+
+    Raises:
+        InputError: the folder cannot be made or written to.
+    """
+    folder = default if out is None else Path(out)
+    made: list[Path] = []
+    try:
+        _make(folder, made)
+        _check_writable(folder, files)
+        yield folder
+    except BaseException:
+        for path in reversed(made):
+            with suppress(OSError):
+                path.rmdir()
+        raise
+
+
+def _make(folder: Path, made: list[Path]) -> None:
+    """Make a folder and its parents; `made` receives those that are new."""
+    try:
+        for path in reversed((folder, *folder.parents)):
+            if not path.is_dir():
+                path.mkdir()
+                made.append(path)
+    except (FileExistsError, NotADirectoryError):
+        raise InputError(f"--out {folder}: {path} is a file, not a folder") from None
+    except (OSError, ValueError) as error:
+        raise InputError(f"--out {folder}: cannot be made: {getattr(error, 'strerror', error)}") from None
+
+
+def _check_writable(folder: Path, files: Sequence[str]) -> None:
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise InputError(f"--out {folder}: the folder cannot be written to")
+    figures = folder / FIGURES
+    in_the_way = [path for path in (folder / name for name in files) if path.is_dir()]
+    if figures.exists() and not figures.is_dir():
+        in_the_way.append(figures)
+    if in_the_way:
+        raise InputError(f"--out {folder}: {in_the_way[0]} is in the way of a file or folder of that name")
+
+
+def parse_setting(text: str) -> tuple[str, Any]:
+    """The dotted key and the value of KEY=VALUE; VALUE is a TOML literal, or an unquoted word for a string.
+
+    Raises:
+        InputError: the text has another form.
+    """
+    key, equals, literal = (part.strip() for part in text.partition("="))
+    if not equals or not re.fullmatch(r"[A-Za-z0-9_]+(\.[A-Za-z0-9_]+)*", key):
+        raise InputError(f"--set {text}: must be KEY=VALUE with a dotted key, such as mission.duration=5.0")
+    try:
+        parsed = toml_tables(f"value = {literal}")
+    except (ValueError, RecursionError):
+        if re.fullmatch(WORD, literal):
+            return key, literal
+        parsed = {}
+    if list(parsed) != ["value"]:
+        shown = repr(literal if len(literal) <= 80 else f"{literal[:79]}…")
+        allowed = "a number such as 0.5, true, false, a list such as [1, 2, 3], a word, or '\"text in quotes\"'"
+        raise InputError(f"--set {key}={shown}: the value must be {allowed}")
+    return key, parsed["value"]

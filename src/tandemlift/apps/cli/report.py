@@ -11,16 +11,17 @@ import click
 from tandemlift.apps.cli.completion import FLIGHTS
 from tandemlift.apps.cli.console import echo, progress_bar
 from tandemlift.apps.cli.flying import (
+    FIGURES,
     FILES,
     figures_option,
     flight_file,
     html_path,
     kept_style_option,
+    results_folder,
     saved_flight,
     write_flight,
 )
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import FIGURES, results_folder
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight

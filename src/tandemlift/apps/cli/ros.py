@@ -20,6 +20,7 @@ from tandemlift.apps.cli.flying import (
     exit_if_amiss,
     figures_option,
     load,
+    results_folder,
     set_option,
     strict_option,
     with_after_crash,
@@ -27,7 +28,6 @@ from tandemlift.apps.cli.flying import (
 from tandemlift.apps.cli.live import DEFAULT, session_of
 from tandemlift.apps.cli.run import write_results
 from tandemlift.core.errors import InputError, without_flight_warnings
-from tandemlift.core.files import results_folder
 
 if TYPE_CHECKING:
     from tandemlift.apps.live.session.session import Session

@@ -19,6 +19,8 @@ from tandemlift.apps.cli.flying import (
     exit_if_amiss,
     figures_option,
     load,
+    parse_setting,
+    results_folder,
     set_option,
     strict_option,
     style_option,
@@ -26,7 +28,7 @@ from tandemlift.apps.cli.flying import (
     write_flight,
 )
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import parse_setting, results_folder, write_file
+from tandemlift.core.files import write_file
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight

@@ -18,11 +18,13 @@ from tandemlift.apps.cli.flying import (
     chosen_controller,
     controller_option,
     load,
+    parse_setting,
+    results_folder,
     set_option,
     style_option,
 )
 from tandemlift.core.errors import InputError, without_flight_warnings
-from tandemlift.core.files import parse_setting, results_folder, toml_tables
+from tandemlift.core.files import toml_tables
 
 if TYPE_CHECKING:
     from tandemlift.analysis.studies.tuning.candidates import Cost
