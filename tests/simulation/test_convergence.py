@@ -47,7 +47,7 @@ def continuous():
 
     times = np.arange(0.0, DURATION + 0.25, 0.5)
     solution = solve_ivp(
-        rate, (0.0, DURATION), np.concatenate(begin), method="DOP853", rtol=1e-10, atol=1e-13, t_eval=times
+        rate, (0.0, DURATION), np.concatenate(begin), method="DOP853", rtol=1e-8, atol=1e-11, t_eval=times
     )
     assert solution.success
     return solution.y.T
