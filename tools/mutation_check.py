@@ -23,7 +23,7 @@ import tomllib
 from collections.abc import Iterable
 from fnmatch import fnmatch
 from functools import cache
-from itertools import accumulate
+from itertools import accumulate, product
 from pathlib import Path
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
@@ -47,7 +47,7 @@ BLIND = [
 ]  # that compare one source with itself
 CHOSEN: list[str] = []  # patterns of --tests
 ENOUGH = 0.95  # of the mutants that are not equivalent have to be killed
-BUDGET = 240.0  # s of tests at most for a mutant, by their time under the tracer
+BUDGET, AGAIN = 240.0, 60.0  # s of a folder's tests at most for a mutant, by their time under the tracer; tried anew
 
 
 def digest(*content: bytes) -> str:
@@ -91,7 +91,7 @@ def state_of(mutant: Mutant, folders: list[str], killer: str | None) -> str:
     return digest(*[content(path) for path in (PACKAGE / mutant.file, *(ROOT / file for file in files))])
 
 
-def calling(mutant: Mutant, folder: str) -> dict[str, float]:
+def calling(mutant: Mutant, folder: str, budget: float) -> dict[str, float]:
     """The tests in a folder that call a mutant's function, with their seconds: the most specific and the broadest.
 
     They take turns. A test that calls few functions is about them; one that calls many flies with everything, as do
@@ -101,7 +101,7 @@ def calling(mutant: Mutant, folder: str) -> dict[str, float]:
     found = sorted((len(called), seconds, test) for test, (seconds, called) in known if wanted in called)
     turns = [one for pair in zip(found, reversed(found), strict=True) for one in pair][: len(found)]
     spent = accumulate(seconds for _, seconds, _ in turns)
-    return {test: seconds for (_, seconds, test), until in zip(turns, spent, strict=True) if until <= BUDGET}
+    return {test: seconds for (_, seconds, test), until in zip(turns, spent, strict=True) if until <= budget}
 
 
 @cache
@@ -177,7 +177,7 @@ def try_fast(copy: Copy, part: list[tuple[Mutant, list[str]]]) -> None:
     """Try mutants in forks of a process that has collected all tests; those that survive are left."""
 
     def work(session: Exchanging, mutant: Mutant, folders: list[str]) -> None:
-        tests = calling(mutant, folders[-1])
+        tests = calling(mutant, folders[-1], BUDGET)
         if tests and (killer := copy.killer(mutant, tests, lambda: session.run_with(mutant, tests))):
             Book().add(mutant, folders, killer)
 
@@ -187,7 +187,7 @@ def try_fast(copy: Copy, part: list[tuple[Mutant, list[str]]]) -> None:
 def try_slowly(copy: Copy, part: list[tuple[Mutant, list[str]]]) -> None:
     """Try mutants in processes that import everything anew."""
     for mutant, folders in part:
-        tests = calling(mutant, folders[-1])
+        tests = calling(mutant, folders[-1], AGAIN)
         files, plugin = list(dict.fromkeys(t.partition("::")[0] for t in tests)), Chosen(tests, copy.failed)
         killer = copy.killer(mutant, tests, lambda: copy.pytest(files, plugin)) if tests else None  # noqa: B023
         Book().add(mutant, folders, killer)
@@ -207,15 +207,15 @@ def main() -> int:
     for folder in ("calls", "traced", "machine-code"):
         (OUT / folder).mkdir(parents=True, exist_ok=True)
 
-    for depth in (1, 2, 3):
-        book, rest = Book(), [(m, ROOMS[room][1][:depth]) for room, many in found.items() for m in many]
-        todo = [one for one in rest if one[0].name not in book.equivalent and not book.known(*one)[0]]
+    every = [(mutant, ROOMS[room][1]) for room, many in found.items() for mutant in many]
+    for work, depth in product((try_fast, try_slowly), (1, 2, 3)):  # few need an import: these come last
+        book = Book()
+        rest = [(m, folders[:depth]) for m, folders in every if len(folders) >= depth and m.name not in book.equivalent]
+        todo = [one for one in rest if not book.known(*one)[0]]
         for folder in dict.fromkeys(folders[-1] for _, folders in todo):
-            mine = [one for one in todo if one[1][-1] == folder]
             missing = [(file, calls(file)) for file in chosen_in(folder) if not calls(file).exists()]
             share(ROOT, OUT, given.jobs, missing, record)
-            share(ROOT, OUT, given.jobs, mine, try_fast)
-            share(ROOT, OUT, given.jobs, [one for one in mine if not Book().known(*one)[0]], try_slowly)
+            share(ROOT, OUT, given.jobs, [one for one in todo if one[1][-1] == folder], work)
     lines, part = table(found)
     print("\n".join(lines))
     return 0 if part >= ENOUGH else 1

@@ -46,11 +46,15 @@ def test_without_a_floor_a_vehicle_has_landed_once_its_landing_is_over_where_it_
 
 def findings(mission, **guidance):
     """(kind, quantity) of what a flight is told to have found, by its memory of the guidance."""
+    return [(f.kind, f.quantity) for f in whole_findings(mission, **guidance)]
+
+
+def whole_findings(mission, **guidance):
+    """The same with time and text."""
     plan = FlightPlan(mission)
     start = plan.model.flight_state
     memory = start.memory._replace(guidance=start.memory.guidance._replace(**guidance))
-    found = findings_of(plan, start._replace(memory=memory), 100, "landed")
-    return [(f.kind, f.quantity) for f in found]
+    return findings_of(plan, start._replace(memory=memory), 100, "landed")
 
 
 @pytest.mark.parametrize("number", range(1, len(REASONS) + 1))
@@ -76,6 +80,11 @@ def test_a_refused_lift_is_told_unless_the_vehicle_lifts_later(check):
 
     assert told(refused) == told(lift, refused) == told(guided, refused, IDLE * PHASE) == [("lift-refused", check.text)]
     assert told(refused, lift) == told(refused, lift, guided) == told(lift) == []
+    times = type(supervision.events.time)(*[1.5 + i for i in range(len(supervision.events.time))])
+    codes = type(supervision.events.code)(float(lift), float(refused), *[0.0] * (len(times) - 2))
+    events = supervision.events._replace(time=times, code=codes, count=2.0)
+    (found,) = whole_findings(mission, supervision=supervision._replace(events=events))
+    assert found.time == 2.5  # of the refusal, not of the lift before
 
 
 def test_a_failure_is_told_by_what_ended_the_flight_or_else_by_its_outcome():

@@ -22,13 +22,13 @@ import pytest
 class Touched:
     """Writes {test that passes: [seconds, functions]} to `out`; a function is `FILE: QUALIFIED NAME`.
 
-    The seconds are of the processor, and include what collecting the test's module took. `rooms`: folders of the
-    `package` whose functions count. `traced`: a folder that remembers what was traced for a compiled loop.
+    The seconds are of the processor, without what collecting the test's module took. `rooms`: folders of the `package`
+    whose functions count. `traced`: a folder that remembers what was traced for a compiled loop.
     """
 
     def __init__(self, package: Path, rooms: Iterable[str], traced: Path, out: Path) -> None:
         self.skip, self.rooms = len(str(package)) + 1, tuple(f"{package}/{room}/" for room in rooms)
-        self.traced, self.out, self.collecting = traced, out, processor_time()
+        self.traced, self.out = traced, out
         self.active, self.sets = list[set[Any]](), dict[Any, set[Any]]()
         self.tests, self.bad = dict[str, tuple[float, list[str]]](), set[str]()
         threading.settrace(self._called)
@@ -77,11 +77,8 @@ class Touched:
             result = yield
         fixtures = [id(f) for some in item._fixtureinfo.name2fixturedefs.values() for f in some]
         found = set[Any]().union(*(self.sets.get(key, ()) for key in (item.nodeid, str(item.path), *fixtures)))
-        self.tests[item.nodeid] = round(self.collecting + processor_time() - began, 3), sorted(self._names(found))
+        self.tests[item.nodeid] = round(processor_time() - began, 3), sorted(self._names(found))
         return result
-
-    def pytest_collection_finish(self) -> None:  # noqa: D102
-        self.collecting = processor_time() - self.collecting
 
     def pytest_runtest_logreport(self, report: Any) -> None:  # noqa: D102
         self.bad |= {report.nodeid} if not report.passed else set()

@@ -30,7 +30,7 @@ from hypothesis.internal.conjecture.engine import ConjectureRunner
 
 from mutants.operators import Mutant
 
-SLOWER, GRACE = 8.0, 200.0  # times the processor time of the sound tests, and s to compile: longer, a mutant hangs
+SLOWER, GRACE = 4.0, 200.0  # times the processor time of the sound tests, and s to compile: longer, a mutant hangs
 BUSY = 20.0  # times as long may it take on a busy machine
 FAILED, BROKEN, NONE = 1, 2, 5  # exit codes of pytest: a test failed, a module of tests cannot be imported, no tests
 QUIET = ["-q", "-s", "-p", "no:cacheprovider", "-p", "no:xdist", "--tb=line", "-W", "ignore::pytest.PytestWarning"]

@@ -1,4 +1,4 @@
-"""Loops cut at the rotors: against python-control, against flights, and against the closed forms of a load."""
+"""Loops cut at the rotors: against python-control, and against flights."""
 
 from __future__ import annotations
 
@@ -20,8 +20,7 @@ from tandemlift.analysis.linearization.loop_margins import (
 )
 from tandemlift.analysis.linearization.mission_check import LOOP_CHECKS
 from tandemlift.missions import load_mission, tables_of
-from tandemlift.missions.flight_checks import CHECKS, control_loop
-from tandemlift.parts.pilot.loop_checks import delay_to_crossing, eigenvalues_by_axis, excess_turns, loop_delays
+from tandemlift.missions.flight_checks import CHECKS
 
 HOVER = {"pushes": [], "mission.duration": 14.0, "phases.land_start": 60.0}
 SHAKEN = 0.5  # rad/s, of rates in hover
@@ -64,17 +63,6 @@ def test_the_lag_that_iris_bears_is_the_one_at_which_its_flights_begin_to_oscill
     lag = load_mission("iris").hover.lag
     predicted = largest(lambda slow: is_stable(loop_of("iris"), 0.01, slow)) / lag
     assert predicted == pytest.approx(onset(slower, 2.0, 8.0, 0.1), rel=0.15)
-
-
-@pytest.mark.parametrize("controller", ["nftsmc", "geometric", "super-twisting"])
-def test_the_closed_forms_of_a_load_agree_with_the_linear_model(controller):
-    mission = load_mission("iris", controller=controller)
-    lag, loop = mission.hover.lag, loop_of("iris", controller)
-    max_delay = {found.axis: found.bears for found in loop_delays(control_loop(mission))}
-    cut = loop.L / (1.0 + 1j * loop.w * lag)[:, None, None]
-    for i, axis in enumerate(("z", "roll", "pitch", "yaw")):
-        delay, _ = delay_to_crossing(loop.w, single_loop(cut, i))
-        assert max_delay[axis] == pytest.approx(delay + 0.0015, rel=0.08), axis  # beside the step and the readings
 
 
 def test_margins_are_those_of_python_control():
@@ -121,51 +109,6 @@ def test_both_limits_of_the_gain_are_told_and_which_is_near():
         assert rows[f"{axis}, {near} (nearer)"].margin < rows[f"{axis}, {far}"].margin
     limits = [rows[f"{axis}, least (nearer)"].value for axis in ("roll", "pitch", "yaw")]
     assert limits == pytest.approx([0.377, 0.435, 0.122], rel=0.01)
-
-
-@pytest.mark.parametrize(("k", "stable"), [(1.0, True), (-1.0, False)])
-def test_the_turns_of_a_loop_say_whether_it_is_stable_without_delay(k, stable):
-    """An integrator with positive and negative gain; a double one with and without lead."""
-    w = np.geomspace(0.02, 300.0, 120)
-    assert (abs(excess_turns(w, k / (1j * w))) < 1.0) == stable
-    lead = 1.0 + 1j * w if stable else 1.0 - 0.5j * w
-    assert (abs(excess_turns(w, lead / (1j * w) ** 2)) < 1.0) == stable
-
-
-@pytest.mark.parametrize("case", range(4))
-def test_the_closed_forms_agree_with_the_linear_model_wherever_the_quadrotors_are(case):
-    """Off the axes, with another inertia than the pilot believes: products of inertia mix roll, pitch and yaw."""
-    rng = np.random.default_rng(case)
-    fleet = tables_of(load_mission("iris"))["vehicle"]["quadrotors"]
-    for q in fleet:
-        q["position"] = [float(x) for x in np.array(q["position"]) + rng.normal(0.0, [0.25, 0.2, 0.05])]
-    changes = {"vehicle.quadrotors": fleet, "plant.inertia_scale": [float(x) for x in rng.uniform(0.8, 1.25, 3)]}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tl.FlightWarning)
-        mission = load_mission("iris", changes, controller=("nftsmc", "pid", "geometric", "smc")[case])
-    lag, loop = mission.hover.lag, open_loop(mission)
-    max_delay = min(found.bears for found in loop_delays(control_loop(mission)))
-    assert max_delay == pytest.approx(largest(lambda delay: is_stable(loop, delay, lag)) + 0.0015, rel=0.06)
-
-
-@pytest.mark.parametrize("mirrored", [1.0, -1.0])
-def test_a_quadrotor_off_the_axis_does_not_make_a_loop_oscillate(mirrored):
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", tl.FlightWarning)
-        mission = load_mission("iris", {"vehicle.quadrotors.0.position": [0.03 * mirrored, 1.0, 0.075]})
-    for found, centred in zip(
-        loop_delays(control_loop(mission)), loop_delays(control_loop(load_mission("iris"))), strict=True
-    ):
-        assert found.bears == pytest.approx(centred.bears, rel=1e-3), found.axis
-
-
-def test_loops_that_mix_are_told_apart_by_their_eigenvalues():
-    """L = T diag(l) T⁻¹ has the loops l, in the order of the axes that T hardly mixes; two of them cross."""
-    w = np.geomspace(0.02, 300.0, 400)
-    loops = np.array([5.0 / (1j * w), 3.0 / (1j * w) ** 2, 9.0 / (1j * w * (1.0 + 0.02j * w)), 1.0 / (1j * w)])
-    T = np.eye(4) + 0.2 * np.array([[0, 0, 0, 0], [0, 0, 1, -1], [0, -1, 0, 1], [0, 1, 0.5, 0]])
-    mixed = np.einsum("ij,jw,jk->wik", T, loops, np.linalg.inv(T))
-    assert eigenvalues_by_axis(mixed) == pytest.approx(loops, rel=1e-9)
 
 
 def test_a_vehicle_that_calms_down_slowly_is_not_called_unstable():

@@ -100,3 +100,14 @@ def test_the_lines_of_attitude_leave_out_terms_as_large_as_the_gyroscopic_ones()
     printed = drift(free, ZERO, vec3((p, q, r))).attitude.x / (q * r)
     assert printed == pytest.approx(-0.9964, abs=5e-5)
     assert printed + 1.0 == pytest.approx(0.0036, abs=5e-5)
+
+
+@given(seeds)
+def test_the_response_to_an_input_is_that_of_the_whole_inertia(seed):
+    """With products of inertia too, by NumPy's solver."""
+    chance = np.random.default_rng(seed)
+    full = np.diag(INERTIA) + 0.02 * (lambda m: m + m.T)(chance.uniform(-1.0, 1.0, (3, 3)))
+    u = GeneralizedVector(random_vec3(chance), random_vec3(chance))
+    found = response(free_body(3.5, full), u)
+    assert array(found.position) == pytest.approx(array(u.position) / 3.5)
+    assert array(found.attitude) == pytest.approx(np.linalg.solve(full, array(u.attitude)))

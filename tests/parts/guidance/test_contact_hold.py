@@ -106,3 +106,14 @@ def test_along_a_wall_the_reference_leads_the_vehicle_by_so_much_and_leaves_the_
         assert found[2] == pytest.approx(up)
         assert kept.velocity == pytest.approx(aside)  # nothing into the wall
         assert kept.acceleration == m.acceleration
+
+
+def test_the_boundarys_lever_is_the_distance_that_a_turn_takes_the_touching_part_from_the_wall():
+    """By differences: the vehicle turned by a small yaw about its centre, the part with it."""
+    centre, touch, angle = np.array([0.2, 0.4, 1.0]), np.array([1.0, -0.5, 1.3]), 1e-6
+    normal = np.array([-0.8, 0.6, 0.0])
+    turn = np.array([[np.cos(angle), -np.sin(angle), 0.0], [np.sin(angle), np.cos(angle), 0.0], [0.0, 0.0, 1.0]])
+    leaves = normal @ (turn @ (touch - centre) - (touch - centre)) / angle
+    contact = WALL._replace(normal=vec3(normal), point=vec3(touch))
+    boundaries, _ = reacting(lambda t: contact, DT, state=STATE._replace(position=vec3(centre)))
+    assert boundaries[0][1].lever == pytest.approx(leaves, abs=1e-5)

@@ -173,6 +173,15 @@ def test_a_landing_is_no_faster_than_allowed_and_as_deep_as_told():
     assert orders.end == pytest.approx(1.0 - 0.03 - 0.5)  # the ground is where the lift began
 
 
+def test_the_rate_of_a_landing_is_that_of_its_beginning():
+    """Halfway down, a limit on the descent would allow more."""
+    k = PHASING._replace(max_descent_speed=0.3)
+    m = BEFORE._replace(phase=LAND, land_rate=0.123)
+    low = State(Vec3(0.0, 0.0, 0.2), ZERO, LEVEL, ZERO)
+    after = update_phase(k, m, low, RequestCounts(0.0, 0.0, 0.0, 1.0), (0.0, 1.0), FREE, 5.0, DT)
+    assert (after.phase, after.land_rate) == (LAND, 0.123)
+
+
 def test_hovering_counts_from_steady_flight():
     _, m, _ = flown(3.3 + 2.0)
     assert m.hover_time == pytest.approx(2.0 - SETTLING_TIME, abs=2 * DT)

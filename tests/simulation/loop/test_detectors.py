@@ -193,7 +193,7 @@ def test_each_limit_wakes_its_detector_and_no_other_and_counts_only_once_settled
 
 
 def test_a_heading_is_compared_with_that_of_the_reference():
-    same = {"euler": Vec3(0.1, 0.0, 3.0), "reference_euler": Vec3(0.0, 0.1, 3.1)}
+    same = {"euler": Vec3(0.1, 0.0, 1.0), "reference_euler": Vec3(0.0, 0.1, 1.1)}
     assert detected(lambda t: same).heading.steps == 0.0
     across = {"euler": Vec3(0.0, 0.0, -3.1), "reference_euler": Vec3(0.0, 0.0, 3.1)}  # 0.08 rad apart
     assert detected(lambda t: across).heading.steps == 0.0

@@ -23,3 +23,8 @@ def test_an_axis_owes_the_speed_of_its_damping_and_none_with_a_spring_or_without
 def test_interactive_guidance_holds_the_heading_at_the_start_unless_it_flies_at_once_to_its_reference(rotors, yaw):
     mission = tl.load_mission("iris", {"initial.euler": [0.0, 0.0, 0.5], "phases.rotors": rotors})
     assert FlightPlan(mission).model.flight_state.memory.guidance.heading.angle == yaw
+
+
+def test_a_push_has_the_slowest_axis_to_be_answered_in():
+    push = limits(admittance__mass=[2.0, 3.0, 4.0], admittance__damping=[4.0, 2.0, 5.0]).push
+    assert push.time == pytest.approx(tl.load_mission("iris").findings.push_time + 1.5)

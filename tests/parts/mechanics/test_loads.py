@@ -1,0 +1,70 @@
+"""Loads of the parts against NumPy: wrenches of rotors, wrenches on quadrotors carried to the joints, turbulent air."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import tandemlift as tl
+from tandemlift.core.vector import Quat, Vec3, each, vec3
+from tandemlift.engines.models.links import parts_layout_from
+from tandemlift.parts.mechanics.loads import PartLoad, PerfectReadings, _loaded, quadrotor_wrenches
+from tandemlift.parts.mechanics.rotation import world_z_in_body
+from tandemlift.parts.mechanics.turbulence import TurbulenceState, dryden, turbulence_velocity
+from tandemlift.parts.mechanics.vehicle import Vehicle
+
+TWO = each(2)
+VEHICLE = Vehicle.from_settings(tl.load_mission("iris").vehicle)
+LAYOUT = parts_layout_from(VEHICLE)
+CHANCE = np.random.default_rng(7)
+
+
+def sets(rows):
+    """A vector of sets from vectors (n, 3)."""
+    return Vec3(*[TWO(*column) for column in np.transpose(rows).tolist()])
+
+
+def test_the_wrench_of_each_quadrotor_is_that_of_its_rotors_about_its_own_centre():
+    """Forces along z at the rotors' places; the torque about z is that of the whole vehicle's effect."""
+    thrusts = CHANCE.uniform(1.0, 5.0, 8)
+    found = quadrotor_wrenches(LAYOUT, each(8)(*thrusts.tolist()))
+    for i, q in enumerate(VEHICLE.quadrotors):
+        mine = thrusts[4 * i : 4 * i + 4]
+        arms = np.column_stack([np.array(q.rotors), np.zeros(4)])
+        moment = np.cross(arms, np.outer(mine, [0.0, 0.0, 1.0])).sum(axis=0)
+        moment[2] = VEHICLE.effect[3, 4 * i : 4 * i + 4] @ mine
+        assert found.thrust[i] == pytest.approx(mine.sum())
+        assert [part[i] for part in found.moment] == pytest.approx(moment)
+
+
+def test_a_force_on_a_quadrotor_loads_its_joint_by_the_force_and_its_moment_about_the_joint():
+    attitude = Rotation.random(random_state=3)
+    force, at = CHANCE.normal(size=(2, 3)), CHANCE.normal(size=(2, 3))  # world axes; body axes, from its centre
+    in_body = attitude.inv().apply(force)
+    frame, none = LAYOUT, sets(np.zeros((2, 3)))
+    load = PartLoad(sets(force), sets(np.cross(at, in_body)))
+    q = Quat(*attitude.as_quat(scalar_first=True).tolist())
+    found = _loaded(load, frame, q, PerfectReadings(vec3([0.0] * 3), none, none, vec3([0.0] * 3)))
+    joints = np.transpose(frame.joints)
+    assert np.transpose(found.joint_force) == pytest.approx(in_body)
+    assert np.transpose(found.joint_torque) == pytest.approx(np.cross(at - joints, in_body))
+
+
+def test_the_worlds_z_axis_in_body_axes_is_that_of_scipy():
+    for attitude in Rotation.random(20, random_state=1):
+        found = world_z_in_body(Quat(*attitude.as_quat(scalar_first=True).tolist()))
+        assert np.array(found) == pytest.approx(attitude.inv().apply([0.0, 0.0, 1.0]))
+
+
+def test_turbulent_air_moves_along_across_and_up_by_its_components():
+    d = dryden(7.7, 5.0, 3.0, (2.0, 1.0, 0.0), 0.001)
+    air = np.array(turbulence_velocity(d, TurbulenceState(0.7, -1.1, 0.0, 0.4, 0.0)))
+    for direction, component in ((d.along, 0.7), (d.across, -1.1), (d.up, 0.4)):
+        assert air @ np.array(direction) == pytest.approx(component * np.array(direction) @ np.array(direction))
+    assert np.array(d.along) @ np.array(d.across) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_the_box_of_all_parts_ends_at_the_highest_rotor_and_at_the_lowest_foot():
+    low, high = VEHICLE.box
+    tops = [z + q.rotor_height for q, (_, _, z) in zip(VEHICLE.quadrotors, VEHICLE.lever_arms, strict=True)]
+    soles = [z - q.feet_depth for q, (_, _, z) in zip(VEHICLE.quadrotors, VEHICLE.lever_arms, strict=True)]
+    assert (low[2], high[2]) == (pytest.approx(min(soles)), pytest.approx(max(tops)))

@@ -1,0 +1,55 @@
+"""What an assembled flight takes from its mission: the pilot's nominal vehicle, delays, and where its numbers stand."""
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.compiler.tracer import TraceError
+from tandemlift.core.vector import ZERO, Absent, Vec3
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.simulation.loop.delays import Delayed
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation.assemble import assemble, delay_lines_from
+from tandemlift.simulation.preparation.memory import aligned
+from tandemlift.simulation.preparation.traced_step import check_layout
+
+
+def test_the_estimators_know_the_payloads_place_and_the_drag_of_the_nominal_vehicle():
+    drag = {"vehicle.drag.force": [0.1, 0.2, 0.3], "vehicle.drag.moment": [0.01, 0.02, 0.03]}
+    mission = tl.load_mission("iris", drag)
+    known = assemble(mission).model.estimator.vehicle
+    payload = -Vehicle.from_settings(mission.vehicle).center_of_mass
+    assert abs(payload).max() > 0.0
+    assert np.array(known.payload) == pytest.approx(payload)
+    assert known.drag_force == Vec3(0.1, 0.2, 0.3)
+    assert known.drag_moment == Vec3(0.01, 0.02, 0.03)
+
+
+@pytest.mark.parametrize("place", range(4))
+def test_what_is_delayed_and_nothing_else_has_a_line(place):
+    lines = delay_lines_from((), np.eye(4, dtype=np.int64)[place] * 3)
+    there = [not isinstance(line, Absent) for line in lines[:4]]
+    assert there == [k == place for k in range(4)]
+    assert isinstance(lines[place], Delayed)
+    assert lines._fields[:4] == ("imu", "motion", "command", "view")
+    assert delay_lines_from((), np.zeros(4, np.int64)) == Absent()
+
+
+@pytest.mark.parametrize("size", [0, 1, 7, 100, 1001])
+def test_memory_begins_at_a_line_of_the_cache(size):
+    kept = [aligned(size) for _ in range(20)]  # of all alignments that NumPy gives
+    assert [part.ctypes.data % 64 for part in kept if size] == [0] * 20 * bool(size)
+    assert all(part.shape == (size,) and not part.any() for part in kept)
+
+
+def test_whose_law_changes_the_layout_is_named():
+    """The controller's file and line where its memory changes; else what has changed."""
+    model = FlightPlan(tl.load_mission("paper")).model
+    state = model.flight_state
+    moved = state._replace(state=state.state._replace(position=(ZERO, ZERO)))
+    with pytest.raises(TraceError, match=r"^state\.position is "):
+        check_layout(model.pilot.controller, state, moved)
+    other = state._replace(memory=state.memory._replace(controller=(1.0, 2.0, 3.0)))
+    with pytest.raises(TraceError, match=r"nftsmc\.py, line \d+: .* returns another layout"):
+        check_layout(model.pilot.controller, state, other)
+    check_layout(model.pilot.controller, state, state)
