@@ -2,7 +2,7 @@
 
 import tandemlift as tl
 
-flight = tl.fly(tl.load_mission("paper"))
+flight = tl.fly("paper")
 flight.metrics()["final_position_m"]
 """
 

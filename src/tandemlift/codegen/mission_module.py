@@ -24,7 +24,7 @@ from tandemlift.core.files import __version__, atomic_write
 from tandemlift.core.keys import description_of
 from tandemlift.core.types import leaves
 from tandemlift.flight.channels import channel_of
-from tandemlift.missions import Mission
+from tandemlift.missions import Mission, MissionSource, mission_of
 from tandemlift.missions.schema import schema_of
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.parameter_changes import hand_place
@@ -53,7 +53,7 @@ def module_of(mission: Mission, target: str, functions: Functions = _nothing_mor
     """Compile a mission for a machine; earlier results are taken from the cache.
 
     Args:
-        mission: from `load_mission`. The code is that of `mission.fma = false`.
+        mission: from `load_mission`, or its name or path. The code is that of `mission.fma = false`.
         target: a name in `MACHINES`.
         functions: gives further functions for the module.
 
@@ -113,7 +113,7 @@ TARGETS = {"c": "C99 sources, for any compiler", **{name: machine.meaning for na
 ENDINGS = {"wasm32": "wasm"}
 
 
-def compile_mission(mission: Mission, target: str, folder: Path | str, *, single: bool = False) -> list[Path]:
+def compile_mission(mission: MissionSource, target: str, folder: Path | str, *, single: bool = False) -> list[Path]:
     """Compile a mission for another machine: its numbers, its loop over steps, its pilot.
 
     Args:
@@ -133,8 +133,8 @@ def compile_mission(mission: Mission, target: str, folder: Path | str, *, single
     if single and target != "c":
         raise InputError(f"single = true: only for target 'c'; {target} computes in double precision")
     if target == "c":
-        return write_c(mission, folder, single)
-    return list(_write_module(mission, target, Path(folder)))
+        return write_c(mission_of(mission), folder, single)
+    return list(_write_module(mission_of(mission), target, Path(folder)))
 
 
 def _write_module(mission: Mission, target: str, folder: Path) -> Iterator[Path]:

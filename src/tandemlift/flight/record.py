@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 import numpy as np
 
 from tandemlift.core.errors import InputError, suggestion, unknown
-from tandemlift.core.files import atomic_write, unpacked_size
+from tandemlift.core.files import FLIGHT_FILE, atomic_write, unpacked_size
 from tandemlift.core.findings import Finding, finding_from
 from tandemlift.core.phases import FAILURES, INTERRUPTED
 from tandemlift.core.types import Array
@@ -187,13 +187,14 @@ class Flight(Mapping[str, Array]):
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Flight:
-        """Read a flight that `save` wrote.
+        """Read a flight that `save` wrote, from its file or from the folder of a run.
 
         Raises:
             InputError: the file is missing, damaged, no flight, of a newer format, or has an unknown mission key or
                 channel.
         """
         path = Path(path)
+        path = path / FLIGHT_FILE if path.is_dir() else path
         try:
             with path.open("rb") as file:
                 header, arrays = _read(file)

@@ -6,12 +6,22 @@ else is replaced, and another `controller.name` starts from that controller's de
 
 from tandemlift.missions.changes import merge, tables_of
 from tandemlift.missions.checking import changed, check, in_turn
-from tandemlift.missions.loading import DATA, MissionTemplate, built_in, format_toml, load_mission, to_toml
+from tandemlift.missions.loading import (
+    DATA,
+    MissionSource,
+    MissionTemplate,
+    built_in,
+    format_toml,
+    load_mission,
+    mission_of,
+    to_toml,
+)
 from tandemlift.missions.mission import Mission, check_keys
 
 __all__ = [
     "DATA",
     "Mission",
+    "MissionSource",
     "MissionTemplate",
     "built_in",
     "changed",
@@ -21,6 +31,7 @@ __all__ = [
     "in_turn",
     "load_mission",
     "merge",
+    "mission_of",
     "tables_of",
     "to_toml",
 ]

@@ -132,6 +132,19 @@ def load_mission(
         return check(_with_changes(tables, changes or {}, layers), layers[-1].source, layers)
 
 
+MissionSource = Mission | str | os.PathLike[str]
+"""A mission, or the name of a built-in one, or the path of a TOML file."""
+
+
+def mission_of(source: MissionSource) -> Mission:
+    """The mission that is meant, loaded if it is named.
+
+    Raises:
+        InputError: as by `load_mission`.
+    """
+    return source if isinstance(source, Mission) else load_mission(source)
+
+
 class MissionTemplate:
     """A template for many missions with the same tables and a few changes each; shared parts are checked once.
 

@@ -14,7 +14,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.progress import Stopped, always, progress_or_own
 from tandemlift.core.types import Progress, leaves, unflat
 from tandemlift.flight.record import Flight
-from tandemlift.missions import Mission
+from tandemlift.missions import MissionSource, mission_of
 from tandemlift.missions.recording import engine_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.parameter_changes import changes_in_flight
@@ -106,11 +106,11 @@ def _fly_together(
     return _fly_compiled(flights, rows, every, progress, going)
 
 
-def fly(mission: Mission, engine: str | None = None, *, progress: Progress | None = None) -> Flight:
+def fly(mission: MissionSource, engine: str | None = None, *, progress: Progress | None = None) -> Flight:
     """Fly a mission.
 
     Args:
-        mission: from `load_mission`.
+        mission: from `load_mission`, or its name or path.
         engine: name of the engine; if None, that of the mission's recording, or "compiled".
         progress: called from time to time with (steps flown, steps in all); by default, a notebook shows a bar.
 
@@ -120,8 +120,9 @@ def fly(mission: Mission, engine: str | None = None, *, progress: Progress | Non
 
     Raises:
         OSError: the engine in another process took no step at all.
-        InputError: the engine is unknown, or the mission cannot be built.
+        InputError: the engine is unknown, or the mission cannot be loaded or built.
     """
+    mission = mission_of(mission)
     engine = engine_of(mission.person.recording) if engine is None else engine
     p = FlightPlan(mission, engine)
     rows, body = p.steps // p.every + 1, body_of(p)
@@ -133,7 +134,7 @@ def fly(mission: Mission, engine: str | None = None, *, progress: Progress | Non
 
 
 def fly_many(
-    missions: Iterable[Mission],
+    missions: Iterable[MissionSource],
     keep: Literal["flights", "metrics"] = "flights",
     threads: int | None = None,
     *,
@@ -143,7 +144,8 @@ def fly_many(
     """Fly many missions of any mixture of variants, in blocks that share each instruction, on several threads.
 
     Args:
-        missions: from `load_mission`; an iterator is read during the flights, one mission after the other.
+        missions: from `load_mission`, or their names or paths; an iterator is read during the flights, one mission
+            after the other.
         keep: "flights" for a list of `Flight`; "metrics" for a list of metrics only, in memory that does not grow with
             the number of steps.
         threads: number of threads; by default one for each processor.
@@ -155,9 +157,11 @@ def fly_many(
         One entry for each mission, in the order given, bit-identical to that of a flight alone.
 
     Raises:
-        InputError: `keep` or `threads` is not one of the above, or a mission cannot be built and `refusals` is
-            false.
+        InputError: `missions` is one text, `keep` or `threads` is not one of the above, or a mission cannot be built
+            and `refusals` is false.
     """
+    if isinstance(missions, (str, os.PathLike)):
+        raise InputError(f"missions = {str(missions)!r}: must be a list, such as [{str(missions)!r}]")
     if keep not in ("flights", "metrics"):
         raise InputError(f"keep = {keep!r}: must be 'flights' or 'metrics'")
     if threads is not None and (not isinstance(threads, int) or threads < 1):
@@ -200,7 +204,7 @@ def _flown(flights: list[FlightPlan], keep: str, going: Callable[[], bool]) -> l
 class _Counter:
     """Counts the finished flights of all threads."""
 
-    def __init__(self, groups: _FlightGroups, missions: Iterable[Mission], progress: Progress | None) -> None:
+    def __init__(self, groups: _FlightGroups, missions: Iterable[MissionSource], progress: Progress | None) -> None:
         self.flown, self.groups, self.progress = 0, groups, progress
         self.total = len(missions) if isinstance(missions, Sized) else None
         self.lock = threading.Lock()
@@ -234,7 +238,7 @@ class _FlightGroups:
         read: the number of missions read so far.
     """
 
-    def __init__(self, missions: Iterable[Mission], refusals: bool) -> None:
+    def __init__(self, missions: Iterable[MissionSource], refusals: bool) -> None:
         self.read, self.refusals = 0, refusals
         self._groups = self._grouped(missions)
         self._lock = threading.Lock()
@@ -259,15 +263,15 @@ class _FlightGroups:
                 raise
             return [error] * len(group.flights)
 
-    def _plan(self, mission: Mission) -> FlightPlan | InputError:
+    def _plan(self, mission: MissionSource) -> FlightPlan | InputError:
         try:
-            return FlightPlan(mission)
+            return FlightPlan(mission_of(mission))
         except InputError as error:
             if not self.refusals:
                 raise
             return error
 
-    def _grouped(self, missions: Iterable[Mission]) -> Iterator[_FlightGroup]:
+    def _grouped(self, missions: Iterable[MissionSource]) -> Iterator[_FlightGroup]:
         """Groups of flights of one variant and grid, at most LANES; stepwise flights alone."""
         waiting, count = OrderedDict[Any, _FlightGroup](), 0
         for place, mission in enumerate(missions):

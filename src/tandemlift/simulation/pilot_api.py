@@ -11,7 +11,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import ZERO, Absent, Quat
-from tandemlift.missions import Mission
+from tandemlift.missions import Mission, MissionSource, mission_of
 from tandemlift.parts.controllers import control
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -39,7 +39,7 @@ class Pilot:
     """A mission's pilot, to be sampled every `mission.step` seconds.
 
     Args:
-        mission: from `load_mission`.
+        mission: from `load_mission`, or its name or path.
 
     Attributes:
         thrusts: thrust of every rotor [N] (4N,), the answer to the last measurement; overwritten by the next.
@@ -48,7 +48,8 @@ class Pilot:
         InputError: the mission's controller is plain Python; the pilot needs a law, which can be compiled.
     """
 
-    def __init__(self, mission: Mission) -> None:
+    def __init__(self, mission: MissionSource) -> None:
+        mission = mission_of(mission)
         self._start = assembled_by_graph(mission, pilot_at_start)
         if type(self._start.parameters.controller) in control.interpreted:
             raise InputError(f"controller {mission.controller.name!r} is plain Python; write it as a law to use Pilot")

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.core.errors import InputError, without_flight_warnings
-from tandemlift.core.files import write_file
+from tandemlift.core.files import FLIGHT_FILE, write_file
 from tandemlift.core.findings import Finding
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, flat, leaves, unflat
@@ -35,7 +35,7 @@ from tandemlift.simulation.results import RawResult, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_of
 
 FLYING = "flying"  # the outcome of a flight that continues
-MISSION, HAND, FLIGHT = MISSION_FILE, HAND_FILE, "flight.npz"
+MISSION, HAND, FLIGHT = MISSION_FILE, HAND_FILE, FLIGHT_FILE
 EMPTY_FLIGHT = "nothing was flown yet: there is nothing to save"
 
 

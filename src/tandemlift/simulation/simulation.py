@@ -16,7 +16,7 @@ from tandemlift.core.types import Array, leaves, unflat
 from tandemlift.engines.registry import EngineLost
 from tandemlift.flight.channels import DERIVED, Channel, channel_of
 from tandemlift.flight.record import Ending, Flight, interruption
-from tandemlift.missions import Mission
+from tandemlift.missions import MissionSource, mission_of
 from tandemlift.missions.recording import engine_of
 from tandemlift.parts.mechanics.push import point_checks
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -45,7 +45,7 @@ class Simulation:
     the loads during it. A `Flight` holds the same samples.
 
     Args:
-        mission: from `load_mission`.
+        mission: from `load_mission`, or its name or path.
         engine: name of the engine; if None, that of the mission's recording, or "compiled".
 
     Attributes:
@@ -56,11 +56,12 @@ class Simulation:
         channels: names of the channels, the same as the flight's.
 
     Raises:
-        InputError: the engine is unknown, or the mission cannot be built.
+        InputError: the engine is unknown, or the mission cannot be loaded or built.
     """
 
-    def __init__(self, mission: Mission, engine: str | None = None) -> None:
-        self.mission, self.engine = mission, engine_of(mission.person.recording) if engine is None else engine
+    def __init__(self, mission: MissionSource, engine: str | None = None) -> None:
+        self.mission = mission_of(mission)
+        self.engine = engine_of(self.mission.person.recording) if engine is None else engine
         self._prepare()
         self._begin()
 

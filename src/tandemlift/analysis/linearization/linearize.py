@@ -25,7 +25,7 @@ from tandemlift.analysis.linearization.variables import Outputs, outputs_from, s
 from tandemlift.core.errors import InputError, shown, unknown
 from tandemlift.core.types import Array, flat, unflat
 from tandemlift.core.vector import Absent, Quat
-from tandemlift.missions import Mission
+from tandemlift.missions import MissionSource, mission_of
 from tandemlift.parts.mechanics.push import push_moment
 from tandemlift.parts.rotors.rotor_lag import by_direction
 from tandemlift.simulation.simulation import Simulation
@@ -42,7 +42,7 @@ KINK_TOLERANCE = 1e-4  # such as 0.1 mm, 0.1 mrad, 0.1 mN
 
 
 def linearize(
-    flight: Mission | Simulation,
+    flight: MissionSource | Simulation,
     at: float | None = None,
     *,
     of: str = "loop",
@@ -54,7 +54,8 @@ def linearize(
     """The linear model of a flight's step about a point of it, by exact derivatives of the step's own equations.
 
     Args:
-        flight: a mission, which is flown to the time `at` with the compiled body; or a simulation as it stands.
+        flight: a mission, or its name or path, which is flown to the time `at` with the compiled body; or a simulation
+            as it stands.
         at: time of the point [s]. By default the end of the first calm after the lift: just before the first push,
             fault or landing, or before a person begins, else the mission's end; and 0.5 s after the tare, if that
             takes longer, because earlier pushes are ignored. None for a simulation.
@@ -78,7 +79,7 @@ def linearize(
         raise unknown("part", of, PARTS)
     if isinstance(flight, Simulation) and at is not None:
         raise InputError(f"at = {shown(at)}: a simulation is linearized at its own time; step it there")
-    point = as_it_stands(flight) if isinstance(flight, Simulation) else flown_to(flight, at)
+    point = as_it_stands(flight) if isinstance(flight, Simulation) else flown_to(mission_of(flight), at)
     recipe, chosen = linearization_plan(point, of, inputs, outputs, steps)
     here = made = differentiate(recipe)
     averaged = with_mean_lag(point) if of == "loop" else point

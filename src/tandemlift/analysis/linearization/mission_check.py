@@ -16,7 +16,7 @@ from tandemlift.analysis.linearization.loop_margins import (
     slowest_modes,
 )
 from tandemlift.core.errors import CLOSE, FAILS, REFUSED, CheckResult, InputError, judged, noted
-from tandemlift.missions import Mission
+from tandemlift.missions import Mission, MissionSource, mission_of
 from tandemlift.missions.checks import mission_checks
 from tandemlift.missions.flight_checks import FlightCheck
 
@@ -54,15 +54,16 @@ LOOP_CHECKS = (
 )
 
 
-def check(mission: Mission) -> tuple[CheckResult, ...]:
+def check(mission: MissionSource) -> tuple[CheckResult, ...]:
     """All checks of a mission: closed forms, inconsistent settings, and its loops by their linear model.
 
     Args:
-        mission: flown to a hover without disturbances, to be linearized there.
+        mission: or its name or path; flown to a hover without disturbances, to be linearized there.
 
     Returns:
         A result for each check; its verdict is "ok", "close" or "fails"; or the one that is "refused".
     """
+    mission = mission_of(mission)
     results = tuple(mission_checks(mission))
     return results if results and results[-1].verdict == REFUSED else (*results, *loop_results(mission))
 

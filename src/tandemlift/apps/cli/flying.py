@@ -15,7 +15,7 @@ import click
 from tandemlift.apps.cli.completion import CONTROLLERS, names, settings
 from tandemlift.apps.cli.console import progress_bar
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import toml_tables
+from tandemlift.core.files import FLIGHT_FILE, toml_tables
 from tandemlift.pictures.figures.drawing.figure_style import STYLES, figure_style
 
 if TYPE_CHECKING:
@@ -127,8 +127,8 @@ def write_flight(flight: Flight, folder: Path, *, figures: bool, photographs: Se
 def flight_file(given: str) -> tuple[Path, Path | None]:
     """The folder of a flight's results and the file of the saved flight; the file is None if `given` is a mission."""
     path = Path(given)
-    if path.is_dir() and (path / "flight.npz").exists():
-        return path, path / "flight.npz"
+    if path.is_dir() and (path / FLIGHT_FILE).exists():
+        return path, path / FLIGHT_FILE
     if path.suffix == ".npz":
         return path.parent, path
     return Path("out") / path.stem, None

@@ -13,7 +13,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from tandemlift.core.files import atomic_write
+from tandemlift.core.files import FLIGHT_FILE, atomic_write
 from tandemlift.core.findings import Finding
 from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
@@ -195,7 +195,7 @@ def write_flight_files(
     """
     with atomic_write(folder / "mission.toml") as partial:
         partial.write_text(format_toml(flight.mission), "utf-8")
-    flight.save(folder / "flight.npz")
+    flight.save(folder / FLIGHT_FILE)
     with atomic_write(folder / "metrics.json") as partial:
         partial.write_text(json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n", "utf-8")
     write_metric_tables(

@@ -20,7 +20,7 @@ from tandemlift.analysis.studies.standard_push import PushedAxis
 from tandemlift.core.errors import FAILS, CheckResult
 from tandemlift.core.files import atomic_write
 from tandemlift.core.types import Progress
-from tandemlift.missions import Mission, format_toml, tables_of
+from tandemlift.missions import MissionSource, format_toml, mission_of, tables_of
 from tandemlift.pictures.figures.drawing.figure import Caption
 from tandemlift.pictures.figures.drawing.panels import fit, line
 from tandemlift.pictures.figures.drawing.style import (
@@ -166,17 +166,17 @@ class FeelReport:
         )
 
 
-def feel(mission: Mission, *, progress: Progress | None = None) -> FeelReport:
+def feel(mission: MissionSource, *, progress: Progress | None = None) -> FeelReport:
     """The feel of a mission's admittance: flown, checked, and ready to be shown.
 
     Args:
-        mission: from `load_mission`.
+        mission: from `load_mission`, or its name or path.
         progress: called with (axes flown, axes in all).
 
     Raises:
         InputError: the mission cannot be flown without its surroundings.
     """
-    return FeelReport(study_feel(mission, progress))
+    return FeelReport(study_feel(mission_of(mission), progress))
 
 
 def _write(path: Path, text: str) -> None:
