@@ -24,7 +24,7 @@ from tandemlift.core.files import __version__, atomic_write
 from tandemlift.core.keys import description_of
 from tandemlift.core.types import leaves
 from tandemlift.flight.channels import channel_of
-from tandemlift.missions import Mission, MissionSource, mission_of
+from tandemlift.missions import Mission, MissionLike, mission_of
 from tandemlift.missions.schema import schema_of
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.parameter_changes import hand_place
@@ -113,7 +113,7 @@ TARGETS = {"c": "C99 sources, for any compiler", **{name: machine.meaning for na
 ENDINGS = {"wasm32": "wasm"}
 
 
-def compile_mission(mission: MissionSource, target: str, folder: Path | str, *, single: bool = False) -> list[Path]:
+def compile_mission(mission: MissionLike, target: str, folder: Path | str, *, single: bool = False) -> list[Path]:
     """Compile a mission for another machine: its numbers, its loop over steps, its pilot.
 
     Args:

@@ -8,7 +8,7 @@ from tandemlift.missions.changes import merge, tables_of
 from tandemlift.missions.checking import changed, check, in_turn
 from tandemlift.missions.loading import (
     DATA,
-    MissionSource,
+    MissionLike,
     MissionTemplate,
     built_in,
     format_toml,
@@ -21,7 +21,7 @@ from tandemlift.missions.mission import Mission, check_keys
 __all__ = [
     "DATA",
     "Mission",
-    "MissionSource",
+    "MissionLike",
     "MissionTemplate",
     "built_in",
     "changed",

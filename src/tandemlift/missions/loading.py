@@ -132,11 +132,11 @@ def load_mission(
         return check(_with_changes(tables, changes or {}, layers), layers[-1].source, layers)
 
 
-MissionSource = Mission | str | os.PathLike[str]
+MissionLike = Mission | str | os.PathLike[str]
 """A mission, or the name of a built-in one, or the path of a TOML file."""
 
 
-def mission_of(source: MissionSource) -> Mission:
+def mission_of(source: MissionLike) -> Mission:
     """The mission that is meant, loaded if it is named.
 
     Raises:

@@ -14,7 +14,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.progress import Stopped, always, progress_or_own
 from tandemlift.core.types import Progress, leaves, unflat
 from tandemlift.flight.record import Flight
-from tandemlift.missions import MissionSource, mission_of
+from tandemlift.missions import MissionLike, mission_of
 from tandemlift.missions.recording import engine_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.parameter_changes import changes_in_flight
@@ -106,7 +106,7 @@ def _fly_together(
     return _fly_compiled(flights, rows, every, progress, going)
 
 
-def fly(mission: MissionSource, engine: str | None = None, *, progress: Progress | None = None) -> Flight:
+def fly(mission: MissionLike, engine: str | None = None, *, progress: Progress | None = None) -> Flight:
     """Fly a mission.
 
     Args:
@@ -134,7 +134,7 @@ def fly(mission: MissionSource, engine: str | None = None, *, progress: Progress
 
 
 def fly_many(
-    missions: Iterable[MissionSource],
+    missions: Iterable[MissionLike],
     keep: Literal["flights", "metrics"] = "flights",
     threads: int | None = None,
     *,
@@ -204,7 +204,7 @@ def _flown(flights: list[FlightPlan], keep: str, going: Callable[[], bool]) -> l
 class _Counter:
     """Counts the finished flights of all threads."""
 
-    def __init__(self, groups: _FlightGroups, missions: Iterable[MissionSource], progress: Progress | None) -> None:
+    def __init__(self, groups: _FlightGroups, missions: Iterable[MissionLike], progress: Progress | None) -> None:
         self.flown, self.groups, self.progress = 0, groups, progress
         self.total = len(missions) if isinstance(missions, Sized) else None
         self.lock = threading.Lock()
@@ -238,7 +238,7 @@ class _FlightGroups:
         read: the number of missions read so far.
     """
 
-    def __init__(self, missions: Iterable[MissionSource], refusals: bool) -> None:
+    def __init__(self, missions: Iterable[MissionLike], refusals: bool) -> None:
         self.read, self.refusals = 0, refusals
         self._groups = self._grouped(missions)
         self._lock = threading.Lock()
@@ -263,7 +263,7 @@ class _FlightGroups:
                 raise
             return [error] * len(group.flights)
 
-    def _plan(self, mission: MissionSource) -> FlightPlan | InputError:
+    def _plan(self, mission: MissionLike) -> FlightPlan | InputError:
         try:
             return FlightPlan(mission_of(mission))
         except InputError as error:
@@ -271,7 +271,7 @@ class _FlightGroups:
                 raise
             return error
 
-    def _grouped(self, missions: Iterable[MissionSource]) -> Iterator[_FlightGroup]:
+    def _grouped(self, missions: Iterable[MissionLike]) -> Iterator[_FlightGroup]:
         """Groups of flights of one variant and grid, at most LANES; stepwise flights alone."""
         waiting, count = OrderedDict[Any, _FlightGroup](), 0
         for place, mission in enumerate(missions):

@@ -11,7 +11,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import ZERO, Absent, Quat
-from tandemlift.missions import Mission, MissionSource, mission_of
+from tandemlift.missions import Mission, MissionLike, mission_of
 from tandemlift.parts.controllers import control
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -48,7 +48,7 @@ class Pilot:
         InputError: the mission's controller is plain Python; the pilot needs a law, which can be compiled.
     """
 
-    def __init__(self, mission: MissionSource) -> None:
+    def __init__(self, mission: MissionLike) -> None:
         mission = mission_of(mission)
         self._start = assembled_by_graph(mission, pilot_at_start)
         if type(self._start.parameters.controller) in control.interpreted:

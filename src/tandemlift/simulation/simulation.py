@@ -16,7 +16,7 @@ from tandemlift.core.types import Array, leaves, unflat
 from tandemlift.engines.registry import EngineLost
 from tandemlift.flight.channels import DERIVED, Channel, channel_of
 from tandemlift.flight.record import Ending, Flight, interruption
-from tandemlift.missions import MissionSource, mission_of
+from tandemlift.missions import MissionLike, mission_of
 from tandemlift.missions.recording import engine_of
 from tandemlift.parts.mechanics.push import point_checks
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -59,7 +59,7 @@ class Simulation:
         InputError: the engine is unknown, or the mission cannot be loaded or built.
     """
 
-    def __init__(self, mission: MissionSource, engine: str | None = None) -> None:
+    def __init__(self, mission: MissionLike, engine: str | None = None) -> None:
         self.mission = mission_of(mission)
         self.engine = engine_of(self.mission.person.recording) if engine is None else engine
         self._prepare()

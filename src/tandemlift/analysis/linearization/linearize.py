@@ -25,7 +25,7 @@ from tandemlift.analysis.linearization.variables import Outputs, outputs_from, s
 from tandemlift.core.errors import InputError, shown, unknown
 from tandemlift.core.types import Array, flat, unflat
 from tandemlift.core.vector import Absent, Quat
-from tandemlift.missions import MissionSource, mission_of
+from tandemlift.missions import MissionLike, mission_of
 from tandemlift.parts.mechanics.push import push_moment
 from tandemlift.parts.rotors.rotor_lag import by_direction
 from tandemlift.simulation.simulation import Simulation
@@ -42,7 +42,7 @@ KINK_TOLERANCE = 1e-4  # such as 0.1 mm, 0.1 mrad, 0.1 mN
 
 
 def linearize(
-    flight: MissionSource | Simulation,
+    flight: MissionLike | Simulation,
     at: float | None = None,
     *,
     of: str = "loop",

@@ -16,7 +16,7 @@ from tandemlift.analysis.linearization.loop_margins import (
     slowest_modes,
 )
 from tandemlift.core.errors import CLOSE, FAILS, REFUSED, CheckResult, InputError, judged, noted
-from tandemlift.missions import Mission, MissionSource, mission_of
+from tandemlift.missions import Mission, MissionLike, mission_of
 from tandemlift.missions.checks import mission_checks
 from tandemlift.missions.flight_checks import FlightCheck
 
@@ -54,7 +54,7 @@ LOOP_CHECKS = (
 )
 
 
-def check(mission: MissionSource) -> tuple[CheckResult, ...]:
+def check(mission: MissionLike) -> tuple[CheckResult, ...]:
     """All checks of a mission: closed forms, inconsistent settings, and its loops by their linear model.
 
     Args:

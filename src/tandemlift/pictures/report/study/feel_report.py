@@ -20,7 +20,7 @@ from tandemlift.analysis.studies.standard_push import PushedAxis
 from tandemlift.core.errors import FAILS, CheckResult
 from tandemlift.core.files import atomic_write
 from tandemlift.core.types import Progress
-from tandemlift.missions import MissionSource, format_toml, mission_of, tables_of
+from tandemlift.missions import MissionLike, format_toml, mission_of, tables_of
 from tandemlift.pictures.figures.drawing.figure import Caption
 from tandemlift.pictures.figures.drawing.panels import fit, line
 from tandemlift.pictures.figures.drawing.style import (
@@ -166,7 +166,7 @@ class FeelReport:
         )
 
 
-def feel(mission: MissionSource, *, progress: Progress | None = None) -> FeelReport:
+def feel(mission: MissionLike, *, progress: Progress | None = None) -> FeelReport:
     """The feel of a mission's admittance: flown, checked, and ready to be shown.
 
     Args:
