@@ -11,7 +11,7 @@ from tandemlift.simulation.preparation import compiled_flight
 from tandemlift.simulation.preparation.loops import LoopWriter
 
 
-@pytest.mark.parametrize(("mission", "largest"), [("paper", 100), ("iris", 1000)])
+@pytest.mark.parametrize(("mission", "largest"), [("paper", 100), ("iris", 500)])
 def test_a_step_in_pieces_has_the_bits_of_the_step_in_one(mission, largest, tmp_path, monkeypatch):
     mission = tl.load_mission(mission, {"mission.duration": 4.0})
     whole, writers = tl.fly(mission), []
@@ -26,4 +26,5 @@ def test_a_step_in_pieces_has_the_bits_of_the_step_in_one(mission, largest, tmp_
     assert different(tl.fly(mission), whole) == []
     pieces = re.findall(r"(?ms)^define [^\n]*@(?:acting|end)\d+_part.*?^}", writers[0].module.text)
     assert len(pieces) > 2
-    assert all(0.2 * largest < piece.count(" = f") < 3 * largest for piece in pieces[:-1])  # of arithmetic
+    assert all(piece.count(" = f") < 3 * largest for piece in pieces)  # of arithmetic
+    assert sum(piece.count(" = f") for piece in pieces) > largest
