@@ -22,7 +22,7 @@ import sys
 import tomllib
 from collections.abc import Iterable
 from fnmatch import fnmatch
-from functools import cache
+from functools import cache, partial
 from itertools import accumulate, product
 from pathlib import Path
 
@@ -47,7 +47,7 @@ BLIND = [
 ]  # that compare one source with itself
 CHOSEN: list[str] = []  # patterns of --tests
 ENOUGH = 0.95  # of the mutants that are not equivalent have to be killed
-BUDGET, AGAIN = 240.0, 60.0  # s of a folder's tests at most for a mutant, by their time under the tracer; tried anew
+BUDGET = 60.0  # s of a folder's tests at most for a mutant, by their time under the tracer
 
 
 def digest(*content: bytes) -> str:
@@ -173,21 +173,21 @@ def record(copy: Copy, part: Iterable[tuple[str, Path]]) -> None:
         print(f"seen what the tests of {file} call", flush=True)
 
 
-def try_fast(copy: Copy, part: list[tuple[Mutant, list[str]]]) -> None:
+def try_fast(folder: str, copy: Copy, part: Iterable[tuple[Mutant, list[str]]]) -> None:
     """Try mutants in forks of a process that has collected all tests; those that survive are left."""
 
     def work(session: Exchanging, mutant: Mutant, folders: list[str]) -> None:
-        tests = calling(mutant, folders[-1], BUDGET)
+        tests = calling(mutant, folder, BUDGET)
         if tests and (killer := copy.killer(mutant, tests, lambda: session.run_with(mutant, tests))):
             Book().add(mutant, folders, killer)
 
-    copy.pytest(chosen_in(part[0][1][-1]), Exchanging(copy, part, work))
+    copy.pytest(chosen_in(folder), Exchanging(copy, part, work))
 
 
-def try_slowly(copy: Copy, part: list[tuple[Mutant, list[str]]]) -> None:
+def try_slowly(folder: str, copy: Copy, part: Iterable[tuple[Mutant, list[str]]]) -> None:
     """Try mutants in processes that import everything anew."""
     for mutant, folders in part:
-        tests = calling(mutant, folders[-1], AGAIN)
+        tests = calling(mutant, folder, BUDGET)
         files, plugin = list(dict.fromkeys(t.partition("::")[0] for t in tests)), Chosen(tests, copy.failed)
         killer = copy.killer(mutant, tests, lambda: copy.pytest(files, plugin)) if tests else None  # noqa: B023
         Book().add(mutant, folders, killer)
@@ -215,7 +215,7 @@ def main() -> int:
         for folder in dict.fromkeys(folders[-1] for _, folders in todo):
             missing = [(file, calls(file)) for file in chosen_in(folder) if not calls(file).exists()]
             share(ROOT, OUT, given.jobs, missing, record)
-            share(ROOT, OUT, given.jobs, [one for one in todo if one[1][-1] == folder], work)
+            share(ROOT, OUT, given.jobs, [one for one in todo if one[1][-1] == folder], partial(work, folder))
     lines, part = table(found)
     print("\n".join(lines))
     return 0 if part >= ENOUGH else 1

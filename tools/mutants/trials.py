@@ -12,6 +12,7 @@ import fcntl
 import gc
 import importlib
 import linecache
+import multiprocessing
 import os
 import resource
 import shutil
@@ -157,7 +158,7 @@ class Chosen:
 class Exchanging(Chosen):
     """A plugin that does `work(self, *one)` for each of `todo`, once all tests are collected."""
 
-    def __init__(self, copy: Copy, todo: Sequence[tuple], work: Callable[..., None]) -> None:
+    def __init__(self, copy: Copy, todo: Iterable[tuple], work: Callable[..., None]) -> None:
         super().__init__([], copy.failed)
         self.copy, self.todo, self.work = copy, todo, work
 
@@ -194,18 +195,28 @@ def _codes(code: CodeType) -> Iterator[CodeType]:
             yield from _codes(inner)
 
 
+def _taken(todo: Sequence[tuple], count: Any) -> Iterator[tuple]:
+    """Those of `todo` that no other process takes; `count`: shared number of those taken."""
+    while True:
+        with count.get_lock():
+            k, count.value = count.value, count.value + 1
+        if k >= len(todo):
+            return
+        yield todo[k]
+
+
 def share(root: Path, out: Path, jobs: int, todo: Sequence[tuple], work: Callable[..., None]) -> None:
-    """Do `work(copy, part)` for parts of `todo`, in processes that each have a copy.
+    """Do `work(copy, part)`, in processes that each have a copy and take from `todo` what is next.
 
     Raises:
         RuntimeError: one of the processes failed.
     """
-    children = []
+    children, count = [], multiprocessing.Value("q", 0)
     for number in range(min(jobs, len(todo))):
         pid = os.fork()
         if pid == 0:
             try:
-                work(Copy(root, out, number), todo[number::jobs])
+                work(Copy(root, out, number), _taken(todo, count))
                 os._exit(0)
             except BaseException:
                 traceback.print_exc()

@@ -8,6 +8,7 @@ import pytest
 from small_studies import GUSTS, flown, without_file
 
 import tandemlift as tl
+from tandemlift.analysis.studies.dataset import _axis
 from tandemlift.analysis.studies.table import load_study
 
 
@@ -77,6 +78,18 @@ def test_values_that_are_lists_are_counted_along_their_axis(tmp_path):
     ).to_xarray()
     assert dict(data.sizes) == {"pushes.0.force": 2}
     assert data["pushes.0.force.1"].values.tolist() == [0.0, 2.0]
+
+
+def test_by_default_the_grid_has_all_numbers_and_outcomes_and_no_texts_of_findings(gusts):
+    names = set(gusts.to_xarray().data_vars)
+    assert {"outcome", "human_work_j", "final_position_m.0"} <= names
+    assert not names & {"findings", "events"}
+
+
+def test_values_of_which_some_are_no_lists_are_named_along_their_axis():
+    mixed = [{"a": 1.0, "b": 2.0}, [3.0, 4.0]]
+    assert _axis("key", mixed) == {"key": ("key", [str(value) for value in mixed])}
+    assert _axis("key", [[1.0], [2.0, 3.0]]) == {"key": ("key", ["[1.0]", "[2.0, 3.0]"])}
 
 
 def test_a_column_that_the_flights_of_one_file_do_not_have_is_null_there(tmp_path):

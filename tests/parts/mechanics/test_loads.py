@@ -1,5 +1,7 @@
 """Loads of the parts against NumPy: wrenches of rotors, wrenches on quadrotors carried to the joints, turbulent air."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -68,3 +70,12 @@ def test_the_box_of_all_parts_ends_at_the_highest_rotor_and_at_the_lowest_foot()
     tops = [z + q.rotor_height for q, (_, _, z) in zip(VEHICLE.quadrotors, VEHICLE.lever_arms, strict=True)]
     soles = [z - q.feet_depth for q, (_, _, z) in zip(VEHICLE.quadrotors, VEHICLE.lever_arms, strict=True)]
     assert (low[2], high[2]) == (pytest.approx(min(soles)), pytest.approx(max(tops)))
+
+
+def test_the_box_of_a_vehicle_without_a_beam_is_that_of_its_quadrotors():
+    point = VEHICLE.payload.model_copy(update={"length": None, "radius": None})
+    alone = replace(VEHICLE, payload=point)
+    assert alone.beam is None
+    low, high = alone.box
+    wide = max(np.hypot(*r) + q.rotor_radius for q in VEHICLE.quadrotors for r in q.rotors)
+    assert (low[0], high[0]) == pytest.approx((-wide, wide), rel=0.2)

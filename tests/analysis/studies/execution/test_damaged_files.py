@@ -9,8 +9,8 @@ import pytest
 from study_runs import TWELVE, assert_same_rows, files_of, fly
 
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.execution.checked_file import DamagedFile
-from tandemlift.analysis.studies.execution.store import open_folder
+from tandemlift.analysis.studies.execution.checked_file import CheckedFile, DamagedFile
+from tandemlift.analysis.studies.execution.store import StudyFolder, open_folder
 from tandemlift.analysis.studies.table import load_study
 from tandemlift.core.errors import InputError
 
@@ -114,3 +114,11 @@ def test_any_reader_of_parquet_reads_the_files_and_finds_checksums_of_pages(twel
     path.write_bytes(with_damage_in(path, "human_work_j"))
     with pytest.raises(OSError, match="CRC"):
         pq.read_table(path, page_checksum_verification=True)
+
+
+def test_a_file_says_which_study_and_sources_it_is_of(whole):
+    path, study = next((whole / "chunks").glob("*.parquet")), load_study(whole)
+    about = CheckedFile(path).about
+    assert about[b"tandemlift.study"].decode() == StudyFolder(whole).digest
+    assert about[b"tandemlift.chunk"].decode() == path.stem
+    assert len(study) == study.plan.count

@@ -40,6 +40,9 @@ def test_a_range_a_component_a_table_and_a_pattern_are_understood(mission):
     assert (numbers["admittance.damping.0"].low, numbers["admittance.damping.0"].high) == (0.5, 4.0)
     assert len(found(mission, {"controller.gains.lambda_*": None})) == 12
     assert len(found(mission, {"vehicle.quadrotors.*.mass": None})) == 2
+    first = found(mission, {"vehicle.quadrotors.0": None})  # a table of a list, not a component
+    assert "vehicle.quadrotors.0.mass" in first
+    assert not any(name.startswith("vehicle.quadrotors.1") for name in first)
 
 
 def test_zero_is_searched_as_it_is(mission):
