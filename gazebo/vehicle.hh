@@ -1,7 +1,7 @@
 // The vehicle in Gazebo 11: forces in, motion and joint wrenches out.
 //
 // The model has the links `payload` and `quadrotor_1` ... `quadrotor_N`, and a fixed joint `joint_i` from the payload
-// (parent) to each quadrotor (child). The origin of `payload` is the payload's centre of mass.
+// (parent) to each quadrotor (child). The origin of `payload` is that of the mission's positions, the middle of a beam.
 //
 // A State is 13 numbers: position and velocity [world] of the vehicle's centre of mass, quaternion w, x, y, z, rates
 // [rad/s, body]. Gazebo's step is v' = v + h a, then x' = x + h v': its positions are half a step ahead of its

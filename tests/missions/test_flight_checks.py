@@ -234,7 +234,7 @@ def test_the_noise_of_the_push_is_that_of_the_flight():
 
 def test_a_trailing_vehicle_ends_behind_its_grip_and_a_kept_heading_is_kept():
     narrow, zigzag = load_mission("narrow"), load_mission("zigzag")
-    trail, kept = (places_of(m.person, m.corridor, m.initial) for m in (narrow, zigzag))
+    trail, kept = (places_of(m.person, m.corridor, m.initial, m.hover.vehicle) for m in (narrow, zigzag))
     assert trail.headings[-1] == pytest.approx(-np.pi / 2.0, abs=0.05)
     assert np.ptp(kept.headings) == 0.0
     room, _ = least_room(kept, zigzag.all_walls, zigzag.hover.vehicle)

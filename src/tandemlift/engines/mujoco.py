@@ -41,7 +41,7 @@ class MuJoCoBody:
         self.state, self.readings = np.zeros(13), np.zeros(6 * N + 6)
         self._disturbing_force = np.array(scene.disturbance.force)
         self._disturbing_moment = np.array(scene.disturbance.moment)
-        self._payload, self._R = skew(-vehicle.center_of_mass), np.empty((3, 3))
+        self._payload, self._R = skew(vehicle.origin), np.empty((3, 3))
         self._turned = np.empty((3, N))
         self._made, self._of_rotors = rotor_loads_at_joints(vehicle), np.empty(6 * N)
         self._log, self._parts = ContactLog(floor, walls, N, scene.mission.step), touching_parts(self.model)

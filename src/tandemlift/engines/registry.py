@@ -26,7 +26,7 @@ class EngineBody(Protocol):
     Attributes:
         state: (13,) position [m] and velocity [m/s] of the vehicle's centre of mass in world axes, attitude quaternion
             w, x, y, z (body to world), rates [rad/s] in body axes.
-        readings: (6 + 6N,) the numbers of a `PerfectReadings`: specific force at the payload's centre of mass
+        readings: (6 + 6N,) the numbers of a `PerfectReadings`: specific force at the payload's origin
             [m/s²], loads of the quadrotors on the payload at the joints (x, y, z of all forces [N], then of all torques
             [N m]), body axes; the force of floor and walls on the vehicle [N, world axes].
     """

@@ -105,9 +105,7 @@ GROUPS: tuple[ChannelGroup, ...] = (
                 "1", "body to world", "motion capture reading of attitude, quaternion w, x, y, z", 4
             ),
             "measured_rates": Channel("rad/s", "body", "gyroscope reading"),
-            "measured_specific_force": Channel(
-                "m/s^2", "body", "accelerometer reading, at the payload's centre of mass"
-            ),
+            "measured_specific_force": Channel("m/s^2", "body", "accelerometer reading, at the payload's origin"),
             "measured_joint_force": Channel("N", "body", "force reading at each joint, as joint_force", 3, "quadrotor"),
             "measured_joint_torque": Channel("N m", "body", "torque reading at each joint", 3, "quadrotor"),
             "estimated_position": Channel("m", "world", "estimated position of the vehicle's centre of mass"),

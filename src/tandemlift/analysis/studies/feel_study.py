@@ -56,7 +56,7 @@ def feel_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
         thrust = hover.faulty_lift * (1.0 if by_hand is None else by_hand.thrust_fraction)
         yield from rotor_checks(hover, axes, thrust, [t for t in tilts if t is not None], m.compliance.yaw.max_moment)
     yield from passage_checks(m.person, m.corridor, m.all_walls, m.initial, vehicle)
-    places = places_of(m.person, m.corridor, m.initial) if m.all_walls else None
+    places = places_of(m.person, m.corridor, m.initial, Vehicle.from_settings(m.vehicle)) if m.all_walls else None
     if places is not None:
         room = least_room(places, m.all_walls, vehicle)[0] - max(q.guard_radius for q in vehicle.quadrotors)
         yield stop_check(room, axes)

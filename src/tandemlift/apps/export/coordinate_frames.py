@@ -28,17 +28,16 @@ FRAMES = (
     Frame(WORLD, "", "the mission's", "inertial, z up"),
     Frame(BASE, WORLD, "centre of mass of the vehicle", "body: x forward, y left along the beam, z up (ROS REP 103)"),
     Frame(ALIGNED, WORLD, "centre of mass of the vehicle", "as `world`: for forces in world axes"),
-    Frame(PAYLOAD, BASE, "centre of mass of the payload", "body"),
+    Frame(PAYLOAD, BASE, "the payload's origin, the middle of a beam", "body"),
     Frame("joint_1", BASE, "joint of that quadrotor on the payload; `joint_2` and so on likewise", "body"),
 )
 
 
 def fixed(vehicle: Vehicle) -> Iterator[tuple[str, Array]]:
     """The frames that are fixed in `base_link`, with their origins (3) [m], body axes."""
-    payload = 0.0 - vehicle.center_of_mass
-    yield PAYLOAD, payload
+    yield PAYLOAD, 0.0 + vehicle.origin
     for i, quadrotor in enumerate(vehicle.quadrotors, 1):
-        yield joint(i), payload + np.array(quadrotor.joint_position)
+        yield joint(i), vehicle.origin + np.array(quadrotor.joint_position)
 
 
 def joint(number: int) -> str:

@@ -210,7 +210,7 @@ def pose_of_reference(name: str) -> Recipe:
 
 
 def point_on_beam(name: str, channel: str) -> Recipe:
-    """A point on the body's y axis through the payload's centre of mass."""
+    """A point on the body's y axis through the payload's origin."""
 
     def rows(take: Source) -> Array:
         return np.pad(take(channel), ((0, 0), (1, 1)))

@@ -191,7 +191,7 @@ class PushMarkers:
 
 def _ghost(vehicle: Vehicle) -> Iterator[VisualShape]:
     """Its payload, and a disc for each quadrotor."""
-    payload, at = vehicle.payload, 0.0 - vehicle.center_of_mass
+    payload, at = vehicle.payload, 0.0 + vehicle.origin
     for shape in payload_shapes(payload, tuple(vehicle.quadrotors))[:1]:
         yield shape._replace(position=at + shape.position, color=REFERENCE, opacity=OPACITY)
     for q, center in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):

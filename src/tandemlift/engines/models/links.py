@@ -28,7 +28,7 @@ def parts_layout_from(vehicle: Vehicle) -> PartsLayout:
     x, y = np.array([q.rotors for q in quadrotors]).reshape(4 * N, 2).T
     torque = [q.torque_per_thrust * spin for q in quadrotors for spin in q.spins]
     return PartsLayout(
-        payload=vec3(-vehicle.center_of_mass),
+        payload=vec3(vehicle.origin),
         quadrotors=spread(vehicle.lever_arms),
         joints=spread([np.subtract(q.joint_position, q.position) for q in quadrotors]),
         mass=each(N)(*[q.mass for q in quadrotors]),
@@ -72,8 +72,9 @@ def links_of(scene: Scene, vehicle: Vehicle) -> list[Link]:
 
 def _payload(scene: Scene, vehicle: Vehicle) -> Link:
     """The payload, with the difference between the true and the nominal vehicle."""
-    own, place, plant = vehicle.payload, 0.0 - vehicle.center_of_mass, scene.plant
-    known = Link("payload", place, own.mass, np.zeros(3), np.diag(own.moments))
+    own, origin, plant = vehicle.payload, 0.0 + vehicle.origin, scene.plant
+    place = 0.0 + vehicle.payload_center
+    known = Link("payload", origin, own.mass, np.array(own.center_of_mass), np.diag(own.moments))
     if plant.mass_scale == 1.0 and plant.inertia_scale == (1.0, 1.0, 1.0):
         return known
     scale, J, more = np.diag(np.sqrt(plant.inertia_scale)), vehicle.inertia, (plant.mass_scale - 1.0) * vehicle.mass
@@ -91,7 +92,7 @@ def _payload(scene: Scene, vehicle: Vehicle) -> Link:
     least, middle, most = np.linalg.eigvalsh(inertia)
     if least <= 0.0 or least + middle < most * (1.0 - ROUNDING):
         raise _no_body(scene, f"principal moments of {least:g}, {middle:g} and {most:g} kg m2")
-    return known._replace(mass=mass, center=center - place, inertia=inertia)
+    return known._replace(mass=mass, center=center - origin, inertia=inertia)
 
 
 def _no_body(scene: Scene, what: str) -> InputError:

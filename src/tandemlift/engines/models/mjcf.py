@@ -126,9 +126,7 @@ def _add_visuals(spec: Any, scene: Scene, vehicle: Vehicle) -> None:
         else:
             geom.group = CONTACT_GROUP
     depth = vehicle.payload.radius or 0.0
-    _add_shapes(
-        spec.body("payload"), payload_shapes(vehicle.payload, tuple(vehicle.quadrotors)), -vehicle.center_of_mass
-    )
+    _add_shapes(spec.body("payload"), payload_shapes(vehicle.payload, tuple(vehicle.quadrotors)), vehicle.origin)
     for i, q in enumerate(vehicle.quadrotors, 1):
         _add_shapes(spec.body(f"quadrotor{i}"), quadrotor_shapes(q, depth), np.zeros(3))
     sun = spec.worldbody.add_light(name="sun", pos=20.0 * SUN, dir=-SUN, castshadow=not scene.all_walls)

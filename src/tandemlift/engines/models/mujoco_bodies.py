@@ -34,7 +34,7 @@ def model_of(scene: Scene, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
     """The compiled `mujoco.MjModel` of a mission's true vehicle.
 
     Actuator 4 i + j is rotor j of quadrotor i; its control is the thrust [N]. The sensors, in order: accelerometer at
-    the payload's centre of mass (3), force at each joint (3 N), torque at each joint (3 N), and with a floor or walls
+    the payload's origin (3), force at each joint (3 N), torque at each joint (3 N), and with a floor or walls
     the net contact force (3).
 
     Args:
@@ -90,10 +90,9 @@ def _set_options(spec: Any, step: float, *, touching: bool) -> None:
 
 def _add_payload(spec: Any, vehicle: Vehicle) -> None:
     """Add the payload, the root body, with its frame at the system's centre of mass."""
-    center = -vehicle.center_of_mass
-    body = spec.worldbody.add_body(name="payload", **_placeholder_inertia(center))
+    body = spec.worldbody.add_body(name="payload", **_placeholder_inertia(vehicle.payload_center))
     body.add_joint(name="free", type=mujoco.mjtJoint.mjJNT_FREE, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
-    body.add_site(name="payload", pos=center)
+    body.add_site(name="payload", pos=vehicle.origin)
 
 
 def _add_quadrotor(spec: Any, name: str, quadrotor: Quadrotor, center: Array) -> None:

@@ -82,7 +82,7 @@ def add_vehicle_shapes(spec: Any, floor: Any, walls: Any, vehicle: Vehicle) -> V
         _add_spheres(spec, walls, vehicle, shapes.on_walls)
         if isinstance(walls.beam, Beam):
             if "beam" not in shapes.on_floor:
-                ends = np.array([[0.0, end, 0.0] for end in walls.beam.ends]) - vehicle.center_of_mass
+                ends = np.array([[0.0, end, 0.0] for end in walls.beam.ends]) + vehicle.origin
                 _add_beam(spec, ends, walls.beam.radius)
             shapes.on_walls.append("beam")
     return shapes

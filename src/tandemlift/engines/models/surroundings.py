@@ -62,5 +62,5 @@ def _walls(vehicle: Vehicle, friction: float, mass_scale: float, step: float) ->
         friction=friction,
         rotors=rotor_spheres(vehicle.lever_arms, hubs, [q.rotor_radius for q in fleet], guards),
         beam=vehicle.beam,
-        payload=-vehicle.center_of_mass,
+        payload=vehicle.origin,
     )

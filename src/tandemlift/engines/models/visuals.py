@@ -80,7 +80,7 @@ def _box(name: str, center: ArrayLike, edges: ArrayLike, color: str) -> VisualSh
 
 
 def payload_shapes(payload: Payload, quadrotors: tuple[Quadrotor, ...]) -> list[VisualShape]:
-    """The payload in its own frame: a beam with end caps, or a box, and struts to joints that lie beside it."""
+    """The payload about its origin: a beam with end caps, or a box, and struts to joints that lie beside it."""
     if not payload.length:
         shapes, half = [_box("payload", np.zeros(3), [SHAPELESS] * 3, WOOD)], 0.0
     else:
@@ -97,7 +97,7 @@ def payload_shapes(payload: Payload, quadrotors: tuple[Quadrotor, ...]) -> list[
 
 def vehicle_shapes(vehicle: Vehicle) -> list[VisualShape]:
     """A whole vehicle; positions are relative to the system's centre of mass."""
-    payload, depth = -vehicle.center_of_mass, vehicle.payload.radius or 0.0
+    payload, depth = vehicle.origin, vehicle.payload.radius or 0.0
     placed = [(shape, payload) for shape in payload_shapes(vehicle.payload, tuple(vehicle.quadrotors))]
     for q, center in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):
         placed += [(shape, center) for shape in quadrotor_shapes(q, depth)]

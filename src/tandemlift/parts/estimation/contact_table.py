@@ -62,7 +62,7 @@ def start_contact_detection(
     geometry = TouchGeometry(
         quadrotors=spread(vehicle.lever_arms),
         guards=each(N)(*[number(q.guard_radius) for q in vehicle.quadrotors]),
-        payload=vec3(-vehicle.center_of_mass),
+        payload=vec3(vehicle.origin),
         half=0.0 if payload.length is None else 0.5 * payload.length,
         radius=0.0 if payload.radius is None else payload.radius,
         margin=MARGIN,

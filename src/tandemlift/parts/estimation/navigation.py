@@ -1,7 +1,7 @@
 """The state of the vehicle from its inertial sensors, corrected by the motion measurement.
 
 A strapdown observer: gyroscope and accelerometer propagate attitude, velocity and position of their location (the
-payload's centre of mass) from sample to sample; each motion sample corrects them with fixed gains and updates the
+payload's origin) from sample to sample; each motion sample corrects them with fixed gains and updates the
 estimates of both sensors' bias. The error of every axis (attitude with gyroscope's bias, velocity with accelerometer's)
 obeys e₊ = (1 − ℓ)(e + T b), b₊ = b − (1 − z)²/T (e + T b) from one motion sample to the next, T later: two poles at
 z = exp(−ω T) for ℓ = 1 − z². Position has one.

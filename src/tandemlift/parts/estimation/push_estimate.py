@@ -28,7 +28,7 @@ from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra import clip, maximum, sqrt, where
 from tandemlift.core.arrays import array
-from tandemlift.core.law import law
+from tandemlift.core.law import choice, law
 from tandemlift.core.types import Number, NumberSet, PerQuadrotor, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, cross, each, spread, total, vec3
 from tandemlift.parts.estimation.tare import TINY, SideForces, TareSums, summed, tare_fields, tare_of
@@ -47,6 +47,12 @@ from tandemlift.parts.sensors.readings import ImuReading
 NOTHING = Absent()
 
 
+class OffCenter(NamedTuple):
+    """The centre of mass of a payload from its origin, where its accelerometer is [m, body axes]."""
+
+    place: Vec3
+
+
 class PushEstimator(NamedTuple):
     """The nominal vehicle and the numbers of the estimator; body axes.
 
@@ -55,7 +61,7 @@ class PushEstimator(NamedTuple):
     `per_interval`: samples of the IMU per second. `least`: square of the least force [N²] that has a point of
     application. Tare from `tare_start` [s] until before `tare_end`; `identify` is 1 to identify the payload's mass,
     else 0. `limit`: disagreement [N] from which on nothing is trusted; `share` is 1/N, `alone` N/(N − 1) or 0 for N =
-    1. `windage`: how wind is subtracted, or `Absent`.
+    1. `windage`: how wind is subtracted, or `Absent`; `off_center`: `Absent` where the origin is the centre of mass.
     """
 
     mass: Number
@@ -75,6 +81,7 @@ class PushEstimator(NamedTuple):
     share: Number
     alone: Number
     windage: PayloadDrag | Absent
+    off_center: OffCenter | Absent
 
 
 class PushEstimatorState(NamedTuple):
@@ -113,6 +120,32 @@ class PushEstimate(NamedTuple):
     usable: Vec3
     withheld: Vec3 = ZERO
     refuted: Number = 0.0
+
+
+@choice(absent="specific_force")
+def at_center(center: OffCenter | Absent, specific_force: Vec3, rates: Vec3, angular: Vec3) -> Vec3:
+    """The specific force at the payload's centre of mass [m/s², body axes], from that at its origin."""
+
+
+@at_center.register(OffCenter)
+def _carried(center: OffCenter, specific_force: Vec3, rates: Vec3, angular: Vec3) -> Vec3:
+    return specific_force + cross(cross(center.place, rates), rates) - cross(center.place, angular)
+
+
+@law
+def about_center(k: PushEstimator, imu: ImuReading, angular: Vec3) -> ImuReading:
+    """A reading with the specific force at the payload's centre of mass, at an angular acceleration [rad/s²]."""
+    return imu._replace(specific_force=at_center(k.off_center, imu.specific_force, imu.rates, angular))
+
+
+@choice(absent="y")
+def from_origin(center: OffCenter | Absent, y: Number) -> Number:
+    """A place on the beam's axis from its middle [m], from that about the payload's centre of mass."""
+
+
+@from_origin.register(OffCenter)
+def _shifted(center: OffCenter, y: Number) -> Number:
+    return y + center.place.y
 
 
 @law
@@ -158,10 +191,10 @@ def sides(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces[PerQua
 
 @law
 def point_of_application(k: PushEstimator, force: Vec3, moment: Vec3) -> Number:
-    """The place on the beam's axis, body y [m], of a force with this moment about the centre (body axes)."""
+    """The place on the beam's axis, body y [m], of a force with this moment about the centre of mass (body axes)."""
     square = force.x * force.x + force.z * force.z
     y = (moment.x * force.z - moment.z * force.x) / maximum(square, k.least)
-    return where(square < k.least, 0.0, clip(y, -k.reach, k.reach))
+    return where(square < k.least, 0.0, clip(from_origin(k.off_center, y), -k.reach, k.reach))
 
 
 @law
@@ -175,8 +208,9 @@ def estimate(
     k: PushEstimator, memory: PushEstimatorState, imu: ImuReading, t: Number
 ) -> tuple[PushEstimate, PushEstimatorState]:
     """(Push, the new memory) from a reading of the IMU at time t [s]."""
-    a, f = imu.specific_force, sum_over_set(imu.joint_force)
     angular = where(imu.fresh > 0.0, (imu.rates - memory.rates) * k.per_interval, memory.angular)
+    imu = about_center(k, imu, angular)
+    a, f = imu.specific_force, sum_over_set(imu.joint_force)
     moment, outside = moment_on_payload(k, imu, angular), external_forces(k, imu, angular)
     unequal = less_mean(k, outside)
     begun = where(t < k.tare_start, 0.0, 1.0)
@@ -245,6 +279,7 @@ def push_estimator(
     disagreement_limit: float = 2.0,
     windage: PayloadDrag | Absent = NOTHING,
     system: ArrayLike = (0.0, 0.0, 0.0),
+    center: Sequence[float] = (0.0, 0.0, 0.0),
 ) -> PushEstimator:
     """The estimator of the push on a payload, with the pilot's model of the vehicle.
 
@@ -265,6 +300,7 @@ def push_estimator(
         disagreement_limit: [N], from which on the push is not trusted.
         windage: how the wind on the payload is subtracted, or `Absent`.
         system: the whole vehicle's centre of mass from the payload's [m], body axes (3).
+        center: the payload's centre of mass from its origin, where the accelerometer is [m], body axes (3).
 
     Raises:
         ValueError: the mass is to be identified without a tare, or the tare is shorter than a sample.
@@ -287,6 +323,7 @@ def push_estimator(
         share=1.0 / N,
         alone=N / (N - 1) if N > 1 else 0.0,
         windage=windage,
+        off_center=OffCenter(vec3(center)) if any(x != 0.0 for x in center) else Absent(),
     )
 
 

@@ -28,7 +28,7 @@ from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 @linear
 class PartLoad(NamedTuple):
-    """Force [N, world axes] on a part, and moment [N·m, body axes] about its centre of mass."""
+    """Force [N, world axes] on a part, and moment [N·m, body axes] about its centre of mass (payload: its origin)."""
 
     force: Vec3
     moment: Vec3
@@ -57,9 +57,9 @@ class PartLoads(NamedTuple):
 class PartsLayout(NamedTuple):
     """Places and masses of the parts, which determine the loads of the joints. Body axes.
 
-    `payload` and `quadrotors`: centres of mass from the system's [m]; `joints`: from each quadrotor's centre of mass to
-    its joint [m]; `mass` [kg] and `inertia` [kg·m², diagonal] of each quadrotor; of rotor j of every quadrotor, from
-    that quadrotor's centre of mass, `x` and `y` [m], and `torque` about z over thrust [m].
+    From the system's centre of mass [m]: `payload`, its origin, and `quadrotors`, their centres of mass; `joints`: from
+    each of these to its joint [m]. `mass` [kg] and `inertia` [kg·m², diagonal] of each quadrotor. Of rotor j of every
+    quadrotor, from that quadrotor's centre of mass: `x` and `y` [m], and `torque` about z over thrust [m].
     """
 
     payload: Vec3
@@ -75,7 +75,7 @@ class PartsLayout(NamedTuple):
 class PerfectReadings(NamedTuple):
     """The readings of perfect sensors fixed to the parts; body axes.
 
-    Specific force at the payload's centre of mass [m/s²] (acceleration less gravity), and the load of each quadrotor on
+    Specific force at the payload's origin [m/s²] (acceleration less gravity), and the load of each quadrotor on
     the payload at its joint: force [N] and torque [N·m], vectors of sets. `contact_force`: that of floor and walls on
     the whole vehicle [N, world axes], which an engine provides and no sensor measures.
     """

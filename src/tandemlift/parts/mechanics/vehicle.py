@@ -111,9 +111,20 @@ class Vehicle:
 
     @cached_property
     def center_of_mass(self) -> Array:
-        """Centre of mass of the system, from the payload's centre of mass [m], body axes (3)."""
+        """Centre of mass of the system, from the payload's origin [m], body axes (3)."""
         masses, positions = [q.mass for q in self.quadrotors], [q.position for q in self.quadrotors]
-        return np.array(masses) @ np.array(positions) / self.mass
+        moments = np.array(masses) @ np.array(positions) + self.payload.mass * np.array(self.payload.center_of_mass)
+        return moments / self.mass
+
+    @property
+    def origin(self) -> Array:
+        """The payload's origin, where its accelerometer is, from the system's centre of mass [m], body axes (3)."""
+        return -self.center_of_mass
+
+    @property
+    def payload_center(self) -> Array:
+        """The payload's centre of mass from the system's [m], body axes (3)."""
+        return -(self.center_of_mass - np.array(self.payload.center_of_mass))
 
     @cached_property
     def lever_arms(self) -> Array:
@@ -140,7 +151,7 @@ class Vehicle:
             "radii": [q.rotor_radius for q in self.quadrotors],
             "guards": [q.guard_radius for q in self.quadrotors],
             "beam": self.beam,
-            "payload": -self.center_of_mass,
+            "payload": self.origin,
         }
 
     @cached_property
@@ -152,7 +163,7 @@ class Vehicle:
             ends += [(x - wide, y - wide, z - q.feet_depth), (x + wide, y + wide, z + max(q.rotor_height, 0.0))]
         length, radius = self.beam or (0.0, 0.0)
         half = np.array([radius, 0.5 * length, radius])
-        ends += [-self.center_of_mass - half, -self.center_of_mass + half]
+        ends += [self.origin - half, self.origin + half]
         return np.min(ends, axis=0), np.max(ends, axis=0)
 
     def beside(self, point: Sequence[float]) -> float:
@@ -163,7 +174,7 @@ class Vehicle:
     @cached_property
     def inertia(self) -> Array:
         """J_t [kg m²] about the system's centre of mass, body axes (3 × 3)."""
-        total = np.diag(self.payload.moments) + parallel_axis_term(self.payload.mass, self.center_of_mass)
+        total = np.diag(self.payload.moments) + parallel_axis_term(self.payload.mass, self.payload_center)
         for q, d in zip(self.quadrotors, self.lever_arms, strict=True):
             total = total + np.diag(q.inertia) + parallel_axis_term(q.mass, d)
         return total

@@ -59,11 +59,25 @@ Areas = Annotated[tuple[Size, Size, Size], PerAxis(3)]
 
 
 class Payload(Table):
-    """`[vehicle.payload]`: a thin beam along body y, or any body with a mass and principal moments of inertia."""
+    """`[vehicle.payload]`: a thin beam along body y, or any body with a mass and principal moments of inertia.
+
+    Positions on the vehicle are from the payload's origin: the middle of the beam, whether its mass is even or not.
+    """
 
     mass: Positive = key(..., "kg", "mass of the payload", example=0.5)
+    center_of_mass: Exactly3 = key(
+        (0.0, 0.0, 0.0),
+        "m",
+        "centre of mass of the payload from its origin, body axes",
+        source="the middle of the beam",
+        example=[0.0, 0.2, 0.0],
+    )
     length: Positive | None = key(
-        None, "m", "length of the beam, along body y", unset="inertia must be given", example=2.0
+        None,
+        "m",
+        "length of the beam, along body y, with the origin in its middle",
+        unset="inertia must be given",
+        example=2.0,
     )
     radius: Positive | None = key(None, "m", "radius of the beam", unset="inertia must be given", example=0.05)
     inertia: Inertia | None = key(
@@ -131,7 +145,7 @@ class Quadrotor(Table):
     position: Exactly3 = key(
         ...,
         "m",
-        "position of the quadrotor's centre of mass from the payload's, body axes",
+        "position of the quadrotor's centre of mass from the payload's origin, body axes",
         example=[0.0, 1.0, 0.075],
     )
     layout: Literal["+", "x"] = key(
@@ -183,8 +197,8 @@ class Quadrotor(Table):
     joint: Joint | None = key(
         None,
         "m",
-        "position of the joint and its force sensor from the payload's centre of mass, body axes",
-        unset="below the quadrotor's centre of mass, at the height of the payload's",
+        "position of the joint and its force sensor from the payload's origin, body axes",
+        unset="below the quadrotor's centre of mass, at the height of the payload's origin",
         example=[0.0, 1.0, 0.0],
     )
     guard_radius: Length = key(
@@ -229,7 +243,7 @@ class Quadrotor(Table):
 
     @property
     def joint_position(self) -> Triple:
-        """The place of its joint on the payload [m], from the payload's centre of mass, body axes."""
+        """The place of its joint on the payload [m], from the payload's origin, body axes."""
         return (self.position[0], self.position[1], 0.0) if self.joint is None else self.joint
 
     @property

@@ -38,7 +38,7 @@ def passage_checks(
     person: PersonTable, corridor: CorridorTable, walls: Sequence[WallTable], initial: InitialTable, vehicle: Vehicle
 ) -> Iterator[CheckResult]:
     """Compare the required distance from all walls, the corridor's too, with the smallest one on the path."""
-    places = places_of(person, corridor, initial) if walls else None
+    places = places_of(person, corridor, initial, vehicle) if walls else None
     if places is None:
         return
     room, at = least_room(places, walls, vehicle)
@@ -55,10 +55,17 @@ def passage_checks(
     yield judged("passage", guard, room, "m", text, near=NEAR)
 
 
-def way_of(p: PersonTable, corridor: CorridorTable, initial: InitialTable) -> tuple[Array, list[float]]:
+def grip_along(p: PersonTable, vehicle: Vehicle) -> float:
+    """Where a hand holds the payload, along body y from the vehicle's centre of mass [m]."""
+    return float(p.grip + vehicle.origin[1])
+
+
+def way_of(
+    p: PersonTable, corridor: CorridorTable, initial: InitialTable, vehicle: Vehicle
+) -> tuple[Array, list[float]]:
     """The path (n, 2) [m] of the steered point from the start, and the heading of each leg [rad]."""
     (x, y, _), yaw, waypoints = initial.position, initial.euler[2], waypoints_from(p, corridor)
-    grip = p.grip if p.model in ("pull", "hold") else 0.0
+    grip = grip_along(p, vehicle) if p.model in ("pull", "hold") else 0.0
     start = (x - grip * math.sin(yaw), y + grip * math.cos(yaw))
     headings, now = list[float](), yaw
     for w in waypoints:
@@ -67,11 +74,11 @@ def way_of(p: PersonTable, corridor: CorridorTable, initial: InitialTable) -> tu
     return np.array([start, *[w.point for w in waypoints]]), headings
 
 
-def places_of(p: PersonTable, corridor: CorridorTable, initial: InitialTable) -> Places | None:
+def places_of(p: PersonTable, corridor: CorridorTable, initial: InitialTable, vehicle: Vehicle) -> Places | None:
     """The path as places of the vehicle; None for a person whose path is not known in advance."""
     if p.model not in ("pull", "steer", "two-hands") or (p.model == "steer" and p.grip != 0.0):
         return None
-    way, headings = way_of(p, corridor, initial)
+    way, headings = way_of(p, corridor, initial, vehicle)
     legs = list(itertools.pairwise(way))
     lengths = [float(np.linalg.norm(b - a)) for a, b in legs]
     if not legs or sum(lengths) > MOST * APART:
@@ -83,7 +90,7 @@ def places_of(p: PersonTable, corridor: CorridorTable, initial: InitialTable) ->
         points.append(a + share * (b - a))
         turned.append(np.full(n, heading))
     if p.model == "pull":
-        return trailing(np.vstack(points), p.grip, initial.euler[2])
+        return trailing(np.vstack(points), grip_along(p, vehicle), initial.euler[2])
     return Places(np.vstack(points), turning(np.concatenate(turned), p.speed))
 
 

@@ -165,7 +165,7 @@ def waypoints_from(p: PersonTable, corridor: CorridorTable) -> tuple[WaypointTab
 def grip_from(p: PersonTable, vehicle: Vehicle) -> Vec3:
     """The point that the person holds [m, body axes, from the centre of mass]."""
     along = 0.0 if p.model == "two-hands" else p.grip
-    return vec3([0.0, along, 0.0] - vehicle.center_of_mass)
+    return vec3(vehicle.origin) + Vec3(0.0, along, 0.0)
 
 
 class Walk(NamedTuple):

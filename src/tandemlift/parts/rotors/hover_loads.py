@@ -91,7 +91,7 @@ class WindOnParts:
     def parts(self) -> tuple[AirPart, ...]:
         """The payload, then the quadrotors."""
         payload, half, arms = self.vehicle.payload, 0.5 * self.wind.density, self.vehicle.lever_arms
-        first = AirPart(np.array(payload.areas) * (half * payload.drag_coefficient), -self.vehicle.center_of_mass)
+        first = AirPart(np.array(payload.areas) * (half * payload.drag_coefficient), self.vehicle.origin)
         fleet = zip(self.vehicle.quadrotors, arms, strict=True)
         return first, *[AirPart(np.array(q.drag_area) * (half * q.drag_coefficient), place) for q, place in fleet]
 

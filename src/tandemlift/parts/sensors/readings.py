@@ -1,6 +1,6 @@
 """Readings of all sensors: every device samples on its own clock and holds its last sample.
 
-The inertial measurement unit (IMU) holds an accelerometer at the payload's centre of mass and a gyroscope; the
+The inertial measurement unit (IMU) holds an accelerometer at the payload's origin and a gyroscope; the
 force-torque sensors at the joints run on its clock; all read in body axes. The motion measurement reads position and
 velocity of the system's centre of mass in world axes, and the attitude. An additional sensor is a device of its own
 (`additional_sensors`). Between samples the last one is held, no longer fresh. Delays from the sensors to the pilot are
@@ -42,7 +42,7 @@ T = TypeVar("T")
 class ImuChannels(NamedTuple, Generic[T]):
     """One value for each quantity that is sampled with the IMU: a truth, a model, a drift, a noise, a fault.
 
-    Specific force at the payload's centre of mass [m/s²], rates [rad/s], and the load of each quadrotor on the payload
+    Specific force at the payload's origin [m/s²], rates [rad/s], and the load of each quadrotor on the payload
     at its joint: force [N] and torque [N·m], vectors of sets. `frame` is the pilot's attitude estimate at that time.
     """
 

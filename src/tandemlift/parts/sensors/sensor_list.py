@@ -46,7 +46,7 @@ SENSORS: dict[str, Sensor] = {
             ("specific_force",),
             "m/s^2",
             "body",
-            "specific force at the payload's centre of mass",
+            "specific force at the payload's origin",
         ),
         Sensor("gyroscope", "imu", ("rates",), "rad/s", "body", "angular velocity"),
         Sensor("position", "motion", ("position",), "m", "world", "position of the vehicle's centre of mass"),

@@ -68,7 +68,7 @@ class JointSensors(Table):
 
 
 class Accelerometer(Table):
-    """`[sensors.accelerometer]`: the accelerometer at the payload's centre of mass."""
+    """`[sensors.accelerometer]`: the accelerometer at the payload's origin."""
 
     noise: Size = key(0.0, "m/s²", NOISE)
     bias: Size = key(0.0, "m/s²", BIAS)

@@ -54,7 +54,7 @@ BEYOND = 1.06  # half-lengths of the beam that the axis of the place shows to ea
 
 
 def places(flight: Flight) -> list[Array]:
-    """The place of each push on body y (T) [m from the payload's centre of mass], NaN while it is too small."""
+    """The place of each push on body y (T) [m from the payload's origin], NaN while it is too small."""
     least = EstimatorTable.model_validate(flight.mission.get("estimator", {})).min_force
     R = body_to_world(flight["attitude"])
     center = Vehicle.from_mission(flight.mission).center_of_mass[1]

@@ -27,7 +27,13 @@ from tandemlift.parts.estimation.push_confirmation import (
     confirm,
     refuted_push,
 )
-from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState, estimate
+from tandemlift.parts.estimation.push_estimate import (
+    PushEstimate,
+    PushEstimator,
+    PushEstimatorState,
+    about_center,
+    estimate,
+)
 from tandemlift.parts.guidance.contact_hold import contact_of
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
 from tandemlift.parts.guidance.phases import in_the_air, is_in
@@ -155,11 +161,12 @@ def _estimated(
 ) -> tuple[Estimates, EstimatorState]:
     push, push_memory = estimate(estimators.push, memory.push, readings.imu, t)
     state, state_memory = navigate(estimators.state, memory.state, readings)
-    seen = PushReading(readings.imu, push_memory.angular, push)
+    imu = about_center(estimators.push, readings.imu, push_memory.angular)
+    seen = PushReading(imu, push_memory.angular, push)
     contact, contact_memory = contact_step(
         estimators.contact, memory.contact, estimators.push, seen, state, surroundings, dt
     )
-    sampled, explained = SampledPush(readings.imu, estimators.push, push_memory), shaken(contact_memory)
+    sampled, explained = SampledPush(imu, estimators.push, push_memory), shaken(contact_memory)
     push, confirmation = confirm(
         estimators.confirmation,
         memory.confirmation,

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 from tandemlift.core.algebra import minimum
 from tandemlift.core.types import NEVER
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
@@ -144,8 +146,8 @@ def start_estimators(
     push = push_estimator(
         mass=payload.mass,
         inertia=payload.moments,
-        joints=[q.joint_position for q in quadrotors],
-        quadrotors=[q.position for q in quadrotors],
+        joints=[np.subtract(q.joint_position, payload.center_of_mass) for q in quadrotors],
+        quadrotors=[np.subtract(q.position, payload.center_of_mass) for q in quadrotors],
         quadrotor_masses=[q.mass for q in quadrotors],
         step=step,
         imu_period=steps_of(s.interval, step),
@@ -157,11 +159,12 @@ def start_estimators(
         identify_mass=e.identify_mass,
         disagreement_limit=e.disagreement_limit,
         windage=Absent() if e.wind_compensation == "none" else payload_drag_from(vehicle, e.wind_bandwidth, step),
-        system=vehicle.center_of_mass,
+        system=-vehicle.payload_center,
+        center=payload.center_of_mass,
     )
     observer = navigator_from(e, s, vehicle, step)
     drag = vehicle.drag
-    believed = NominalVehicle(vec3(-vehicle.center_of_mass), vec3(drag.force), vec3(drag.moment))
+    believed = NominalVehicle(vec3(vehicle.payload_center), vec3(drag.force), vec3(drag.moment))
     tare = TareInHover() if e.tare == "hover" else TareAtTime()
     contact, no_contact = start_contact_detection(mission.contact, vehicle, step)
     confirmation, unconfirmed = start_confirmation(

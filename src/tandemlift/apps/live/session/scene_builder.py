@@ -104,7 +104,7 @@ def _vehicle(vehicle: Vehicle) -> SceneVehicle:
     parts = zip(vehicle.quadrotors, vehicle.lever_arms, strict=True)
     return SceneVehicle(
         quadrotors=[_quadrotor(q, center, turning[4 * i : 4 * i + 4]) for i, (q, center) in enumerate(parts)],
-        payload=ScenePayload(position=_list(-vehicle.center_of_mass), length=length, width=across, height=across),
+        payload=ScenePayload(position=_list(vehicle.origin), length=length, width=across, height=across),
         shapes=[_shape(s) for s in shapes if not s.name.startswith(TURNING)],
         mass=vehicle.mass,
     )

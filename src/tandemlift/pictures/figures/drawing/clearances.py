@@ -46,7 +46,7 @@ def clearances(flight: Flight) -> Clearances:
     payload = vehicle.payload
     if not (payload.length and payload.radius):
         return Clearances(guards, None)
-    axis, half = beam_axis(vec3(-vehicle.center_of_mass), s), 0.5 * payload.length
+    axis, half = beam_axis(vec3(vehicle.origin), s), 0.5 * payload.length
     beam = np.full(len(flight.time), np.inf)
     for one in upright:
         ways = [offset(one, beam_point(axis, end)) for end in (-half, half)]
@@ -63,5 +63,5 @@ def grips(flight: Flight) -> Array | None:
     if person["model"] in ("none", "virtual-hand"):
         return None
     along = 0.0 if person["model"] == "two-hands" else person["grip"]
-    arm = np.array([0.0, along, 0.0]) - Vehicle.from_mission(flight.mission).center_of_mass
+    arm = np.array([0.0, along, 0.0]) + Vehicle.from_mission(flight.mission).origin
     return flight["position"] + body_to_world(flight["attitude"]) @ arm

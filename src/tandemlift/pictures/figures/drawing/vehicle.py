@@ -62,7 +62,7 @@ def skeleton(vehicle: Vehicle) -> Skeleton:
     A payload with a length is a beam along body y; one without is the point that the struts meet in.
     """
     half = (vehicle.payload.length or 0.0) / 2.0
-    origin = -vehicle.center_of_mass
+    origin = vehicle.origin
     beam = origin + np.array([[0.0, -half, 0.0], [0.0, half, 0.0]])[: 2 if half else 1]
     struts, arms, rotors = [], [], []
     turn = np.linspace(0.0, 2.0 * np.pi, CORNERS, endpoint=False)
