@@ -1,4 +1,4 @@
-"""A payload whose centre of mass is off its middle: in both engines, felt rightly, drawn and written where it is."""
+"""A payload with its mass off its middle and its axes: in both engines, felt rightly, drawn and written as it is."""
 
 from xml.etree import ElementTree
 
@@ -12,7 +12,12 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.clearances import clearances
 
 OFF = [0.02, 0.3, -0.01]
-CENTER = {"vehicle.payload.center_of_mass": OFF}
+PRODUCTS = [0.004, 0.0, 0.02]
+CENTER = {
+    "vehicle.payload.center_of_mass": OFF,
+    "vehicle.payload.inertia": [0.17, 0.03, 0.16],
+    "vehicle.payload.products": PRODUCTS,
+}
 
 
 def vehicle_of(**changes):
@@ -20,14 +25,17 @@ def vehicle_of(**changes):
 
 
 def test_mass_and_inertia_are_those_of_the_parts_at_their_places():
-    """Summed over mass points, six of each part, with its moments about its own centre."""
+    """Summed over mass points, six of each part on its principal axes, with its moments about its own centre."""
     vehicle, points = vehicle_of(), []
-    parts = [(vehicle.payload.mass, OFF, vehicle.payload.moments)]
-    parts += [(q.mass, q.position, q.inertia) for q in vehicle.quadrotors]
-    for mass, place, moments in parts:
-        squares = (sum(moments) / 2.0 - np.array(moments)) / mass  # of the distances along each axis
+    xy, xz, yz = PRODUCTS
+    own = np.array([[0.17, xy, xz], [xy, 0.03, yz], [xz, yz, 0.16]])
+    parts = [(vehicle.payload.mass, OFF, own)]
+    parts += [(q.mass, q.position, np.diag(q.inertia)) for q in vehicle.quadrotors]
+    for mass, place, tensor in parts:
+        moments, axes = np.linalg.eigh(tensor)
+        squares = (sum(moments) / 2.0 - moments) / mass  # of the distances along each axis
         for axis in range(3):
-            away = np.eye(3)[axis] * np.sqrt(3.0 * squares[axis])
+            away = axes[:, axis] * np.sqrt(3.0 * squares[axis])
             points += [(mass / 6.0, np.array(place) + side * away) for side in (1.0, -1.0)]
     masses, places = np.array([m for m, _ in points]), np.array([p for _, p in points])
     center = masses @ places / masses.sum()
@@ -93,7 +101,18 @@ def test_models_for_mujoco_and_gazebo_have_the_mass_off_the_middle(tmp_path):
     mission, vehicle = tl.load_mission("iris", CENTER), vehicle_of()
     model = mujoco.MjModel.from_xml_path(str(export(mission, tmp_path / "off.xml")))
     assert model.body("payload").ipos == pytest.approx(vehicle.payload_center, abs=1e-6)
+    R = np.empty(9)
+    mujoco.mju_quat2Mat(R, model.body("payload").iquat)
+    R = R.reshape(3, 3)
+    assert R @ np.diag(model.body("payload").inertia) @ R.T == pytest.approx(vehicle.payload.tensor, abs=1e-6)
     assert model.site("payload").pos == pytest.approx(vehicle.origin, abs=1e-6)
     link = ElementTree.parse(export(mission, tmp_path / "off.sdf")).find(".//link[@name='payload']")
     assert np.fromstring(link.find("pose").text, sep=" ")[:3] == pytest.approx(vehicle.origin, abs=1e-6)
+    written = {part.tag: float(part.text) for part in link.find("inertial/inertia")}
+    assert [written[name] for name in ("ixy", "ixz", "iyz")] == pytest.approx(PRODUCTS, abs=1e-6)
     assert np.fromstring(link.find("inertial/pose").text, sep=" ")[:3] == pytest.approx(OFF, abs=1e-6)
+
+
+def test_products_that_no_body_has_are_refused_with_the_moments_that_they_would_give():
+    with pytest.raises(tl.InputError, match=r"products of inertia of a body; its principal moments would be -0\.0"):
+        vehicle_of(**{"vehicle.payload.products": [0.0, 0.0, 0.09]})

@@ -74,7 +74,7 @@ def _payload(scene: Scene, vehicle: Vehicle) -> Link:
     """The payload, with the difference between the true and the nominal vehicle."""
     own, origin, plant = vehicle.payload, 0.0 + vehicle.origin, scene.plant
     place = 0.0 + vehicle.payload_center
-    known = Link("payload", origin, own.mass, np.array(own.center_of_mass), np.diag(own.moments))
+    known = Link("payload", origin, own.mass, np.array(own.center_of_mass), own.tensor)
     if plant.mass_scale == 1.0 and plant.inertia_scale == (1.0, 1.0, 1.0):
         return known
     scale, J, more = np.diag(np.sqrt(plant.inertia_scale)), vehicle.inertia, (plant.mass_scale - 1.0) * vehicle.mass

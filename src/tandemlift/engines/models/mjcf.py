@@ -17,7 +17,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.core.vector import vec3
 from tandemlift.engines.models.links import Link, links_of
-from tandemlift.engines.models.mujoco_bodies import specification
+from tandemlift.engines.models.mujoco_bodies import principal_axes, specification
 from tandemlift.engines.models.mujoco_contact import set_contact_stiffness
 from tandemlift.engines.models.mujoco_import import mujoco
 from tandemlift.engines.models.scene import Scene
@@ -77,10 +77,7 @@ def _set_inertias(spec: Any, links: Sequence[Link]) -> None:
     """Set mass, centre of mass and inertia of every body."""
     for link in links:
         body = spec.body(link.name.replace("_", ""))
-        moments, axes = np.diag(link.inertia), np.eye(3)
-        if not np.array_equal(np.diag(moments), link.inertia):
-            moments, axes = np.linalg.eigh(link.inertia)
-        mujoco.mju_mat2Quat(body.iquat, (axes * [1.0, 1.0, np.linalg.det(axes)]).ravel())
+        moments, body.iquat = principal_axes(link.inertia)
         body.mass, body.inertia = link.mass, _realizable(moments)
         body.ipos = link.center + (link.position if link.name == "payload" else 0.0)
 

@@ -50,7 +50,7 @@ def model_of(scene: Scene, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
     difference = _add_difference(spec, scene, vehicle)
     model = spec.compile()
     quadrotors = [(q.mass, q.inertia) for q in vehicle.quadrotors]
-    _set_inertias(model, [(vehicle.payload.mass, vehicle.payload.moments), *quadrotors, *difference])
+    _set_inertias(model, [(vehicle.payload.mass, principal_axes(vehicle.payload.tensor)[0]), *quadrotors, *difference])
     model.dof_damping[:] = [*vehicle.drag.force, *vehicle.drag.moment]
     set_contact_stiffness(model, floor, walls)
     return model
@@ -90,7 +90,8 @@ def _set_options(spec: Any, step: float, *, touching: bool) -> None:
 
 def _add_payload(spec: Any, vehicle: Vehicle) -> None:
     """Add the payload, the root body, with its frame at the system's centre of mass."""
-    body = spec.worldbody.add_body(name="payload", **_placeholder_inertia(vehicle.payload_center))
+    _, quat = principal_axes(vehicle.payload.tensor)
+    body = spec.worldbody.add_body(name="payload", iquat=quat, **_placeholder_inertia(vehicle.payload_center))
     body.add_joint(name="free", type=mujoco.mjtJoint.mjJNT_FREE, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
     body.add_site(name="payload", pos=vehicle.origin)
 
@@ -113,13 +114,20 @@ def _add_difference(spec: Any, scene: Scene, vehicle: Vehicle) -> list[Weight]:
     """
     scale, J = np.diag(np.sqrt(scene.plant.inertia_scale)), vehicle.inertia
     mass = (scene.plant.mass_scale - 1.0) * vehicle.mass
-    moments, axes = np.linalg.eigh(scale @ J @ scale - J)
+    moments, quat = principal_axes(scale @ J @ scale - J)
     if not mass and not moments.any():
         return []
-    quat = np.empty(4)
-    mujoco.mju_mat2Quat(quat, (axes * [1.0, 1.0, np.linalg.det(axes)]).ravel())
     spec.body("payload").add_body(name="difference", iquat=quat, **_placeholder_inertia())
     return [(mass, moments)]
+
+
+def principal_axes(tensor: Array) -> tuple[Array, Array]:
+    """The principal moments of a tensor (3 × 3), and the quaternion of their axes; of a diagonal one as they stand."""
+    moments, axes, quat = np.diag(tensor), np.eye(3), np.empty(4)
+    if np.any(tensor != np.diag(moments)):
+        moments, axes = np.linalg.eigh(tensor)
+    mujoco.mju_mat2Quat(quat, (axes * [1.0, 1.0, np.linalg.det(axes)]).ravel())
+    return moments, quat
 
 
 def _placeholder_inertia(center: ArrayLike = (0.0, 0.0, 0.0)) -> dict[str, Any]:

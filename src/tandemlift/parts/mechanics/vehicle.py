@@ -174,7 +174,7 @@ class Vehicle:
     @cached_property
     def inertia(self) -> Array:
         """J_t [kg m²] about the system's centre of mass, body axes (3 × 3)."""
-        total = np.diag(self.payload.moments) + parallel_axis_term(self.payload.mass, self.payload_center)
+        total = self.payload.tensor + parallel_axis_term(self.payload.mass, self.payload_center)
         for q, d in zip(self.quadrotors, self.lever_arms, strict=True):
             total = total + np.diag(q.inertia) + parallel_axis_term(q.mass, d)
         return total

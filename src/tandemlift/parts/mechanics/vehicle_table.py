@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Annotated, Literal
 
+import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
 from tandemlift.core.keys import (
@@ -23,6 +24,7 @@ from tandemlift.core.keys import (
     key,
     must,
 )
+from tandemlift.core.types import Array
 
 
 class DisturbanceTable(Table):
@@ -83,10 +85,18 @@ class Payload(Table):
     inertia: Inertia | None = key(
         None,
         "kg m²",
-        "principal moments of inertia about the payload's centre of mass, body axes",
+        "moments of inertia Jx, Jy, Jz about the payload's centre of mass, body axes",
         rule="none above the sum of the other two",
         unset="that of the beam",
         example=[0.1667, 0.000625, 0.1667],
+    )
+    products: Exactly3 = key(
+        (0.0, 0.0, 0.0),
+        "kg m²",
+        "products of inertia: the elements Jxy, Jxz, Jyz of the tensor",
+        rule="with inertia, those of a body",
+        source="the body axes are principal axes",
+        example=[0.0, 0.0, 0.004],
     )
     drag_area: Areas | None = key(
         None,
@@ -101,16 +111,27 @@ class Payload(Table):
     def _complete(self) -> Payload:
         if self.inertia is None and (self.length is None or self.radius is None):
             raise must("payload", "have either inertia, or length and radius (of a beam)")
+        if any(self.products):
+            least, middle, most = np.linalg.eigvalsh(self.tensor)
+            if least <= 0.0 or least + middle < most * (1.0 - 1e-9):
+                moments = f"{least:.4g}, {middle:.4g}, {most:.4g} kg m²"
+                raise must("payload", f"have products of inertia of a body; its principal moments would be {moments}")
         return self
 
     @property
     def moments(self) -> Triple:
-        """Principal moments [kg m²]: as given, or of a thin rod along y (m L²/12) with a solid section (m r²/2)."""
+        """Jx, Jy, Jz [kg m²]: as given, or of a thin rod along y (m L²/12) with a solid section (m r²/2)."""
         if self.inertia is not None:
             return self.inertia
         length, radius = (0.0 if size is None else size for size in (self.length, self.radius))
         across = self.mass * length**2 / 12.0
         return (across, self.mass * radius**2 / 2.0, across)
+
+    @property
+    def tensor(self) -> Array:
+        """The tensor of inertia about the centre of mass [kg m²], body axes (3 × 3)."""
+        xy, xz, yz = self.products
+        return np.diag(self.moments) + np.array([[0.0, xy, xz], [xy, 0.0, yz], [xz, yz, 0.0]])
 
     @property
     def areas(self) -> Triple:

@@ -145,7 +145,7 @@ def start_estimators(
     payload, quadrotors = vehicle.payload, vehicle.quadrotors
     push = push_estimator(
         mass=payload.mass,
-        inertia=payload.moments,
+        inertia=payload.tensor,
         joints=[np.subtract(q.joint_position, payload.center_of_mass) for q in quadrotors],
         quadrotors=[np.subtract(q.position, payload.center_of_mass) for q in quadrotors],
         quadrotor_masses=[q.mass for q in quadrotors],
