@@ -137,6 +137,37 @@ def test_a_table_merges_and_a_list_replaces():
     assert (mission.phases.height, mission.phases.lift_start, len(mission.pushes)) == (2.0, 2.0, 1)
 
 
+@pytest.mark.parametrize(
+    "said",
+    [
+        "vehicle.quadrotors.0.position = [0.0, 0.8, 0.075]\nadmittance.damping.2 = 5.0",
+        "[vehicle.quadrotors.0]\nposition = [0.0, 0.8, 0.075]\n[admittance.damping]\n2 = 5.0",
+        "[vehicle]\nquadrotors = {0 = {position = [0.0, 0.8, 0.075]}}\n[admittance]\ndamping = {2 = 5.0}",
+    ],
+)
+def test_a_file_changes_an_entry_of_a_list_as_a_setting_does(said, tmp_path):
+    (tmp_path / "mine.toml").write_text(f'extends = "iris"\n{said}\n', "utf-8")
+    settings = {"vehicle.quadrotors.0.position": [0.0, 0.8, 0.075], "admittance.damping.2": 5.0}
+    assert load_mission(tmp_path / "mine.toml") == load_mission("iris", settings)
+
+
+@pytest.mark.parametrize(
+    ("said", "message"),
+    [
+        (
+            "vehicle.quadrotors.2.mass = 1.0",
+            r"mine\.toml: vehicle\.quadrotors\.2\.mass = 1\.0: '2' must be a number from 0 to 1",
+        ),
+        ("vehicle.quadrotors.0.mas = 1.0", r"mine\.toml: .*Did you mean vehicle\.quadrotors\.0\.mass"),
+        ("faults.0.time = 1.0", r"mine\.toml: faults"),
+    ],
+)
+def test_a_file_that_changes_an_entry_that_is_not_there_is_refused(said, message, tmp_path):
+    (tmp_path / "mine.toml").write_text(f'extends = "iris"\n{said}\n', "utf-8")
+    with pytest.raises(tl.InputError, match=message):
+        load_mission(tmp_path / "mine.toml")
+
+
 def test_values_of_numpy_and_none_for_an_optional_key_are_taken():
     changes = {"admittance.mass": np.array([1, 2, 3]), "mission.seed": np.int64(7), "phases.land_start": None}
     mission = load_mission("paper", changes)

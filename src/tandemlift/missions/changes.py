@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -91,6 +91,32 @@ def changed_tables(tables: Tables, key: object, value: Any, source: str) -> Tabl
     if names[0] != names[1] and key in ("controller", "controller.name"):
         after["controller"] = value if isinstance(value, dict) else {"name": value}
     return after
+
+
+def without_entries(tables: Mapping[str, Any], above: str = "") -> tuple[Tables, list[tuple[str, Any]]]:
+    """Tables without those whose keys are numbers, and the values of these by dotted key.
+
+    So a file may say `vehicle.quadrotors.0.position = …` of a list in the mission that it extends.
+    """
+    kept, entries = Tables(), list[tuple[str, Any]]()
+    for name, value in tables.items():
+        key = f"{above}{name}"
+        if not isinstance(value, dict):
+            kept[name] = value
+        elif any(part.isdecimal() for part in value):
+            entries += _leaves(value, key)
+        else:
+            kept[name], inner = without_entries(value, f"{key}.")
+            entries += inner
+    return kept, entries
+
+
+def _leaves(value: object, key: str) -> Iterator[tuple[str, Any]]:
+    if isinstance(value, dict) and value:
+        for name, part in value.items():
+            yield from _leaves(part, f"{key}.{name}")
+    else:
+        yield key, value
 
 
 Place = tuple[str | int, ...]

@@ -15,7 +15,7 @@ import tomli_w
 
 from tandemlift.core.errors import InputError, shown, suggestion, unknown
 from tandemlift.core.files import DATA, toml_tables
-from tandemlift.missions.changes import MISSING, Tables, changed_tables, merge, tables_of, value_at
+from tandemlift.missions.changes import MISSING, Tables, changed_tables, merge, tables_of, value_at, without_entries
 from tandemlift.missions.checking import Layer, as_checked, check
 from tandemlift.missions.mission import Mission
 from tandemlift.missions.recording import unpacked_recording
@@ -69,6 +69,12 @@ def overlay(base: Tables, changes: Tables) -> Tables:
     if name not in (MISSING, value_at(base, ("controller", "name"))):
         base = {key: value for key, value in base.items() if key != "controller"}
     return merge(base, changes)
+
+
+def _laid_over(base: Tables, layer: Layer) -> Tables:
+    """Tables with those of a file that extends them; a number in a key picks an entry of a list, as in `--set`."""
+    whole, entries = without_entries(layer.tables)
+    return _with_changes(overlay(base, whole), dict(entries), [layer])
 
 
 def _identity(path: Path) -> tuple[int, int]:
@@ -226,7 +232,7 @@ def read_tables(
         InputError: the mission does not exist or cannot be read, or the controller is not registered any more.
     """
     layers = list(layers_of(path_of(name, folder)))
-    folded = list(itertools.accumulate((layer.tables for layer in layers), overlay, initial=Tables()))
+    folded = list(itertools.accumulate(layers, _laid_over, initial=Tables()))
     tables = folded[-1]
     if controller is not None:
         chosen = controller if isinstance(controller, str) else controller.name

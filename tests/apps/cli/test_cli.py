@@ -149,6 +149,16 @@ def test_every_built_in_mission_is_listed(run):
     assert [line.split()[0] for line in run("missions")[1].splitlines()] == list(built_in())
 
 
+def test_the_file_of_a_mission_is_printed_and_is_that_mission(run, tmp_path):
+    code, out, err = run("missions", "iris")
+    assert (code, err) == (0, "")
+    (tmp_path / "mine.toml").write_text(out, "utf-8")
+    assert load_mission(tmp_path / "mine.toml") == load_mission("iris")
+    code, out, err = run("missions", "irs")
+    assert (code, out) == (2, "")
+    assert "Did you mean 'iris'" in err
+
+
 def test_compile_takes_a_controller_as_run_does(run, tmp_path):
     module = ("compile", "hover", "--target", "wasm32")
     assert run(*module, "--controller", "pid")[0] == 0

@@ -7,9 +7,10 @@ from collections.abc import Mapping
 
 import click
 
-from tandemlift.apps.cli.completion import SCRIPTS, keys
+from tandemlift.apps.cli.completion import SCRIPTS, keys, names
 from tandemlift.apps.cli.console import echo
 from tandemlift.apps.cli.flying import chosen_controller
+from tandemlift.core.errors import unknown
 
 controller_option = click.option(
     "--controller", metavar="FILE", help="Your own controller (.py file): its keys are included."
@@ -96,11 +97,23 @@ def _print_table(rows: Mapping[str, str]) -> None:
 
 
 @click.command()
-def missions() -> None:
-    """List the built-in missions."""
-    from tandemlift.missions import built_in
+@click.argument("name", required=False, shell_complete=names("mission"))
+def missions(name: str | None) -> None:
+    """List the built-in missions, or print the file of one by its NAME.
 
-    _print_table(built_in())
+    \b
+    Examples:
+      tandemlift missions
+      tandemlift missions iris > mine.toml
+    """
+    from tandemlift.missions import DATA, built_in
+
+    if name is None:
+        _print_table(built_in())
+    elif name in built_in():
+        echo((DATA / "missions" / f"{name}.toml").read_text("utf-8"), nl=False)
+    else:
+        raise unknown("mission", name, built_in())
 
 
 @click.command()
