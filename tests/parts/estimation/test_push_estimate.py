@@ -19,11 +19,12 @@ from tandemlift.core.vector import Vec3, vec3
 from tandemlift.parts.estimation.push_estimate import (
     PushEstimator,
     estimate,
+    external_forces,
     inertial_force,
+    less_mean,
     moment_on_payload,
     point_of_application,
     push_estimator,
-    sides,
     start_push,
 )
 from tandemlift.parts.sensors.noise_bias_drift import SensorGrade
@@ -92,7 +93,7 @@ def test_without_wind_nothing_but_thrust_is_left_on_the_quadrotors(seed, N):
     p = random_parts(rng, N)
     R, w, x = moment(rng, N)
     answer = solved(p, R, w, x)
-    found = sides(estimator(p), unit(R, w, answer), vec3(answer.angular))
+    found = less_mean(estimator(p), external_forces(estimator(p), unit(R, w, answer), vec3(answer.angular)))
     assert np.array(found) == pytest.approx(np.zeros((2, N)), abs=1e-11)
 
 
@@ -104,7 +105,7 @@ def test_wind_and_wrong_sensors_show_as_what_differs_between_quadrotors(seed, N)
     x = x._replace(winds=rng.standard_normal((N, 3)))
     answer, wrong = solved(p, R, w, x), rng.standard_normal((N, 3))
     said = unit(R, w, answer._replace(force=answer.force + wrong))
-    found = np.array(sides(estimator(p), said, vec3(answer.angular))).T
+    found = np.array(less_mean(estimator(p), external_forces(estimator(p), said, vec3(answer.angular)))).T
     outside = (R.inv().apply(x.winds) + wrong)[:, :2]
     assert found == pytest.approx(outside - outside.mean(axis=0), abs=1e-11)
 

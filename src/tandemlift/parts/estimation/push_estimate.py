@@ -28,9 +28,10 @@ from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra import clip, maximum, sqrt, where
 from tandemlift.core.arrays import array
-from tandemlift.core.law import choice, law
+from tandemlift.core.law import law
 from tandemlift.core.types import Number, NumberSet, PerQuadrotor, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, cross, each, spread, total, vec3
+from tandemlift.parts.estimation.off_center import OffCenter, about_center, from_origin
 from tandemlift.parts.estimation.tare import TINY, SideForces, TareSums, summed, tare_fields, tare_of
 from tandemlift.parts.estimation.wind_compensation import (
     PayloadDrag,
@@ -45,12 +46,6 @@ from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.sensors.readings import ImuReading
 
 NOTHING = Absent()
-
-
-class OffCenter(NamedTuple):
-    """The centre of mass of a payload from its origin, where its accelerometer is [m, body axes]."""
-
-    place: Vec3
 
 
 class PushEstimator(NamedTuple):
@@ -122,32 +117,6 @@ class PushEstimate(NamedTuple):
     refuted: Number = 0.0
 
 
-@choice(absent="specific_force")
-def at_center(center: OffCenter | Absent, specific_force: Vec3, rates: Vec3, angular: Vec3) -> Vec3:
-    """The specific force at the payload's centre of mass [m/s², body axes], from that at its origin."""
-
-
-@at_center.register(OffCenter)
-def _carried(center: OffCenter, specific_force: Vec3, rates: Vec3, angular: Vec3) -> Vec3:
-    return specific_force + cross(cross(center.place, rates), rates) - cross(center.place, angular)
-
-
-@law
-def about_center(k: PushEstimator, imu: ImuReading, angular: Vec3) -> ImuReading:
-    """A reading with the specific force at the payload's centre of mass, at an angular acceleration [rad/s²]."""
-    return imu._replace(specific_force=at_center(k.off_center, imu.specific_force, imu.rates, angular))
-
-
-@choice(absent="y")
-def from_origin(center: OffCenter | Absent, y: Number) -> Number:
-    """A place on the beam's axis from its middle [m], from that about the payload's centre of mass."""
-
-
-@from_origin.register(OffCenter)
-def _shifted(center: OffCenter, y: Number) -> Number:
-    return y + center.place.y
-
-
 @law
 def moment_on_payload(k: PushEstimator, imu: ImuReading, angular: Vec3) -> Vec3:
     """The moment M on the payload besides those of the joints [N·m, body axes], about its centre of mass."""
@@ -184,12 +153,6 @@ def less_mean(k: PushEstimator, outside: SideForces[PerQuadrotor]) -> SideForces
 
 
 @law
-def sides(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces[PerQuadrotor]:
-    """The external horizontal force on every quadrotor, less its mean [N], body axes."""
-    return less_mean(k, external_forces(k, imu, angular))
-
-
-@law
 def point_of_application(k: PushEstimator, force: Vec3, moment: Vec3) -> Number:
     """The place on the beam's axis, body y [m], of a force with this moment about the centre of mass (body axes)."""
     square = force.x * force.x + force.z * force.z
@@ -209,7 +172,7 @@ def estimate(
 ) -> tuple[PushEstimate, PushEstimatorState]:
     """(Push, the new memory) from a reading of the IMU at time t [s]."""
     angular = where(imu.fresh > 0.0, (imu.rates - memory.rates) * k.per_interval, memory.angular)
-    imu = about_center(k, imu, angular)
+    imu = about_center(k.off_center, imu, angular)
     a, f = imu.specific_force, sum_over_set(imu.joint_force)
     moment, outside = moment_on_payload(k, imu, angular), external_forces(k, imu, angular)
     unequal = less_mean(k, outside)
@@ -279,33 +242,30 @@ def push_estimator(
     disagreement_limit: float = 2.0,
     windage: PayloadDrag | Absent = NOTHING,
     system: ArrayLike = (0.0, 0.0, 0.0),
-    center: Sequence[float] = (0.0, 0.0, 0.0),
+    off_center: OffCenter | Absent = NOTHING,
 ) -> PushEstimator:
     """The estimator of the push on a payload, with the pilot's model of the vehicle.
 
     Args:
         mass: of the payload [kg].
         inertia: of the payload about its centre of mass [kg·m²], body axes (3 principal moments, or 3 × 3).
-        joints: from the payload's centre of mass [m], body axes (N × 3).
-        quadrotors: the quadrotors' centres of mass, likewise (N × 3).
+        joints: from the payload's centre of mass [m], body axes (N × 3); `quadrotors`, their centres of mass, likewise.
         quadrotor_masses: [kg] (N).
         step: at which the estimator runs [s].
         imu_period: of the IMU, in steps.
         length: of the beam along body y [m]; no point of application lies beyond its ends.
         bandwidth: of the low-pass [rad/s].
         min_force: across the beam [N], below which there is no point of application.
-        tare_start: of the tare in hover [s]; None for no tare.
-        tare_duration: [s].
+        tare_start: of the tare in hover [s], which lasts for `tare_duration` [s]; None for no tare.
         identify_mass: whether to identify the payload's mass during the tare.
         disagreement_limit: [N], from which on the push is not trusted.
         windage: how the wind on the payload is subtracted, or `Absent`.
         system: the whole vehicle's centre of mass from the payload's [m], body axes (3).
-        center: the payload's centre of mass from its origin, where the accelerometer is [m], body axes (3).
+        off_center: how the payload's centre of mass differs from its origin, or `Absent`.
 
     Raises:
         ValueError: the mass is to be identified without a tare, or the tare is shorter than a sample.
     """
-    tare = tare_fields(tare_start, tare_duration, identify_mass, step * imu_period)
     J, N = array(inertia), len(joints)
     return PushEstimator(
         mass=number(mass),
@@ -318,12 +278,12 @@ def push_estimator(
         per_interval=1.0 / (step * imu_period),
         low_pass=low_pass(bandwidth, step),
         least=min_force**2,
-        **tare,
+        **tare_fields(tare_start, tare_duration, identify_mass, step * imu_period),
         limit=number(disagreement_limit),
         share=1.0 / N,
         alone=N / (N - 1) if N > 1 else 0.0,
         windage=windage,
-        off_center=OffCenter(vec3(center)) if any(x != 0.0 for x in center) else Absent(),
+        off_center=off_center,
     )
 
 

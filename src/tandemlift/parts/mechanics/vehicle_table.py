@@ -72,7 +72,6 @@ class Payload(Table):
         "m",
         "centre of mass of the payload from its origin, body axes",
         source="the middle of the beam",
-        example=[0.0, 0.2, 0.0],
     )
     length: Positive | None = key(
         None,
@@ -96,7 +95,6 @@ class Payload(Table):
         "products of inertia: the elements Jxy, Jxz, Jyz of the tensor",
         rule="with inertia, those of a body",
         source="the body axes are principal axes",
-        example=[0.0, 0.0, 0.004],
     )
     drag_area: Areas | None = key(
         None,

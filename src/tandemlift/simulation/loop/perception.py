@@ -20,6 +20,7 @@ from tandemlift.parts.estimation.contact_detection import (
 )
 from tandemlift.parts.estimation.contact_evidence import ContactDetector, PushReading
 from tandemlift.parts.estimation.navigation import NavigationState, Navigator, navigate
+from tandemlift.parts.estimation.off_center import about_center
 from tandemlift.parts.estimation.push_confirmation import (
     ConfirmationState,
     PushConfirmation,
@@ -31,7 +32,6 @@ from tandemlift.parts.estimation.push_estimate import (
     PushEstimate,
     PushEstimator,
     PushEstimatorState,
-    about_center,
     estimate,
 )
 from tandemlift.parts.guidance.contact_hold import contact_of
@@ -161,7 +161,7 @@ def _estimated(
 ) -> tuple[Estimates, EstimatorState]:
     push, push_memory = estimate(estimators.push, memory.push, readings.imu, t)
     state, state_memory = navigate(estimators.state, memory.state, readings)
-    imu = about_center(estimators.push, readings.imu, push_memory.angular)
+    imu = about_center(estimators.push.off_center, readings.imu, push_memory.angular)
     seen = PushReading(imu, push_memory.angular, push)
     contact, contact_memory = contact_step(
         estimators.contact, memory.contact, estimators.push, seen, state, surroundings, dt

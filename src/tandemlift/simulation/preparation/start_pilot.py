@@ -26,6 +26,7 @@ from tandemlift.parts.controllers import controller
 from tandemlift.parts.estimation.contact_table import start_contact_detection
 from tandemlift.parts.estimation.disturbance_observer import start_observer
 from tandemlift.parts.estimation.navigation import navigator_from, start_navigation
+from tandemlift.parts.estimation.off_center import off_center_at
 from tandemlift.parts.estimation.push_confirmation import (
     start_confirmation,
 )
@@ -160,7 +161,7 @@ def start_estimators(
         disagreement_limit=e.disagreement_limit,
         windage=Absent() if e.wind_compensation == "none" else payload_drag_from(vehicle, e.wind_bandwidth, step),
         system=-vehicle.payload_center,
-        center=payload.center_of_mass,
+        off_center=off_center_at(payload.center_of_mass),
     )
     observer = navigator_from(e, s, vehicle, step)
     drag = vehicle.drag
