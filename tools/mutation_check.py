@@ -91,7 +91,7 @@ def state_of(mutant: Mutant, folders: list[str], killer: str | None) -> str:
     return digest(*[content(path) for path in (PACKAGE / mutant.file, *(ROOT / file for file in files))])
 
 
-def calling(mutant: Mutant, folder: str, budget: float) -> dict[str, float]:
+def calling(mutant: Mutant, folder: str) -> dict[str, float]:
     """The tests in a folder that call a mutant's function, with their seconds: the most specific and the broadest.
 
     They take turns. A test that calls few functions is about them; one that calls many flies with everything, as do
@@ -101,7 +101,7 @@ def calling(mutant: Mutant, folder: str, budget: float) -> dict[str, float]:
     found = sorted((len(called), seconds, test) for test, (seconds, called) in known if wanted in called)
     turns = [one for pair in zip(found, reversed(found), strict=True) for one in pair][: len(found)]
     spent = accumulate(seconds for _, seconds, _ in turns)
-    return {test: seconds for (_, seconds, test), until in zip(turns, spent, strict=True) if until <= budget}
+    return {test: seconds for (_, seconds, test), until in zip(turns, spent, strict=True) if until <= BUDGET}
 
 
 @cache
@@ -177,7 +177,7 @@ def try_fast(folder: str, copy: Copy, part: Iterable[tuple[Mutant, list[str]]]) 
     """Try mutants in forks of a process that has collected all tests; those that survive are left."""
 
     def work(session: Exchanging, mutant: Mutant, folders: list[str]) -> None:
-        tests = calling(mutant, folder, BUDGET)
+        tests = calling(mutant, folder)
         if tests and (killer := copy.killer(mutant, tests, lambda: session.run_with(mutant, tests))):
             Book().add(mutant, folders, killer)
 
@@ -187,7 +187,7 @@ def try_fast(folder: str, copy: Copy, part: Iterable[tuple[Mutant, list[str]]]) 
 def try_slowly(folder: str, copy: Copy, part: Iterable[tuple[Mutant, list[str]]]) -> None:
     """Try mutants in processes that import everything anew."""
     for mutant, folders in part:
-        tests = calling(mutant, folder, BUDGET)
+        tests = calling(mutant, folder)
         files, plugin = list(dict.fromkeys(t.partition("::")[0] for t in tests)), Chosen(tests, copy.failed)
         killer = copy.killer(mutant, tests, lambda: copy.pytest(files, plugin)) if tests else None  # noqa: B023
         Book().add(mutant, folders, killer)

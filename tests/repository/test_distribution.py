@@ -2,6 +2,7 @@
 
 import ast
 import re
+import subprocess
 import sys
 import tomllib
 
@@ -101,3 +102,19 @@ def test_the_page_of_the_installation_has_a_row_for_each_extra():
     text = (ROOT / "docs" / "start" / "install.md").read_text("utf-8")
     cells = re.findall(r"^\| (`.*?) \|", text, flags=re.M)
     assert {name for cell in cells for name in re.findall(r"`(\w+)`", cell)} == EXTRAS.keys() - {"all"}
+
+
+def test_the_build_imports_no_package_that_it_does_not_ask_for():
+    """`pip install` builds in an environment that has what hatch_build.py asks for, and nothing else."""
+    build = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["hatch"]["build"]
+    asked = names(build["targets"]["wheel"]["hooks"]["custom"]["dependencies"])
+    others = {package for extra in EXTRAS for package in packages_of(extra)} | names(PROJECT["dependencies"])
+    missing = [{"pillow": "PIL"}.get(package, package.replace("-", "_")) for package in sorted(others - asked)]
+    program = (
+        f"import sys; sys.modules.update(dict.fromkeys({missing}))\n"  # None: importing one fails
+        "from tandemlift.apps.cli.completion import formed_words\n"
+        "from tandemlift.apps.live.page_modules import build_modules\n"
+        "print(len(formed_words()))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert (done.stdout, done.stderr) == ("7\n", "")

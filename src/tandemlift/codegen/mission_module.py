@@ -53,7 +53,7 @@ def module_of(mission: Mission, target: str, functions: Functions = _nothing_mor
     """Compile a mission for a machine; earlier results are taken from the cache.
 
     Args:
-        mission: from `load_mission`, or its name or path. The code is that of `mission.fma = false`.
+        mission: from `load_mission`. The code is that of `mission.fma = false`.
         target: a name in `MACHINES`.
         functions: gives further functions for the module.
 
@@ -117,7 +117,7 @@ def compile_mission(mission: MissionLike, target: str, folder: Path | str, *, si
     """Compile a mission for another machine: its numbers, its loop over steps, its pilot.
 
     Args:
-        mission: from `load_mission`. The code is that of `mission.fma = false`.
+        mission: from `load_mission`, or its name or path. The code is that of `mission.fma = false`.
         target: a name in `TARGETS`.
         folder: where the files go; made if it does not exist.
         single: whether C computes in single precision.

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 FIGURES = "figures"  # folder of the figures among results
 WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set accepts without quotes
-FILES = ("mission.toml", "flight.npz", "metrics.json", "metrics.csv", "metrics.tex", "findings.json", "report.html")
+FILES = ("mission.toml", FLIGHT_FILE, "metrics.json", "metrics.csv", "metrics.tex", "findings.json", "report.html")
 FAILED = 3  # exit code of a flight that crashed, diverged or did not lift; with --strict also of one with findings
 
 engine_option = click.option(

@@ -10,6 +10,7 @@ import tandemlift as tl
 def test_time_stands_still_while_it_is_paused(page, live):
     page.keyboard.press("p")
     live.wait_status(lambda status: status["paused"], "a pause")
+    page.get_by_role("button", name="Continue").wait_for()  # P does what the button says
     then = live.wait_frames(2)["time"]
     assert live.wait_frames(20)["time"] == then
     page.keyboard.press("p")
