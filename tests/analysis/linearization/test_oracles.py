@@ -24,8 +24,6 @@ POINTS: dict[str, tuple[str, dict[str, Any], float]] = {
 }
 
 
-
-
 @cache
 def at_point(which):
     name, changes, at = POINTS[which]
