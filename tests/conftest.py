@@ -18,6 +18,7 @@ if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # of a job in the backgro
     signal.signal(signal.SIGINT, lambda *_: None)
 os.environ.setdefault("TANDEMLIFT_OPTIMISE", "0")  # hundreds of variants fly once each: what is tested is asked for
 LIBC = ctypes.CDLL(None) if os.name == "posix" else None
+MANY_VARIANTS = 10  # of compiled flights that a module keeps in memory
 SLOW = hypothesis.HealthCheck.too_slow
 hypothesis.settings.register_profile("tandemlift", deadline=None, suppress_health_check=[SLOW], derandomize=True)
 hypothesis.settings.load_profile("tandemlift")
@@ -52,10 +53,8 @@ def _controllers_of_a_module():
     yield from forgetting_controllers()
 
 
-@pytest.fixture(autouse=True, scope="module")
-def _memory_of_a_module():
-    """Free what a module compiled: of hundreds of variants, each takes megabytes."""
-    yield
+def free_compiled_code():
+    """Free what tests compiled: of hundreds of variants, each takes megabytes."""
     LOOP_CODE.clear()
     if "jax" in sys.modules:
         sys.modules["jax"].clear_caches()
@@ -64,9 +63,17 @@ def _memory_of_a_module():
         LIBC.malloc_trim(0)
 
 
+@pytest.fixture(autouse=True, scope="module")
+def _memory_of_a_module():
+    yield
+    free_compiled_code()
+
+
 @pytest.fixture(autouse=True)
 def _controllers_of_a_test():
     yield from forgetting_controllers()
+    if len(LOOP_CODE) > MANY_VARIANTS:
+        free_compiled_code()
 
 
 @pytest.fixture(scope="session")

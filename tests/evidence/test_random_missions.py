@@ -31,7 +31,7 @@ from tandemlift.missions import tables_of
 from tandemlift.parts.contact.corridor import CorridorTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
-FAMILIES = range(10)  # five missions each
+FAMILIES = range(3)  # five missions each; `make random-missions` flies a thousand
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +41,7 @@ def pushed():
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-def test_fifty_missions_at_random_end_as_the_judge_says(family):
+def test_missions_at_random_end_as_the_judge_says(family):
     rows = [judged(drawn) for drawn in random_family(16, family, 5)]
     assert len(rows) == 5
     wrong = [f"{r.family}/{r.member} {r.base}: {r.verdict} {r.changes}" for r in rows if not r.confirmed]
@@ -49,7 +49,7 @@ def test_fifty_missions_at_random_end_as_the_judge_says(family):
 
 
 def test_where_nobody_pushes_no_mission_at_random_moves_a_metre():
-    rows = [judged(drawn) for family in (UNPUSHED, UNPUSHED + 1) for drawn in random_family(16, family, 6)]
+    rows = [judged(drawn) for drawn in random_family(16, UNPUSHED, 4)]
     assert [f"{r.family}/{r.member} {r.base}: {r.verdict} {r.changes}" for r in rows if not r.confirmed] == []
 
 

@@ -1,4 +1,4 @@
-"""The derivative of a step of our graph against JAX and CasADi, which differentiate the same laws in plain Python."""
+"""The derivative of a step of our graph against CasADi, which differentiates the same laws in plain Python."""
 
 from __future__ import annotations
 
@@ -22,9 +22,6 @@ POINTS: dict[str, tuple[str, dict[str, Any], float]] = {
         3.9,
     ),
 }
-
-
-SMALL = [name for name, (mission, _, _) in POINTS.items() if mission not in ("iris", "zigzag")]  # JAX needs minutes
 
 
 @cache
@@ -61,15 +58,6 @@ def test_the_values_are_those_of_plain_python(point):
     found, expected = d.steps[0].nodes.values_of(nodes), np.array(step([float(v) for v in step.x0]))
     rows = shared_rows(of, len(found))
     assert found[rows] == pytest.approx(expected[rows], rel=1e-9, abs=1e-9)
-
-
-@pytest.mark.parametrize("which", SMALL)
-def test_the_jacobian_is_that_by_jax(which, jax):
-    of, step, found = at_point(which)
-    J = jax.jacfwd(lambda x: jax.numpy.stack([jax.numpy.asarray(y, dtype=float) for y in step(list(x))]))(
-        jax.numpy.asarray(step.x0)
-    )
-    check_agreement(of, found, np.asarray(J))
 
 
 def test_the_jacobian_is_that_by_casadi(point, casadi):

@@ -104,7 +104,7 @@ def same(a, b):
 
 
 # Each compiles two loops for seconds: these have, together, every part that is mapped over quadrotors.
-@pytest.mark.parametrize(("mission", "count"), [("iris", 5), ("iris", 8), ("paper", 6), ("gusts", 6), ("zigzag", 5)])
+@pytest.mark.parametrize(("mission", "count"), [("iris", 8), ("paper", 6), ("gusts", 6), ("zigzag", 5)])
 def test_many_quadrotors_fly_alike_in_loops_and_written_out(mission, count, monkeypatch, tmp_path):
     missions = fleet(mission, count, **{"mission.duration": 6.0})
     together, alone = tl.fly_many(missions), [tl.fly(missions[i]) for i in (0, 7)]
@@ -122,7 +122,7 @@ def test_many_quadrotors_fly_alike_in_loops_and_written_out(mission, count, monk
 
 
 def test_sixty_four_quadrotors_fly_alone_and_in_a_block():
-    missions = fleet("iris", 64, **{"mission.duration": 0.3})
+    missions = fleet("paper", 64, **{"mission.duration": 0.3})
     together = tl.fly_many(missions)
     assert same(tl.fly(missions[3]), together[3])
     assert together[3]["rotor_thrusts"].shape[1] == 256
