@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.apps.cli.completion import FLIGHTS, MISSIONS
-from tandemlift.apps.cli.console import echo, exit_now
-from tandemlift.apps.cli.flying import engine_option, flight_file, html_path, load, saved_flight, set_option
+from tandemlift.apps.cli.console import echo, exit_now, progress_bar
+from tandemlift.apps.cli.flying import FAILED, engine_option, flight_file, html_path, load, saved_flight, set_option
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.files import write_file
 
@@ -192,3 +192,40 @@ def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:
     if one_file is not None:
         write_file(one_file, pages.offline_html(flights, files))
         echo(f"{one_file}: {one_file.stat().st_size / 1e6:.1f} MB; open it in a browser")
+
+
+@click.command()
+@click.argument("folder", type=click.Path(path_type=Path))
+@click.option(
+    "--mission", default=DEFAULT, show_default=True, shell_complete=MISSIONS, help="The mission that all were to fly."
+)
+@click.option(
+    "--free", "free", metavar="KEY", multiple=True, help="A key, or a table of keys, that participants may change."
+)
+@set_option
+def score(folder: Path, mission: str, free: tuple[str, ...], settings: tuple[str, ...]) -> None:
+    """Rank flights through a corridor by hand: each is flown again from its recording, and scored.
+
+    FOLDER holds the flights that participants saved in the page of `tandemlift live` or `tandemlift page`, a folder or
+    a .zip each. The score is a time, and the lowest wins: the time from the first push to the end of the corridor, 5 s
+    for each touch of a wall, 1 s for 5 N s of effort, and the logarithm of the dimensionless jerk. A flight of another
+    mission, or with a score that its recording does not fly, is refused with its reason.
+
+    \b
+    Examples:
+      tandemlift score handed-in
+      tandemlift score handed-in --mission zigzag --free admittance
+
+    \b
+    Exit code:
+      0   all were ranked
+      2   bad input: one message, nothing is flown
+      3   some were refused
+    """
+    from tandemlift.apps.live.session.challenge import ranked
+
+    with progress_bar("Flying", "flights", shown=sys.stderr.isatty()) as progress:
+        table, refused = ranked(folder, load(mission, settings), free, progress)
+    for line in table:
+        echo(line)
+    sys.exit(FAILED if refused else 0)

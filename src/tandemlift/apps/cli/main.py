@@ -13,7 +13,7 @@ from tandemlift.apps.cli.console import compile_notices, exit_now, handle_interr
 from tandemlift.apps.cli.export import compile, export, render
 from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, schema, template
 from tandemlift.apps.cli.linearize import check, linearize
-from tandemlift.apps.cli.live import live, page, replay
+from tandemlift.apps.cli.live import live, page, replay, score
 from tandemlift.apps.cli.report import paper, report
 from tandemlift.apps.cli.ros import gazebo, ros
 from tandemlift.apps.cli.run import run
@@ -61,7 +61,7 @@ def cli() -> None:
 
 
 for command in (
-    *(run, compare, render, live, page, replay, gazebo, ros, study, tune, linearize, check, feel),
+    *(run, compare, render, live, page, replay, score, gazebo, ros, study, tune, linearize, check, feel),
     *(export, compile, report, paper),
     *(missions, template, explain, schema, completion, controllers, engines),
 ):

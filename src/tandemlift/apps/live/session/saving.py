@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
+from tandemlift.apps.live.session.challenge import write_score
 from tandemlift.core.errors import InputError
 from tandemlift.simulation.recorded_flight import FlightSnapshot, save_flight
 
@@ -61,7 +62,7 @@ def main(folder: str, spool: str) -> None:
         os.nice(NICENESS)
     flown, shape, engine = pickle.loads((Path(spool) / REST).read_bytes())
     flown.log = np.fromfile(Path(spool) / LOG).reshape(shape)
-    save_flight(Path(folder), flown, engine)
+    write_score(save_flight(Path(folder), flown, engine), Path(folder))
 
 
 if __name__ == "__main__":
