@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import re
 import traceback
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Literal, NamedTuple
 
 from tandemlift.analysis.studies.comparison_scores import (
+    Score,
     ScoreTable,
     controller_tables,
     engine_table,
@@ -27,6 +28,8 @@ from tandemlift.missions import Mission, load_mission
 from tandemlift.missions.loading import MissionTemplate
 from tandemlift.parts.controllers import CONTROLLERS, Controller, controller, error_text, file_of
 from tandemlift.simulation.many import fly_each
+
+WIDTHS = {"controllers": 9, "engines": 18}  # at least, of a column of text
 
 
 class Entry(NamedTuple):
@@ -99,6 +102,29 @@ class MissionComparison:
         flown = iter(flights)
         return replace(self, entries=[e._replace(flight=next(flown)) if e.mission else e for e in self.entries])
 
+    def lines(self) -> Iterator[str]:
+        """The tables as text, one for each part of the mission; the first also has what failed or was refused."""
+        first = next(iter(self.flights))
+        for place, table in enumerate(self.tables):
+            words = table.part.words
+            if not table.columns:
+                yield f"  {words.capitalize()} every position error is below 1 µm."
+                continue
+            what = f"largest difference from {first}" if self.of == "engines" else f"position errors {words}"
+            yield f"{self.name}: {what}"
+            columns = [c for c in table.columns if c.printed and any(c.name in row for row in table.rows.values())]
+            sizes = [max(WIDTHS[self.of], len(c.printed)) for c in columns]
+            entries = [entry for entry in self.entries if entry.flight or not place]
+            width = max(len(entry.name) for entry in entries) + 2
+            yield "  " + " " * width + "  ".join(c.printed.rjust(n) for c, n in zip(columns, sizes, strict=True))
+            for name, _, _, refusal, flight in entries:
+                cells = [_cell(column, table.rows[name]) for column in columns] if flight else []
+                row = "  ".join(cell.rjust(n) for cell, n in zip(cells, sizes, strict=False))
+                yield f"  {name.ljust(width)}{row}".rstrip()
+                note = flight.failure if flight else f"not flown: {refusal}"
+                if note and not place:
+                    yield f"  {'':{width}}{note}"
+
     def as_json(self) -> dict[str, Any]:
         """The comparison as JSON, an object for each entry; SI units.
 
@@ -110,6 +136,11 @@ class MissionComparison:
             return {"mission": self.name, "engines": [_engine_json(*one, first) for one in self.flights.items()]}
         rows = [_controller_json(entry, *self.tables) for entry in self.entries]
         return {"mission": self.name, "engine": self.entries[0].engine, "controllers": rows}
+
+
+def _cell(column: Score, scores: Mapping[str, Any]) -> str:
+    value = column.value(scores)
+    return "" if value is None else f"{column.scale * value:{column.form}}"
 
 
 def _controller_json(entry: Entry, counts: ScoreTable, *others: ScoreTable) -> dict[str, Any]:

@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from tandemlift.apps.cli.completion import CONTROLLERS, MISSIONS, names, separated
 from tandemlift.apps.cli.console import echo, progress_bar
 from tandemlift.apps.cli.flying import (
-    FAILED,
     FIGURES,
     chosen_controller,
     engine_option,
-    exit_if_found,
+    exit_if_amiss,
     kept_style_option,
     load,
     parse_setting,
-    print_findings,
     results_folder,
     set_option,
     strict_option,
@@ -29,11 +26,9 @@ from tandemlift.core.errors import InputError
 
 if TYPE_CHECKING:
     from tandemlift.analysis.studies.comparison import MissionComparison
-    from tandemlift.analysis.studies.comparison_scores import Score
 
 STEMS = {"controllers": "compare", "engines": "engines"}  # of the files
 KINDS = ("html", "json", "csv", "tex")
-WIDTHS = {"controllers": 9, "engines": 18}  # at least, of a column of the table
 
 
 @click.command()
@@ -104,16 +99,11 @@ def compare(
     with results_folder(out, Path("out") / entered.name, [f"{stem}.{kind}" for kind in KINDS]) as folder:
         with progress_bar("Flying", "flights", shown=sys.stderr.isatty()) as progress:
             found = entered.fly(progress)
-        _print_tables(found)
+        for line in found.lines():
+            echo(line)
         page = write_comparison_files(found, folder, stem, folder / FIGURES if style is not None else None)
         echo(f"  page: {page}")
-    count = print_findings(found.flights.items())
-    failed = {name: flight.failure for name, flight in found.flights.items() if flight.failure}
-    for name, failure in failed.items():
-        click.echo(f"{name}: {failure}", err=True)
-    if failed:
-        sys.exit(FAILED)
-    exit_if_found(count, strict=strict)
+    exit_if_amiss(found.flights, strict=strict)
 
 
 def _entered(
@@ -147,32 +137,3 @@ def _names(option: str, given: str, example: str) -> list[str]:
     if not names:
         raise InputError(f"{option}: must be a comma-separated list of names, such as {example}")
     return names
-
-
-def _print_tables(found: MissionComparison) -> None:
-    """Print a table for each part of the mission; the first also has flights that failed or were refused."""
-    first = next(iter(found.flights))
-    for place, table in enumerate(found.tables):
-        words = table.part.words
-        if not table.columns:
-            echo(f"  {words.capitalize()} every position error is below 1 µm.")
-            continue
-        what = f"largest difference from {first}" if found.of == "engines" else f"position errors {words}"
-        echo(f"{found.name}: {what}")
-        columns = [c for c in table.columns if c.printed and any(c.name in scores for scores in table.rows.values())]
-        sizes = [max(WIDTHS[found.of], len(c.printed)) for c in columns]
-        entries = [entry for entry in found.entries if entry.flight or not place]
-        width = max(len(entry.name) for entry in entries) + 2
-        echo("  " + " " * width + "  ".join(c.printed.rjust(n) for c, n in zip(columns, sizes, strict=True)))
-        for name, _, _, refusal, flight in entries:
-            cells = [_cell(column, table.rows[name]) for column in columns] if flight else []
-            row = "  ".join(cell.rjust(n) for cell, n in zip(cells, sizes, strict=False))
-            echo(f"  {name.ljust(width)}{row}".rstrip())
-            note = flight.failure if flight else f"not flown: {refusal}"
-            if note and not place:
-                echo(f"  {'':{width}}{note}")
-
-
-def _cell(column: Score, scores: Mapping[str, Any]) -> str:
-    value = column.value(scores)
-    return "" if value is None else f"{column.scale * value:{column.form}}"

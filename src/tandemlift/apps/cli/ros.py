@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import signal
 import sys
 import time
 from pathlib import Path
@@ -125,38 +124,23 @@ def _fly_and_save(
     session: Session, middleware: Middleware, rate: float, what: str, save: str | None, *, rviz: bool
 ) -> list[str]:
     """Fly until the flight ends, and save it whatever the reason; return the reason of a failure, if any."""
+    from tandemlift.apps.ros.node import STOPPED, fly_in_ros
+
+    def begun() -> None:
+        echo(f"{what}: topics below /tandemlift, pushes by /tandemlift/push; Ctrl-C ends it")
+        sys.stdout.flush()
+
     try:
-        end = _fly(session, middleware, rate, what, rviz=rviz)
+        end = fly_in_ros(session, middleware, rate, begun, rviz=rviz)
     except BaseException:
         if session.flight.step > 1:
             _save(session, save)
         raise
+    if end == STOPPED:
+        echo(STOPPED)
     _save(session, save)
     ending = session.flight.ending
     return [str(ending or end)] if ending or end == "failed" else []
-
-
-def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rviz: bool) -> str:
-    """Fly until the flight ends; its last phase."""
-    from tandemlift.apps.ros.node import FlightNode
-    from tandemlift.apps.ros.ros1 import start_rviz
-
-    beside = start_rviz() if rviz else None
-    front = FlightNode(session, middleware, rate)
-    for number in (signal.SIGINT, signal.SIGTERM):  # roslaunch may have set them to be ignored
-        signal.signal(number, signal.default_int_handler)
-    try:
-        front.start()
-        echo(f"{what}: topics below /tandemlift, pushes by /tandemlift/push; Ctrl-C ends it")
-        sys.stdout.flush()
-        return front.spin()
-    except KeyboardInterrupt:
-        echo("stopped")
-        return "stopped"
-    finally:
-        front.stop()
-        if beside:
-            beside.terminate()
 
 
 def _shut_down(middleware: Middleware) -> list[str]:
@@ -248,22 +232,13 @@ def _has_display() -> bool:
 
 def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool) -> tuple[Flight, Photographs]:
     """Fly a mission to its end; the flight, and its photographs if requested, each with its title."""
-    from tandemlift.apps.ros.gazebo_cameras import views_from
-    from tandemlift.apps.ros.gazebo_flight import running_gazebo
-    from tandemlift.simulation.fly import fly
+    from tandemlift.apps.ros.gazebo_flight import fly_to_end
 
-    views, step = views_from(fly(mission)) if pictures else [], mission.mission.step
-    with running_gazebo(mission, views, window=window, real_time=real_time) as gazebo:
+    def begun(gazebo: GazeboSession) -> None:
         _print_how_to_push(mission.mission.name, gazebo)
-        with progress_bar("Flying", "steps") as progress:
 
-            def take_photographs(done: int, total: int) -> None:
-                gazebo.take_due_photographs(done * step)
-                if progress:
-                    progress(done, total)
-
-            flight = fly(mission, "gazebo", progress=take_photographs)
-        return flight, [(f"{p.view.title}, {p.view.time:.0f} s", p.jpeg) for p in gazebo.photos]
+    with progress_bar("Flying", "steps") as progress:
+        return fly_to_end(mission, begun, progress, window=window, real_time=real_time, pictures=pictures)
 
 
 def _fly_by_hand(mission: Mission, window: bool) -> tuple[Flight, Photographs]:

@@ -14,13 +14,15 @@ from pathlib import Path
 from typing import NamedTuple
 
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
-from tandemlift.apps.ros.gazebo_cameras import ViewRequest
+from tandemlift.apps.ros.gazebo_cameras import ViewRequest, views_from
 from tandemlift.core.errors import InputError
+from tandemlift.core.types import Progress
 from tandemlift.engines.gazebo import CHECKS, PORT, REAL_TIME, world_from
 from tandemlift.engines.gazebo_server import GazeboServer, free_port, root, shell_command, with_gazebo_environment
 from tandemlift.engines.models.sdf_cameras import PICTURES, add_cameras
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission
+from tandemlift.simulation.fly import fly
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 EVERY = 0.5  # s, from one picture of a camera to the next
@@ -149,6 +151,38 @@ def _window(master: str) -> Iterator[None]:
         finally:
             client.kill()
             client.wait()
+
+
+def fly_to_end(
+    mission: Mission,
+    begun: Callable[[GazeboSession], None],
+    progress: Progress | None = None,
+    *,
+    window: bool = False,
+    real_time: bool = False,
+    pictures: bool = False,
+) -> tuple[Flight, list[tuple[str, bytes]]]:
+    """Fly a mission to its end; the flight, and the title and JPEG of each photograph.
+
+    Args:
+        mission: the mission.
+        begun: called before the first step.
+        progress: called with (steps flown, steps in all).
+        window: whether to open Gazebo's window.
+        real_time: whether to fly in real time.
+        pictures: whether to take photographs, where the flight of the compiled engine says.
+    """
+    views, step = views_from(fly(mission)) if pictures else [], mission.mission.step
+    with running_gazebo(mission, views, window=window, real_time=real_time) as gazebo:
+        begun(gazebo)
+
+        def take_photographs(done: int, total: int) -> None:
+            gazebo.take_due_photographs(done * step)
+            if progress:
+                progress(done, total)
+
+        flight = fly(mission, "gazebo", progress=take_photographs)
+        return flight, [(f"{p.view.title}, {p.view.time:.0f} s", p.jpeg) for p in gazebo.photos]
 
 
 def fly_by_hand(mission: Mission, begun: Callable[[GazeboSession], None], *, window: bool) -> Flight:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import signal
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 
 from tandemlift.apps.export.recipes import WRENCH
@@ -157,6 +158,37 @@ class FlightNode:
 
     def _publish_mission(self) -> None:
         self._once.publish_mission(tables_of(self._flight.now))
+
+
+STOPPED = "stopped"
+
+
+def fly_in_ros(session: Session, middleware: Middleware, rate: float, begun: Callable[[], None], *, rviz: bool) -> str:
+    """Fly until the flight ends; its last phase, or `STOPPED` after SIGINT or SIGTERM.
+
+    Args:
+        session: whose flight is prepared.
+        middleware: connected to a ROS.
+        rate: at which samples are published [Hz].
+        begun: called once pushes are heard.
+        rviz: whether to start RViz, too.
+    """
+    from tandemlift.apps.ros.ros1 import start_rviz
+
+    beside = start_rviz() if rviz else None
+    node = FlightNode(session, middleware, rate)
+    for number in (signal.SIGINT, signal.SIGTERM):  # roslaunch may have set them to be ignored
+        signal.signal(number, signal.default_int_handler)
+    try:
+        node.start()
+        begun()
+        return node.spin()
+    except KeyboardInterrupt:
+        return STOPPED
+    finally:
+        node.stop()
+        if beside:
+            beside.terminate()
 
 
 # ---- Which ROS it speaks
