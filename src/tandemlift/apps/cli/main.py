@@ -14,7 +14,7 @@ from tandemlift.apps.cli.export import compile, export, render
 from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, schema, template
 from tandemlift.apps.cli.linearize import check, linearize
 from tandemlift.apps.cli.live import live, page, replay
-from tandemlift.apps.cli.report import paper, report
+from tandemlift.apps.cli.report import paper, plot, report
 from tandemlift.apps.cli.ros import gazebo, ros
 from tandemlift.apps.cli.run import run
 from tandemlift.apps.cli.study import study
@@ -62,7 +62,7 @@ def cli() -> None:
 
 for command in (
     *(run, compare, render, live, page, replay, gazebo, ros, study, tune, linearize, check, feel),
-    *(export, compile, report, paper),
+    *(export, compile, report, plot, paper),
     *(missions, template, explain, schema, completion, controllers, engines),
 ):
     cli.add_command(command)

@@ -54,6 +54,10 @@ COMPONENTS: tuple[dict[str, Any], ...] = (  # dashes distinguish them in grey pr
 )
 BEHIND_TEXT: dict[str, Any] = {"facecolor": PAPER, "alpha": 0.75, "lw": 0.0, "pad": 0.8}
 
+DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
+COLOURS = (BLUE, VERMILLION, GREEN, INK, ORANGE, PURPLE, SKY, GREY)  # of flights in one figure
+WIDTHS = (2.0, 1.2, 0.8)  # pt: the first flights are drawn wider, so that lines that coincide are all seen
+
 SETTINGS: dict[str, Any] = {
     "axes.linewidth": 0.6,
     "axes.spines.top": False,
@@ -98,6 +102,12 @@ def settings(style: FigureStyle) -> dict[str, Any]:
         "xtick.labelsize": size - 1.0,
         "ytick.labelsize": size - 1.0,
     }
+
+
+def look(place: int, **own: Any) -> dict[str, Any]:
+    """The look of the flight number `place` among several: eight colours, each with a dash, then the next dash."""
+    dash, width = DASHES[(place + place // len(COLOURS)) % len(DASHES)], WIDTHS[min(place, len(WIDTHS) - 1)]
+    return {"color": COLOURS[place % len(COLOURS)], "ls": dash, "lw": width, **own}
 
 
 class StyledFigure(Figure):
