@@ -50,7 +50,7 @@ copybutton_prompt_text = r"\$ |>>> |!"  # a shell knows no `!` before a command
 copybutton_prompt_is_regexp = True
 
 # Tutorials run when the site is built, unless it is built with -t quick; a cell that fails ends the build.
-nb_execution_mode = "off" if tags.has("quick") else "force"  # noqa: F821: Sphinx defines it
+nb_execution_mode = "off" if tags.has("quick") else "force"  # noqa: F821 (Sphinx defines `tags`)
 nb_execution_raise_on_error = True
 nb_execution_timeout = 300  # s
 nb_execution_in_temp = True

@@ -47,10 +47,10 @@ def linearize(
     settings: tuple[str, ...],
     controller: str | None,
 ) -> None:
-    """Fly MISSION to a time, and print the linear model of its step there: modes, kinks, assumptions.
+    """Print the linear model of MISSION at a time of its flight.
 
-    The model is x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k), of deviations from the flight. Its derivatives are
-    exact. The sample time is the common period of all sensors.
+    Modes, kinks and assumptions are printed. The model is x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k), of
+    deviations from the flight. Its derivatives are exact. The sample time is the common period of all sensors.
 
     \b
     Examples:
@@ -104,10 +104,11 @@ def _draw(connected: LinearModel, path: Path) -> None:
 @click.option("--strict", is_flag=True, help="Exit with code 3 if a check fails.")
 @click.option("--json", "file", metavar="FILE", help="Write the results to FILE as well.")
 def check(mission: str, settings: tuple[str, ...], controller: str | None, strict: bool, file: str | None) -> None:
-    """Check MISSION before its flight: each number with its limit and margin, and the margins of its control loops.
+    """Check MISSION before its flight: limits and stability margins.
 
-    Loading the mission warns of checks that fail by a closed form. The loops are those of a calm hover, by a
-    linear model: phase and gain margins of each axis, and the delay and the lag of the rotors at which they oscillate.
+    Each number is printed with its limit and margin. Loading the mission warns of checks that fail by a closed form.
+    The loops are those of a calm hover, by a linear model: phase and gain margins of each axis, and the delay and the
+    lag of the rotors at which they oscillate.
 
     \b
     Examples:

@@ -47,7 +47,7 @@ no_browser_option = click.option("--no-browser", is_flag=True, help="Only print 
 def live(
     mission: str, engine: str, port: int, host: str, out: str, no_browser: bool, settings: tuple[str, ...]
 ) -> None:
-    """Fly MISSION in real time, and push it by hand in a page of the browser.
+    """Fly MISSION in real time, and push it by hand in the browser.
 
     MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file. The default is zigzag, the
     paper's corridor. The mission's own pushes and person are omitted: only you push. The page is served on this
@@ -118,7 +118,7 @@ def serve_until_interrupt(server: PageServer, what: str, *, browser: bool) -> No
 @port_option
 @no_browser_option
 def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
-    """Play a saved flight in a page of the browser, with a slider for the time.
+    """Play a saved flight in the browser, with a slider for time.
 
     FLIGHT is flight.npz or its folder. The page is served on this machine only. Ctrl-C ends it.
 
@@ -156,10 +156,11 @@ def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
 @click.option("--out", metavar="DIR", help="Write the page as files for a web server.")
 @click.option("--html", metavar="FILE", help="Write the page as one file, which works from disk.")
 def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:
-    """Write a page that flies by itself: in the browser, without a server, pushed by hand.
+    """Write a page that flies in the browser, without a server.
 
-    MISSIONS are those of its menu, the first of which it begins with: hover, zigzag, iris, doorway, rotor-loss, or some
-    of them. The default is all. A flight saved in the page can be flown again by `tandemlift run`.
+    The page flies by itself, and is pushed by hand. MISSIONS are those of its menu, the first of which it begins with:
+    hover, zigzag, iris, doorway, rotor-loss, or some of them. The default is all. A flight saved in the page can be
+    flown again by `tandemlift run`.
 
     \b
     Examples:

@@ -50,7 +50,7 @@ BAGS = (".bag", ".mcap")
     help="Show this metric of a study, such as position_rmse_m. Can be repeated.  [default: as suits its missions]",
 )
 def report(flight: str, out: str | None, no_figures: bool, style: str | None, metrics: tuple[str, ...]) -> None:
-    """Draw the figures and write the report of a saved flight, of a bag or of a study.
+    """Write figures and report of a saved flight, a bag or a study.
 
     FLIGHT is flight.npz or its folder, or a bag of ROS 1 (.bag) or ROS 2 (.mcap, or its folder) with the topics of
     docs/reference/export.md: an exported one, or one recorded during a flight by `rosbag record` or `ros2 bag record`.
@@ -161,7 +161,7 @@ OUT = "out/paper.pdf"
 @kept_style_option
 @click.option("--no-pdf", is_flag=True, help="Write figures, tables and source only.")
 def paper(out: str, style: str | None, no_pdf: bool) -> None:
-    """Put the figures and tables of the paper beside ours, in one PDF.
+    """Put the paper's figures and tables beside ours, in one PDF.
 
     The missions `paper` and `zigzag` are flown, and `paper` once more for each setting that the paper leaves open, with
     another choice. The PDF needs the package typst: pip install 'tandemlift[paper]'. Without it, the rest is written.

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from tandemlift.core.errors import InputError, suggestion, unknown
 from tandemlift.core.types import Progress
-from tandemlift.flight.channels import DERIVED
+from tandemlift.flight.channels import CHANNELS
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure_style import figure_style
 
@@ -60,7 +60,7 @@ def figures_for(flight: Flight) -> dict[str, FlightFigure]:
 
 
 def plot(flights: Flight | Sequence[Flight] | Mapping[str, Flight], name: str, *, style: str | None = None) -> Figure:
-    """Draw a figure of a flight, or a figure or channel of several flights over each other, a line for each.
+    """Draw a figure of a flight, or a figure or channel of several over each other; returns matplotlib's figure.
 
     Args:
         flights: one or several; the legend has their missions' names, or the names of a mapping.
@@ -69,22 +69,18 @@ def plot(flights: Flight | Sequence[Flight] | Mapping[str, Flight], name: str, *
 
     Raises:
         InputError: no flight has such a figure or channel, it can only be drawn of one, or there is no such style.
-
-    Returns:
-        The figure, of matplotlib.
     """
     from tandemlift.pictures.figures.drawing.overlay import over_time
 
     given = _named([flights] if isinstance(flights, Flight) else flights)
     if not given:
         raise InputError("no flight to draw; give one at least")
-    channels = dict.fromkeys(channel for flight in given.values() for channel in (*flight, *DERIVED))
     drawable = {name for flight in given.values() for name in figures_for(flight)}
     with figure_style(style):
-        if name in channels:
+        if any(name in flight for flight in given.values()):
             return over_time(name)(given)
         if name not in drawable:
-            also = f" Channels can be drawn, too, such as position.{suggestion(name, channels)}"
+            also = f" Channels can be drawn, too, such as position.{suggestion(name, CHANNELS)}"
             raise InputError(f"{unknown('figure', name, [n for n in figures() if n in drawable])}{also}")
         figure = figures()[name]
         if len(given) == 1:
@@ -99,8 +95,8 @@ def _named(flights: Sequence[Flight] | Mapping[str, Flight]) -> dict[str, Flight
     if isinstance(flights, Mapping):
         return dict(flights)
     names = [flight.name for flight in flights]
-    shown = [f"{name} {names[:i].count(name) + 1}" if names.count(name) > 1 else name for i, name in enumerate(names)]
-    return dict(zip(shown, flights, strict=True))
+    numbers = [f" {names[:i].count(name) + 1}" if names.count(name) > 1 else "" for i, name in enumerate(names)]
+    return {flight.name + number: flight for flight, number in zip(flights, numbers, strict=True)}
 
 
 def save_figure(figure: Figure, path: Path) -> Path:
@@ -119,7 +115,7 @@ def save_figures(
     Args:
         flight: a flight, also one that diverged or has few samples.
         folder: where to; made if it does not exist.
-        progress: called after each figure with (figures written, figures in all).
+        progress: called with (figures written, figures in all), first before any is drawn.
         style: `ieee`, `elsevier`, `slides` or `dark`; by default that of `figure_style`, which is IEEE's.
 
     Raises:
@@ -132,6 +128,8 @@ def save_figures(
     written, drawn = [], figures_for(flight)
     with figure_style(style):
         folder.mkdir(parents=True, exist_ok=True)
+        if progress:
+            progress(0, len(drawn))
         for done, (name, figure) in enumerate(drawn.items(), 1):
             page = figure.draw(flight)
             written += [save_figure(page, folder / f"{name}.{kind}") for kind in ("png", "pdf")]

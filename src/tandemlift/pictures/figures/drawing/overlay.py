@@ -55,24 +55,16 @@ class Panel(NamedTuple):
     series: list[tuple[int, Flight, Array]]
 
 
-def _values(flight: Flight, channel: str) -> Array | None:
-    """The values (T, n) of a channel, angles in degrees; None if the flight does not have it."""
-    try:
-        values = np.atleast_2d(flight[channel].T).T
-    except KeyError:
-        return None
-    return np.degrees(values) if flight.info(channel).unit.startswith("rad") else values
-
-
 def _rows(flights: Flights, channel: str) -> list[list[Panel]]:
     """The panels of a channel in rows: three of a vector, four of the rotors of a quadrotor; eight rows at most."""
-    found = [(place, flight, _values(flight, channel)) for place, flight in enumerate(flights.values())]
-    series = [(place, flight, values) for place, flight, values in found if values is not None]
-    if not series:
+    having = [(place, flight) for place, flight in enumerate(flights.values()) if channel in flight]
+    if not having:
         return []
-    widest = max((flight for _, flight, _ in series), key=lambda flight: flight[channel].shape[1:])
+    widest = max((flight for _, flight in having), key=lambda flight: flight[channel].shape[1:])
     info, shape = widest.info(channel), widest[channel].shape[1:]
     unit = info.unit.replace("rad", "°").replace("^2", "²") if info.unit != "1" else ""
+    scale = np.degrees(1.0) if "°" in unit else 1.0
+    series = [(place, flight, scale * np.atleast_2d(flight[channel].T).T) for place, flight in having]
     panels = [
         Panel(name.replace("_", " "), unit, [(k, f, v[:, i]) for k, f, v in series if i < v.shape[1]])
         for i, name in enumerate(column_names(channel, info, shape))

@@ -17,6 +17,7 @@ import numpy as np
 from cycler import cycler
 from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import LayoutEngine, PlaceHolderLayoutEngine
 
 from tandemlift.core.files import atomic_write
 from tandemlift.flight.record import Flight
@@ -120,6 +121,11 @@ class StyledFigure(Figure):
     def __init__(self, width: float, height: float, layout: Literal["constrained"] | None = "constrained") -> None:
         self.style = current_style()
         super().__init__(figsize=self.style.size(width, height), layout=layout)
+
+    def get_layout_engine(self) -> LayoutEngine | None:
+        """None once it is laid out: with another answer, saving would draw it once more for its layout."""
+        engine = super().get_layout_engine()
+        return None if isinstance(engine, PlaceHolderLayoutEngine) else engine
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw it, its colours from the style's palette."""
