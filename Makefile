@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page docs test check quick lint types imports tests examples test-pythons test-distributions test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
+.PHONY: run live page docs docs-quick test check quick lint types imports tests examples test-pythons test-distributions test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -32,6 +32,10 @@ web/node_modules/.package-lock.json: web/package-lock.json
 docs: .venv/docs  ## the site, into out/site: runs the tutorials, draws the gallery, checks every link within it
 	$(BIN)/sphinx-build -b html -d out/doctrees -W --keep-going -j auto docs out/site
 	@echo 'The site: out/site/index.html'
+
+docs-quick: .venv/docs  ## the site without running tutorials, films and gallery, into out/site-quick
+	$(BIN)/sphinx-build -b html -t quick -d out/doctrees-quick -W --keep-going -j auto docs out/site-quick
+	@echo 'The site: out/site-quick/index.html'
 
 lint: .venv/dev  ## format and lint
 	$(BIN)/ruff format --check .

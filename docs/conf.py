@@ -45,11 +45,12 @@ html_theme_options = {"navigation_with_keys": True}
 myst_enable_extensions = ["attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 4  # as GitHub makes them, so that one link works on both
 myst_links_external_new_tab = False
-copybutton_prompt_text = r"\$ |>>> "
+copybutton_selector = "div:not(.output, .highlight-text) > div.highlight pre"  # what one types, not what is printed
+copybutton_prompt_text = r"\$ |>>> |!"  # a shell knows no `!` before a command
 copybutton_prompt_is_regexp = True
 
-# Tutorials run when the site is built; a cell that fails ends the build.
-nb_execution_mode = "force"
+# Tutorials run when the site is built, unless it is built with -t quick; a cell that fails ends the build.
+nb_execution_mode = "off" if tags.has("quick") else "force"  # noqa: F821 (Sphinx defines `tags`)
 nb_execution_raise_on_error = True
 nb_execution_timeout = 300  # s
 nb_execution_in_temp = True

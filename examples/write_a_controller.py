@@ -1,10 +1,13 @@
 """Fly my_controller.py, check it against a closed form, and compare it in a study."""
 
+from pathlib import Path
+
 import matplotlib.pyplot as plt
 
 import tandemlift as tl
 
-my_pd = tl.load_controller("my_controller.py")
+mine = str(Path(__file__).with_name("my_controller.py"))
+my_pd = tl.load_controller(mine)
 flight = tl.fly(tl.load_mission("one-push", controller=my_pd))
 assert 0.039 < abs(flight["position_error"]).max() < 0.040  # m
 
@@ -14,18 +17,16 @@ predicted = 0.05 * 9.81 / heavier.controller.bandwidth[2] ** 2
 assert abs(sag - predicted) < 1e-4
 assert 0.122 < sag < 0.123  # m
 
-study = tl.study(
-    {
-        "study": {
-            "name": "masses",
-            "missions": ["one-push"],
-            "controllers": ["my_controller.py", "nftsmc"],
-            "draws": 16,
-        },
-        "draw": {"plant.mass_scale": {"distribution": "uniform", "low": 0.9, "high": 1.1}},
-    }
-)
-table = study.to_pandas()
+task = {
+    "study": {
+        "name": "masses",
+        "missions": ["one-push"],
+        "controllers": [mine, "nftsmc"],
+        "draws": 16,
+    },
+    "draw": {"plant.mass_scale": {"distribution": "uniform", "low": 0.9, "high": 1.1}},
+}
+table = tl.study(task).to_pandas()
 figure, axes = plt.subplots(figsize=(7, 2.6), layout="constrained")
 for name, rows in table.groupby("controller"):
     error = 1e3 * rows["position_rmse_after_10s_m.2"]

@@ -1,4 +1,4 @@
-"""Writes the page that flies without a server into the site, as fly.html."""
+"""Writes the page that flies without a server into the site, as fly.html; not with -t quick."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ log = logging.getLogger(__name__)
 
 def write_page(app: Any, error: Exception | None) -> None:
     """Write the page when everything else is written."""
-    if error is None and app.builder.format == "html":
+    if error is None and app.builder.format == "html" and not app.tags.has("quick"):
         log.info("compiling the page that flies ...")
         flights = packed_flights(MISSIONS, lambda name: log.info("  %s", name))
         (Path(app.outdir) / "fly.html").write_text(offline_html(flights, page_files()), "utf-8")

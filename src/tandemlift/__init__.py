@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from tandemlift.missions import Mission, load_mission
     from tandemlift.parts.controllers.user_controller import load_controller
     from tandemlift.parts.mechanics.vehicle import Vehicle
+    from tandemlift.pictures.figures.registry import plot
     from tandemlift.pictures.report.study.feel_report import feel
     from tandemlift.simulation.fly import fly, fly_many
     from tandemlift.simulation.pilot_api import Pilot
@@ -50,6 +51,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "load_controller": "parts.controllers.user_controller",
     "load_mission": "missions",
     "load_study": "analysis.studies.table",
+    "plot": "pictures.figures.registry",
     "study": "analysis.studies.study",
     "tune": "analysis.studies.tuning.tune",
 }
@@ -73,6 +75,7 @@ __all__ = [
     "load_controller",
     "load_mission",
     "load_study",
+    "plot",
     "study",
     "tune",
 ]

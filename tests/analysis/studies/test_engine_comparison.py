@@ -87,7 +87,7 @@ def test_a_mission_is_flown_in_each_engine_and_the_page_and_numbers_say_so(run, 
     rows = re.findall(r'<th scope="row">(.*?)</th>(.*?)</tr>', text)
     assert [name for name, _ in rows[:2]] == ["compiled", "mujoco"]
     assert rows[1][1].count("<td>") == 8
-    assert text.count("data:image/png;base64,") == 2
+    assert text.count("data:image/png;base64,") == 3
     assert "http" not in text.replace("http-equiv", "")
 
 

@@ -78,6 +78,16 @@ def test_the_help_of_every_verb_says_what_it_does(run):
         assert len(own.splitlines()) > 4
 
 
+def test_the_help_shows_each_verb_once_in_a_group_and_no_line_is_cut(run):
+    _, out, _ = run("--help")
+    verbs = out.partition("Try first:")[2]
+    listed = [line.split()[0] for line in verbs.splitlines() if line.startswith("  ")]
+    assert sorted(listed) == sorted(cli.commands)
+    assert listed[:2] == ["run", "live"]
+    assert max(map(len, out.splitlines())) <= 80
+    assert "..." not in verbs
+
+
 def test_the_help_of_run_names_what_is_written_and_the_exit_codes(run):
     _, out, _ = run("run", "-h")
     for word in (
@@ -108,7 +118,7 @@ def test_the_version_is_told(run):
             ("rnu", "paper"),
             [
                 "No such command 'rnu'",
-                "run, compare, render, live, page, replay, gazebo, ros, study, tune, linearize, check, feel,",
+                "run, live, missions, template, explain, check, controllers, engines, schema, completion, report,",
                 "Did you mean 'run'?",
             ],
         ),

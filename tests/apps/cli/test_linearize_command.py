@@ -36,8 +36,8 @@ def test_the_body_alone_has_the_rotors_as_inputs():
 @pytest.mark.parametrize(
     ("arguments", "piece"),
     [
-        (["paper", "--out", "m.mat"], "must end with .npz or .json"),
-        (["paper", "--figure", "m.gif"], "must end with .png"),
+        (["paper", "--out", "m.mat"], "must end in .npz or .json"),
+        (["paper", "--figure", "m.gif"], "must end in .png"),
         (["paper", "--at", "1e9"], "mission.duration"),
         (["paper", "--inputs", "hand"], "unknown input"),
     ],

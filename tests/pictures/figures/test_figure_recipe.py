@@ -8,12 +8,14 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
+from tandemlift.pictures.figures.drawing.overlay import over_time
 from tandemlift.pictures.figures.drawing.panels import fit, line, time_axis
 from tandemlift.pictures.figures.drawing.style import ACTUAL, column_figure, journal
 from tandemlift.flight.record import Flight
 
 CAPTION = Caption("Air", "Speed of the air.", "A panel over time of the air’s speed.")
 IN_FLIGHTS = with_any_of("wind_velocity")
+OVERLAY = over_time("wind_velocity")
 
 
 @journal

@@ -60,11 +60,11 @@ def compare(
     style: str | None,
     strict: bool,
 ) -> None:
-    """Fly MISSION with several controllers, or in several engines, print a table and write a page.
+    """Fly MISSION with several controllers, or in several engines.
 
-    The mission's own controller flies with the mission's settings, every other one with its defaults. Keys of
-    `controller` given by --set apply to the mission's own controller only. Wall times are those of one flight each, and
-    depend on the machine's load.
+    A table is printed, and a page written. The mission's own controller flies with the mission's settings, every other
+    one with its defaults. Keys of `controller` given by --set apply to the mission's own controller only. Wall times
+    are those of one flight each, and depend on the machine's load.
 
     \b
     Examples:

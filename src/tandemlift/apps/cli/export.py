@@ -35,14 +35,14 @@ PICTURE_OPTIONS, ANIMATION_OPTIONS = ("--time",), ("--from", "--to", "--fps", "-
     help="For FILE.sdf: connect a pilot by a plugin.",
 )
 def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: str | None) -> None:
-    """Write a flight or a mission for other tools; the ending of FILE selects the format.
+    """Write a flight or a mission for other tools.
 
     \b
     A flight:               .mcap  ROS 2 bag     .bag  ROS 1 bag     .csv  table
     A flight or a mission:  .sdf   Gazebo world  .xml  MuJoCo model
 
-    FLIGHT_OR_MISSION is a saved flight (flight.npz or its folder) or a mission. Bags need the package rosbags
-    (pip install 'tandemlift[export]'), MuJoCo models the package mujoco. docs/reference/export.md describes the files.
+    The ending of FILE selects the format. FLIGHT_OR_MISSION is a saved flight (flight.npz or its folder) or a mission.
+    Bags need rosbags (pip install 'tandemlift[export]'), MuJoCo models mujoco. docs/reference/export.md has the files.
 
     \b
     Examples:
@@ -86,7 +86,7 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
 def compile(
     mission: str, target: str, out: str | None, single: bool, settings: tuple[str, ...], controller: str | None
 ) -> None:
-    """Compile a mission for another machine: pilot, body and loop, with the same bits everywhere.
+    """Compile a mission for another machine.
 
     \b
     wasm32     NAME.wasm, without imports, for browsers and Node.js
@@ -94,8 +94,8 @@ def compile(
     aarch64    NAME.o for 64-bit ARM with Linux
     cortex-m7  NAME.o for microcontrollers with double precision
 
-    The code takes the numbers of a mission file: masses, gains, pushes. NAME.json, the manifest, lists them with unit
-    and bounds, and the channels of a flight. docs/how-to/compile.md shows how to call the code.
+    Pilot, body and loop compute the same bits everywhere. The code takes the numbers of a mission file: masses, gains,
+    pushes. NAME.json, the manifest, lists them, and a flight's channels. docs/how-to/compile.md shows how to call it.
 
     \b
     Examples:

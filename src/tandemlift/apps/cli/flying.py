@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from tandemlift.parts.controllers import Controller
 
 FIGURES = "figures"  # folder of the figures among results
+DRAWINGS = (".png", ".pdf", ".svg")  # endings of a figure on its own
 WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set accepts without quotes
 FILES = ("mission.toml", FLIGHT_FILE, "metrics.json", "metrics.csv", "metrics.tex", "findings.json", "report.html")
 FAILED = 3  # exit code of a flight that crashed, diverged or did not lift; with --strict also of one with findings
@@ -145,15 +146,18 @@ def saved_flight(path: Path) -> Flight:
     return Flight.load(path)
 
 
-def html_path(option: str, name: str) -> Path:
-    """The path of a page that an option names.
+HTML = (".html", ".htm")
+
+
+def output_path(option: str, name: str, endings: Sequence[str]) -> Path:
+    """The path of a file that an option names.
 
     Raises:
-        InputError: no page can be written there.
+        InputError: it has none of the endings, or is a folder.
     """
     path = Path(name)
-    if path.suffix.lower() not in (".html", ".htm"):
-        raise InputError(f"{option} {path}: the name of a page must end in .html")
+    if path.suffix.lower() not in endings:
+        raise InputError(f"{option} {path}: must end in {' or '.join(endings)}")
     if path.is_dir():
         raise InputError(f"{option} {path}: is a folder, not a file")
     return path

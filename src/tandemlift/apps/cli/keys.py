@@ -19,7 +19,7 @@ controller_option = click.option(
 
 @click.command()
 def template() -> None:
-    """Print a commented mission file with every key, its unit and its meaning.
+    """Print a mission file with every key, its unit and meaning.
 
     \b
     Examples:
@@ -36,7 +36,7 @@ def template() -> None:
 @controller_option
 @click.option("--markdown", is_flag=True, help="Print the reference of all keys in Markdown instead.")
 def explain(key: str | None, controller: str | None, markdown: bool) -> None:
-    """Explain a mission KEY: unit, meaning, bounds, default and its source.
+    """Explain a mission KEY: unit, meaning, bounds and default.
 
     KEY is a dotted key or a table. Without KEY, all tables are listed.
 
@@ -79,7 +79,7 @@ def schema(controller: str | None) -> None:
 @click.command()
 @click.argument("shell", type=click.Choice(list(SCRIPTS)))
 def completion(shell: str) -> None:
-    """Print the script that completes commands, options, missions, keys and other names in a SHELL.
+    """Print the script by which a SHELL completes commands and names.
 
     \b
     In the start file of the shell, where `tandemlift` is on the path:
@@ -99,7 +99,7 @@ def _print_table(rows: Mapping[str, str]) -> None:
 @click.command()
 @click.argument("name", required=False, shell_complete=names("mission"))
 def missions(name: str | None) -> None:
-    """List the built-in missions, or print the file of one by its NAME.
+    """List the built-in missions, or print the file of one.
 
     \b
     Examples:

@@ -11,14 +11,13 @@ import click
 
 from tandemlift.apps.cli.completion import MISSIONS
 from tandemlift.apps.cli.console import echo, print_checks
-from tandemlift.apps.cli.flying import FAILED, controller_option, load, set_option, style_option
+from tandemlift.apps.cli.flying import DRAWINGS, FAILED, controller_option, load, output_path, set_option, style_option
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.files import write_file
 
 if TYPE_CHECKING:
     from tandemlift.analysis.linearization.linear_model import LinearModel
 
-FIGURES = (".png", ".pdf", ".svg")
 DRAWN = {"loop": ("push_force", "position"), "body": ("disturbance_force", "position")}
 
 
@@ -48,10 +47,10 @@ def linearize(
     settings: tuple[str, ...],
     controller: str | None,
 ) -> None:
-    """Fly MISSION to a time, and print the linear model of its step there: modes, kinks, assumptions.
+    """Print the linear model of MISSION at a time of its flight.
 
-    The model is x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k), of deviations from the flight. Its derivatives are
-    exact. The sample time is the common period of all sensors.
+    Modes, kinks and assumptions are printed. The model is x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k), of
+    deviations from the flight. Its derivatives are exact. The sample time is the common period of all sensors.
 
     \b
     Examples:
@@ -67,8 +66,9 @@ def linearize(
     from tandemlift.analysis.linearization.linear_model import ENDINGS, model_lines
     from tandemlift.analysis.linearization.linearize import linearize as linearized
 
-    _check_endings("--out", out, ENDINGS)
-    _check_endings("--figure", figure, FIGURES)
+    for option, path, endings in (("--out", out, ENDINGS), ("--figure", figure, DRAWINGS)):
+        if path is not None:
+            output_path(option, path, endings)
     names = [None if given is None else given.split(",") for given in (inputs, outputs)]
     model = linearized(load(mission, settings, controller), at, of=of, inputs=names[0], outputs=names[1])
     connected = model.connected()
@@ -80,11 +80,6 @@ def linearize(
     if figure:
         _draw(connected, Path(figure))
         echo(f"figure: {figure}")
-
-
-def _check_endings(option: str, path: str | None, endings: tuple[str, ...]) -> None:
-    if path is not None and Path(path).suffix not in endings:
-        raise InputError(f"{option} {path}: must end with {' or '.join(endings)}")
 
 
 def _draw(connected: LinearModel, path: Path) -> None:
@@ -109,10 +104,11 @@ def _draw(connected: LinearModel, path: Path) -> None:
 @click.option("--strict", is_flag=True, help="Exit with code 3 if a check fails.")
 @click.option("--json", "file", metavar="FILE", help="Write the results to FILE as well.")
 def check(mission: str, settings: tuple[str, ...], controller: str | None, strict: bool, file: str | None) -> None:
-    """Check MISSION before its flight: each number with its limit and margin, and the margins of its control loops.
+    """Check MISSION before its flight: limits and stability margins.
 
-    Loading the mission warns of checks that fail by a closed form. The loops are those of a calm hover, by a
-    linear model: phase and gain margins of each axis, and the delay and the lag of the rotors at which they oscillate.
+    Each number is printed with its limit and margin. Loading the mission warns of checks that fail by a closed form.
+    The loops are those of a calm hover, by a linear model: phase and gain margins of each axis, and the delay and the
+    lag of the rotors at which they oscillate.
 
     \b
     Examples:

@@ -14,7 +14,16 @@ import click
 
 from tandemlift.apps.cli.completion import FLIGHTS, MISSIONS
 from tandemlift.apps.cli.console import echo, exit_now, progress_bar
-from tandemlift.apps.cli.flying import FAILED, engine_option, flight_file, html_path, load, saved_flight, set_option
+from tandemlift.apps.cli.flying import (
+    FAILED,
+    HTML,
+    engine_option,
+    flight_file,
+    load,
+    output_path,
+    saved_flight,
+    set_option,
+)
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.files import write_file
 
@@ -47,7 +56,7 @@ no_browser_option = click.option("--no-browser", is_flag=True, help="Only print 
 def live(
     mission: str, engine: str, port: int, host: str, out: str, no_browser: bool, settings: tuple[str, ...]
 ) -> None:
-    """Fly MISSION in real time, and push it by hand in a page of the browser.
+    """Fly MISSION in real time, and push it by hand in the browser.
 
     MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file. The default is zigzag, the
     paper's corridor. The mission's own pushes and person are omitted: only you push. The page is served on this
@@ -118,7 +127,7 @@ def serve_until_interrupt(server: PageServer, what: str, *, browser: bool) -> No
 @port_option
 @no_browser_option
 def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
-    """Play a saved flight in a page of the browser, with a slider for the time.
+    """Play a saved flight in the browser, with a slider for time.
 
     FLIGHT is flight.npz or its folder. The page is served on this machine only. Ctrl-C ends it.
 
@@ -139,7 +148,7 @@ def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
     if saved is None:
         raise InputError(f"{flight}: there is no flight.npz; give the file, or the folder that `tandemlift run` wrote")
     if html:
-        path, loaded = html_path("--html", html), saved_flight(saved)
+        path, loaded = output_path("--html", html, HTML), saved_flight(saved)
         write_file(path, replay_html(loaded, page_files()))
         echo(f"{loaded.name}: {path}")
         return
@@ -156,10 +165,11 @@ def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
 @click.option("--out", metavar="DIR", help="Write the page as files for a web server.")
 @click.option("--html", metavar="FILE", help="Write the page as one file, which works from disk.")
 def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:
-    """Write a page that flies by itself: in the browser, without a server, pushed by hand.
+    """Write a page that flies in the browser, without a server.
 
-    MISSIONS are those of its menu, the first of which it begins with: hover, zigzag, iris, doorway, rotor-loss, or some
-    of them. The default is all. A flight saved in the page can be flown again by `tandemlift run`.
+    The page flies by itself, and is pushed by hand. MISSIONS are those of its menu, the first of which it begins with:
+    hover, zigzag, iris, doorway, rotor-loss, or some of them. The default is all. A flight saved in the page can be
+    flown again by `tandemlift run`.
 
     \b
     Examples:
@@ -174,7 +184,7 @@ def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:
     """
     if not out and not html:
         raise InputError("give the place of the page: --html FILE for one file, --out DIR for a web server")
-    one_file = html_path("--html", html) if html else None
+    one_file = output_path("--html", html, HTML) if html else None
     if out and Path(out).is_file():
         raise InputError(f"--out {out}: is a file, not a folder")
     from tandemlift.apps.live import page_modules, pages
@@ -204,9 +214,9 @@ def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:
 )
 @set_option
 def score(folder: Path, mission: str, free: tuple[str, ...], settings: tuple[str, ...]) -> None:
-    """Rank flights through a corridor by hand: each is flown again from its recording, and scored.
+    """Rank flights through a corridor by hand.
 
-    FOLDER holds the flights that participants saved in the page of `tandemlift live` or `tandemlift page`, a folder or
+    Each is flown again from its recording, and scored. FOLDER holds the flights that participants saved in the page of `tandemlift live` or `tandemlift page`, a folder or
     a .zip each. The score is a time, and the lowest wins: the time from the first push to the end of the corridor, 5 s
     for each touch of a wall, 1 s for 5 N s of effort, and the logarithm of the dimensionless jerk. A flight of another
     mission, or with a score that its recording does not fly, is refused with its reason.

@@ -14,7 +14,7 @@ from tandemlift.apps.cli.export import compile, export, render
 from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, schema, template
 from tandemlift.apps.cli.linearize import check, linearize
 from tandemlift.apps.cli.live import live, page, replay, score
-from tandemlift.apps.cli.report import paper, report
+from tandemlift.apps.cli.report import paper, plot, report
 from tandemlift.apps.cli.ros import gazebo, ros
 from tandemlift.apps.cli.run import run
 from tandemlift.apps.cli.study import study
@@ -27,12 +27,28 @@ BAD_INPUT = 2
 INTERRUPTED = 130  # as shells report it
 
 
+GROUPS: dict[str, tuple[click.Command, ...]] = {
+    "Try first": (run, live, missions),
+    "Write a mission": (template, explain, check, controllers, engines, schema, completion),
+    "Look at a flight": (report, plot, render, replay),
+    "Fly many, compare, analyse": (compare, score, study, tune, feel, linearize, paper),
+    "Take it elsewhere": (gazebo, ros, page, export, compile),
+}
+
+
 class Commands(click.Group):
-    """A group that lists its verbs in the order in which they were added, and suggests the nearest one."""
+    """A group that lists its verbs in the order of `GROUPS`, and suggests the nearest one."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """The verbs as they were added."""
         return list(self.commands)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the verbs in groups, each with its first sentence."""
+        width = max(map(len, self.commands))
+        for title, verbs in GROUPS.items():
+            with formatter.section(title):
+                formatter.write_dl([(f"{verb.name:{width}}", verb.get_short_help_str(80)) for verb in verbs])
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -45,13 +61,14 @@ class Commands(click.Group):
         return super().resolve_command(ctx, args)
 
 
-@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(cls=Commands, commands=sum(GROUPS.values(), ()), context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="tandemlift")
 def cli() -> None:
     """Simulate quadrotors that carry a load together, steered by a person who pushes it.
 
     \b
     Fly a mission:    tandemlift run paper
+    Push it by hand:  tandemlift live
     Change a key:     tandemlift run paper --set controller.switching=saturation
     Your mission:     tandemlift template > mine.toml
                       tandemlift run mine.toml
@@ -59,13 +76,6 @@ def cli() -> None:
     Your controller:  tandemlift run mine.toml --controller my_pd.py
     """
 
-
-for command in (
-    *(run, compare, render, live, page, replay, score, gazebo, ros, study, tune, linearize, check, feel),
-    *(export, compile, report, paper),
-    *(missions, template, explain, schema, completion, controllers, engines),
-):
-    cli.add_command(command)
 
 _shown: set[str] = set()
 

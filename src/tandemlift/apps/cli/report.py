@@ -1,24 +1,26 @@
-"""`tandemlift report`: figures and report of a saved flight, of a bag or of a study."""
+"""`tandemlift report`, `plot` and `paper`: figures and reports of saved flights, of a bag, of a study."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from tandemlift.apps.cli.completion import FLIGHTS
 from tandemlift.apps.cli.console import echo, progress_bar
 from tandemlift.apps.cli.flying import (
+    DRAWINGS,
     FIGURES,
     FILES,
+    HTML,
     figures_option,
     flight_file,
-    html_path,
     kept_style_option,
+    output_path,
     results_folder,
     saved_flight,
+    style_option,
     write_flight,
 )
 from tandemlift.core.errors import InputError
@@ -48,7 +50,7 @@ BAGS = (".bag", ".mcap")
     help="Show this metric of a study, such as position_rmse_m. Can be repeated.  [default: as suits its missions]",
 )
 def report(flight: str, out: str | None, no_figures: bool, style: str | None, metrics: tuple[str, ...]) -> None:
-    """Draw the figures and write the report of a saved flight, of a bag or of a study.
+    """Write figures and report of a saved flight, a bag or a study.
 
     FLIGHT is flight.npz or its folder, or a bag of ROS 1 (.bag) or ROS 2 (.mcap, or its folder) with the topics of
     docs/reference/export.md: an exported one, or one recorded during a flight by `rosbag record` or `ros2 bag record`.
@@ -93,13 +95,40 @@ def _report_study(folder: Path, out: str | None, metrics: tuple[str, ...], *, no
     """
     if no_figures:
         raise InputError("--no-figures: the report of a study has its figures in it")
-    path = folder / "report.html" if out is None else html_path("--out", out)
+    path = folder / "report.html" if out is None else output_path("--out", out, HTML)
     from tandemlift.analysis.studies.table import load_study
     from tandemlift.pictures.report.study.study_report import write_study_report
 
     loaded = load_study(folder)
     echo(repr(loaded).strip("<>"))
     echo(f"  report: {write_study_report(loaded, path, metrics, path.parent / FIGURES if keep else None)}")
+
+
+@click.command()
+@click.argument("figure")
+@click.argument("flights", nargs=-1, required=True, shell_complete=FLIGHTS)
+@click.option("--out", metavar="FILE", help="FILE.png, FILE.pdf or FILE.svg.  [default: out/FIGURE.png]")
+@style_option
+def plot(figure: str, flights: tuple[str, ...], out: str | None) -> None:
+    """Draw a figure of one flight, or of several over each other.
+
+    FIGURE is the name of a figure, such as tracking, path, inputs or push, or of a channel, such as position. FLIGHTS
+    are saved flights (flight.npz or its folder) or bags. Of several, each is a line with the name of its folder.
+
+    \b
+    Examples:
+      tandemlift run iris --out out/light
+      tandemlift run iris --out out/heavy --set admittance.mass=3
+      tandemlift plot path out/light out/heavy
+      tandemlift plot position_error out/light out/heavy --out errors.pdf --style elsevier
+    """
+    from tandemlift.pictures.figures import registry
+
+    path = output_path("--out", out or f"out/{figure}.png", DRAWINGS)
+    loaded = [_load(given) for given in flights]
+    names = [folder.resolve().name for _, folder in loaded]
+    named = dict(zip(names if len(set(names)) == len(names) else flights, (f for f, _ in loaded), strict=True))
+    echo(f"{figure}: {registry.save_figure(registry.plot(named, figure), path)}")
 
 
 def _load(given: str) -> tuple[Flight, Path]:
@@ -118,8 +147,8 @@ def _load(given: str) -> tuple[Flight, Path]:
     folder, saved = flight_file(given)
     if saved is None:
         raise InputError(
-            f"{given}: must be flight.npz, its folder, a bag (.bag, .mcap, or the folder of a ROS 2 bag), or the "
-            "folder of a study"
+            f"{given}: must be flight.npz, its folder, a bag (.bag, .mcap, or the folder of a ROS 2 bag), or, for a "
+            "report, the folder of a study"
         )
     return saved_flight(saved), folder
 
@@ -132,7 +161,7 @@ OUT = "out/paper.pdf"
 @kept_style_option
 @click.option("--no-pdf", is_flag=True, help="Write figures, tables and source only.")
 def paper(out: str, style: str | None, no_pdf: bool) -> None:
-    """Put the figures and tables of the paper beside ours, in one PDF.
+    """Put the paper's figures and tables beside ours, in one PDF.
 
     The missions `paper` and `zigzag` are flown, and `paper` once more for each setting that the paper leaves open, with
     another choice. The PDF needs the package typst: pip install 'tandemlift[paper]'. Without it, the rest is written.
@@ -157,7 +186,7 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
     """
     from tandemlift.pictures.report.paper_report import typeset, write_paper_files
 
-    path = _pdf_path(out)
+    path = output_path("--out", out, (".pdf",))
     with results_folder(str(path.parent), path.parent, (path.name,)):
         flights = fly_paper()
         folder = path.with_name(f"{path.stem}-files")
@@ -167,20 +196,6 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
         if not no_pdf:
             typeset(folder, path)
             echo(f"report: {path}")
-
-
-def _pdf_path(out: str) -> Path:
-    """The path of the PDF.
-
-    Raises:
-        InputError: it does not end in .pdf, or is a folder.
-    """
-    path = Path(out)
-    if path.suffix.lower() != ".pdf":
-        raise InputError(f"--out {out}: must end in .pdf")
-    if path.is_dir():
-        raise InputError(f"--out {out}: is a folder, not a file")
-    return path
 
 
 def _command(out: str, style: str | None, no_pdf: bool) -> str:
@@ -194,17 +209,12 @@ def fly_paper() -> PaperFlights:
     from tandemlift.missions import load_mission
     from tandemlift.pictures.report.paper_figures import open_settings
     from tandemlift.pictures.report.paper_report import PaperFlights
-    from tandemlift.simulation.fly import fly
+    from tandemlift.simulation.fly import fly_many
 
-    missions: list[tuple[str, Mapping[str, Any]]] = [("paper", {}), ("zigzag", {})]
-    missions += [("paper", setting.changes) for setting in open_settings()]
-    flights = []
+    missions = [load_mission("paper"), load_mission("zigzag")]
+    missions += [load_mission("paper", setting.changes) for setting in open_settings()]
     with progress_bar("Flying", "flights") as progress:
-        for done, (name, changes) in enumerate(missions, 1):
-            flights.append(fly(load_mission(name, changes)))
-            if progress:
-                progress(done, len(missions))
-    flown, corridor, *choices = flights
+        flown, corridor, *choices = fly_many(missions, progress=progress)
     return PaperFlights(flown, corridor, [flight.metrics() for flight in choices])
 
 

@@ -184,12 +184,12 @@ def gazebo(
     no_figures: bool,
     strict: bool,
 ) -> None:
-    """Fly MISSION in Gazebo 11: start the server, the window, the world and the pilot.
+    """Fly MISSION in Gazebo 11, with its window.
 
-    MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file. The default is zigzag, the
-    paper's corridor. Gazebo must be installed on this system, or in a root made by tools/gazebo-root whose path is in
-    TANDEMLIFT_GAZEBO_ROOT. The command prints how to push, and writes the same files as `tandemlift run`. Ctrl-C ends
-    a flight with --by-hand, which is written as well.
+    It starts the server, the window, the world and the pilot. MISSION is a built-in mission (see `tandemlift missions`)
+    or the path of a .toml file. The default is zigzag, the paper's corridor. Gazebo must be installed on this system,
+    or in a root made by tools/gazebo-root whose path is in TANDEMLIFT_GAZEBO_ROOT. The command prints how to push, and
+    writes the same files as `tandemlift run`. Ctrl-C ends a flight with --by-hand, which is written as well.
 
     \b
     Examples:

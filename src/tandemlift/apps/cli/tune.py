@@ -76,10 +76,10 @@ def tune(
     out: str | None,
     **how: Any,
 ) -> None:
-    """Search values of MISSION that minimize metrics, then compare old and new on draws that the search never used.
+    """Search values of MISSION that minimize metrics.
 
-    Every candidate flies the same draws. A bad outcome counts first; then the metrics, each over its target, or over
-    its present value. docs/how-to/tuning.md has the details.
+    Old and new are then compared on draws that the search never used. Every candidate flies the same draws. A bad
+    outcome counts first; then the metrics, each over its target or its present value; see docs/how-to/tuning.md.
 
     \b
     Examples:
@@ -196,10 +196,10 @@ FEEL_FILES = ("feel.json", "feel.html", "feel.png", "feel.pdf")
 @style_option
 @click.option("--strict", is_flag=True, help="Exit with code 3 if a check fails.")
 def feel(mission: str, settings: tuple[str, ...], out: str | None, strict: bool) -> None:
-    """Show the response to a push with the keys of MISSION, and check whether the vehicle can respond so.
+    """Show the response to a push with the keys of MISSION.
 
-    A standard push along each axis, by the closed form of the admittance and flown. `tandemlift tune` searches for
-    better keys.
+    It checks whether the vehicle can respond so. A standard push along each axis, by the closed form of the admittance
+    and flown. `tandemlift tune` searches for better keys.
 
     \b
     Examples:

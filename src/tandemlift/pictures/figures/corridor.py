@@ -48,6 +48,7 @@ CAPTION = Caption(
     "flown.",
 )
 IN_FLIGHTS = with_walls
+OVERLAY = None  # vehicles and arrows of several flights would hide each other
 
 ROUND = 1.2  # m, shown around the path and the vehicle
 SPACING = 1.1  # vehicle spans from one vehicle drawn to the next

@@ -15,6 +15,7 @@ from tandemlift.core.phases import GUIDED
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
+from tandemlift.pictures.figures.drawing.overlay import over_time
 from tandemlift.pictures.figures.drawing.panels import components, fit, line, shade, time_axis
 from tandemlift.pictures.figures.drawing.style import COMPONENTS, GREY, INK, column_figure, journal
 
@@ -27,6 +28,7 @@ CAPTION = Caption(
     "Panels over time: disturbing force and moment, components x, y and z; the estimation error divided by λ₂.",
 )
 IN_FLIGHTS = with_any_of("disturbance_force")
+OVERLAY = over_time("disturbance_force", "disturbance_moment")
 
 
 def error_over_lambda(flight: Flight) -> Array | None:

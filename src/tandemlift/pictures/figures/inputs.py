@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure import Caption, all_flights
+from tandemlift.pictures.figures.drawing.overlay import over_time
 from tandemlift.pictures.figures.drawing.panels import START, fit, is_disturbed, line, time_axis
 from tandemlift.pictures.figures.drawing.style import BLUE, GREY, INK, journal, page_figure
 from tandemlift.pictures.figures.drawing.vehicle import true_weight
@@ -25,6 +26,7 @@ CAPTION = Caption(
     "Panels over time of the commanded thrust and of the three commanded moments.",
 )
 IN_FLIGHTS = all_flights
+OVERLAY = over_time("thrust", "moment")
 
 LEAST = (1.0, 0.02, 0.02, 0.02)  # N, N m, N m, N m: least spans of the axes
 LABELS = ("$U_1$ (N)", "$U_2$ (N m)", "$U_3$ (N m)", "$U_4$ (N m)")

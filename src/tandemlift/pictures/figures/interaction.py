@@ -16,6 +16,7 @@ from matplotlib.patches import Patch
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure import Caption, all_flights
+from tandemlift.pictures.figures.drawing.overlay import over_time
 from tandemlift.pictures.figures.drawing.panels import extent, line, shade, time_axis, value_ticks
 from tandemlift.pictures.figures.drawing.style import BLUE, INK, PALE, VERMILLION, column_figure, journal
 
@@ -28,6 +29,7 @@ CAPTION = Caption(
     "active.",
 )
 IN_FLIGHTS = all_flights
+OVERLAY = over_time("push_force", "admittance_force", "admittance_position")
 
 LEAST_PUSH = 0.1  # N, half the least span of the axis
 LEAST_REFERENCE = 0.01  # m

@@ -14,6 +14,7 @@ from matplotlib.lines import Line2D
 
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
+from tandemlift.pictures.figures.drawing.overlay import over_time
 from tandemlift.pictures.figures.drawing.panels import (
     START,
     components,
@@ -33,6 +34,7 @@ CAPTION = Caption(
     "A row of two panels over time for each quadrotor: force and torque on the payload, components x, y and z.",
 )
 IN_FLIGHTS = with_any_of("joint_force")
+OVERLAY = over_time("joint_force", "joint_torque")
 
 AROUND = 0.9  # in, above and below the rows
 COLUMNS = (("joint_force", "f", "N", 0.2), ("joint_torque", "t", "N m", 0.05))  # channel, symbol, unit, least span

@@ -21,9 +21,10 @@ from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.figure import Caption, all_flights
 from tandemlift.pictures.figures.drawing.ground import floor_height
+from tandemlift.pictures.figures.drawing.overlay import Flights, legend_of_flights, look
 from tandemlift.pictures.figures.drawing.panels import legend_above
 from tandemlift.pictures.figures.drawing.scene import NEAR, Scene3D, on_paper
-from tandemlift.pictures.figures.drawing.series import decimate, drawable
+from tandemlift.pictures.figures.drawing.series import Mask, decimate, drawable
 from tandemlift.pictures.figures.drawing.style import (
     BEHIND_TEXT,
     BLUE,
@@ -36,6 +37,7 @@ from tandemlift.pictures.figures.drawing.style import (
     VERMILLION,
     journal,
     points,
+    styled,
 )
 from tandemlift.pictures.figures.drawing.vehicle import Skeleton, body_to_world, skeleton
 from tandemlift.pictures.figures.drawing.walls import WallOutline, draw_walls, walls_near
@@ -147,13 +149,13 @@ def _legend(scene: Scene3D, found: list[PushArrow], walls: list[WallOutline], ha
     legend_above(scene.figure, handles, labels, "upper left")
 
 
-def _draw_path(scene: Scene3D, path: Array) -> list[Any]:
-    """Draw the path (T, 3) [m], its shadow, start and end; returns the handles for the legend."""
+def _draw_path(scene: Scene3D, path: Array, look: dict[str, Any]) -> list[Any]:
+    """Draw the path (T, 3) [m] with a look, its shadow, start and end; returns the handles for the legend."""
     thin = path[decimate(path)]
     shadow = np.column_stack([thin[:, :2], np.full(len(thin), scene.box[2, 0])])
-    ends: dict[str, Any] = {"color": BLUE, "mfc": PAPER, "ms": 4, "ls": "none", "zorder": 41}
+    ends: dict[str, Any] = {"color": look["color"], "mfc": PAPER, "ms": 4, "ls": "none", "zorder": 41}
     return [
-        scene.line(thin, color=BLUE, lw=1.3, zorder=3, gid="path"),
+        scene.line(thin, zorder=3, gid="path", **look),
         scene.line(shadow, color=GREY, lw=0.8, zorder=1),
         scene.line(path[:1], marker="o", **ends),
         scene.line(path[-1:], marker="s", **ends),
@@ -166,11 +168,34 @@ def _floor(flight: Flight, around: Array) -> float | None:
     return height if height is not None and around[:, 2].min() - height < DEEP * np.ptp(around, axis=0).max() else None
 
 
+def _sound(flight: Flight) -> Mask:
+    """The samples (T) whose position and attitude can be drawn."""
+    rotations = np.abs(np.linalg.norm(flight["attitude"], axis=1) - 1.0) < 0.01  # false for NaN
+    return np.isfinite(drawable(flight["position"])).all(axis=1) & rotations
+
+
+@styled
+def draw_paths(flights: Flights) -> Figure:
+    """Draw the paths [m, world axes] of several flights, with shadow, start and end, among the first one's walls."""
+    first, paths = next(iter(flights.values())), [flight["position"][_sound(flight)] for flight in flights.values()]
+    around = np.concatenate([*paths, np.zeros((0 if any(map(len, paths)) else 1, 3))])
+    reach = np.concatenate([around, *(wall.rim for wall in walls_near(first.walls, around))])
+    scene = Scene3D(reach, _floor(first, around))
+    for place, path in enumerate(paths):
+        if len(path):
+            _draw_path(scene, path, look(place))
+    draw_walls(scene, first.walls, around)
+    legend_of_flights(scene.figure, flights, "upper left")
+    return scene.figure
+
+
+OVERLAY = draw_paths
+
+
 @journal
 def draw(flight: Flight) -> Figure:
     """Draw the path [m, world axes] with the pushes and the vehicle."""
-    rotations = np.abs(np.linalg.norm(flight["attitude"], axis=1) - 1.0) < 0.01  # false for NaN
-    sound = np.isfinite(drawable(flight["position"])).all(axis=1) & rotations
+    sound = _sound(flight)
     path, attitudes = flight["position"][sound], flight["attitude"][sound]
     body = skeleton(Vehicle.from_mission(flight.mission))
     span = float(np.ptp(body.points, axis=0).max())
@@ -186,7 +211,7 @@ def draw(flight: Flight) -> Figure:
     tables = flight.walls
     reach = np.concatenate([around, *(wall.rim for wall in walls_near(tables, around))])
     scene = Scene3D(reach, _floor(flight, around))
-    handles = _draw_path(scene, path)
+    handles = _draw_path(scene, path, {"color": BLUE, "lw": 1.3})
     for order, k in enumerate(sorted(range(len(shown)), key=lambda k: float(path[shown[k]] @ NEAR))):
         _draw_vehicle(scene, vehicles[k], INK if shown[k] in (0, len(path) - 1) else DIM, 4.0 + order)
     _draw_pushes(scene, found, tips)

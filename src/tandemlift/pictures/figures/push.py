@@ -18,6 +18,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
+from tandemlift.pictures.figures.drawing.overlay import over_time
 from tandemlift.pictures.figures.drawing.panels import fit, legend_above, line, shade, time_axis
 from tandemlift.pictures.figures.drawing.style import (
     BLUE,
@@ -43,6 +44,9 @@ CAPTION = Caption(
     "mass of the payload; disagreement of the sensors. Shaded where the estimate must not be used.",
 )
 IN_FLIGHTS = with_any_of("push_estimate")
+OVERLAY = over_time(
+    "push_force", "push_estimate", "push_point_estimate", "payload_mass_estimate", "sensor_disagreement"
+)
 
 TRUE: dict[str, Any] = {"color": BLUE, "lw": 1.2}
 ESTIMATE: dict[str, Any] = {"color": VERMILLION, "lw": 1.0, "ls": (0, (4, 1.6))}

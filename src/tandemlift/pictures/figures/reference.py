@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure import Caption, all_flights
+from tandemlift.pictures.figures.drawing.overlay import over_time
 from tandemlift.pictures.figures.drawing.panels import fit, line, time_axis
 from tandemlift.pictures.figures.drawing.style import BLUE, GREY, VERMILLION, journal, page_figure
 
@@ -20,6 +21,7 @@ CAPTION = Caption(
     "Nine panels over time, three columns for x, y and z: push in newtons, reference position, reference velocity.",
 )
 IN_FLIGHTS = all_flights
+OVERLAY = over_time("push_force", "admittance_position", "admittance_velocity")
 
 ROWS = (  # channel, label, least span of the axis
     ("push_force", "push (N)", 0.2),

@@ -6,12 +6,14 @@ The drawing library is loaded on first use, not when this file is imported.
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from tandemlift.core.errors import InputError, suggestion, unknown
 from tandemlift.core.types import Progress
+from tandemlift.flight.channels import CHANNELS
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure_style import figure_style
 
@@ -57,6 +59,46 @@ def figures_for(flight: Flight) -> dict[str, FlightFigure]:
     return {name: figure for name, figure in figures().items() if figure.IN_FLIGHTS(flight)}
 
 
+def plot(flights: Flight | Sequence[Flight] | Mapping[str, Flight], name: str, *, style: str | None = None) -> Figure:
+    """Draw a figure of a flight, or a figure or channel of several over each other; returns matplotlib's figure.
+
+    Args:
+        flights: one or several; the legend has their missions' names, or the names of a mapping.
+        name: of a figure (`tracking`, `path`, …) or of a channel (`position`, …).
+        style: `ieee`, `elsevier`, `slides` or `dark`; by default that of `figure_style`, which is IEEE's.
+
+    Raises:
+        InputError: no flight has such a figure or channel, it can only be drawn of one, or there is no such style.
+    """
+    from tandemlift.pictures.figures.drawing.overlay import over_time
+
+    given = _named([flights] if isinstance(flights, Flight) else flights)
+    if not given:
+        raise InputError("no flight to draw; give one at least")
+    drawable = {name for flight in given.values() for name in figures_for(flight)}
+    with figure_style(style):
+        if any(name in flight for flight in given.values()):
+            return over_time(name)(given)
+        if name not in drawable:
+            also = f" Channels can be drawn, too, such as position.{suggestion(name, CHANNELS)}"
+            raise InputError(f"{unknown('figure', name, [n for n in figures() if n in drawable])}{also}")
+        figure = figures()[name]
+        if len(given) == 1:
+            return figure.draw(*given.values())
+        if figure.OVERLAY is None:
+            raise InputError(f"{name}: cannot be drawn of several flights; draw `path`, or a channel such as position")
+        return figure.OVERLAY({label: flight for label, flight in given.items() if figure.IN_FLIGHTS(flight)})
+
+
+def _named(flights: Sequence[Flight] | Mapping[str, Flight]) -> dict[str, Flight]:
+    """The flights by name; of flights of one mission, with their number."""
+    if isinstance(flights, Mapping):
+        return dict(flights)
+    names = [flight.name for flight in flights]
+    numbers = [f" {names[:i].count(name) + 1}" if names.count(name) > 1 else "" for i, name in enumerate(names)]
+    return {flight.name + number: flight for flight, number in zip(flights, numbers, strict=True)}
+
+
 def save_figure(figure: Figure, path: Path) -> Path:
     """Write one figure as PNG or PDF, by the ending of the path; its folder is made if it does not exist."""
     from tandemlift.pictures.figures.drawing.style import save
@@ -73,7 +115,7 @@ def save_figures(
     Args:
         flight: a flight, also one that diverged or has few samples.
         folder: where to; made if it does not exist.
-        progress: called after each figure with (figures written, figures in all).
+        progress: called with (figures written, figures in all), first before any is drawn.
         style: `ieee`, `elsevier`, `slides` or `dark`; by default that of `figure_style`, which is IEEE's.
 
     Raises:
@@ -86,6 +128,8 @@ def save_figures(
     written, drawn = [], figures_for(flight)
     with figure_style(style):
         folder.mkdir(parents=True, exist_ok=True)
+        if progress:
+            progress(0, len(drawn))
         for done, (name, figure) in enumerate(drawn.items(), 1):
             page = figure.draw(flight)
             written += [save_figure(page, folder / f"{name}.{kind}") for kind in ("png", "pdf")]

@@ -18,6 +18,7 @@ from matplotlib.ticker import MaxNLocator
 from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
+from tandemlift.pictures.figures.drawing.overlay import over_time
 from tandemlift.pictures.figures.drawing.panels import extent, fleet_figure, line, time_axis, value_ticks
 from tandemlift.pictures.figures.drawing.style import BLUE, GREY, INK, TAN, VERMILLION, journal, points
 
@@ -31,6 +32,7 @@ CAPTION = Caption(
     "of the commanded thrust and moments that they give.",
 )
 IN_FLIGHTS = with_any_of("rotor_commands")
+OVERLAY = over_time("rotor_thrusts", "allocation_fraction")
 
 AROUND, FRACTION = 2.0, 0.85  # in: above and below the rows of rotors, and of that, the lowest panel
 MARGIN = 0.12  # of the largest thrust, beyond the limits

@@ -17,6 +17,7 @@ from matplotlib.patches import Patch
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.figures.drawing.ground import clearance, floor_height
+from tandemlift.pictures.figures.drawing.overlay import over_time
 from tandemlift.pictures.figures.drawing.panels import components, fit, legend_above, line, shade, time_axis
 from tandemlift.pictures.figures.drawing.style import BLUE, COMPONENTS, GREY, INK, PALE, journal, page_figure
 from tandemlift.pictures.figures.drawing.vehicle import true_weight
@@ -30,6 +31,7 @@ CAPTION = Caption(
     "there are wind and floor; shaded in contact.",
 )
 IN_FLIGHTS = with_any_of("wind_velocity", "contact_force")
+OVERLAY = over_time("wind_velocity", "wind_force", "contact_force")
 
 ROW, AROUND = 1.35, 0.85  # in: height of a panel, and above and below them all
 VECTORS = (  # channel, label, least span of the axis

@@ -17,6 +17,7 @@ from matplotlib.ticker import EngFormatter
 
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.drawing.figure import Caption, all_flights
+from tandemlift.pictures.figures.drawing.overlay import over_time
 from tandemlift.pictures.figures.drawing.panels import fit, line, time_axis
 from tandemlift.pictures.figures.drawing.series import drawable, normalised
 from tandemlift.pictures.figures.drawing.style import (
@@ -38,6 +39,7 @@ CAPTION = Caption(
     "component, and their normalised errors.",
 )
 IN_FLIGHTS = all_flights
+OVERLAY = over_time("euler", "position", "velocity", "attitude_error", "position_error", "velocity_error")
 
 
 class FigureColumn(NamedTuple):

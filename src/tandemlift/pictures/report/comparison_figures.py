@@ -8,7 +8,6 @@ Lines of engines overlap and differ in width: the first is the widest.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -30,33 +29,12 @@ from tandemlift.analysis.studies.comparison_scores import (
 )
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.figures.drawing.figure import Caption, with_walls
-from tandemlift.pictures.figures.drawing.figure_style import current_style
-from tandemlift.pictures.figures.drawing.panels import (
-    LONG,
-    START,
-    extent,
-    fit,
-    legend_above,
-    line,
-    time_axis,
-    value_ticks,
-)
-from tandemlift.pictures.figures.drawing.series import decimate, drawable
-from tandemlift.pictures.figures.drawing.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    INK,
-    LIGHT_BLUE,
-    ORANGE,
-    PURPLE,
-    SKY,
-    VERMILLION,
-    page_figure,
-    points,
-    styled,
-)
+from tandemlift.pictures.figures.drawing.figure import Caption
+from tandemlift.pictures.figures.drawing.overlay import legend_of_flights
+from tandemlift.pictures.figures.drawing.panels import LONG, START, extent, fit, legend_above, line, time_axis
+from tandemlift.pictures.figures.drawing.series import drawable
+from tandemlift.pictures.figures.drawing.style import BLUE, GREY, LIGHT_BLUE, look, page_figure, points, styled
+from tandemlift.pictures.figures.registry import plot
 
 CAPTIONS = {
     "errors": Caption(
@@ -72,11 +50,15 @@ CAPTIONS = {
         "Each panel has the scale of the time after the first second; its range is given above it.",
         "A panel over time for each controller: mean thrust of the rotors, and the band from smallest to largest.",
     ),
-    "flights": Caption(
-        "Flights",
-        "Path of the centre of mass from above, if there are walls, and its position over time, in every engine; the "
-        "first is drawn widest.",
-        "The path from above with walls, and panels over time for x, y and z, with one line for each engine.",
+    "paths": Caption(
+        "Paths",
+        "Path of the centre of mass in every engine, with its shadow on the floor, among the walls if there are any.",
+        "Three-dimensional view of the paths, one line for each engine, and of the walls.",
+    ),
+    "positions": Caption(
+        "Positions",
+        "Position of the centre of mass over time, in world axes, in every engine; the first is drawn widest.",
+        "Three panels over time for x, y and z, with one line for each engine.",
     ),
     "differences": Caption(
         "Differences",
@@ -91,28 +73,18 @@ def drawn_figures(found: MissionComparison) -> dict[str, Figure]:
     """The figures of a comparison by name; without the errors where none reaches 1 µm."""
     flights = found.flights
     if found.of == "engines":
-        return {"flights": draw_over_each_other(flights), "differences": draw_differences(flights)}
+        drawn = {"paths": plot(flights, "path"), "positions": plot(flights, "position")}
+        return drawn | {"differences": draw_differences(flights)}
     moving = any(any(moving_axes(flights.values(), part)) for part in parts_of(flights.values()))
     return ({"errors": draw_errors(flights)} if moving else {}) | {"thrusts": draw_thrusts(flights)}
 
 
-def _legend(figure: Figure, names: Sequence[str], looks: Sequence[Mapping[str, Any]]) -> None:
-    legend_above(figure, [Line2D([], [], **look) for look in looks], names, "outside upper left")
-
-
 # ---- Controllers
 
-DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
-COLOURS = (BLUE, VERMILLION, GREEN, INK, ORANGE, PURPLE, SKY, GREY)
 LEAST_SPAN = 2e3 * RESOLUTION  # mm, of an axis of errors
 LEAST_THRUST = 0.02  # N, of an axis of thrusts
 NARROW = 0.38  # of the flight, the least width of a column
 BANDS = 300  # stretches of time in which rotor thrusts are drawn
-
-
-def look(place: int) -> dict[str, Any]:
-    """The look of the controller number `place`: eight colours, each with a dash, then the next dash."""
-    return {"color": COLOURS[place % len(COLOURS)], "ls": DASHES[(place + place // len(COLOURS)) % len(DASHES)]}
 
 
 def _settled(flights: Mapping[str, Flight]) -> Sequence[Flight]:
@@ -127,7 +99,7 @@ def _errors(ax: Axes, flights: Mapping[str, Flight], part: ScoredPart, axis: int
         inside = (flight.time >= part.first) & (flight.time < part.last)
         error = 1e3 * np.where(scored(flight, part), flight["position_error"][:, axis], np.nan)[inside]
         if len(error):
-            line(ax, flight.time[inside], error, lw=0.8, **look(place))
+            line(ax, flight.time[inside], error, **look(place, lw=0.8))
         if flight in settled:
             shown.append(error)
     fit(ax, *shown, least=LEAST_SPAN)
@@ -168,8 +140,7 @@ def draw_errors(flights: Mapping[str, Flight]) -> Figure:
     for axes, i in zip(grid, rows, strict=True):
         axes[0].set_ylabel(f"error of ${'xyz'[i]}$ (mm)")
     figure.align_ylabels(grid[:, 0])
-    names = [f"{name} ({f.ending.outcome})" if f.ending else name for name, f in flights.items()]
-    _legend(figure, names, [{"lw": 1.1, **look(place)} for place in range(len(names))])
+    legend_of_flights(figure, flights, lw=1.1)
     return figure
 
 
@@ -225,55 +196,8 @@ def draw_thrusts(flights: Mapping[str, Flight]) -> Figure:
 
 # ---- Engines
 
-LOOKS: tuple[dict[str, Any], ...] = (
-    {"color": LIGHT_BLUE, "lw": 4.5},
-    {"color": BLUE, "lw": 1.8},
-    {"color": VERMILLION, "lw": 0.8},
-    {"color": GREEN, "lw": 0.8, "ls": (0, (4, 3))},
-)
-TALL, ROW = (1.6, 4.0), 1.15  # in: least and greatest height of the view from above, and of a panel over time
+ROW = 1.15  # in: height of a panel
 FLOOR = 1e-12  # a smaller difference is not drawn
-
-
-def _looks(count: int) -> list[dict[str, Any]]:
-    """The looks of engines, the first one's first."""
-    return [LOOKS[min(place, len(LOOKS) - 1)] for place in range(count)]
-
-
-def _from_above(ax: Axes, flights: Mapping[str, Flight]) -> None:
-    first = next(iter(flights.values()))
-    for wall in first.walls:
-        ax.plot(*np.array([wall["start"], wall["end"]]).T, color=INK, lw=1.4, solid_capstyle="round", gid="wall")
-    for flight, own in zip(flights.values(), _looks(len(flights)), strict=True):
-        path = flight["position"][:, :2]
-        ax.plot(*path[decimate(path)].T, solid_capstyle="round", gid="path", **own)
-    ax.set_aspect("equal", adjustable="datalim")
-    ax.set_xlabel("$x$ (m)")
-    ax.set_ylabel("$y$ (m)")
-
-
-@styled
-def draw_over_each_other(flights: Mapping[str, Flight]) -> Figure:
-    """Draw the ways from above [m], if there are walls, and the positions x, y, z [m] over time."""
-    first, looks = next(iter(flights.values())), _looks(len(flights))
-    walls = with_walls(first)
-    span = np.ptp(first["position"][:, :2], axis=0) + 4.0
-    tall = float(np.clip(current_style().page * span[1] / span[0], *TALL))
-    heights = [tall, ROW, ROW, ROW] if walls else [ROW, ROW, ROW]
-    figure = page_figure(0.5 + sum(heights))
-    axes = figure.subplots(len(heights), 1, height_ratios=heights)
-    if walls:
-        _from_above(axes[0], flights)
-    for i, ax in enumerate(axes[-3:]):
-        for flight, own in zip(flights.values(), looks, strict=True):
-            line(ax, flight.time, flight["position"][:, i], **own)
-        fit(ax, *(f["position"][:, i] for f in flights.values()), least=0.01)
-        ax.set_ylabel(f"${'xyz'[i]}$ (m)")
-        ax.yaxis.set_major_locator(value_ticks())
-        time_axis(ax, first, label=i == 2)
-    figure.align_ylabels(axes)
-    _legend(figure, list(flights), looks)
-    return figure
 
 
 @styled
@@ -282,17 +206,18 @@ def draw_differences(flights: Mapping[str, Flight]) -> Figure:
     first, *others = flights.values()
     apart_by = [differences(flight, first) for flight in others]
     shown = [name for name in QUANTITIES if all(name in found for found in apart_by)]
-    looks = _looks(len(flights))[1:]
     figure = page_figure(0.5 + ROW * len(shown))
     axes = figure.subplots(len(shown), 1, squeeze=False)[:, 0]
     for ax, name in zip(axes, shown, strict=True):
-        for found, own in zip(apart_by, looks, strict=True):
+        for place, found in enumerate(apart_by, 1):
             values = np.where(found[name] > FLOOR, found[name], np.nan)
-            ax.plot(first.time[: len(values)], values, **(own | {"lw": 0.7}))
+            ax.plot(first.time[: len(values)], values, **look(place, lw=0.7))
         ax.set_yscale("log")
         ax.yaxis.set_major_locator(LogLocator(numticks=5))
         ax.set_ylabel(f"{NAMES[name].replace('estimate', 'estimated')} ({QUANTITIES[name]})", fontsize=points(7.5))
         time_axis(ax, first, label=name == shown[-1])
     figure.align_ylabels(axes)
-    _legend(figure, [f"{name} from {next(iter(flights))}" for name in list(flights)[1:]], looks)
+    handles = [Line2D([], [], **look(place, lw=0.7)) for place in range(1, len(flights))]
+    names = [f"{name} from {next(iter(flights))}" for name in list(flights)[1:]]
+    legend_above(figure, handles, names, "outside upper left")
     return figure

@@ -1,20 +1,17 @@
-"""The errata of the paper, from `data/paper/errata.toml`, as records and as Markdown."""
+"""The errata of the paper, from `data/paper/errata.toml`."""
 
 from __future__ import annotations
 
-import re
 import tomllib
 from functools import cache
 from importlib.resources import files
-from itertools import groupby
 from typing import NamedTuple
 
 DATA = files("tandemlift") / "data" / "paper"
-INDEXED = re.compile(r"(?<!\w)(\w[\u0300-\u036f]*)_(\w+)")  # a letter, be it with dots, and its index
 
 
 class Erratum(NamedTuple):
-    """An erratum: the printed text, the correct one, and the effect of the difference.
+    """An erratum: the printed text, the correct one, and the effect of the difference; formulas are between dollars.
 
     Attributes:
         about: the label of the equation, or the name of the claim or table.
@@ -46,32 +43,3 @@ def errata() -> tuple[Erratum, ...]:
     """All errata: those of formulas in the paper's order, then of claims and of tables."""
     tables = tomllib.loads((DATA / "errata.toml").read_text("utf-8"))["errata"]
     return tuple(Erratum(**table) for table in tables)
-
-
-def errata_markdown() -> str:
-    """A section for each group of errata, and one for each erratum."""
-    parts: list[str] = []
-    for group, members in groupby(errata(), key=lambda erratum: erratum.group):
-        parts += [f"## {group}", *(_section(erratum) for erratum in members)]
-    return "\n\n".join(parts) + "\n"
-
-
-def _section(erratum: Erratum) -> str:
-    setting = f" Setting: `{erratum.setting}`." if erratum.setting else ""
-    return "\n".join(
-        (
-            f"### `{erratum.about}`: {erratum.title}",
-            "",
-            f"- Printed: {_with_indices(erratum.printed)}",
-            f"- Right: {_with_indices(erratum.right)}",
-            f"- Shows: {_with_indices(erratum.shows)}{setting}",
-            f"- Evidence: {', '.join(f'`{test}`' for test in erratum.evidence)}",
-        )
-    )
-
-
-def _with_indices(text: str) -> str:
-    """A text with x_y as x and a lowered y, code apart."""
-    parts = text.split("`")
-    parts[::2] = [INDEXED.sub(r"\1<sub>\2</sub>", part) for part in parts[::2]]
-    return "`".join(parts)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import NamedTuple, Protocol
 
 from matplotlib.figure import Figure
@@ -28,6 +28,10 @@ class FlightFigure(Protocol):
     @property
     def IN_FLIGHTS(self) -> Callable[[Flight], bool]:
         """Whether a flight has this figure."""
+
+    @property
+    def OVERLAY(self) -> Callable[[Mapping[str, Flight]], Figure] | None:
+        """Draws several flights, by name, over each other; None where that would show nothing."""
 
     @property
     def draw(self) -> Callable[[Flight], Figure]:

@@ -17,6 +17,7 @@ import numpy as np
 from cycler import cycler
 from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import LayoutEngine, PlaceHolderLayoutEngine
 
 from tandemlift.core.files import atomic_write
 from tandemlift.flight.record import Flight
@@ -53,6 +54,10 @@ COMPONENTS: tuple[dict[str, Any], ...] = (  # dashes distinguish them in grey pr
     {"color": GREEN, "lw": 1.1, "ls": (0, (1.2, 1.2))},
 )
 BEHIND_TEXT: dict[str, Any] = {"facecolor": PAPER, "alpha": 0.75, "lw": 0.0, "pad": 0.8}
+
+DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
+COLOURS = (BLUE, VERMILLION, GREEN, INK, ORANGE, PURPLE, SKY, GREY)  # of flights in one figure
+WIDTHS = (2.0, 1.2, 0.8)  # pt: the first flights are drawn wider, so that lines that coincide are all seen
 
 SETTINGS: dict[str, Any] = {
     "axes.linewidth": 0.6,
@@ -100,6 +105,12 @@ def settings(style: FigureStyle) -> dict[str, Any]:
     }
 
 
+def look(place: int, **own: Any) -> dict[str, Any]:
+    """The look of the flight number `place` among several: eight colours, each with a dash, then the next dash."""
+    dash, width = DASHES[(place + place // len(COLOURS)) % len(DASHES)], WIDTHS[min(place, len(WIDTHS) - 1)]
+    return {"color": COLOURS[place % len(COLOURS)], "ls": dash, "lw": width, **own}
+
+
 class StyledFigure(Figure):
     """A figure that is always drawn under the style in which it was made.
 
@@ -110,6 +121,11 @@ class StyledFigure(Figure):
     def __init__(self, width: float, height: float, layout: Literal["constrained"] | None = "constrained") -> None:
         self.style = current_style()
         super().__init__(figsize=self.style.size(width, height), layout=layout)
+
+    def get_layout_engine(self) -> LayoutEngine | None:
+        """None once it is laid out: with another answer, saving would draw it once more for its layout."""
+        engine = super().get_layout_engine()
+        return None if isinstance(engine, PlaceHolderLayoutEngine) else engine
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw it, its colours from the style's palette."""

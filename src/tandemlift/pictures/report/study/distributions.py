@@ -12,8 +12,7 @@ from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.core.types import Array
 from tandemlift.pictures.figures.drawing.figure import Caption
 from tandemlift.pictures.figures.drawing.panels import legend_above
-from tandemlift.pictures.figures.drawing.style import page_figure, styled
-from tandemlift.pictures.report.comparison_figures import look
+from tandemlift.pictures.figures.drawing.style import look, page_figure, styled
 from tandemlift.pictures.report.study.words import compared, is_far, shown_quantity
 
 MOST_CURVES = 8
@@ -40,7 +39,7 @@ def _panel(ax: Axes, rows: StudyRows, quantity: Quantity) -> None:
     for place, group in enumerate(compared(rows, MOST_CURVES)):
         known = finite(values[group.places]) * shown.scale
         if len(known):
-            ax.step(*_steps(known), where="post", lw=1.0, **look(place))
+            ax.step(*_steps(known), where="post", **look(place, lw=1.0))
     if is_far(values):
         ax.set_xscale("log")
     ax.margins(x=0.02)
@@ -63,6 +62,6 @@ def draw_distributions(rows: StudyRows) -> Figure:
         ax.set_visible(False)
     groups = compared(rows, MOST_CURVES)
     if len(groups) > 1:
-        handles = [Line2D([], [], lw=1.1, **look(place)) for place in range(len(groups))]
+        handles = [Line2D([], [], **look(place, lw=1.1)) for place in range(len(groups))]
         legend_above(figure, handles, [group.name for group in groups], "outside upper left")
     return figure
