@@ -149,6 +149,13 @@ def middle_of_the_beam(page):
     return until(seen, "a beam on the page")
 
 
+def stopped(page):
+    """Stop the rotors in the air, and answer the question; once the page knows that the vehicle flies."""
+    until(lambda: page.text_content("#mode") in ("guided", "holding"), "a status on the page")
+    page.get_by_role("button", name="Stop").click()
+    page.locator("#question").get_by_role("button", name="Stop").click()
+
+
 def rests(seen):
     return np.abs(seen["velocity"]).max() < 0.02 and seen["held"] == 0.0
 

@@ -116,6 +116,7 @@ export class Session {
       behind_ms: Number((1e3 * behind).toFixed(2)),
       recorded_s: Number(flight.time.toFixed(3)),
       failed_rotors: this.parameters.failed(flight.time),
+      tare_left_s: Number(this.hand.tareLeft.toFixed(3)),
       refusals: this.refusals(),
       ending,
       viewers: 1,

@@ -2,6 +2,8 @@
 
 import { LIMITS, type PageMessage, type StatusMessage } from "../wire/messages.generated.ts";
 import { button, el, icon } from "./dom.ts";
+import { isAirborne } from "./phases.ts";
+import type { Question } from "./question.ts";
 import { RefusalNote } from "./refusal_note.ts";
 
 const { min, max } = LIMITS.speed.factor;
@@ -14,6 +16,7 @@ export class Dock {
   private readonly asking: Record<"lift" | "land", HTMLButtonElement>;
   private paused = false;
   private enabled = true;
+  private airborne = false;
   private readonly pauseButton: HTMLButtonElement;
   private readonly enableButton: HTMLButtonElement;
   private readonly speeds: HTMLSelectElement;
@@ -22,13 +25,15 @@ export class Dock {
   constructor(
     place: HTMLElement,
     private readonly send: (message: PageMessage) => void,
+    private readonly question: Question,
+    private readonly height: () => number | null, // m, above the floor
     save: () => void,
     film: () => void,
   ) {
     this.pauseButton = button("pause", "Pause", "Pause or continue (P)", () => {
       send({ type: "pause", on: !this.paused });
     });
-    this.enableButton = button("hand", "Enable", "Whether the pilot follows pushes", () => {
+    this.enableButton = button("hand", "", "Whether the pilot follows pushes", () => {
       this.enable(!this.enabled);
       send({ type: "enable", on: this.enabled });
     });
@@ -37,7 +42,7 @@ export class Dock {
     this.videoButton = button("video", "Video", "Record a video of the picture", film);
     this.asking = { lift: this.request("lift", LIFT, "go"), land: this.request("land", LAND) };
     const stop = button("stop", "Stop", STOP, () => {
-      send({ type: "ask", what: "stop" });
+      this.stop();
     }, "danger");
     place.replaceChildren(
       this.note.element,
@@ -59,7 +64,9 @@ export class Dock {
     const { lift, land } = status.refusals;
     mark(this.asking.lift, lift, LIFT);
     mark(this.asking.land, land, LAND);
-    if (!status.paused) this.note.status(status.refusals, status.phase === "idle" ? lift : "");
+    if (!status.paused) this.note.status(status);
+    this.airborne = isAirborne(status.phase);
+    if (!this.airborne) this.question.withdraw();
   }
 
   /** Asks the pilot to lift off or to land. */
@@ -67,6 +74,17 @@ export class Dock {
     this.note.ask(what);
     if (this.paused) this.note.refused("The flight is paused. Press Continue, and the pilot is asked.");
     this.send({ type: "ask", what });
+  }
+
+  /** Stops the rotors; in the air only after a question. */
+  private stop(): void {
+    const stop = (): void => {
+      this.send({ type: "ask", what: "stop" });
+    };
+    const height = this.height();
+    const from = height === null ? "" : ` from ${height.toFixed(1)} m`;
+    if (this.airborne) this.question.ask("Stop all rotors?", `The rotors stop and it falls${from}.`, "Stop", stop);
+    else stop();
   }
 
   /** A request is refused. */
@@ -91,7 +109,7 @@ export class Dock {
   private enable(on: boolean): void {
     this.enabled = on;
     this.enableButton.setAttribute("aria-pressed", String(on));
-    this.enableButton.querySelector("span")!.textContent = on ? "Enabled" : "Disabled";
+    this.enableButton.querySelector("span")!.textContent = on ? "Follows me" : "Does not follow";
   }
 
   private request(what: "lift" | "land", title: string, kind?: string): HTMLButtonElement {

@@ -26,7 +26,9 @@ import { Findings } from "./findings.ts";
 import { SPAN } from "./history.ts";
 import { Notices } from "./notices.ts";
 import { Panel } from "./panel.ts";
+import { isAirborne } from "./phases.ts";
 import { Plots } from "./plots.ts";
+import { Question } from "./question.ts";
 import { SaveDialog } from "./save_dialog.ts";
 import { StatusBar } from "./status_bar.ts";
 import type { ThemeChoice } from "./theme.ts";
@@ -71,7 +73,9 @@ export class Shell {
   private plots: Plots | null = null;
   private dock: Dock | null = null;
   private timeline: Timeline | null = null;
+  private readonly question = new Question();
   private mission = "flight";
+  private floor = 0; // m
   private pulled = false;
   private texts = 0;
   private drawn = 0;
@@ -106,7 +110,7 @@ export class Shell {
   }
 
   scene(scene: FlightScene): void {
-    this.mission = scene.mission;
+    [this.mission, this.floor] = [scene.mission, scene.floor];
     this.bar.scene(scene);
     this.panel.scene(scene);
     this.plots = new Plots(scene, byId("plots"), this.page.graphics);
@@ -139,7 +143,7 @@ export class Shell {
 
   refused(what: string, reason: string): void {
     if (what === "save" && this.saving.refused(reason)) return;
-    if (what === "ask" && this.dock) {
+    if (["ask", "enable"].includes(what) && this.dock) {
       this.dock.refused(reason);
       return;
     }
@@ -188,7 +192,8 @@ export class Shell {
     const film = (): void => {
       this.toggleVideo();
     };
-    this.dock = new Dock(byId("dock"), page.send.bind(page), save, film);
+    const height = (): number | null => (page.current ? page.current.vector("position")[2] - this.floor : null);
+    this.dock = new Dock(byId("dock"), page.send.bind(page), this.question, height, save, film);
   }
 
   private makeViews(): void {
@@ -243,9 +248,10 @@ export class Shell {
 
 const HELD: Phase[] = ["hold", "contact", "limited"]; // phases in which a pilot does not follow, and says why
 
-function hintOf({ phase, preparing, refusals, holder }: StatusMessage, pulled: boolean): string {
+function hintOf({ phase, preparing, refusals, holder, tare_left_s: tare }: StatusMessage, pulled: boolean): string {
   if (preparing?.failure) return `The flight cannot be flown: ${preparing.failure}`;
   if (preparing) return `Preparing the flight: ${preparing.step} \u2026`;
+  if (tare > 0 && isAirborne(phase)) return `Do not touch: ${tare.toFixed(1)} s of tare left`;
   if (phase === "idle") return refusals.lift ? "" : "Press Lift to take off.";
   if (HELD.includes(phase)) return holder === "none" ? refusals.push : ""; // else it is said at the hand
   return phase === "guided" && !pulled ? "Drag the beam to pull it." : "";

@@ -200,6 +200,7 @@ export interface FlightStatus {
   behind_ms: number; // how late the flight was at most since the last status, ms
   recorded_s: number; // length of the recording, s
   failed_rotors: readonly number[]; // rotors that have stopped for good, counted over the whole vehicle from 0
+  tare_left_s: number; // for how long nobody may touch it, as its force sensors are tared, s
   refusals: StatusRefusals; // why a request would be refused right now, and what to do
   ending: SceneEnding | null; // why the flight was stopped before its end; null unless it was
   findings?: StatusFinding[]; // what went badly so far; a server forms it once a second

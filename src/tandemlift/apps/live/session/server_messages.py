@@ -200,6 +200,7 @@ class FlightStatus(TypedDict):
     behind_ms: Annotated[float, "how late the flight was at most since the last status, ms"]
     recorded_s: Annotated[float, "length of the recording, s"]
     failed_rotors: Annotated[list[int], "rotors that have stopped for good, counted over the whole vehicle from 0"]
+    tare_left_s: Annotated[float, "for how long nobody may touch it, as its force sensors are tared, s"]
     refusals: Annotated[StatusRefusals, "why a request would be refused right now, and what to do"]
     ending: Annotated[SceneEnding | None, "why the flight was stopped before its end; null unless it was"]
     findings: NotRequired[Annotated[list[StatusFinding], "what went badly so far; a server forms it once a second"]]

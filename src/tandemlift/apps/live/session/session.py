@@ -165,7 +165,8 @@ class Session:
         if not self.is_ready:
             return self._preparation.status()
         with self._lock:
-            status = status_of(self._flight, self.pacer, self._values(), self._failed)
+            vehicle = self._frames.scene["vehicle"]
+            status = status_of(self._flight, self.pacer, self._values(), vehicle, self._failed)
             self._findings.look(self._flight)
         status["findings"] = self._findings.formed()
         return status
