@@ -39,8 +39,8 @@ INTERRUPTION_TEXT = "{outcome} at {time:.6g} s: {limit}"
 class Ending(NamedTuple):
     """The end of a flight that was stopped: the quantity, time [s] and value, the violated limit, and the outcome.
 
-    An interruption has no quantity (""), no value (nan), and the reason instead of a limit. An impact has a `cause`: what
-    was hit, and how hard.
+    An interruption has no quantity (""), no value (nan), and the reason instead of a limit. An impact has a `cause`:
+    what was hit, and how hard.
     """
 
     quantity: str

@@ -38,7 +38,7 @@ import { VideoRecorder } from "./video_recorder.ts";
 const TEXT_EVERY = 200; // ms
 const PLOT_EVERY = { full: 30, light: 110 }; // ms; each of the four plots is drawn at a fourth of this rate
 const VIEWS: Record<View, string> = { behind: "behind", side: "side", above: "above" };
-const NARROW = 900; // pixels: below it the panel covers the picture, and starts closed
+const NARROW = 900; // pixels: below it the panel starts closed
 const LOW = 380; // pixels of height: below it the plots start closed
 
 /** What the shell needs of the page. */
@@ -93,6 +93,7 @@ export class Shell {
     });
     byId("show-help").addEventListener("click", () => {
       this.help.showModal();
+      this.help.scrollTop = 0; // the focus is at its end
     });
     foldable("show-panel", "panel", window.innerWidth >= NARROW && page.replay === null);
     foldable("show-plots", "plots", window.innerHeight >= LOW);
