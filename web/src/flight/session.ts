@@ -171,13 +171,17 @@ export class Session {
       kill: ({ rotor }) => this.parameters.stopRotor(this.flight, rotor),
       reset: () => this.reset(),
       save: ({ name }) => this.answer(this.saved(name)),
-      tare: ({ type }) => {
-        throw new Refusal(this.manifest.page.texts.only_server, { what: type });
-      },
+      tare: (message) => this.refuse(message),
+      fly: (message) => this.refuse(message),
       ping: () => undefined,
       pause: ({ on }) => (this.pacer.paused = on),
       speed: ({ factor }) => (this.pacer.speed = factor),
     };
+  }
+
+  /** Refuses what only a server has. */
+  private refuse({ type }: PageMessage): never {
+    throw new Refusal(this.manifest.page.texts.only_server, { what: type });
   }
 
   private ask(message: Message<"ask">): void {

@@ -9,7 +9,16 @@ import { RefusalNote } from "./refusal_note.ts";
 const { min, max } = LIMITS.speed.factor;
 const [LIFT, LAND] = ["Lift off (L)", "Land here (K)"];
 const STOP = "Stop all rotors at once: the vehicle falls";
+const OPEN = "Fly a mission of your own: a .toml file, which can also be dropped on the page";
 const SPEEDS = [max, 0.5, 0.25, min].map(String);
+
+/** What the buttons do beside sending messages. */
+export interface DockActions {
+  height: () => number | null; // of the vehicle above the floor, m
+  open: () => void;
+  save: () => void;
+  film: () => void;
+}
 
 export class Dock {
   private readonly note = new RefusalNote();
@@ -21,14 +30,13 @@ export class Dock {
   private readonly enableButton: HTMLButtonElement;
   private readonly speeds: HTMLSelectElement;
   private readonly videoButton: HTMLButtonElement;
+  private readonly openButton: HTMLButtonElement;
 
   constructor(
     place: HTMLElement,
     private readonly send: (message: PageMessage) => void,
     private readonly question: Question,
-    private readonly height: () => number | null, // m, above the floor
-    save: () => void,
-    film: () => void,
+    private readonly actions: DockActions,
   ) {
     this.pauseButton = button("pause", "Pause", "Pause or continue (P)", () => {
       send({ type: "pause", on: !this.paused });
@@ -39,16 +47,16 @@ export class Dock {
     });
     this.enable(true);
     this.speeds = this.speedChoice();
-    this.videoButton = button("video", "Video", "Record a video of the picture", film);
+    this.openButton = button("open", "Open", OPEN, actions.open);
+    this.videoButton = button("video", "Video", "Record a video of the picture", actions.film);
     this.asking = { lift: this.request("lift", LIFT, "go"), land: this.request("land", LAND) };
-    const stop = button("stop", "Stop", STOP, () => {
-      this.stop();
-    }, "danger");
+    const stop = button("stop", "Stop", STOP, () => this.stop(), "danger");
+    const keep = button("save", "Save", "Save the flight so far", actions.save);
     place.replaceChildren(
       this.note.element,
       el("div", { class: "strip" }, this.asking.lift, this.asking.land, stop, this.enableButton),
       el("div", { class: "strip" }, this.pauseButton, this.speeds, this.resetButton()),
-      el("div", { class: "strip" }, button("save", "Save", "Save the flight so far", save), this.videoButton),
+      el("div", { class: "strip" }, this.openButton, keep, this.videoButton),
     );
   }
 
@@ -81,7 +89,7 @@ export class Dock {
     const stop = (): void => {
       this.send({ type: "ask", what: "stop" });
     };
-    const height = this.height();
+    const height = this.actions.height();
     const from = height === null ? "" : ` from ${height.toFixed(1)} m`;
     if (this.airborne) this.question.ask("Stop all rotors?", `The rotors stop and it falls${from}.`, "Stop", stop);
     else stop();
@@ -101,9 +109,10 @@ export class Dock {
     this.videoButton.querySelector("span")!.textContent = on ? "End video" : "Video";
   }
 
-  /** A new flight begins enabled. */
-  reset(): void {
+  /** A new flight begins enabled; `files`: whether it may be followed by that of a file. */
+  reset(files: boolean): void {
     this.enable(true);
+    this.openButton.hidden = !files;
   }
 
   private enable(on: boolean): void {

@@ -24,6 +24,7 @@ import { helpDialog } from "./help.ts";
 import { EndedCard } from "./ended_card.ts";
 import { Findings } from "./findings.ts";
 import { SPAN } from "./history.ts";
+import { MissionChoice } from "./mission_choice.ts";
 import { Notices } from "./notices.ts";
 import { Panel } from "./panel.ts";
 import { isAirborne } from "./phases.ts";
@@ -68,6 +69,7 @@ export class Shell {
   private readonly help: HTMLDialogElement;
   private readonly saving: SaveDialog;
   private readonly ended: EndedCard;
+  private readonly missions: MissionChoice;
   private readonly findings: Findings;
   private readonly video = new VideoRecorder();
   private plots: Plots | null = null;
@@ -85,6 +87,7 @@ export class Shell {
       page.retry();
     });
     this.findings = new Findings(this.notices);
+    this.missions = new MissionChoice(page.send.bind(page), this.notices, this.question);
     this.bar = new StatusBar(page.replay !== null);
     this.panel = new Panel(byId("panel"), page);
     this.help = helpDialog(page.replay !== null);
@@ -115,7 +118,8 @@ export class Shell {
     this.bar.scene(scene);
     this.panel.scene(scene);
     this.plots = new Plots(scene, byId("plots"), this.page.graphics);
-    this.dock?.reset();
+    this.missions.scene(scene);
+    this.dock?.reset(this.missions.open);
     if (!this.page.replay || !scene.replay) return;
     this.timeline = new Timeline(byId("dock"), scene.replay, this.page.replay, () => {
       this.toggleVideo();
@@ -144,6 +148,10 @@ export class Shell {
 
   refused(what: string, reason: string): void {
     if (what === "save" && this.saving.refused(reason)) return;
+    if (what === "fly") {
+      this.missions.refused(reason);
+      return;
+    }
     if (["ask", "enable"].includes(what) && this.dock) {
       this.dock.refused(reason);
       return;
@@ -153,6 +161,10 @@ export class Shell {
   }
 
   done(what: string, detail: string): void {
+    if (what === "fly") {
+      this.missions.done(detail);
+      return;
+    }
     if (what === "save") this.saving.done();
     this.notices.show(what === "save" ? `Saved as ${detail}` : `${what}: ${detail}`, "done");
   }
@@ -187,14 +199,12 @@ export class Shell {
 
   private makeDock(): void {
     const { page } = this;
-    const save = (): void => {
-      this.saving.open(timedName(this.mission));
-    };
-    const film = (): void => {
-      this.toggleVideo();
-    };
-    const height = (): number | null => (page.current ? page.current.vector("position")[2] - this.floor : null);
-    this.dock = new Dock(byId("dock"), page.send.bind(page), this.question, height, save, film);
+    this.dock = new Dock(byId("dock"), page.send.bind(page), this.question, {
+      height: () => (page.current ? page.current.vector("position")[2] - this.floor : null),
+      open: () => this.missions.choose(),
+      save: () => this.saving.open(timedName(this.mission)),
+      film: () => this.toggleVideo(),
+    });
   }
 
   private makeViews(): void {

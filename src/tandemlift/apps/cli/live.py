@@ -14,7 +14,15 @@ import click
 
 from tandemlift.apps.cli.completion import FLIGHTS, MISSIONS
 from tandemlift.apps.cli.console import echo, exit_now
-from tandemlift.apps.cli.flying import engine_option, flight_file, html_path, load, saved_flight, set_option
+from tandemlift.apps.cli.flying import (
+    controller_option,
+    engine_option,
+    flight_file,
+    html_path,
+    load,
+    saved_flight,
+    set_option,
+)
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.files import write_file
 
@@ -44,20 +52,30 @@ no_browser_option = click.option("--no-browser", is_flag=True, help="Only print 
 @click.option("--out", metavar="DIR", default=str(OUT), show_default=True, help="Folder for flights saved in the page.")
 @no_browser_option
 @set_option
+@controller_option()
 def live(
-    mission: str, engine: str, port: int, host: str, out: str, no_browser: bool, settings: tuple[str, ...]
+    mission: str,
+    engine: str,
+    port: int,
+    host: str,
+    out: str,
+    no_browser: bool,
+    settings: tuple[str, ...],
+    controller: str | None,
 ) -> None:
     """Fly MISSION in real time, and push it by hand in a page of the browser.
 
     MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file. The default is zigzag, the
-    paper's corridor. The mission's own pushes and person are omitted: only you push. The page is served on this
-    machine only, unless --host says otherwise. Ctrl-C ends the flight.
+    paper's corridor. The mission's own pushes and person are omitted: only you push. The page can choose another
+    mission, or fly a file that is dropped on it. The page is served on this machine only, unless --host says otherwise.
+    Ctrl-C ends the flight.
 
     \b
     Examples:
       tandemlift live
       tandemlift live zigzag --out out/mine
       tandemlift live hover --set admittance.mass=2 --port 0 --no-browser
+      tandemlift live hover --controller my_pd.py
 
     \b
     Exit code:
@@ -68,7 +86,7 @@ def live(
 
     check_live_installed()
     engine_named(engine)
-    session = session_of(load(mission, settings), engine, Path(out))
+    session = session_of(load(mission, settings, controller), engine, Path(out))
     from tandemlift.apps.live.page_files import page_files
     from tandemlift.apps.live.server import PageServer
 
