@@ -34,7 +34,8 @@ export class MissionChoice {
       this.fly({ type: "fly", mission: name });
     };
     if (missions) this.menu ??= new MissionMenu(missions, fly);
-    this.show(mission);
+    this.flown = mission;
+    this.menu?.show(mission);
   }
 
   /** The person chooses a file. */
@@ -44,9 +45,8 @@ export class MissionChoice {
     input.click();
   }
 
-  /** Another mission is flown, of which the scene may not say the name of the file. */
+  /** A mission is flown, by its name or that of its file; the scene has the name of the mission itself. */
   done(name: string): void {
-    this.show(name);
     this.loading?.remove();
     this.notices.show(`Flying ${name}`, "done");
   }
@@ -55,11 +55,6 @@ export class MissionChoice {
     this.menu?.show(this.flown);
     this.loading?.remove();
     this.question.tell("This mission is not flown", reason);
-  }
-
-  private show(name: string): void {
-    this.flown = name;
-    this.menu?.show(name);
   }
 
   private fly(message: FlyMessage): void {
