@@ -144,11 +144,7 @@ def load_mission(
 
 
 def mission_from_text(name: str, text: str) -> Mission:
-    """Load a mission from the content of a file that is elsewhere: no other file of this machine is read for it.
-
-    Args:
-        name: of the file.
-        text: its content; it may extend a built-in mission.
+    """Load a mission from the text of a file `name` that is elsewhere; it may extend a built-in mission, and no other.
 
     Raises:
         InputError: as by `load_mission`; or it needs another file.
