@@ -25,7 +25,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from tandemlift.apps.live.session.frames import FRAME_FIELDS
-from tandemlift.apps.live.session.page_messages import PAGE_MESSAGES
+from tandemlift.apps.live.session.page_messages import MAX_SIZE, PAGE_MESSAGES
 from tandemlift.apps.live.session.server_messages import (
     SERVER_MESSAGES,
     SHOWN_PARAMETERS,
@@ -182,6 +182,7 @@ def page_types() -> str:
     texts.append(f"export const JUMPING_FIELDS: readonly FrameFieldName[] = [{jumping}];\n")
     texts.append("/** Parameters that the picture and the plots show. */")
     texts += [f'export const {name} = "{key}";' for name, key in SHOWN_PARAMETERS.items()]
+    texts.append(f"/** Size of a message, at most [bytes]. */\nexport const MAX_SIZE = {MAX_SIZE};\n")
     texts.append(limits())
     kinds = dict.fromkeys([*parts_of(FlightScene), FlightScene, *parts_of(FlightStatus), FlightStatus])
     kinds |= dict.fromkeys([*SERVER_MESSAGES.values(), *PAGE_MESSAGES.values()])

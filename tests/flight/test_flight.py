@@ -202,7 +202,7 @@ def test_a_step_that_does_not_divide_10_s_starts_its_count_after_them(flown):
 
 
 def test_a_flight_that_diverges_keeps_what_was_flown_and_says_why(lost):
-    quantity, at, value, limit, outcome = lost.ending
+    quantity, at, value, limit, outcome, _ = lost.ending
     assert (quantity, limit) == ("distance from the origin [m]", "must stay below 1000 m")
     assert outcome == lost.outcome == "diverged"
     assert 1000.0 <= value < 1000.2

@@ -50,6 +50,7 @@ def test_a_vehicle_that_falls_ends_where_it_strikes(flown):
     assert impulse[-2] < 7.0 <= impulse[-1]
     assert flight.ending.value == pytest.approx(impulse[-1], rel=1e-9)
     assert flight["position"][-1, 2] < -2.5
+    assert str(flight.ending) == f"crashed at {flight.ending.time:.6g} s: hit the floor: {impulse[-1]:.3g} of 7 N s"
 
 
 def test_a_vehicle_that_leaves_the_fence_ends_a_metre_outside(flown):

@@ -136,17 +136,30 @@ def opened(browser, address, prepare=lambda page: None, **options):
     return page
 
 
+def beam_pixels(page):
+    """The pixels of the wooden beam on the page, found by their colour: x, y."""
+    box = page.locator("#surface canvas").bounding_box()
+    image = np.asarray(Image.open(io.BytesIO(page.screenshot(clip=box, scale="css"))).convert("RGB")).astype(int)
+    r, g, b = image[..., 0], image[..., 1], image[..., 2]
+    rows, columns = np.nonzero((r > 1.25 * g) & (g > 1.25 * b) & (r > 70) & (r < 215))
+    return box["x"] + columns, box["y"] + rows
+
+
 def middle_of_the_beam(page):
-    """The middle of the wooden beam on the page, found by its colour."""
+    """The middle of the wooden beam on the page."""
 
     def seen():
-        box = page.locator("#surface canvas").bounding_box()
-        image = np.asarray(Image.open(io.BytesIO(page.screenshot(clip=box))).convert("RGB")).astype(int)
-        r, g, b = image[..., 0], image[..., 1], image[..., 2]
-        rows, columns = np.nonzero((r > 1.25 * g) & (g > 1.25 * b) & (r > 70) & (r < 215))
-        return None if len(rows) < 100 else (box["x"] + np.median(columns), box["y"] + np.median(rows))
+        x, y = beam_pixels(page)
+        return None if len(x) < 100 else (np.median(x), np.median(y))
 
     return until(seen, "a beam on the page")
+
+
+def stopped(page):
+    """Stop the rotors in the air, and answer the question; once the page knows that the vehicle flies."""
+    until(lambda: page.text_content("#mode") in ("guided", "holding"), "a status on the page")
+    page.get_by_role("button", name="Stop").click()
+    page.locator("#question").get_by_role("button", name="Stop").click()
 
 
 def rests(seen):

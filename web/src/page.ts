@@ -16,7 +16,8 @@ import { embeddedIndex, newWorker, obstacle } from "./flight/embedded.ts";
 import { readLink } from "./flight/link.ts";
 import type { FlightIndex } from "./flight/manifest.ts";
 import { byId } from "./ui/dom.ts";
-import { missionMenu, ownFlightGroup, showMission } from "./ui/own_flight.ts";
+import { MissionMenu } from "./ui/mission_menu.ts";
+import { ownFlightGroup } from "./ui/own_flight.ts";
 import { Connection, socketAddress } from "./wire/connection.ts";
 import { embeddedReplay } from "./wire/replay.ts";
 
@@ -25,19 +26,16 @@ function fly(index: FlightIndex): void {
   const link = () => readLink(window.location.hash);
   const flight = new OwnFlight(index, newWorker, link);
   const address = (): string => window.location.href.replace(/#.*/, "") + flight.link;
-  const show = (): void => {
-    showMission(flight.mission);
-  };
-  missionMenu(flight, (mission) => {
+  const menu = new MissionMenu(flight.missions, (mission) => {
     window.history.replaceState(null, "", `#mission=${mission}`);
     flight.open(mission, []);
   });
   window.addEventListener("hashchange", () => {
     flight.restart();
-    show();
+    menu.show(flight.mission);
   });
   new App(flight, null, [ownFlightGroup(flight, address)]).start();
-  show();
+  menu.show(flight.mission);
 }
 
 /** Shows a flight that the page carries, or that of the page's server. */

@@ -96,7 +96,7 @@ OTHER_REASONS = (
     RefusalReason("limited", "the vehicle {alarm}", "Push less, and wait until it can follow again."),
     RefusalReason("beam_touches", "the beam touches a wall", LEAVE_WALL),
     RefusalReason("guard_touches", "the guard of quadrotor {value} touches a wall", LEAVE_WALL),
-    RefusalReason("disabled", "the pilot is told not to follow pushes", "Enable it."),
+    RefusalReason("disabled", "the pilot is told not to follow pushes", "Let it follow again."),
     RefusalReason("over", "the flight is over", AGAIN),
     RefusalReason("stopped_early", "the flight has crashed or diverged", AGAIN),
     RefusalReason("error", "the flight has ended by an error in the software", AGAIN),

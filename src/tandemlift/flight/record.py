@@ -32,13 +32,15 @@ LATE = 10.0
 
 
 ENDING_TEXT = "{outcome} at {time:.6g} s: {quantity} = {value:.6g}, {limit}"
+CAUSE_TEXT = "{outcome} at {time:.6g} s: {cause}"
 INTERRUPTION_TEXT = "{outcome} at {time:.6g} s: {limit}"
 
 
 class Ending(NamedTuple):
     """The end of a flight that was stopped: the quantity, time [s] and value, the violated limit, and the outcome.
 
-    An interruption has no quantity (""), no value (nan), and the reason instead of a limit.
+    An interruption has no quantity (""), no value (nan), and the reason instead of a limit. An impact has a `cause`:
+    what was hit, and how hard.
     """
 
     quantity: str
@@ -46,9 +48,11 @@ class Ending(NamedTuple):
     value: float
     limit: str
     outcome: str = "diverged"
+    cause: str = ""
 
     def __str__(self) -> str:
-        return (ENDING_TEXT if self.quantity else INTERRUPTION_TEXT).format(**self._asdict())
+        text = CAUSE_TEXT if self.cause else ENDING_TEXT if self.quantity else INTERRUPTION_TEXT
+        return text.format(**self._asdict())
 
 
 def interruption(time: float, reason: object) -> Ending:
@@ -214,7 +218,7 @@ def _described(channel: Channel) -> dict[str, str]:
 
 def _written(ending: Ending | None) -> list[Any] | None:
     """An ending as strict JSON: its value, which may be nan, is a text."""
-    return ending and [ending.quantity, ending.time, repr(ending.value), ending.limit, ending.outcome]
+    return ending and [ending.quantity, ending.time, repr(ending.value), *ending[3:]]
 
 
 def _read(file: BinaryIO) -> tuple[dict[str, Any], dict[str, Array]]:

@@ -13,6 +13,7 @@ from tandemlift.missions.loading import (
     built_in,
     format_toml,
     load_mission,
+    mission_from_text,
     mission_of,
     to_toml,
 )
@@ -31,6 +32,7 @@ __all__ = [
     "in_turn",
     "load_mission",
     "merge",
+    "mission_from_text",
     "mission_of",
     "tables_of",
     "to_toml",

@@ -51,6 +51,11 @@ def _read(path: Path) -> Tables:
         content = file.read(MAX_FILE + 1)
     if len(content) > MAX_FILE:
         raise InputError(f"{path} is larger than {MAX_FILE} bytes, the most that a mission file may have")
+    return _tables_in(content, path)
+
+
+def _tables_in(content: bytes, path: Path | str) -> Tables:
+    """The tables of a file's content; `path` names it in errors."""
     try:
         return dict(_parsed(content.decode("utf-8-sig").replace("\r\n", "\n")))
     except InputError as error:
@@ -136,6 +141,25 @@ def load_mission(
     with _named(name):
         tables, layers = read_tables(name, controller)
         return check(_with_changes(tables, changes or {}, layers), layers[-1].source, layers)
+
+
+def mission_from_text(name: str, text: str) -> Mission:
+    """Load a mission from the text of a file `name` that is elsewhere; it may extend a built-in mission, and no other.
+
+    Raises:
+        InputError: as by `load_mission`; or it needs another file.
+    """
+    with _named(name):
+        tables = _tables_in(text.encode("utf-8", "replace"), name)
+        parent = tables.pop("extends", None)
+        if parent is not None and (not isinstance(parent, str) or parent not in built_in()):
+            allowed = f"must be a built-in mission, as the file is read alone: {', '.join(built_in())}"
+            raise InputError(f"{name}: extends = {shown(parent)}: {allowed}")
+        if value_at(tables, ("person", "recording")) not in (MISSING, ""):
+            raise InputError(f"{name}: person.recording: must be left out, as the file is read alone")
+        layers = [*(layers_of(path_of(parent, Path())) if parent else ()), Layer(name, tables)]
+        *_, folded = itertools.accumulate(layers, _laid_over, initial=Tables())
+        return check(folded, name, layers)
 
 
 MissionLike = Mission | str | os.PathLike[str]

@@ -32,7 +32,8 @@ def ending_of(p: FlightPlan, s: FlightState, step: int, interruption: Ending | N
     if found.not_finite:
         return Ending(State._fields[int(found.not_finite) - 1], found.time, found.value, NOT_FINITE)
     kind = ENDING_OF[found.number]
-    return Ending(kind.quantity, found.time, found.value, limit_of(p, found.number), kind.outcome)
+    cause = cause_of(p, found.number).format(value=f"{found.value:.3g}")
+    return Ending(kind.quantity, found.time, found.value, limit_of(p, found.number), kind.outcome, cause)
 
 
 def place_of(p: FlightPlan, s: FlightState) -> Vec3:
@@ -50,6 +51,16 @@ def limit_of(p: FlightPlan, number: float) -> str:
     if number == LEFT_FENCE:
         return f"must stay below {p.mission.crash.fence_margin:g} m"
     return f"must stay below {FAR:g} m"
+
+
+def cause_of(p: FlightPlan, number: float) -> str:
+    """The cause of an ending in words, with its {value} in braces; empty where quantity and limit say it."""
+    strike = p.model.limits.strike
+    if number != STRUCK or isinstance(strike, Absent):
+        return ""
+    floor, walls = p.mission.ground.model != "none", bool(p.mission.all_walls)
+    surface = " or ".join([*["the floor"] * floor, *["a wall"] * walls])
+    return f"hit {surface}: {{value}} of {strike.impulse:.3g} N s"
 
 
 def outcome_of(p: FlightPlan, s: FlightState, last: Sample, highest: float, end: float) -> str:

@@ -75,7 +75,7 @@ def test_from_the_ground_to_the_air_and_back_each_phase_refuses_what_it_cannot_d
     assert "still lifting off" in push.why
     assert sampled(one, 3.0)[1:] == (None, None)
     lift, land, push = sampled(one, 0.01, enabled=False)
-    assert str(push) == "The push is not followed: the pilot is told not to follow pushes. Enable it."
+    assert str(push) == "The push is not followed: the pilot is told not to follow pushes. Let it follow again."
     lift, land, push = sampled(one, 0.01, land=True)
     assert all("landing, which cannot be cancelled" in refusal.why for refusal in (lift, push))
     assert land is None

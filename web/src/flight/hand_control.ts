@@ -76,9 +76,19 @@ export class HandControl {
     return this.flight.hand.subarray(at, at + size);
   }
 
+  /** The time for which nobody may touch the vehicle, as its force sensors are tared [s]; else 0. */
+  get tareLeft(): number {
+    const [, duration, end] = this.page.touch_rule;
+    return Math.max(end - this.flight.time, duration - this.hovered, 0);
+  }
+
+  /** For how long the vehicle has hovered [s]; 0 where no tare needs it. */
+  private get hovered(): number {
+    return this.page.hover_time < 0 ? 0 : this.flight.number(this.page.hover_time);
+  }
+
   private checkTouch(point: Vector): void {
-    const { flight, page } = this;
-    const hovered = page.hover_time < 0 ? 0 : flight.number(page.hover_time);
+    const { flight, page, hovered } = this;
     const [refusal] = this.module.values("touch_refusal", [...page.touch_rule, flight.time, hovered, ...point]);
     const text = page.texts.touch[String(refusal)];
     if (text) throw new Refusal(text, { point: shown(point) });

@@ -116,6 +116,7 @@ export class Session {
       behind_ms: Number((1e3 * behind).toFixed(2)),
       recorded_s: Number(flight.time.toFixed(3)),
       failed_rotors: this.parameters.failed(flight.time),
+      tare_left_s: Number(this.hand.tareLeft.toFixed(3)),
       refusals: this.refusals(),
       ending,
       viewers: 1,
@@ -170,13 +171,17 @@ export class Session {
       kill: ({ rotor }) => this.parameters.stopRotor(this.flight, rotor),
       reset: () => this.reset(),
       save: ({ name }) => this.answer(this.saved(name)),
-      tare: ({ type }) => {
-        throw new Refusal(this.manifest.page.texts.only_server, { what: type });
-      },
+      tare: (message) => this.refuse(message),
+      fly: (message) => this.refuse(message),
       ping: () => undefined,
       pause: ({ on }) => (this.pacer.paused = on),
       speed: ({ factor }) => (this.pacer.speed = factor),
     };
+  }
+
+  /** Refuses what only a server has. */
+  private refuse({ type }: PageMessage): never {
+    throw new Refusal(this.manifest.page.texts.only_server, { what: type });
   }
 
   private ask(message: Message<"ask">): void {

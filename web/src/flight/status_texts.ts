@@ -13,7 +13,7 @@ export function endingOf(module: FlightModule, page: PageManifest, flight: Fligh
   const { by_number: known, not_finite: parts } = page.texts.endings;
   const { outcome, text } = notFinite ? parts[notFinite - 1] : known[String(number)];
   const place = [x, y, z].every(Number.isFinite) ? ([x, y, z] as const) : null;
-  return { outcome, text: filled(text, { time, value }), time, place };
+  return { outcome, text: filled(text, { time, value, rounded: Number(value.toPrecision(3)) }), time, place };
 }
 
 export function refusalsNow(module: FlightModule, page: PageManifest, flight: Flight): StatusRefusals {

@@ -2,48 +2,61 @@
 
 import { LIMITS, type PageMessage, type StatusMessage } from "../wire/messages.generated.ts";
 import { button, el, icon } from "./dom.ts";
+import { isAirborne } from "./phases.ts";
+import type { Question } from "./question.ts";
 import { RefusalNote } from "./refusal_note.ts";
 
 const { min, max } = LIMITS.speed.factor;
 const [LIFT, LAND] = ["Lift off (L)", "Land here (K)"];
 const STOP = "Stop all rotors at once: the vehicle falls";
+const OPEN = "Fly a mission of your own: a .toml file, which can also be dropped on the page";
 const SPEEDS = [max, 0.5, 0.25, min].map(String);
+
+/** What the buttons do beside sending messages. */
+export interface DockActions {
+  height: () => number | null; // of the vehicle above the floor, m
+  open: () => void;
+  save: () => void;
+  film: () => void;
+}
 
 export class Dock {
   private readonly note = new RefusalNote();
   private readonly asking: Record<"lift" | "land", HTMLButtonElement>;
   private paused = false;
   private enabled = true;
+  private airborne = false;
   private readonly pauseButton: HTMLButtonElement;
   private readonly enableButton: HTMLButtonElement;
   private readonly speeds: HTMLSelectElement;
   private readonly videoButton: HTMLButtonElement;
+  private readonly openButton: HTMLButtonElement;
 
   constructor(
     place: HTMLElement,
     private readonly send: (message: PageMessage) => void,
-    save: () => void,
-    film: () => void,
+    private readonly question: Question,
+    private readonly actions: DockActions,
   ) {
     this.pauseButton = button("pause", "Pause", "Pause or continue (P)", () => {
       send({ type: "pause", on: !this.paused });
     });
-    this.enableButton = button("hand", "Enable", "Whether the pilot follows pushes", () => {
+    this.enableButton = button("hand", "", "Whether the pilot follows pushes", () => {
       this.enable(!this.enabled);
       send({ type: "enable", on: this.enabled });
     });
     this.enable(true);
     this.speeds = this.speedChoice();
-    this.videoButton = button("video", "Video", "Record a video of the picture", film);
+    this.openButton = button("open", "Open", OPEN, actions.open);
+    this.videoButton = button("video", "Video", "Record a video of the picture", actions.film);
     this.asking = { lift: this.request("lift", LIFT, "go"), land: this.request("land", LAND) };
-    const stop = button("stop", "Stop", STOP, () => {
-      send({ type: "ask", what: "stop" });
-    }, "danger");
+    const stop = button("stop", "Stop", STOP, () => this.stop(), "danger");
+    const keep = button("save", "Save", "Save the flight so far", actions.save);
     place.replaceChildren(
       this.note.element,
       el("div", { class: "strip" }, this.asking.lift, this.asking.land, stop, this.enableButton),
       el("div", { class: "strip" }, this.pauseButton, this.speeds, this.resetButton()),
-      el("div", { class: "strip" }, button("save", "Save", "Save the flight so far", save), this.videoButton),
+      el("div", { class: "strip" }, this.openButton, keep, this.videoButton),
     );
   }
 
@@ -59,7 +72,9 @@ export class Dock {
     const { lift, land } = status.refusals;
     mark(this.asking.lift, lift, LIFT);
     mark(this.asking.land, land, LAND);
-    if (!status.paused) this.note.status(status.refusals, status.phase === "idle" ? lift : "");
+    if (!status.paused) this.note.status(status);
+    this.airborne = isAirborne(status.phase);
+    if (!this.airborne) this.question.withdraw();
   }
 
   /** Asks the pilot to lift off or to land. */
@@ -67,6 +82,17 @@ export class Dock {
     this.note.ask(what);
     if (this.paused) this.note.refused("The flight is paused. Press Continue, and the pilot is asked.");
     this.send({ type: "ask", what });
+  }
+
+  /** Stops the rotors; in the air only after a question. */
+  private stop(): void {
+    const stop = (): void => {
+      this.send({ type: "ask", what: "stop" });
+    };
+    const height = this.actions.height();
+    const from = height === null ? "" : ` from ${height.toFixed(1)} m`;
+    if (this.airborne) this.question.ask("Stop all rotors?", `The rotors stop and it falls${from}.`, "Stop", stop);
+    else stop();
   }
 
   /** A request is refused. */
@@ -83,15 +109,16 @@ export class Dock {
     this.videoButton.querySelector("span")!.textContent = on ? "End video" : "Video";
   }
 
-  /** A new flight begins enabled. */
-  reset(): void {
+  /** A new flight begins enabled; `files`: whether it may be followed by that of a file. */
+  reset(files: boolean): void {
     this.enable(true);
+    this.openButton.hidden = !files;
   }
 
   private enable(on: boolean): void {
     this.enabled = on;
     this.enableButton.setAttribute("aria-pressed", String(on));
-    this.enableButton.querySelector("span")!.textContent = on ? "Enabled" : "Disabled";
+    this.enableButton.querySelector("span")!.textContent = on ? "Follows me" : "Does not follow";
   }
 
   private request(what: "lift" | "land", title: string, kind?: string): HTMLButtonElement {

@@ -2,22 +2,29 @@
 
 import { byId, el } from "./dom.ts";
 
-const LIVE: [string, string][] = [
-  ["Drag the beam", "pull it with mouse or finger"],
-  ["Wheel, or a second finger, while dragging", "push away or pull near; with a level plane, up or down"],
-  ["Drag elsewhere \u00b7 wheel \u00b7 right button", "turn the view \u00b7 zoom \u00b7 shift"],
+type Line = [string, string];
+
+const MOUSE: Line[] = [
+  ["Drag the beam", "pull it"],
+  ["Wheel, while dragging", "push away or pull near; with a level plane, up or down"],
+];
+const FINGERS: Line[] = [
+  ["Drag the beam with a finger", "pull it"],
+  ["Second finger up or down, meanwhile", "push away or pull near; with a level plane, up or down"],
+];
+const MOUSE_VIEW: Line = ["Drag elsewhere \u00b7 wheel \u00b7 right button", "turn the view \u00b7 zoom \u00b7 shift"];
+const FINGERS_VIEW: Line = ["Drag elsewhere \u00b7 two fingers", "turn the view \u00b7 zoom and shift"];
+const KEYS: Line[] = [
   ["Arrows or W A S D", "push level; the force is set under Settings \u2192 hand"],
   ["E, Q or Page Up, Page Down", "push up, down"],
   ["Gamepad", "left stick: level; right stick: up and down"],
   ["L \u00b7 K \u00b7 P", "lift \u00b7 land \u00b7 pause"],
-  ["1 2 3 \u00b7 F", "view from behind, the side, above \u00b7 follow the vehicle"],
 ];
-const REPLAY: [string, string][] = [
+const REPLAY_KEYS: Line[] = [
   ["P", "play or pause"],
   ["Left, Right", "one second back, on"],
-  ["Drag \u00b7 wheel \u00b7 right button", "turn the view \u00b7 zoom \u00b7 shift"],
-  ["1 2 3 \u00b7 F", "view from behind, the side, above \u00b7 follow the vehicle"],
 ];
+const VIEW_KEYS: Line = ["1 2 3 \u00b7 F", "view from behind, the side, above \u00b7 follow the vehicle"];
 const LEGEND: [string, string, string][] = [
   ["push", "red arrow", "true push on the beam"],
   ["hand", "violet box and spring", "the hand; inside the box a pull is below the threshold and moves nothing"],
@@ -26,9 +33,17 @@ const LEGEND: [string, string, string][] = [
   ["wind", "light blue arrow", "the wind"],
 ];
 
+/** What a person can do, gestures first: of fingers where they are what the page is used with, else of a mouse. */
+export function helpLines(replay: boolean, touch: boolean): Line[] {
+  const pull = touch ? FINGERS : MOUSE;
+  const look = touch ? FINGERS_VIEW : MOUSE_VIEW;
+  return replay ? [look, ...REPLAY_KEYS, VIEW_KEYS] : [...pull, look, ...KEYS, VIEW_KEYS];
+}
+
 export function helpDialog(replay: boolean): HTMLDialogElement {
   const dialog = byId("help") as HTMLDialogElement;
-  const keys = (replay ? REPLAY : LIVE).flatMap(([key, text]) => [el("dt", {}, key), el("dd", {}, text)]);
+  const touch = window.matchMedia("(pointer: coarse)").matches;
+  const keys = helpLines(replay, touch).flatMap(([key, text]) => [el("dt", {}, key), el("dd", {}, text)]);
   const legend = LEGEND.flatMap(([kind, what, text]) => [
     el("dt", {}, el("i", { class: `dot ${kind}` }), what),
     el("dd", {}, text),

@@ -14,7 +14,8 @@ export class Notices {
     byId("retry").addEventListener("click", retry);
   }
 
-  show(text: string, kind: "done" | "refused" | "finding"): void {
+  /** Shows a text for some seconds; returns its element. */
+  show(text: string, kind: "done" | "refused" | "finding"): HTMLElement {
     const same = [...this.place.children].find((one) => one.textContent === text);
     same?.remove();
     const notice = el("p", { class: kind }, text);
@@ -26,6 +27,7 @@ export class Notices {
     window.setTimeout(() => {
       notice.remove();
     }, SHOWN_FOR);
+    return notice;
   }
 
   /** Shows a sentence until it is pressed. */

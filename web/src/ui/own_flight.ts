@@ -1,26 +1,9 @@
-// The controls of a page that flies without a server: the menu of missions, the link, and what only a server has.
+// The controls of a page that flies without a server: the link, and what only a server has.
 
 import type { OwnFlight } from "../flight/client.ts";
-import { byId, el } from "./dom.ts";
+import { el } from "./dom.ts";
 
 const SAID_FOR = 2000; // ms
-
-/** A menu in place of the mission's name. */
-export function missionMenu(flight: OwnFlight, chosen: (mission: string) => void): void {
-  const options = flight.missions.map(({ name, title }) => el("option", { value: name, title }, name));
-  const menu = el("select", { id: "missions", title: "Mission", "aria-label": "Mission" }, ...options);
-  menu.addEventListener("change", () => {
-    chosen(menu.value);
-    menu.blur();
-  });
-  byId("mission").hidden = true;
-  byId("mission").after(menu);
-}
-
-/** Shows the mission that is flown. */
-export function showMission(name: string): void {
-  (byId("missions") as HTMLSelectElement).value = name;
-}
 
 /** The panel's group: a link to this mission with its settings, and what only a server has. */
 export function ownFlightGroup(flight: OwnFlight, address: () => string): HTMLElement {

@@ -24,6 +24,13 @@ const LOOKS: Record<Phase, PhaseLook> = {
   stopped: { text: "stopped", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
 };
 
+const AIRBORNE: readonly Phase[] = ["lift", "guided", "land", "hold", "contact", "limited"];
+
+/** Whether a vehicle whose rotors stop would fall. */
+export function isAirborne(phase: Phase): boolean {
+  return AIRBORNE.includes(phase);
+}
+
 export function phaseTint(phase: Phase): string {
   return LOOKS[phase].tint;
 }

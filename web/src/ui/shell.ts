@@ -24,9 +24,12 @@ import { helpDialog } from "./help.ts";
 import { EndedCard } from "./ended_card.ts";
 import { Findings } from "./findings.ts";
 import { SPAN } from "./history.ts";
+import { MissionChoice } from "./mission_choice.ts";
 import { Notices } from "./notices.ts";
 import { Panel } from "./panel.ts";
+import { isAirborne } from "./phases.ts";
 import { Plots } from "./plots.ts";
+import { Question } from "./question.ts";
 import { SaveDialog } from "./save_dialog.ts";
 import { StatusBar } from "./status_bar.ts";
 import type { ThemeChoice } from "./theme.ts";
@@ -36,7 +39,7 @@ import { VideoRecorder } from "./video_recorder.ts";
 const TEXT_EVERY = 200; // ms
 const PLOT_EVERY = { full: 30, light: 110 }; // ms; each of the four plots is drawn at a fourth of this rate
 const VIEWS: Record<View, string> = { behind: "behind", side: "side", above: "above" };
-const NARROW = 900; // pixels: below it the panel covers the picture, and starts closed
+const NARROW = 900; // pixels: below it the panel starts closed
 const LOW = 380; // pixels of height: below it the plots start closed
 
 /** What the shell needs of the page. */
@@ -66,12 +69,15 @@ export class Shell {
   private readonly help: HTMLDialogElement;
   private readonly saving: SaveDialog;
   private readonly ended: EndedCard;
+  private readonly missions: MissionChoice;
   private readonly findings: Findings;
   private readonly video = new VideoRecorder();
   private plots: Plots | null = null;
   private dock: Dock | null = null;
   private timeline: Timeline | null = null;
+  private readonly question = new Question();
   private mission = "flight";
+  private floor = 0; // m
   private pulled = false;
   private texts = 0;
   private drawn = 0;
@@ -81,6 +87,7 @@ export class Shell {
       page.retry();
     });
     this.findings = new Findings(this.notices);
+    this.missions = new MissionChoice(page.send.bind(page), this.notices, this.question);
     this.bar = new StatusBar(page.replay !== null);
     this.panel = new Panel(byId("panel"), page);
     this.help = helpDialog(page.replay !== null);
@@ -89,6 +96,7 @@ export class Shell {
     });
     byId("show-help").addEventListener("click", () => {
       this.help.showModal();
+      this.help.scrollTop = 0; // the focus is at its end
     });
     foldable("show-panel", "panel", window.innerWidth >= NARROW && page.replay === null);
     foldable("show-plots", "plots", window.innerHeight >= LOW);
@@ -106,11 +114,12 @@ export class Shell {
   }
 
   scene(scene: FlightScene): void {
-    this.mission = scene.mission;
+    [this.mission, this.floor] = [scene.mission, scene.floor];
     this.bar.scene(scene);
     this.panel.scene(scene);
     this.plots = new Plots(scene, byId("plots"), this.page.graphics);
-    this.dock?.reset();
+    this.missions.scene(scene);
+    this.dock?.reset(this.missions.open);
     if (!this.page.replay || !scene.replay) return;
     this.timeline = new Timeline(byId("dock"), scene.replay, this.page.replay, () => {
       this.toggleVideo();
@@ -139,7 +148,11 @@ export class Shell {
 
   refused(what: string, reason: string): void {
     if (what === "save" && this.saving.refused(reason)) return;
-    if (what === "ask" && this.dock) {
+    if (what === "fly") {
+      this.missions.refused(reason);
+      return;
+    }
+    if (["ask", "enable"].includes(what) && this.dock) {
       this.dock.refused(reason);
       return;
     }
@@ -148,6 +161,10 @@ export class Shell {
   }
 
   done(what: string, detail: string): void {
+    if (what === "fly") {
+      this.missions.done(detail);
+      return;
+    }
     if (what === "save") this.saving.done();
     this.notices.show(what === "save" ? `Saved as ${detail}` : `${what}: ${detail}`, "done");
   }
@@ -182,13 +199,12 @@ export class Shell {
 
   private makeDock(): void {
     const { page } = this;
-    const save = (): void => {
-      this.saving.open(timedName(this.mission));
-    };
-    const film = (): void => {
-      this.toggleVideo();
-    };
-    this.dock = new Dock(byId("dock"), page.send.bind(page), save, film);
+    this.dock = new Dock(byId("dock"), page.send.bind(page), this.question, {
+      height: () => (page.current ? page.current.vector("position")[2] - this.floor : null),
+      open: () => this.missions.choose(),
+      save: () => this.saving.open(timedName(this.mission)),
+      film: () => this.toggleVideo(),
+    });
   }
 
   private makeViews(): void {
@@ -243,9 +259,10 @@ export class Shell {
 
 const HELD: Phase[] = ["hold", "contact", "limited"]; // phases in which a pilot does not follow, and says why
 
-function hintOf({ phase, preparing, refusals, holder }: StatusMessage, pulled: boolean): string {
+function hintOf({ phase, preparing, refusals, holder, tare_left_s: tare }: StatusMessage, pulled: boolean): string {
   if (preparing?.failure) return `The flight cannot be flown: ${preparing.failure}`;
   if (preparing) return `Preparing the flight: ${preparing.step} \u2026`;
+  if (tare > 0 && isAirborne(phase)) return `Do not touch: ${tare.toFixed(1)} s of tare left`;
   if (phase === "idle") return refusals.lift ? "" : "Press Lift to take off.";
   if (HELD.includes(phase)) return holder === "none" ? refusals.push : ""; // else it is said at the hand
   return phase === "guided" && !pulled ? "Drag the beam to pull it." : "";

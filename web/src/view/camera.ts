@@ -18,7 +18,7 @@ export class ChaseCamera {
   readonly orbit: OrbitControls;
   following = true;
   private readonly vehicle = new Vector3();
-  private reach = 1.5;
+  private fitted = 1; // the fit that the distance stands for
 
   constructor(
     readonly camera: PerspectiveCamera,
@@ -33,17 +33,28 @@ export class ChaseCamera {
 
   /** Places the camera for a vehicle of a reach [m]. */
   look(view: View, vehicle: Vector3, reach: number): void {
-    this.reach = reach;
     this.vehicle.copy(vehicle);
-    // a narrow picture needs more distance to hold the whole beam
-    const apart = this.reach * Math.max(1, 1.25 / Math.max(this.camera.aspect, 0.5));
+    this.fitted = this.fit;
     this.orbit.target.copy(vehicle);
-    this.camera.position.copy(vehicle).addScaledVector(new Vector3(...PLACES[view]), apart);
+    this.camera.position.copy(vehicle).addScaledVector(new Vector3(...PLACES[view]), reach * this.fitted);
     this.orbit.update();
+  }
+
+  /** How much farther away a picture of this shape must be seen from: a narrow one is to hold the whole beam. */
+  private get fit(): number {
+    return Math.max(1, 1.35 / Math.max(this.camera.aspect, 0.4));
+  }
+
+  /** Keeps the vehicle as large a part of a picture whose shape has changed. */
+  private refit(): void {
+    const { target } = this.orbit;
+    this.camera.position.sub(target).multiplyScalar(this.fit / this.fitted).add(target);
+    this.fitted = this.fit;
   }
 
   /** Follows the vehicle; with slack while a hand pulls, so that a still cursor is a still target. */
   update(vehicle: Vector3, pulling: boolean, passed: number): void {
+    if (this.fit !== this.fitted) this.refit();
     const jump = vehicle.distanceTo(this.vehicle) > 2;
     const step = vehicle.clone().sub(this.vehicle);
     this.vehicle.copy(vehicle);

@@ -49,6 +49,9 @@ export const JUMPING_FIELDS: readonly FrameFieldName[] = ["phase", "alarm", "con
 export const THRESHOLD = "admittance.threshold";
 export const STIFFNESS = "person.stiffness";
 export const MAX_FORCE = "person.max_force";
+/** Size of a message, at most [bytes]. */
+export const MAX_SIZE = 65536;
+
 /** Bounds of numbers that the page sends. */
 export const LIMITS = {
   kill: { rotor: { min: 0, max: 255 } },
@@ -131,6 +134,12 @@ export interface SceneParameter {
   choices?: string[]; // in place of bounds
 }
 
+/** A mission that a page may choose. */
+export interface SceneMission {
+  name: string;
+  title: string; // what it shows, in a line
+}
+
 /** Why a flight was stopped before its end. */
 export interface SceneEnding {
   outcome: Phase; // `crashed`, `diverged`, or `failed` where the engine was lost
@@ -165,6 +174,7 @@ export interface FlightScene {
   alarms: string[]; // names of the alarms by their number; empty for no alarm
   fields: [FrameFieldName, number][]; // name and number of columns of each field of a frame
   parameters: SceneParameter[]; // what may be changed in flight
+  missions?: SceneMission[]; // that a page may `fly`
   replay?: SceneReplay; // span of a saved flight
 }
 
@@ -200,6 +210,7 @@ export interface FlightStatus {
   behind_ms: number; // how late the flight was at most since the last status, ms
   recorded_s: number; // length of the recording, s
   failed_rotors: readonly number[]; // rotors that have stopped for good, counted over the whole vehicle from 0
+  tare_left_s: number; // for how long nobody may touch it, as its force sensors are tared, s
   refusals: StatusRefusals; // why a request would be refused right now, and what to do
   ending: SceneEnding | null; // why the flight was stopped before its end; null unless it was
   findings?: StatusFinding[]; // what went badly so far; a server forms it once a second
@@ -234,11 +245,11 @@ export interface RefusedMessage {
   reason: string; // names the key, the value and what is allowed
 }
 
-/** To the page that asked: `save` or `tare` is done. */
+/** To the page that asked: `save`, `tare` or `fly` is done. */
 export interface DoneMessage {
   type: "done";
-  what: "save" | "tare";
-  detail: string; // the folder, or the time of the tare
+  what: "save" | "tare" | "fly";
+  detail: string; // the folder, the time of the tare, or the mission
 }
 
 /** To the page that asked: the answer to `ping`. */
@@ -326,6 +337,13 @@ export interface ResetMessage {
   type: "reset";
 }
 
+/** Fly another mission: a built-in one, or that of a file, which may extend a built-in one only. */
+export interface FlyMessage {
+  type: "fly";
+  mission: string; // name of the mission, or of the file
+  toml?: string; // content of the file; the message must begin with `{"type":"fly",`
+}
+
 /** Save what was flown so far. */
 export interface SaveMessage {
   type: "save";
@@ -360,5 +378,6 @@ export type PageMessage =
   | PauseMessage
   | SpeedMessage
   | ResetMessage
+  | FlyMessage
   | SaveMessage
   | PingMessage;

@@ -11,6 +11,7 @@ export const NOT_LIVE = {
   behind_ms: 0,
   recorded_s: 0,
   failed_rotors: [],
+  tare_left_s: 0,
   refusals: { lift: "", land: "", push: "" },
   viewers: 1,
   holder: "none",

@@ -17,6 +17,7 @@ from tandemlift.apps.cli.console import echo, exit_now, progress_bar
 from tandemlift.apps.cli.flying import (
     FAILED,
     HTML,
+    controller_option,
     engine_option,
     flight_file,
     load,
@@ -53,20 +54,30 @@ no_browser_option = click.option("--no-browser", is_flag=True, help="Only print 
 @click.option("--out", metavar="DIR", default=str(OUT), show_default=True, help="Folder for flights saved in the page.")
 @no_browser_option
 @set_option
+@controller_option()
 def live(
-    mission: str, engine: str, port: int, host: str, out: str, no_browser: bool, settings: tuple[str, ...]
+    mission: str,
+    engine: str,
+    port: int,
+    host: str,
+    out: str,
+    no_browser: bool,
+    settings: tuple[str, ...],
+    controller: str | None,
 ) -> None:
     """Fly MISSION in real time, and push it by hand in the browser.
 
     MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file. The default is zigzag, the
-    paper's corridor. The mission's own pushes and person are omitted: only you push. The page is served on this
-    machine only, unless --host says otherwise. Ctrl-C ends the flight.
+    paper's corridor. The mission's own pushes and person are omitted: only you push. The page can choose another
+    mission, or fly a file that is dropped on it. The page is served on this machine only, unless --host says otherwise.
+    Ctrl-C ends the flight.
 
     \b
     Examples:
       tandemlift live
       tandemlift live zigzag --out out/mine
       tandemlift live hover --set admittance.mass=2 --port 0 --no-browser
+      tandemlift live hover --controller my_pd.py
 
     \b
     Exit code:
@@ -77,7 +88,7 @@ def live(
 
     check_live_installed()
     engine_named(engine)
-    session = session_of(load(mission, settings), engine, Path(out))
+    session = session_of(load(mission, settings, controller), engine, Path(out))
     from tandemlift.apps.live.page_files import page_files
     from tandemlift.apps.live.server import PageServer
 
@@ -216,10 +227,11 @@ def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:
 def score(folder: Path, mission: str, free: tuple[str, ...], settings: tuple[str, ...]) -> None:
     """Rank flights through a corridor by hand.
 
-    Each is flown again from its recording, and scored. FOLDER holds the flights that participants saved in the page of `tandemlift live` or `tandemlift page`, a folder or
-    a .zip each. The score is a time, and the lowest wins: the time from the first push to the end of the corridor, 5 s
-    for each touch of a wall, 1 s for 5 N s of effort, and the logarithm of the dimensionless jerk. A flight of another
-    mission, or with a score that its recording does not fly, is refused with its reason.
+    Each is flown again from its recording, and scored. FOLDER holds the flights that participants saved in the page of
+    `tandemlift live` or `tandemlift page`, a folder or a .zip each. The score is a time, and the lowest wins: the time
+    from the first push to the end of the corridor, 5 s for each touch of a wall, 1 s for 5 N s of effort, and the
+    logarithm of the dimensionless jerk. A flight of another mission, or with a score that its recording does not fly,
+    is refused with its reason.
 
     \b
     Examples:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from tandemlift.apps.live.session.page_messages import (
+    FlyMessage,
     GrabMessage,
     KillMessage,
     MoveMessage,
@@ -30,7 +31,15 @@ if TYPE_CHECKING:
     from tandemlift.apps.live.session.session import Session
 
 MAX_WAITING = 16  # changes that wait for their turn
-SLOW = (SetMessage, RestoreMessage, TareMessage, KillMessage, ResetMessage, SaveMessage)  # may compile or write
+SLOW = (
+    SetMessage,
+    RestoreMessage,
+    TareMessage,
+    KillMessage,
+    ResetMessage,
+    FlyMessage,
+    SaveMessage,
+)  # may compile or write
 
 log = logging.getLogger(__name__)
 

@@ -18,15 +18,15 @@ from tandemlift.apps.live.session.scene_builder import scene_of
 from tandemlift.apps.live.session.server_messages import SceneParameter
 from tandemlift.apps.live.session.status import in_sentences
 from tandemlift.core.errors import InputError
-from tandemlift.core.phases import DIVERGED, ENDING_OF, ENDINGS
+from tandemlift.core.phases import DIVERGED, ENDING_OF, ENDINGS, EndingKind
 from tandemlift.core.refusals import REQUESTS, refusals_for, sentences_for
 from tandemlift.core.types import flat
-from tandemlift.flight.record import ENDING_TEXT
+from tandemlift.flight.record import CAUSE_TEXT, ENDING_TEXT
 from tandemlift.missions import changed, tables_of
 from tandemlift.missions.changes import Tables
 from tandemlift.missions.keys import allowed, bounds, plain
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
-from tandemlift.simulation.outcome import NOT_FINITE, limit_of
+from tandemlift.simulation.outcome import NOT_FINITE, cause_of, limit_of
 from tandemlift.simulation.parameter_changes import LATER, NO_EFFECT, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset
@@ -168,15 +168,17 @@ def _pacing() -> dict[str, float]:
 
 def _endings(plan: FlightPlan) -> dict[str, Any]:
     """Outcome and text of each ending by number; the texts of non-finite values by their place in the state."""
-    known = {str(int(k.number)): _ending(k.outcome, k.quantity, limit_of(plan, k.number)) for k in ENDINGS}
-    parts = [_ending(ENDING_OF[DIVERGED].outcome, part, NOT_FINITE) for part in plan.model.flight_state.state._fields]
+    known = {str(int(k.number)): _ending(plan, k, k.quantity, limit_of(plan, k.number)) for k in ENDINGS}
+    parts = [_ending(plan, ENDING_OF[DIVERGED], part, NOT_FINITE) for part in plan.model.flight_state.state._fields]
     return {"by_number": known, "not_finite": parts}
 
 
-def _ending(outcome: str, quantity: str, limit: str) -> dict[str, str]:
-    """An ending's outcome, and its text with the places of its numbers in braces."""
-    named = {"outcome": outcome, "quantity": quantity, "limit": limit, "time": "{time}", "value": "{value}"}
-    return {"outcome": outcome, "text": ENDING_TEXT.replace(":.6g", "").format(**named)}
+def _ending(plan: FlightPlan, kind: EndingKind, quantity: str, limit: str) -> dict[str, str]:
+    """An ending's outcome, and its text with the places of its numbers in braces; {rounded}: of three digits."""
+    cause = cause_of(plan, kind.number).format(value="{rounded}")
+    named = {"quantity": quantity, "limit": limit, "time": "{time}", "value": "{value}", "cause": cause}
+    text = (CAUSE_TEXT if cause else ENDING_TEXT).replace(":.6g", "")
+    return {"outcome": kind.outcome, "text": text.format(outcome=kind.outcome, **named)}
 
 
 def _texts(plan: FlightPlan, rule: checks.TouchRule) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from chromium import stopped
 from patience import until
 
 import tandemlift as tl
@@ -64,18 +65,43 @@ def test_what_is_saved_on_the_page_flies_again_to_the_last_bit(page, live):
 
 
 def test_who_is_not_to_be_heard_is_not_and_stop_stops_at_once(page, live):
-    page.get_by_role("button", name="Enabled").click()
+    page.get_by_role("button", name="Follows me").click()
     live.wait_status(lambda status: not status["enabled"], "a pilot that does not listen")
-    page.get_by_role("button", name="Disabled").click()
+    page.get_by_role("button", name="Does not follow").click()
     live.wait_status(lambda status: status["enabled"], "a pilot that listens")
-    page.get_by_role("button", name="Stop").click()
+    stopped(page)
     live.wait_status(lambda status: status["phase"] in ("stopped", "crashed"), "stopped rotors")
     page.get_by_role("button", name="Reset").click()
     live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")
 
 
+def test_in_the_air_stop_asks_first_and_cancel_and_escape_fly_on(page, live):
+    question = page.locator("#question")
+    for answer in (page.get_by_role("button", name="Cancel").click, lambda: page.keyboard.press("Escape")):
+        page.get_by_role("button", name="Stop").click()
+        height = live.look()["position"][2] - live.scene["floor"]
+        assert f"The rotors stop and it falls from {height:.1f} m." in question.inner_text()
+        answer()
+        assert not question.is_visible()
+    live.wait_frames(20)
+    assert live.status["phase"] in ("guided", "hold")
+
+
+def test_on_the_ground_stop_asks_nothing_and_a_landing_answers_the_question(page, live):
+    page.get_by_role("button", name="Land").click()
+    page.get_by_role("button", name="Stop").click()
+    assert page.locator("#question").is_visible()
+    until(lambda: page.text_content("#mode") == "on the ground", "a landing")
+    until(lambda: not page.is_visible("#question"), "no question")
+    page.get_by_role("button", name="Stop").click()
+    assert not page.is_visible("#question")
+    live.wait_status(lambda status: status["phase"] == "stopped", "stopped rotors")
+    page.click("text=Reset")
+    live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")
+
+
 def test_it_lands_is_reset_and_the_page_begins_anew(page, live):
-    page.click("text=Land")
+    page.get_by_role("button", name="Land").click()
     live.wait_status(lambda status: status["phase"] in ("land", "idle"), "a landing")
     page.click("text=Reset")
     live.wait(lambda seen: seen["time"] < 5.0, "a new flight")

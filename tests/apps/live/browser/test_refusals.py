@@ -1,7 +1,15 @@
-"""What the page says where a request has no effect, and where a flight has ended."""
+"""What the page says where a request has no effect, while the sensors are tared, and where a flight has ended."""
 
-from chromium import grabbed
+import re
+
+from chromium import grabbed, opened, stopped
 from patience import until
+
+TARED, BAD = '"tare_left_s":1.4', '"findings":[{"kind":"touched","time":7.2,"text":"the beam touched a wall"}]'
+BOXES = """() => [...document.querySelectorAll("#views, #hint, #notices p, #refusal, #dock .strip")]
+  .filter((e) => e.checkVisibility())
+  .map((e) => [e.id || e.textContent, e.getBoundingClientRect()])
+  .map(([name, { left, top, right, bottom }]) => [name, left, top, right, bottom])"""
 
 
 def told(page, place):
@@ -9,8 +17,9 @@ def told(page, place):
 
 
 def test_a_lift_in_the_air_is_refused_beside_its_button_until_it_is_pressed_away(page, live):
+    until(lambda: "the vehicle is in the air already" in told(page, "#refusal"), "why the button is grey")
     page.get_by_role("button", name="Lift").click()
-    until(lambda: "the vehicle is in the air already" in told(page, "#refusal"), "a reason")
+    until(lambda: "the vehicle is in the air already" in told(page, "#refusal.asked"), "a reason")
     button, note = page.locator("#dock button.refused").first.bounding_box(), page.locator("#refusal").bounding_box()
     assert note["y"] + note["height"] <= button["y"]
     assert button["y"] - note["y"] < 120.0
@@ -20,23 +29,27 @@ def test_a_lift_in_the_air_is_refused_beside_its_button_until_it_is_pressed_away
 
 
 def test_a_push_that_is_not_followed_says_so_at_the_hand(page, live):
-    page.get_by_role("button", name="Enabled").click()
+    page.get_by_role("button", name="Follows me").click()
     live.wait_status(lambda status: not status["enabled"], "a pilot that does not listen")
     x, y = grabbed(page, live)
     page.mouse.move(x + 60, y, steps=4)
-    until(lambda: "told not to follow pushes. Enable it." in told(page, ".label.refusal"), "a reason at the hand")
+    until(
+        lambda: "told not to follow pushes. Let it follow again." in told(page, ".label.refusal"),
+        "a reason at the hand",
+    )
     box, picture = page.locator(".label.refusal").bounding_box(), page.locator("#view").bounding_box()
     assert box["x"] + box["width"] <= picture["x"] + picture["width"]
     page.mouse.up()
     until(lambda: told(page, ".label.refusal") == "", "nothing more to say")
-    page.get_by_role("button", name="Disabled").click()
+    page.get_by_role("button", name="Does not follow").click()
     live.wait_status(lambda status: status["enabled"], "a pilot that listens")
 
 
 def test_a_crash_is_marked_told_and_left_by_beginning_again(page, live):
-    page.get_by_role("button", name="Stop").click()  # it falls from a metre
+    stopped(page)  # it falls from a metre
     until(lambda: "The vehicle has crashed" in told(page, "#ended"), "a crash")
     assert live.status["ending"]["text"] in told(page, "#ended")
+    assert re.search(r": hit the floor: \d+(\.\d+)? of 7 N s$", live.status["ending"]["text"])
     until(lambda: "crashed here" in told(page, ".label.ending"), "a mark where it crashed")
     assert told(page, "#mode") == "crashed"
     page.get_by_role("button", name="Lift").click()
@@ -44,3 +57,30 @@ def test_a_crash_is_marked_told_and_left_by_beginning_again(page, live):
     page.get_by_role("button", name="Begin again").click()
     live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")
     until(lambda: not page.is_visible("#ended"), "no crash")
+
+
+def test_a_tare_is_counted_down_and_no_text_over_the_picture_covers_another(browser, live):
+    def tared(socket):
+        server = socket.connect_to_server()
+        server.on_message(
+            lambda said: socket.send(
+                said
+                if isinstance(said, bytes)
+                else re.sub(r'"tare_left_s":[\d.]+', TARED, said).replace('"findings":[]', BAD)
+            )
+        )
+
+    page = opened(browser, live.address, lambda one: one.route_web_socket("**/ws", tared))
+    for size in ((1920, 1080), (1280, 800), (800, 450), (390, 844)):
+        page.set_viewport_size({"width": size[0], "height": size[1]})
+        until(lambda: told(page, "#hint") == "Do not touch: 1.4 s of tare left", "the countdown")
+        page.evaluate("document.querySelector('#hint').textContent += ', and nothing that is as long as this'")
+        boxes = page.evaluate(BOXES)
+        assert any("touched" in name for name, *_ in boxes) or size != (1920, 1080)  # it stays for 6 s
+        for i, (name, *a) in enumerate(boxes):
+            assert a[0] >= 0.0, (size, name)
+            assert a[2] <= size[0], (size, name)
+            for other, *b in boxes[i + 1 :]:
+                apart = min(a[2], b[2]) <= max(a[0], b[0]) or min(a[3], b[3]) <= max(a[1], b[1])
+                assert apart, (size, name, other)
+    page.context.close()

@@ -84,6 +84,7 @@ def test_a_link_is_read_and_written_and_the_menu_flies_another_flight(browser, a
     until(lambda: page.input_value("#link") == f"{address}#mission=hover&admittance.mass=2.5,2.5,2.5", "the link")
     assert page.locator("#panel .own-flight li").count() == len(pages.ONLY_SERVER)
     assert page.locator("#missions option").all_inner_texts() == ["hover"]
+    assert page.get_by_role("button", name="Open").count() == 0
     assert page.wrong == []
     page.close()
 

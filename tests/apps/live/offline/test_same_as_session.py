@@ -197,7 +197,13 @@ def test_requests_are_refused_for_the_same_reasons_from_the_ground_to_the_air_an
         check_same(session, flight, message, seconds)
         seen |= {text for one in flight.said if one["type"] == "status" for text in one["refusals"].values()}
     told = " ".join(seen)
-    for part in ("on the ground already", "in the air already", "below the threshold (0.", "Enable it.", "final"):
+    for part in (
+        "on the ground already",
+        "in the air already",
+        "below the threshold (0.",
+        "Let it follow again.",
+        "final",
+    ):
         assert part in told, part
 
 
@@ -218,6 +224,13 @@ def test_a_crash_ends_both_with_the_same_words_at_the_same_place_until_both_begi
     flight.fly(0.5)
     assert flight.status()["ending"] is None
     assert flight.status()["phase"] == "idle"
+
+
+def test_a_fall_says_in_both_what_was_hit_and_how_hard_in_three_digits(by_hand):
+    session, flight = by_hand
+    for what, seconds in (("lift", 5.5), ("stop", 1.5)):
+        check_same(session, flight, {"type": "ask", "what": what}, seconds)
+    assert re.search(r"hit the floor: \d+(\.\d+)? of 7 N s$", flight.status()["ending"]["text"])
 
 
 def test_what_only_a_server_has_is_refused_with_a_reason(flight):

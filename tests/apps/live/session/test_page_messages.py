@@ -15,6 +15,7 @@ from tandemlift.apps.live.session import page_messages as reading
 from tandemlift.apps.live.session.page_messages import (
     MAX_LENGTH,
     MAX_PARTS,
+    MAX_SIZE,
     PAGE_MESSAGES,
     Refusal,
     read_message,
@@ -53,7 +54,7 @@ def test_every_kind_of_message_has_an_example():
 def test_no_key_of_any_message_takes_what_is_not_finite_or_of_another_kind(case):
     message, bad = case
     for key in message:
-        if not (key == "key" and bad is None):  # as good as left out of a restore
+        if not (key in ("key", "toml") and bad is None):  # as good as left out
             assert str(refused(json.dumps({**message, key: bad})))
 
 
@@ -93,6 +94,16 @@ def test_what_is_too_long_or_has_too_many_parts_is_refused_before_it_is_parsed(l
     monkeypatch.setattr(reading, "_ANY", None)
     monkeypatch.setattr(reading, "from_json", None)
     assert "must be" in str(refused(long))
+
+
+def test_a_message_with_a_file_may_be_as_long_as_a_page_may_send():
+    toml = "[[walls]]\n" * 5_000
+    with_file = json.dumps({"type": "fly", "seq": 1, "mission": "mine.toml", "toml": toml}, separators=(",", ":"))
+    assert MAX_LENGTH < len(with_file) < MAX_SIZE
+    assert read_message(with_file).toml == toml
+    assert f"must be {MAX_SIZE} at most" in str(refused(with_file + " " * MAX_SIZE))
+    assert f"must be {MAX_LENGTH} at most" in str(refused(json.dumps(json.loads(with_file))))  # it begins otherwise
+    assert "12 at most" in str(refused('{"type":"fly",' + ",".join(f'"{i}":1' for i in range(5_000)) + "}"))
 
 
 def test_the_longest_message_has_fewer_parts_and_characters_than_are_read():

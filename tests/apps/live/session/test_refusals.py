@@ -24,7 +24,7 @@ def test_a_disabled_pilot_says_that_it_does_not_follow(session):
     up(session)
     say(session, "enable", on=False)
     fly(session, 0.1)
-    assert session.status()["refusals"]["push"].endswith("Enable it.")
+    assert session.status()["refusals"]["push"].endswith("Let it follow again.")
 
 
 def test_after_a_stop_everything_is_refused_until_the_flight_begins_again(session):

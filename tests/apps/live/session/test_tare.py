@@ -16,13 +16,18 @@ def test_hands_are_refused_while_the_sensors_are_tared(session, monkeypatch):
     mission = session.flight.now
     tared = mission.estimator.model_copy(update={"tare_start": 5.0, "tare_duration": 2.0})
     pilot = mission.pilot.model_copy(update={"push": "estimate"})
+    assert session.status()["tare_left_s"] == 0.0
     session.flight.now = mission.model_copy(update={"estimator": tared, "pilot": pilot})
+    assert session.status()["tare_left_s"] == pytest.approx(7.0 - session.flight.dt)  # one step is flown already
     with pytest.raises(tl.InputError, match="hands off until 7 s"):
         say(session, "grab", point=(0.0, 0.0, 0.0), target=(1.0, 0.0, 0.0), at="point")
     with pytest.raises(tl.InputError, match="hands off until 7 s"):
         say(session, "force", force=(1.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))
     say(session, "force", force=(0.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))
-    fly(session, 7.0)
+    fly(session, 6.0)
+    assert session.status()["tare_left_s"] == pytest.approx(1.0 - session.flight.dt)
+    fly(session, 1.0)
+    assert session.status()["tare_left_s"] == 0.0
     say(session, "grab", point=(0.0, 0.0, 0.0), target=(1.0, 0.0, 0.0), at="point")
 
 
@@ -92,6 +97,7 @@ def test_hands_are_refused_until_it_has_tared_by_itself_in_steady_hover(session)
     pilot = mission.pilot.model_copy(update={"push": "estimate"})
     session.flight.now = mission.model_copy(update={"estimator": estimator, "pilot": pilot})
     until_tared = 2.0 - session.flight.number("memory", "guidance", "phase", "hover_time")
+    assert session.status()["tare_left_s"] == pytest.approx(max(until_tared, 0.0), abs=1e-3)
     if until_tared > 0.0:
         with pytest.raises(tl.InputError, match="hands off until the force sensors are tared, in steady hover"):
             say(session, "force", force=(1.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))

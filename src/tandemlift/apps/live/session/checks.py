@@ -95,10 +95,20 @@ def check_touch(flight: RecordedFlight, vehicle: SceneVehicle, point: Sequence[f
         InputError: it is refused.
     """
     rule = touch_rule(flight.now, vehicle)
-    hover_time = flight.number(*HOVER_TIME) if rule.tare_duration else 0.0
-    refusal = touch_refusal(rule, flight.step * flight.dt, hover_time, Vec3(*point))
+    refusal = touch_refusal(rule, flight.step * flight.dt, _hover_time(flight, rule), Vec3(*point))
     if refusal != ALLOWED:
         raise InputError(touch_texts(rule)[refusal].format(point=list(point)))
+
+
+def tare_left(flight: RecordedFlight, vehicle: SceneVehicle) -> float:
+    """The time for which nobody may touch the vehicle, as its force sensors are tared [s]; else 0."""
+    rule = touch_rule(flight.now, vehicle)
+    return max(rule.tare_end - flight.step * flight.dt, rule.tare_duration - _hover_time(flight, rule), 0.0)
+
+
+def _hover_time(flight: RecordedFlight, rule: TouchRule) -> float:
+    """For how long the vehicle has hovered [s]; 0 where no tare needs it."""
+    return flight.number(*HOVER_TIME) if rule.tare_duration else 0.0
 
 
 def check_takes_requests(guidance: str, mission: str, what: str) -> None:

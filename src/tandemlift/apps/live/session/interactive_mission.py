@@ -6,8 +6,9 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any
 
-from tandemlift.core.errors import InputError, without_flight_warnings
-from tandemlift.missions import Mission, changed
+from tandemlift.apps.live.session.page_messages import FlyMessage
+from tandemlift.core.errors import InputError, unknown, without_flight_warnings
+from tandemlift.missions import Mission, built_in, changed, load_mission, mission_from_text
 
 MAX_DURATION = 3600.0  # s
 NEVER = 1e6  # s
@@ -34,6 +35,19 @@ def interactive_mission(mission: Mission) -> Mission:
             with suppress(InputError):
                 mission = changed(mission, key, value)
     return mission
+
+
+def other_mission(m: FlyMessage) -> Mission:
+    """The mission that a page chooses, made interactive.
+
+    Raises:
+        InputError: there is no such built-in mission, or the file cannot be flown.
+    """
+    if m.toml is not None:
+        return interactive_mission(mission_from_text(m.mission, m.toml))
+    if m.mission not in built_in():
+        raise unknown("mission", m.mission, built_in())
+    return interactive_mission(load_mission(m.mission))
 
 
 def with_whole_rotors(now: Mission, first: Mission) -> Mission:

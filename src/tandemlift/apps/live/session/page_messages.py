@@ -23,7 +23,8 @@ MAX_WORD = 100  # characters of a key or of a word
 NAME_PATTERN = "[A-Za-z0-9][A-Za-z0-9._-]{0,63}"  # of the name of a saved flight
 NAME_RULE = "be 1 to 64 letters, digits, '.', '_' or '-', the first a letter or a digit"
 MAX_SIZE = 65_536  # bytes; a page that sends more is cut off
-MAX_LENGTH = 4_096  # characters that are read: twice what the longest message has
+MAX_LENGTH = 4_096  # characters that are read: twice what the longest message without a file has
+WITH_FILE = '{"type":"fly",'  # begins a message that may be as long as MAX_SIZE, as it has the content of a file
 MAX_KEYS = 12
 MAX_PARTS = 128  # values and tables that are read: more than any message has
 
@@ -37,6 +38,12 @@ def _key(key: str) -> str:
 def _name(name: str) -> str:
     if not re.fullmatch(NAME_PATTERN, name):
         raise must("name", NAME_RULE)
+    return name
+
+
+def _mission(name: str) -> str:
+    if not 0 < len(name) <= MAX_WORD or not name.isprintable() or "/" in name:
+        raise must("name", f"be 1 to {MAX_WORD} characters without '/', such as hover or mine.toml")
     return name
 
 
@@ -56,6 +63,7 @@ Key = Annotated[str, AfterValidator(_key)]
 SaveName = Annotated[
     str, AfterValidator(_name), "1 to 64 letters, digits, `.`, `_` or `-`; the first a letter or a digit"
 ]
+MissionName = Annotated[str, AfterValidator(_mission)]
 Word = Annotated[str, AfterValidator(_word)]
 NewValue = bool | Number | Word | Annotated[tuple[Number, ...], Field(max_length=64, fail_fast=True)]
 
@@ -160,6 +168,14 @@ class ResetMessage(NumberedMessage):
     type: Literal["reset"] = "reset"
 
 
+class FlyMessage(NumberedMessage):
+    """Fly another mission: a built-in one, or that of a file, which may extend a built-in one only."""
+
+    type: Literal["fly"] = "fly"
+    mission: Annotated[MissionName, "name of the mission, or of the file"]
+    toml: Annotated[str | None, 'content of the file; the message must begin with `{"type":"fly",`'] = None
+
+
 class SaveMessage(NumberedMessage):
     """Save what was flown so far."""
 
@@ -186,6 +202,7 @@ PageMessage = (
     | PauseMessage
     | SpeedMessage
     | ResetMessage
+    | FlyMessage
     | SaveMessage
     | PingMessage
 )
@@ -212,9 +229,10 @@ def read_message(text: str | bytes) -> PageMessage:
     """
     if isinstance(text, bytes):
         raise Refusal("message", "binary data: must be text, a JSON object")
-    if len(text) > MAX_LENGTH:
-        raise Refusal("message", f"{len(text)} characters: must be {MAX_LENGTH} at most")
-    parts = sum(map(text.count, ",[{"))
+    longest, counted = (MAX_SIZE, "") if text.startswith(WITH_FILE) else (MAX_LENGTH, ",[{")
+    if len(text) > longest:
+        raise Refusal("message", f"{len(text)} characters: must be {longest} at most")
+    parts = sum(map(text.count, counted))
     if parts > MAX_PARTS:
         raise Refusal("message", f"{parts} parts: must be {MAX_PARTS} at most")
     try:

@@ -28,11 +28,14 @@ from tandemlift.apps.live.session.server_messages import (
     THRESHOLD,
     Answer,
     ChangedMessage,
+    FlightScene,
     RefusedMessage,
+    SceneMission,
     SceneParameter,
+    SceneSpring,
 )
 from tandemlift.core.errors import InputError, shown
-from tandemlift.missions import tables_of
+from tandemlift.missions import Mission, built_in, tables_of
 from tandemlift.missions.changes import MISSING, Tables, place_of, value_at
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.simulation.recorded_flight import RecordedFlight
@@ -113,6 +116,18 @@ def parameters_of(tables: Tables, first: Tables) -> Iterator[SceneParameter]:
         yield _choice(tables, first, GATE, "admittance", ["hard", "soft"])
 
 
+def scene_at(scene: FlightScene, now: Mission, first: Mission) -> FlightScene:
+    """A scene with the present parameters, and the missions that a page may choose; `first`: as `parameters_of`."""
+    hand = now.person
+    return {
+        **scene,
+        "threshold": list(now.admittance.threshold),
+        "spring": SceneSpring(stiffness=hand.stiffness, damping=hand.damping, max_force=hand.max_force),
+        "parameters": list(parameters_of(tables_of(now), tables_of(first))),
+        "missions": [SceneMission(name=name, title=title) for name, title in built_in().items()],
+    }
+
+
 def _choice(tables: Tables, first: Tables, key: str, group: str, choices: list[str]) -> SceneParameter:
     label, value, initial = LABELS[key], value_of(tables, key), value_of(first, key)
     return SceneParameter(key=key, label=label, group=group, value=value, initial=initial, choices=choices)
@@ -137,11 +152,12 @@ class ParameterControl:
         lock: of the flight.
 
     Attributes:
+        first: as given; other ones with another mission.
         turn: lock of who changes a flight; to be taken before that of the flight.
     """
 
     def __init__(self, first: Tables, lock: threading.RLock) -> None:
-        self._first, self._lock = first, lock
+        self.first, self._lock = first, lock
         self.turn = threading.RLock()
 
     def set(self, flight: RecordedFlight, key: str, value: object) -> list[Answer]:
@@ -151,7 +167,7 @@ class ParameterControl:
             InputError: there is no such parameter, or the value is out of bounds or cannot be taken in flight.
         """
         self._check(key, value)
-        return self._set_to(flight, key, [value] * len(keys_of(self._first, key)))
+        return self._set_to(flight, key, [value] * len(keys_of(self.first, key)))
 
     def restore(self, flight: RecordedFlight, key: str | None) -> list[Answer]:
         """Set a parameter, or all, back to the first mission; return messages, refusals among them."""
@@ -197,7 +213,7 @@ class ParameterControl:
             return
         if key not in BY_KEY:
             raise InputError(UNKNOWN.format(key=key, known=", ".join([*CHOICES, *BY_KEY])))
-        low, high = bounds_of(BY_KEY[key], self._first)
+        low, high = bounds_of(BY_KEY[key], self.first)
         for number in value if isinstance(value, list) else [value]:
             if isinstance(number, bool) or not isinstance(number, (int, float)):
                 raise InputError(NO_NUMBER.format(key=key, value=shown(value)))
@@ -205,8 +221,8 @@ class ParameterControl:
                 raise InputError(OUT_OF_BOUNDS.format(key=key, value=shown(value), low=low, high=high))
 
     def _restore(self, flight: RecordedFlight, key: str) -> list[Answer]:
-        now, keys = tables_of(flight.now), keys_of(self._first, key)
-        values = [value_of(self._first, one) for one in keys]
+        now, keys = tables_of(flight.now), keys_of(self.first, key)
+        values = [value_of(self.first, one) for one in keys]
         if MISSING in values or values == [value_of(now, one) for one in keys]:
             return []
         return self._set_to(flight, key, values)
@@ -214,7 +230,7 @@ class ParameterControl:
     def _set_to(self, flight: RecordedFlight, key: str, values: list[Any]) -> list[Answer]:
         """Set the keys that a parameter stands for, one value each."""
         duration = 0.0 if key in CHOICES else RAMP
-        for one, value in zip(keys_of(self._first, key), values, strict=True):
+        for one, value in zip(keys_of(self.first, key), values, strict=True):
             self._change(flight, one, value, duration)
         now = value_of(tables_of(flight.now), key)
         return [ChangedMessage(type="changed", key=key, value=now, duration=duration)]
@@ -224,8 +240,8 @@ class ParameterControl:
         with self.turn:
             if flight.over:
                 raise InputError(OVER.format(key=key))
-            if key == CONTROLLER and value == self._first["controller"]["name"]:  # with the mission's own settings
-                key, value = "controller", self._first["controller"]
+            if key == CONTROLLER and value == self.first["controller"]["name"]:  # with the mission's own settings
+                key, value = "controller", self.first["controller"]
             due = flight.prepare(key, value, duration)
             with self._lock:
                 flight.change(due, key, value, duration)

@@ -124,6 +124,13 @@ class SceneParameter(TypedDict):
     choices: NotRequired[Annotated[list[str], "in place of bounds"]]
 
 
+class SceneMission(TypedDict):
+    """A mission that a page may choose."""
+
+    name: str
+    title: Annotated[str, "what it shows, in a line"]
+
+
 class SceneEnding(TypedDict):
     """Why a flight was stopped before its end."""
 
@@ -161,6 +168,7 @@ class FlightScene(TypedDict):
     alarms: Annotated[list[str], "names of the alarms by their number; empty for no alarm"]
     fields: Annotated[list[tuple[FrameFieldName, int]], "name and number of columns of each field of a frame"]
     parameters: Annotated[list[SceneParameter], "what may be changed in flight"]
+    missions: NotRequired[Annotated[list[SceneMission], "that a page may `fly`"]]
     replay: NotRequired[Annotated[SceneReplay, "span of a saved flight"]]
 
 
@@ -200,6 +208,7 @@ class FlightStatus(TypedDict):
     behind_ms: Annotated[float, "how late the flight was at most since the last status, ms"]
     recorded_s: Annotated[float, "length of the recording, s"]
     failed_rotors: Annotated[list[int], "rotors that have stopped for good, counted over the whole vehicle from 0"]
+    tare_left_s: Annotated[float, "for how long nobody may touch it, as its force sensors are tared, s"]
     refusals: Annotated[StatusRefusals, "why a request would be refused right now, and what to do"]
     ending: Annotated[SceneEnding | None, "why the flight was stopped before its end; null unless it was"]
     findings: NotRequired[Annotated[list[StatusFinding], "what went badly so far; a server forms it once a second"]]
@@ -239,11 +248,11 @@ class RefusedMessage(TypedDict):
 
 
 class DoneMessage(TypedDict):
-    """To the page that asked: `save` or `tare` is done."""
+    """To the page that asked: `save`, `tare` or `fly` is done."""
 
     type: Literal["done"]
-    what: Literal["save", "tare"]
-    detail: Annotated[str, "the folder, or the time of the tare"]
+    what: Literal["save", "tare", "fly"]
+    detail: Annotated[str, "the folder, the time of the tare, or the mission"]
 
 
 class PongMessage(TypedDict):

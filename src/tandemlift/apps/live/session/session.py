@@ -19,9 +19,9 @@ from tandemlift.apps.live.session import page_messages as page
 from tandemlift.apps.live.session.checks import check_may_tare, check_takes_requests
 from tandemlift.apps.live.session.frame_builder import FrameBuilder
 from tandemlift.apps.live.session.hand_control import HandControl
-from tandemlift.apps.live.session.interactive_mission import interactive_mission, with_whole_rotors
+from tandemlift.apps.live.session.interactive_mission import interactive_mission, other_mission, with_whole_rotors
 from tandemlift.apps.live.session.pacing import Pacer, RealTimeThread
-from tandemlift.apps.live.session.parameters import CHOICES, ParameterControl, parameters_of
+from tandemlift.apps.live.session.parameters import CHOICES, ParameterControl, scene_at
 from tandemlift.apps.live.session.saving import save_in_process
 from tandemlift.apps.live.session.server_messages import (
     Answer,
@@ -30,7 +30,6 @@ from tandemlift.apps.live.session.server_messages import (
     FlightStatus,
     RefusedMessage,
     SceneMessage,
-    SceneSpring,
 )
 from tandemlift.apps.live.session.status import FlightFindings, Preparation, phase_of, refusals_now, status_of
 from tandemlift.core.errors import InputError
@@ -81,11 +80,14 @@ class Session:
             self._begin(self._first, self._frames)
             self.is_ready = True
 
-    def _begin(self, setup: FlightSetup, frames: FrameBuilder) -> None:
+    def _begin(self, setup: FlightSetup, frames: FrameBuilder, other: Mission | None = None) -> None:
+        """Begin a flight; `other`: the mission that its parameters are restored to, if that is another one."""
         flight = RecordedFlight(setup.plan.mission, self._engine, setup)
         flight.hold()
         flight.advance()
         with self._lock:
+            if other is not None:
+                self._mission, self._parameters.first, self.pacer.dt = other, tables_of(other), flight.dt
             self._flight, self._frames = flight, frames
             self._hand, self._failed = HandControl(flight, frames.scene["vehicle"]), False
 
@@ -139,12 +141,7 @@ class Session:
     @property
     def scene(self) -> FlightScene:
         """The scene with the present parameters."""
-        now = self._flight.now if self.is_ready else self._mission
-        p, scene = now.person, self._frames.scene.copy()
-        scene["threshold"] = list(now.admittance.threshold)
-        scene["spring"] = SceneSpring(stiffness=p.stiffness, damping=p.damping, max_force=p.max_force)
-        scene["parameters"] = list(parameters_of(tables_of(now), tables_of(self._mission)))
-        return scene
+        return scene_at(self._frames.scene, self._flight.now if self.is_ready else self._mission, self._mission)
 
     def frame(self) -> bytes:
         """The latest frame."""
@@ -165,7 +162,8 @@ class Session:
         if not self.is_ready:
             return self._preparation.status()
         with self._lock:
-            status = status_of(self._flight, self.pacer, self._values(), self._failed)
+            vehicle = self._frames.scene["vehicle"]
+            status = status_of(self._flight, self.pacer, self._values(), vehicle, self._failed)
             self._findings.look(self._flight)
         status["findings"] = self._findings.formed()
         return status
@@ -256,6 +254,16 @@ class Session:
             setup = setup_flight(with_whole_rotors(self._flight.now, self._mission), self._engine)
             self._begin(setup, FrameBuilder(setup.plan))
             self.generation += 1
+
+    @_handle.register
+    def _fly_another(self, m: page.FlyMessage) -> list[Answer]:
+        with self._parameters.turn:
+            mission = other_mission(m)
+            setup = setup_flight(mission, self._engine)
+            self._begin(setup, FrameBuilder(setup.plan), mission)
+            self.generation += 1
+        self._flight.optimise()
+        return [DoneMessage(type="done", what="fly", detail=m.mission)]
 
     @_handle.register
     def _save(self, m: page.SaveMessage) -> list[Answer]:

@@ -7,13 +7,14 @@ import time
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from tandemlift.apps.live.session.checks import failed_rotors
+from tandemlift.apps.live.session.checks import failed_rotors, tare_left
 from tandemlift.apps.live.session.pacing import Pacer
 from tandemlift.apps.live.session.server_messages import (
     LOST,
     PREPARING,
     FlightStatus,
     SceneEnding,
+    SceneVehicle,
     StatusFinding,
     StatusRefusals,
 )
@@ -52,6 +53,7 @@ class Preparation:
             behind_ms=0.0,
             recorded_s=0.0,
             failed_rotors=[],
+            tare_left_s=0.0,
             refusals=NO_REFUSALS,
             ending=None,
             preparing={"step": self.step, "seconds": seconds, "failure": self.failure},
@@ -124,7 +126,9 @@ def in_sentences(refusals: Refusals) -> StatusRefusals:
     return StatusRefusals(lift=lift, land=land, push=push)
 
 
-def status_of(flight: RecordedFlight, pacer: Pacer, values: Mapping[str, Any], failed: bool) -> FlightStatus:
+def status_of(
+    flight: RecordedFlight, pacer: Pacer, values: Mapping[str, Any], vehicle: SceneVehicle, failed: bool
+) -> FlightStatus:
     """The status of a flight, without its findings; `values`: of the fields of its latest frame."""
     most, pacer.most_behind = pacer.most_behind, 0.0
     return FlightStatus(
@@ -137,6 +141,7 @@ def status_of(flight: RecordedFlight, pacer: Pacer, values: Mapping[str, Any], f
         behind_ms=round(1e3 * most, 2),
         recorded_s=round(flight.step * flight.dt, 3),
         failed_rotors=failed_rotors(flight),
+        tare_left_s=round(tare_left(flight, vehicle), 3),
         refusals=in_sentences(refusals_now(flight, failed)),
         ending=scene_ending(flight.ending, flight.ending_place),
     )
