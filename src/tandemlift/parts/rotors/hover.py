@@ -64,8 +64,9 @@ class HoverFacts(NamedTuple):
 
     @property
     def thrusts(self) -> Array:
-        """Thrusts of all rotors [N] by the allocation of the weight (N × 4)."""
-        return self.vehicle.allocation(self.allocation.weights)[:, 0].reshape(-1, 4) * self.weight
+        """Thrusts of all rotors [N] by the allocation of the weight, at the real centre of mass (N × 4)."""
+        inverse, (x, y, _) = self.vehicle.allocation(self.allocation.weights), self.plant.center_of_mass_offset
+        return (inverse[:, 0] + y * inverse[:, 1] - x * inverse[:, 2]).reshape(-1, 4) * self.weight
 
     @property
     def authority(self) -> Array:
@@ -76,7 +77,7 @@ class HoverFacts(NamedTuple):
         """
         inverse = self.vehicle.allocation(self.allocation.weights)
         most = np.repeat([q.max_thrust for q in self.vehicle.quadrotors], 4)
-        hover = inverse[:, 0] * self.weight
+        hover = self.thrusts.ravel()
         up, down = np.maximum(most - hover, 0.0)[:, None], np.maximum(hover, 0.0)[:, None]
         column = inverse[:, 1:]
         size = np.maximum(np.abs(column), 1e-12)
