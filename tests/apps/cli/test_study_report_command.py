@@ -40,7 +40,7 @@ def test_metrics_the_file_and_a_style_can_be_chosen(folder, tmp_path):
     [
         (("--for", "human_wrok_j"), r"unknown metric 'human_wrok_j'.*Did you mean 'human_work_j'"),
         (("--no-figures",), "--no-figures: the report of a study has its figures in it"),
-        (("--out", "chosen.pdf"), "--out chosen.pdf: the name of a page must end in .html"),
+        (("--out", "chosen.pdf"), "--out chosen.pdf: the name must end in .html"),
     ],
 )
 def test_what_does_not_suit_a_study_is_refused(folder, words, why):

@@ -307,7 +307,7 @@ def test_replay_writes_a_page_of_a_saved_flight_or_its_folder(flight, run, tmp_p
     [
         (("replay", "nowhere"), "nowhere: there is no flight.npz"),
         (("replay", "nowhere.npz"), "nowhere.npz: No such file"),
-        (("replay", "flight.npz", "--html", "page.txt"), "--html page.txt: the name of a page must end in .html"),
+        (("replay", "flight.npz", "--html", "page.txt"), "--html page.txt: the name must end in .html"),
         (("live", "nowhere"), "unknown mission 'nowhere'"),
         (("live", "--engine", "steam"), "unknown engine 'steam'"),
     ],

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
@@ -15,7 +14,7 @@ import click
 from tandemlift.apps.cli.completion import CONTROLLERS, names, settings
 from tandemlift.apps.cli.console import progress_bar
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import FLIGHT_FILE, toml_tables
+from tandemlift.core.files import FLIGHT_FILE, parse_setting
 from tandemlift.pictures.figures.drawing.figure_style import STYLES, figure_style
 
 if TYPE_CHECKING:
@@ -24,7 +23,6 @@ if TYPE_CHECKING:
     from tandemlift.parts.controllers import Controller
 
 FIGURES = "figures"  # folder of the figures among results
-WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set accepts without quotes
 FILES = ("mission.toml", FLIGHT_FILE, "metrics.json", "metrics.csv", "metrics.tex", "findings.json", "report.html")
 FAILED = 3  # exit code of a flight that crashed, diverged or did not lift; with --strict also of one with findings
 
@@ -134,26 +132,15 @@ def flight_file(given: str) -> tuple[Path, Path | None]:
     return Path("out") / path.stem, None
 
 
-def saved_flight(path: Path) -> Flight:
-    """Read a saved flight.
+def file_path(option: str, name: str, *endings: str) -> Path:
+    """The path of a file that an option or an argument names, which ends in one of these endings.
 
     Raises:
-        InputError: the file cannot be read as one.
-    """
-    from tandemlift.flight.record import Flight
-
-    return Flight.load(path)
-
-
-def html_path(option: str, name: str) -> Path:
-    """The path of a page that an option names.
-
-    Raises:
-        InputError: no page can be written there.
+        InputError: no such file can be written there.
     """
     path = Path(name)
-    if path.suffix.lower() not in (".html", ".htm"):
-        raise InputError(f"{option} {path}: the name of a page must end in .html")
+    if path.suffix.lower() not in endings:
+        raise InputError(f"{option} {path}: the name must end in {endings[0]}")
     if path.is_dir():
         raise InputError(f"{option} {path}: is a folder, not a file")
     return path
@@ -241,25 +228,3 @@ def _check_writable(folder: Path, files: Sequence[str]) -> None:
         in_the_way.append(figures)
     if in_the_way:
         raise InputError(f"--out {folder}: {in_the_way[0]} is in the way of a file or folder of that name")
-
-
-def parse_setting(text: str) -> tuple[str, Any]:
-    """The dotted key and the value of KEY=VALUE; VALUE is a TOML literal, or an unquoted word for a string.
-
-    Raises:
-        InputError: the text has another form.
-    """
-    key, equals, literal = (part.strip() for part in text.partition("="))
-    if not equals or not re.fullmatch(r"[A-Za-z0-9_]+(\.[A-Za-z0-9_]+)*", key):
-        raise InputError(f"--set {text}: must be KEY=VALUE with a dotted key, such as mission.duration=5.0")
-    try:
-        parsed = toml_tables(f"value = {literal}")
-    except (ValueError, RecursionError):
-        if re.fullmatch(WORD, literal):
-            return key, literal
-        parsed = {}
-    if list(parsed) != ["value"]:
-        shown = repr(literal if len(literal) <= 80 else f"{literal[:79]}…")
-        allowed = "a number such as 0.5, true, false, a list such as [1, 2, 3], a word, or '\"text in quotes\"'"
-        raise InputError(f"--set {key}={shown}: the value must be {allowed}")
-    return key, parsed["value"]

@@ -14,7 +14,7 @@ import click
 
 from tandemlift.apps.cli.completion import FLIGHTS, MISSIONS
 from tandemlift.apps.cli.console import echo, exit_now
-from tandemlift.apps.cli.flying import engine_option, flight_file, html_path, load, saved_flight, set_option
+from tandemlift.apps.cli.flying import engine_option, file_path, flight_file, load, set_option
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.files import write_file
 
@@ -134,16 +134,17 @@ def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
     """
     from tandemlift.apps.live.page_files import page_files
     from tandemlift.apps.live.replay import replay_files, replay_html
+    from tandemlift.flight.record import Flight
 
     _, saved = flight_file(flight)
     if saved is None:
         raise InputError(f"{flight}: there is no flight.npz; give the file, or the folder that `tandemlift run` wrote")
     if html:
-        path, loaded = html_path("--html", html), saved_flight(saved)
+        path, loaded = file_path("--html", html, ".html", ".htm"), Flight.load(saved)
         write_file(path, replay_html(loaded, page_files()))
         echo(f"{loaded.name}: {path}")
         return
-    loaded = saved_flight(saved)
+    loaded = Flight.load(saved)
     check_live_installed()
     from tandemlift.apps.live.server import PageServer
 
@@ -174,7 +175,7 @@ def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:
     """
     if not out and not html:
         raise InputError("give the place of the page: --html FILE for one file, --out DIR for a web server")
-    one_file = html_path("--html", html) if html else None
+    one_file = file_path("--html", html, ".html", ".htm") if html else None
     if out and Path(out).is_file():
         raise InputError(f"--out {out}: is a file, not a folder")
     from tandemlift.apps.live import page_modules, pages

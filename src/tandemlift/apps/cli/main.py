@@ -11,7 +11,7 @@ import click
 from tandemlift.apps.cli.compare import compare
 from tandemlift.apps.cli.console import compile_notices, exit_now, handle_interrupts
 from tandemlift.apps.cli.export import compile, export, render
-from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, schema, template
+from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, new, schema, template
 from tandemlift.apps.cli.linearize import check, linearize
 from tandemlift.apps.cli.live import live, page, replay
 from tandemlift.apps.cli.report import paper, report
@@ -53,7 +53,7 @@ def cli() -> None:
     \b
     Fly a mission:    tandemlift run paper
     Change a key:     tandemlift run paper --set controller.switching=saturation
-    Your mission:     tandemlift template > mine.toml
+    Your beam:        tandemlift new mine.toml
                       tandemlift run mine.toml
     Explain a key:    tandemlift explain admittance.damping
     Your controller:  tandemlift run mine.toml --controller my_pd.py
@@ -63,7 +63,7 @@ def cli() -> None:
 for command in (
     *(run, compare, render, live, page, replay, gazebo, ros, study, tune, linearize, check, feel),
     *(export, compile, report, paper),
-    *(missions, template, explain, schema, completion, controllers, engines),
+    *(new, missions, template, explain, schema, completion, controllers, engines),
 ):
     cli.add_command(command)
 

@@ -14,11 +14,10 @@ from tandemlift.apps.cli.flying import (
     FIGURES,
     FILES,
     figures_option,
+    file_path,
     flight_file,
-    html_path,
     kept_style_option,
     results_folder,
-    saved_flight,
     write_flight,
 )
 from tandemlift.core.errors import InputError
@@ -93,7 +92,7 @@ def _report_study(folder: Path, out: str | None, metrics: tuple[str, ...], *, no
     """
     if no_figures:
         raise InputError("--no-figures: the report of a study has its figures in it")
-    path = folder / "report.html" if out is None else html_path("--out", out)
+    path = folder / "report.html" if out is None else file_path("--out", out, ".html", ".htm")
     from tandemlift.analysis.studies.table import load_study
     from tandemlift.pictures.report.study.study_report import write_study_report
 
@@ -109,6 +108,7 @@ def _load(given: str) -> tuple[Flight, Path]:
         InputError: there is no such flight.
     """
     from tandemlift.apps.export.reading import read_bag
+    from tandemlift.flight.record import Flight
 
     path = Path(given)
     if path.suffix.lower() in BAGS or (path / "metadata.yaml").exists():
@@ -121,7 +121,7 @@ def _load(given: str) -> tuple[Flight, Path]:
             f"{given}: must be flight.npz, its folder, a bag (.bag, .mcap, or the folder of a ROS 2 bag), or the "
             "folder of a study"
         )
-    return saved_flight(saved), folder
+    return Flight.load(saved), folder
 
 
 OUT = "out/paper.pdf"
@@ -157,7 +157,7 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
     """
     from tandemlift.pictures.report.paper_report import typeset, write_paper_files
 
-    path = _pdf_path(out)
+    path = file_path("--out", out, ".pdf")
     with results_folder(str(path.parent), path.parent, (path.name,)):
         flights = fly_paper()
         folder = path.with_name(f"{path.stem}-files")
@@ -167,20 +167,6 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
         if not no_pdf:
             typeset(folder, path)
             echo(f"report: {path}")
-
-
-def _pdf_path(out: str) -> Path:
-    """The path of the PDF.
-
-    Raises:
-        InputError: it does not end in .pdf, or is a folder.
-    """
-    path = Path(out)
-    if path.suffix.lower() != ".pdf":
-        raise InputError(f"--out {out}: must end in .pdf")
-    if path.is_dir():
-        raise InputError(f"--out {out}: is a folder, not a file")
-    return path
 
 
 def _command(out: str, style: str | None, no_pdf: bool) -> str:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.types import Array
+from tandemlift.core.types import GRAVITY, Array
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import PlantTable
 from tandemlift.parts.rotors.allocation import AllocationTable
@@ -67,6 +67,20 @@ class HoverFacts(NamedTuple):
         """Thrusts of all rotors [N] by the allocation of the weight, at the real centre of mass (N × 4)."""
         inverse, (x, y, _) = self.vehicle.allocation(self.allocation.weights), self.plant.center_of_mass_offset
         return (inverse[:, 0] + y * inverse[:, 1] - x * inverse[:, 2]).reshape(-1, 4) * self.weight
+
+    @property
+    def share(self) -> float:
+        """The thrust of the most loaded rotor, of the largest that it can give."""
+        return float(np.max(self.thrusts / [[q.max_thrust] for q in self.vehicle.quadrotors]))
+
+    def largest_payload(self, share: float) -> float:
+        """The largest mass of such a payload [kg] with which no rotor exceeds a share of its thrust; 0 if none."""
+        low, high, payload = 0.0, self.lift / GRAVITY, self.vehicle.payload
+        for _ in range(50):
+            mass = 0.5 * (low + high)
+            heavier = Vehicle(payload.model_copy(update={"mass": mass}), self.vehicle.quadrotors)
+            low, high = (mass, high) if self._replace(vehicle=heavier).share <= share else (low, mass)
+        return low
 
     @property
     def authority(self) -> Array:

@@ -205,7 +205,7 @@ def test_the_verb_writes_both_forms(tmp_path):
     ("arguments", "text"),
     [
         ([], "give the place of the page: --html FILE for one file, --out DIR for a web server"),
-        (["--html", "page.txt"], "--html page.txt: the name of a page must end in .html"),
+        (["--html", "page.txt"], "--html page.txt: the name must end in .html"),
         (["hoover", "--html", "a.html"], "unknown mission of a page 'hoover'"),
         (["paper", "--html", "a.html"], "there are hover, zigzag, iris, doorway, rotor-loss"),
     ],
