@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from mission_schema import EVERYTHING, SCHEMA
 
 import tandemlift as tl
-from tandemlift.apps.cli.flying import parse_setting
+from tandemlift.core.files import parse_setting
 from tandemlift.core.types import flat
 from tandemlift.missions import check, load_mission, to_toml
 from tandemlift.missions.keys import allowed

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.apps.cli.flying import parse_setting
+from tandemlift.core.files import parse_setting
 from tandemlift.missions import load_mission, tables_of
 
 LITERALS = {

@@ -63,7 +63,8 @@ def test_the_paper_mission_leaves_out_only_what_it_has_no_part_of():
     assert rest["pilot"] == {"guidance": "scheduled", "state": "truth", "push": "truth", "map": "none"}
     assert rest["faults"] == rest["walls"] == []
     assert rest["phases"]["rotors"] == "always"
-    assert rest["plant"] == {"mass_scale": 1.0, "inertia_scale": [1.0] * 3}
+    offset = {"center_of_mass_offset": [0.0] * 3}
+    assert rest["plant"] == {"mass_scale": 1.0, "inertia_scale": [1.0] * 3, **offset}
     assert rest["disturbance"] == {"force": [0.0] * 3, "moment": [0.0] * 3}
     assert rest["initial"]["velocity"] == rest["initial"]["rates"] == [0.0] * 3
     assert all(q["spins"] == [1, -1, 1, -1] for q in rest["vehicle"]["quadrotors"])

@@ -117,4 +117,4 @@ def test_the_build_imports_no_package_that_it_does_not_ask_for():
         "print(len(formed_words()))\n"
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
-    assert (done.stdout, done.stderr) == ("7\n", "")
+    assert (done.stdout, done.stderr) == ("8\n", "")

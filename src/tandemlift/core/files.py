@@ -75,6 +75,31 @@ def toml_tables(text: str) -> dict[str, Any]:
     return tomllib.loads(text)
 
 
+WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set accepts without quotes
+
+
+def parse_setting(text: str) -> tuple[str, Any]:
+    """The dotted key and the value of KEY=VALUE; VALUE is a TOML literal, or an unquoted word for a string.
+
+    Raises:
+        InputError: the text has another form.
+    """
+    key, equals, literal = (part.strip() for part in text.partition("="))
+    if not equals or not re.fullmatch(r"[A-Za-z0-9_]+(\.[A-Za-z0-9_]+)*", key):
+        raise InputError(f"--set {text}: must be KEY=VALUE with a dotted key, such as mission.duration=5.0")
+    try:
+        parsed = toml_tables(f"value = {literal}")
+    except (ValueError, RecursionError):
+        if re.fullmatch(WORD, literal):
+            return key, literal
+        parsed = {}
+    if list(parsed) != ["value"]:
+        shown = repr(literal if len(literal) <= 80 else f"{literal[:79]}…")
+        allowed = "a number such as 0.5, true, false, a list such as [1, 2, 3], a word, or '\"text in quotes\"'"
+        raise InputError(f"--set {key}={shown}: the value must be {allowed}")
+    return key, parsed["value"]
+
+
 def parts_of(key: str) -> list[str]:
     """Split a dotted key of plain words into its parts.
 

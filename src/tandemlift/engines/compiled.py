@@ -8,9 +8,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-
-from tandemlift.core.arrays import array, inverse, square_roots
+from tandemlift.core.arrays import inverse
 from tandemlift.core.caching import cached
 from tandemlift.core.law import law
 from tandemlift.core.types import Number, PerRotor
@@ -70,10 +68,10 @@ class BodyStep(NamedTuple):
 def surrounded_motion(b: BodySurroundings, s: State, u: Wrench, push: CentralPush | PointPush) -> State:
     """The motion of the body among its surroundings."""
     plant, q = b.plant, s.attitude
-    free = with_load(b.air, plant.body, rigid_body_motion(plant.body, s, u, push))
-    standing = with_load(load_about_center(floor_loads(plant.floor, b, s), plant.frame, q), plant.body, free)
-    lying = with_load(load_about_center(hull_loads_in(b, s), plant.frame, q), plant.body, standing)
-    return with_load(load_about_center(wall_loads(plant.walls, b, s), plant.frame, q), plant.body, lying)
+    free = with_load(b.air, plant.body, q, rigid_body_motion(plant.body, s, u, push))
+    standing = with_load(load_about_center(floor_loads(plant.floor, b, s), plant.frame, q), plant.body, q, free)
+    lying = with_load(load_about_center(hull_loads_in(b, s), plant.frame, q), plant.body, q, standing)
+    return with_load(load_about_center(wall_loads(plant.walls, b, s), plant.frame, q), plant.body, q, lying)
 
 
 @law
@@ -132,7 +130,7 @@ def advance(
     struck, q = struck_by_walls(plant.walls, b, s, u, hand.start, dt), s.attitude
     k1 = motion(b, struck.state, u, hand.start)
     after = rk4(b, struck.state, k1, u, hand, dt)
-    mean = with_load(load_about_center(struck.loads, plant.frame, q), plant.body, k1)
+    mean = with_load(load_about_center(struck.loads, plant.frame, q), plant.body, q, k1)
     readings = readings_in(b, struck.state, mean, air, thrusts, struck.loads)
     return BodyStep(after, readings, grip_after(plant.floor, grip, after), Absent())
 
@@ -153,10 +151,9 @@ def readings_at_rest(
 
 
 @cached
-def _inertia(vehicle: Vehicle, inertia_scale: tuple[float, ...]) -> tuple[Inertia, Inertia]:
+def _inertia(vehicle: Vehicle, plant: PlantTable) -> tuple[Inertia, Inertia]:
     """The true inertia of a vehicle and its inverse."""
-    scale = np.diag(square_roots(array(inertia_scale)))
-    J = scale @ vehicle.inertia @ scale
+    J = vehicle.real_inertia(plant)
     return inertia_value(J), inertia_value(inverse(J))
 
 
@@ -171,7 +168,7 @@ _plant = cached(CompiledPlant)
 
 @cached
 def _body(vehicle: Vehicle, plant: PlantTable, disturbance: DisturbanceTable) -> RigidBody:
-    inertia, inverse_inertia = _inertia(vehicle, plant.inertia_scale)
+    (inertia, inverse_inertia), off = _inertia(vehicle, plant), plant.center_of_mass_offset
     return RigidBody(
         inverse_mass=1.0 / (vehicle.mass * plant.mass_scale),
         inertia=inertia,
@@ -180,6 +177,7 @@ def _body(vehicle: Vehicle, plant: PlantTable, disturbance: DisturbanceTable) ->
         drag_moment=vec3(vehicle.drag.moment),
         force=vec3(disturbance.force),
         moment=vec3(disturbance.moment),
+        center=vec3(off) if any(x != 0.0 for x in off) else Absent(),
     )
 
 

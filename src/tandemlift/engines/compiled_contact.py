@@ -26,7 +26,15 @@ from tandemlift.parts.mechanics.loads import (
     without_negative_zero,
 )
 from tandemlift.parts.mechanics.push import Push
-from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench, apply_inertia, motion
+from tandemlift.parts.mechanics.rigid_body import (
+    RigidBody,
+    State,
+    Wrench,
+    about_center,
+    apply_inertia,
+    at_position,
+    motion,
+)
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.rotors.allocation import Mixer
 
@@ -214,14 +222,15 @@ def _of_no_contact(load: ZeroLoad, frame: PartsLayout, attitude: Quat) -> PartLo
 
 
 @choice(absent="rate")
-def with_load(load: PartLoad | Absent, body: RigidBody, rate: State) -> State:
-    """The motion with a further load about the centre of mass."""
+def with_load(load: PartLoad | Absent, body: RigidBody, attitude: Quat, rate: State) -> State:
+    """The motion with a further load about the position."""
 
 
 @with_load.register(PartLoad)
-def _with_load(load: PartLoad, body: RigidBody, rate: State) -> State:
-    turned = apply_inertia(body.inverse_inertia, load.moment)
-    return State(rate.position, rate.velocity + load.force * body.inverse_mass, rate.attitude, rate.rates + turned)
+def _with_load(load: PartLoad, body: RigidBody, attitude: Quat, rate: State) -> State:
+    turned = apply_inertia(body.inverse_inertia, about_center(body.center, attitude, load.force, load.moment))
+    velocity = at_position(body.center, attitude, rate.velocity + load.force * body.inverse_mass, turned)
+    return State(rate.position, velocity, rate.attitude, rate.rates + turned)
 
 
 @choice(absent="loads")

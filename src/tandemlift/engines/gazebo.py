@@ -23,13 +23,13 @@ import numpy as np
 
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
-from tandemlift.core.vector import Absent, vec3
+from tandemlift.core.vector import Absent, Quat, vec3
 from tandemlift.engines.gazebo_server import GazeboServer, free_port
 from tandemlift.engines.gazebo_wire import STATE, PluginAnswer, Wire
 from tandemlift.engines.models import sdf
 from tandemlift.engines.models.scene import Scene
 from tandemlift.engines.touches import KINDS, SURFACES, ContactLog
-from tandemlift.parts.mechanics.rotation import quaternion_from_euler
+from tandemlift.parts.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 NONE = Absent()
@@ -107,7 +107,8 @@ class GazeboBody:
         )
         self._begun, self._rested = False, 0.0
         self._handshake(scene, vehicle)
-        answer = wire.answer
+        answer, self._center = wire.answer, np.array(scene.plant.center_of_mass_offset)
+        self._read_state()
         self.state, self.readings, self.pushed = answer.state, answer.readings, answer.pushed
         self.readings.fill(0.0)
         self._velocity, self._rates, self._contact = answer.state[3:6], answer.state[10:], answer.readings[-3:]
@@ -147,17 +148,25 @@ class GazeboBody:
         wire = self._wire
         if not self._begun:  # once more: the server may have ended the session while the loop was compiled
             self._hello()
+            self._read_state()
             self._begun = True
         wire.thrusts[:] = thrusts
         self._force[:] = force + self._disturbing_force - self._drag_force * self._velocity
         self._moment[:] = moment + self._disturbing_moment - self._drag_moment * self._rates
+        self._moment -= np.cross(self._center, self._force @ rotation_of(self.state))
         if len(loads):
             wire.loads[:] = loads
         wire.advance()
+        self._read_state()
+        self.pushed[3:] += np.cross(self._center, self.pushed[:3] @ rotation_of(self.state))
         if self._touching:
             self._log_contacts()
         else:
             self._contact.fill(0.0)
+
+    def _read_state(self) -> None:
+        """Make the plugin's state, of the real centre of mass, that of the modelled one."""
+        move_state(self._wire.answer.state, -self._center)
 
     def _log_contacts(self) -> None:
         """Enter the contacts of this step, but those of feet, into the record."""
@@ -214,12 +223,26 @@ def world_from(scene: Scene, plugin: int | str, **more: str) -> str:
 
 
 def start_state_from(scene: Scene) -> Array:
-    """The state (13,) that a mission starts in."""
+    """The state (13,) that a mission starts in, of the real centre of mass."""
     initial = scene.initial
     attitude = quaternion_from_euler(vec3(initial.euler))
     state = np.array([*initial.position, *initial.velocity, *attitude, *initial.rates])
     assert state.size == STATE
+    move_state(state, np.array(scene.plant.center_of_mass_offset))
     return state
+
+
+def rotation_of(state: Array) -> Array:
+    """The rotation (3 × 3) from body to world axes in a state (13,)."""
+    return np.array(rotation_from_quaternion(Quat(*state[6:10]))).reshape(3, 3)
+
+
+def move_state(state: Array, place: Array) -> None:
+    """Make a state (13,) that of a point at a place from the one that it is of [m, body axes] (3)."""
+    if place.any():
+        state[:6] += (
+            np.concatenate([place, np.cross(state[10:], place)]).reshape(2, 3).dot(rotation_of(state).T).ravel()
+        )
 
 
 def _check_world(answer: PluginAnswer, scene: Scene, vehicle: Vehicle) -> None:

@@ -24,7 +24,7 @@ class EngineBody(Protocol):
     """A body that is simulated by an engine other than the compiled one.
 
     Attributes:
-        state: (13,) position [m] and velocity [m/s] of the vehicle's centre of mass in world axes, attitude quaternion
+        state: (13,) position [m] and velocity [m/s] of the modelled centre of mass in world axes, attitude quaternion
             w, x, y, z (body to world), rates [rad/s] in body axes.
         readings: (6 + 6N,) the numbers of a `PerfectReadings`: specific force at the payload's origin
             [m/s²], loads of the quadrotors on the payload at the joints (x, y, z of all forces [N], then of all torques

@@ -70,6 +70,7 @@ def completed(line):
         ("explain supervision.watchd", ["supervision.watchdog."]),
         ("explain mission.dur", ["mission.duration"]),
         ("compile iris --target cor", ["cortex-m7"]),
+        ("new mine.toml --quadrotor cr", ["crazyflie"]),
         ("compile iris --controller p", ["pid"]),
         ("tune hover --minimize position_rmse", ["position_rmse_m", "position_rmse_after_10s_m"]),
         ("linearize iris --of b", ["body"]),

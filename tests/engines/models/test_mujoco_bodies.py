@@ -26,7 +26,11 @@ MuJoCoBody = body_file.MuJoCoBody
 DT = 0.001
 NONE, CALM = np.zeros(3), np.zeros(0)
 PLACES = [[0.1, 1.0, 0.075], [-0.2, -1.1, 0.05], [0.9, 0.1, 0.1], [-0.8, 0.2, -0.1]]
-DIFFERENT = {"plant.mass_scale": 0.8, "plant.inertia_scale": [0.6, 1.3, 2.0]}  # takes more than the payload has
+DIFFERENT = {  # takes more than the payload has
+    "plant.mass_scale": 0.8,
+    "plant.inertia_scale": [0.6, 1.3, 2.0],
+    "plant.center_of_mass_offset": [0.03, -0.1, 0.02],
+}
 
 
 def mission_of(count=2, changes=None):
@@ -69,11 +73,11 @@ def test_mass_centre_of_mass_and_inertia_are_the_vehicles(count):
 
 def test_the_true_body_has_the_scaled_mass_and_inertia_whatever_is_left_for_the_payload():
     mission, vehicle = mission_of(3, DIFFERENT)
-    M = mass_matrix(MuJoCoBody(mission, vehicle))
-    scale = np.diag(np.sqrt(mission.plant.inertia_scale))
-    np.testing.assert_allclose(M[:3, :3], 0.8 * vehicle.mass * np.eye(3), atol=1e-12)
-    np.testing.assert_allclose(M[3:, 3:], scale @ vehicle.inertia @ scale, atol=1e-12)
-    np.testing.assert_allclose(M[:3, 3:], 0.0, atol=1e-12)
+    M, mass = mass_matrix(MuJoCoBody(mission, vehicle)), 0.8 * vehicle.mass
+    off = body_file.skew(np.array(mission.plant.center_of_mass_offset))
+    np.testing.assert_allclose(M[:3, :3], mass * np.eye(3), atol=1e-12)
+    np.testing.assert_allclose(M[3:, 3:], vehicle.real_inertia(mission.plant) - mass * off @ off, atol=1e-12)
+    np.testing.assert_allclose(M[:3, 3:], -mass * off, atol=1e-12)
 
 
 @pytest.mark.parametrize("count", [2, 3, 4])

@@ -23,10 +23,10 @@ LOW = [wall((-1.0, 0.0), (1.0, 0.0), 0.0)]  # across under the beam's centre
 FALLING = State(ZERO, ZERO, Quat(0.0, 0.0, 0.0, 0.0), ZERO)  # a motion without acceleration
 
 
-def struck(s, table, free=FALLING):
+def struck(s, table, free=FALLING, body=BODY):
     near = found(SHAPES, table, FRAME, s)
     contact = near_wall_contact(SHAPES, near, FRAME, s)
-    return impulses_of_walls(SHAPES, contact, FRAME, BODY, s, free, free, STEP)
+    return impulses_of_walls(SHAPES, contact, FRAME, body, s, free, free, STEP)
 
 
 def normals_of(contact):
@@ -34,8 +34,9 @@ def normals_of(contact):
     return flat(tuple(part.normal for part in parts))
 
 
-def kinetic(s):
-    v, w = np.array(s.velocity), np.array(s.rates)
+def kinetic(s, off=(0.0, 0.0, 0.0)):
+    w = np.array(s.rates)
+    v = np.array(s.velocity) + np.array(rotation_from_quaternion(s.attitude)) @ np.cross(w, off)
     return 0.5 * FLAT.mass * v @ v + 0.5 * w @ FLAT.inertia @ w
 
 
@@ -71,18 +72,20 @@ def test_impulses_hold_what_lies_on_a_core_against_its_weight():
     assert after.state.velocity.z == pytest.approx(0.5 * 9.81 * STEP)
 
 
-def test_impulses_only_push_and_never_add_energy():
-    rng, pressed = np.random.default_rng(3), 0
+@pytest.mark.parametrize("off", [None, (0.1, -0.3, 0.2)], ids=["at the centre", "off it"])
+def test_impulses_only_push_and_never_add_energy(off):
+    rng, pressed, body = np.random.default_rng(3), 0, BODY if off is None else BODY._replace(center=vec3(off))
+    place = off or (0.0, 0.0, 0.0)
     for _ in range(300):
         q = Rotation.from_rotvec(rng.normal(0.0, 0.6, 3)).as_quat(scalar_first=True)
         s = at(rng.normal(0.0, 0.3, 3), rng.normal(0.0, 60.0, 3), Quat(*map(float, q)), vec3(rng.normal(0.0, 6.0, 3)))
         free = rigid_body_motion(
-            BODY, s, Wrench(float(rng.uniform(0.0, 60.0)), ZERO), CentralPush(vec3(rng.normal(0.0, 20.0, 3)))
+            body, s, Wrench(float(rng.uniform(0.0, 60.0)), ZERO), CentralPush(vec3(rng.normal(0.0, 20.0, 3)))
         )
-        after = struck(s, [random_wall(rng) for _ in range(4)], free)
+        after = struck(s, [random_wall(rng) for _ in range(4)], free, body)
         normals = normals_of(after.contact)
         assert min(normals) >= 0.0
-        assert kinetic(after.state) <= kinetic(s) * (1.0 + 1e-12)
+        assert kinetic(after.state, place) <= kinetic(s, place) * (1.0 + 1e-12)
         pressed += max(normals) > 0.0
     assert pressed > 50
 

@@ -113,6 +113,7 @@ def shipped_text() -> str | None:
 
 def formed_words() -> Words:
     """The words as the package defines them; a key of a list of tables has its entry 0."""
+    from tandemlift.apps.export.new_mission import quadrotor_models
     from tandemlift.codegen.mission_module import TARGETS
     from tandemlift.engines.registry import ENGINES
     from tandemlift.flight.metric_descriptions import METRIC_GROUPS
@@ -122,6 +123,7 @@ def formed_words() -> Words:
 
     tables = list(sections())
     return {
+        "quadrotor": dict(quadrotor_models()),
         "mission": dict(built_in()),
         "controller": {name: controller.summary for name, controller in sorted(CONTROLLERS.items())},
         "engine": {name: engine.summary for name, engine in ENGINES.items()},

@@ -14,7 +14,7 @@ import click
 
 from tandemlift.apps.cli.completion import FLIGHTS_AND_MISSIONS, MISSIONS, names
 from tandemlift.apps.cli.console import echo, progress_bar
-from tandemlift.apps.cli.flying import controller_option, engine_option, flight_file, load, saved_flight, set_option
+from tandemlift.apps.cli.flying import controller_option, engine_option, flight_file, load, set_option
 from tandemlift.core.errors import InputError
 
 if TYPE_CHECKING:
@@ -52,6 +52,7 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
       tandemlift export four --set initial.euler=0.0 --out four.xml
     """
     from tandemlift.apps.export import write as exporting
+    from tandemlift.flight.record import Flight
     from tandemlift.missions import Mission
 
     path = Path(out)
@@ -63,7 +64,7 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
         )
     if not saved and not model:
         raise InputError(f"{flight_or_mission} is no saved flight: give flight.npz or the folder of a run")
-    what = saved_flight(saved) if saved else load(flight_or_mission, settings)
+    what = Flight.load(saved) if saved else load(flight_or_mission, settings)
     exporting.export(what, path, plugin=int(plugin) if plugin and plugin.isdecimal() else plugin)
     size = path.stat().st_size
     name = what.mission.name if isinstance(what, Mission) else what.name
@@ -154,6 +155,7 @@ def render(
       tandemlift render out/paper --out pushes.mp4 --from 20 --to 40 --fps 30
       tandemlift render hover --set mission.duration=5 --out hover.gif
     """
+    from tandemlift.flight.record import Flight
     from tandemlift.pictures import rendering
 
     folder, saved = flight_file(flight_or_mission)
@@ -162,7 +164,7 @@ def render(
     _check_options(path, [name for name, value in given.items() if value is not None])
     view = rendering.camera_of(camera)
     shot = rendering.Shot(time, start, end, fps or 20.0, speed, rendering.size_of(size), view)
-    flight = saved_flight(saved) if saved else _fly(flight_or_mission, settings, engine)
+    flight = Flight.load(saved) if saved else _fly(flight_or_mission, settings, engine)
     _draw(flight, path, shot)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
@@ -15,7 +14,7 @@ import click
 from tandemlift.apps.cli.completion import CONTROLLERS, names, settings
 from tandemlift.apps.cli.console import progress_bar
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import FLIGHT_FILE, toml_tables
+from tandemlift.core.files import FLIGHT_FILE, parse_setting
 from tandemlift.pictures.figures.drawing.figure_style import STYLES, figure_style
 
 if TYPE_CHECKING:
@@ -25,7 +24,7 @@ if TYPE_CHECKING:
 
 FIGURES = "figures"  # folder of the figures among results
 DRAWINGS = (".png", ".pdf", ".svg")  # endings of a figure on its own
-WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set accepts without quotes
+HTML = (".html", ".htm")
 FILES = ("mission.toml", FLIGHT_FILE, "metrics.json", "metrics.csv", "metrics.tex", "findings.json", "report.html")
 FAILED = 3  # exit code of a flight that crashed, diverged or did not lift; with --strict also of one with findings
 
@@ -135,22 +134,8 @@ def flight_file(given: str) -> tuple[Path, Path | None]:
     return Path("out") / path.stem, None
 
 
-def saved_flight(path: Path) -> Flight:
-    """Read a saved flight.
-
-    Raises:
-        InputError: the file cannot be read as one.
-    """
-    from tandemlift.flight.record import Flight
-
-    return Flight.load(path)
-
-
-HTML = (".html", ".htm")
-
-
-def output_path(option: str, name: str, endings: Sequence[str]) -> Path:
-    """The path of a file that an option names.
+def file_path(option: str, name: str, *endings: str) -> Path:
+    """The path of a file that an option or an argument names, which ends in one of these endings.
 
     Raises:
         InputError: it has none of the endings, or is a folder.
@@ -245,25 +230,3 @@ def _check_writable(folder: Path, files: Sequence[str]) -> None:
         in_the_way.append(figures)
     if in_the_way:
         raise InputError(f"--out {folder}: {in_the_way[0]} is in the way of a file or folder of that name")
-
-
-def parse_setting(text: str) -> tuple[str, Any]:
-    """The dotted key and the value of KEY=VALUE; VALUE is a TOML literal, or an unquoted word for a string.
-
-    Raises:
-        InputError: the text has another form.
-    """
-    key, equals, literal = (part.strip() for part in text.partition("="))
-    if not equals or not re.fullmatch(r"[A-Za-z0-9_]+(\.[A-Za-z0-9_]+)*", key):
-        raise InputError(f"--set {text}: must be KEY=VALUE with a dotted key, such as mission.duration=5.0")
-    try:
-        parsed = toml_tables(f"value = {literal}")
-    except (ValueError, RecursionError):
-        if re.fullmatch(WORD, literal):
-            return key, literal
-        parsed = {}
-    if list(parsed) != ["value"]:
-        shown = repr(literal if len(literal) <= 80 else f"{literal[:79]}…")
-        allowed = "a number such as 0.5, true, false, a list such as [1, 2, 3], a word, or '\"text in quotes\"'"
-        raise InputError(f"--set {key}={shown}: the value must be {allowed}")
-    return key, parsed["value"]

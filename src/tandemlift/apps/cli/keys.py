@@ -1,20 +1,86 @@
-"""What one looks up: `tandemlift missions`, `controllers`, `engines`, keys of mission files, words for shells."""
+"""What one looks up or begins with: `tandemlift new`, `missions`, `controllers`, `engines`, keys, words for shells."""
 
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Mapping
+from functools import partial
 
 import click
 
 from tandemlift.apps.cli.completion import SCRIPTS, keys, names
 from tandemlift.apps.cli.console import echo
-from tandemlift.apps.cli.flying import chosen_controller
-from tandemlift.core.errors import unknown
+from tandemlift.apps.cli.flying import chosen_controller, file_path
+from tandemlift.core.errors import InputError, unknown
+from tandemlift.core.files import atomic_write
 
 controller_option = click.option(
     "--controller", metavar="FILE", help="Your own controller (.py file): its keys are included."
 )
+
+
+def _number(option: str, low: float, high: float, unit: str, text: float | str) -> float:
+    """A number within bounds, or the error of the option, after which a terminal is asked again."""
+    value = float(click.FLOAT(text))
+    if not low <= value <= high:
+        hint = f"--{option}"
+        raise click.BadParameter(f"{value:g}: must be from {low:.3g} to {high:.3g} {unit}", param_hint=hint)
+    return value
+
+
+def _answer(option: str, given: float | None, default: float, low: float, high: float, unit: str) -> float:
+    """The number of an option: as given, as the terminal answers, or without one the default."""
+    checked = partial(_number, option, low, high, unit)
+    if given is None and sys.stdin.isatty():
+        return float(click.prompt(f"{option} [{unit}], {low:.3g} to {high:.3g}", default=default, value_proc=checked))
+    return checked(default if given is None else given)
+
+
+@click.command()
+@click.argument("file", shell_complete=names(files=[".toml"]))
+@click.option("--quadrotor", metavar="MODEL", shell_complete=names("quadrotor"), help="Their model.  [default: iris]")
+@click.option("--length", type=float, help="Length of the beam [m].  [default: as suits the model]")
+@click.option("--center", type=float, help="Its centre of mass from its middle, to the left [m].  [default: 0]")
+@click.option("--mass", type=float, help="Its mass [kg].  [default: as suits the model]")
+@click.option("--force", is_flag=True, help="Overwrite FILE.")
+def new(
+    file: str, quadrotor: str | None, length: float | None, center: float | None, mass: float | None, force: bool
+) -> None:
+    """Write a mission FILE of your beam on two quadrotors, and tell what they can lift.
+
+    A terminal is asked for what no option gives. Forces, moments and thresholds of the mission suit the weight:
+    docs/how-to/change-the-vehicle.md has the rule and the models with their sources.
+
+    \b
+    Examples:
+      tandemlift new beam.toml
+      tandemlift new beam.toml --quadrotor crazyflie --length 0.4 --mass 0.015
+      tandemlift new beam.toml --length 2 --mass 0.5 --center 0.1 --force
+    """
+    from tandemlift.apps.export.new_mission import NewBeam, heaviest_words, hover_words, new_mission, quadrotor_models
+    from tandemlift.missions import load_mission
+
+    path, models = file_path("FILE", file, ".toml"), quadrotor_models()
+    if path.exists() and not force:
+        raise InputError(f"{file} exists; --force overwrites it")
+    if quadrotor is None and sys.stdin.isatty():
+        _print_table(models)
+        quadrotor = click.prompt("quadrotor", default="iris", type=click.Choice(list(models)))
+    if (quadrotor or "iris") not in models:
+        raise unknown("quadrotor", quadrotor, models)
+    beam = NewBeam.default(quadrotor or "iris")
+    beam = beam._replace(length=_answer("length", length, beam.length, beam.shortest, 100.0, "m"))
+    beam = beam._replace(center=_answer("center", center, 0.0, -0.5 * beam.length, 0.5 * beam.length, "m"))
+    if mass is not None and mass > beam.largest_mass:
+        raise InputError(f"--mass {mass:g}: {heaviest_words(beam)}")
+    beam = beam._replace(mass=_answer("mass", mass, min(beam.mass, beam.largest_mass), 1e-4, beam.largest_mass, "kg"))
+    for line in hover_words(beam):
+        echo(line)
+    with atomic_write(path) as partial_file:
+        partial_file.write_text(new_mission(path.stem, beam), "utf-8")
+        load_mission(partial_file.absolute())
+    echo(f"written: {file}; next: tandemlift check {file}, tandemlift run {file}")
 
 
 @click.command()

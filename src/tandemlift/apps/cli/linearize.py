@@ -11,7 +11,7 @@ import click
 
 from tandemlift.apps.cli.completion import MISSIONS
 from tandemlift.apps.cli.console import echo, print_checks
-from tandemlift.apps.cli.flying import DRAWINGS, FAILED, controller_option, load, output_path, set_option, style_option
+from tandemlift.apps.cli.flying import DRAWINGS, FAILED, controller_option, file_path, load, set_option, style_option
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.files import write_file
 
@@ -68,7 +68,7 @@ def linearize(
 
     for option, path, endings in (("--out", out, ENDINGS), ("--figure", figure, DRAWINGS)):
         if path is not None:
-            output_path(option, path, endings)
+            file_path(option, path, *endings)
     names = [None if given is None else given.split(",") for given in (inputs, outputs)]
     model = linearized(load(mission, settings, controller), at, of=of, inputs=names[0], outputs=names[1])
     connected = model.connected()

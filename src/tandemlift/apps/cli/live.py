@@ -19,10 +19,9 @@ from tandemlift.apps.cli.flying import (
     HTML,
     controller_option,
     engine_option,
+    file_path,
     flight_file,
     load,
-    output_path,
-    saved_flight,
     set_option,
 )
 from tandemlift.core.errors import InputError, extra
@@ -154,16 +153,17 @@ def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
     """
     from tandemlift.apps.live.page_files import page_files
     from tandemlift.apps.live.replay import replay_files, replay_html
+    from tandemlift.flight.record import Flight
 
     _, saved = flight_file(flight)
     if saved is None:
         raise InputError(f"{flight}: there is no flight.npz; give the file, or the folder that `tandemlift run` wrote")
     if html:
-        path, loaded = output_path("--html", html, HTML), saved_flight(saved)
+        path, loaded = file_path("--html", html, *HTML), Flight.load(saved)
         write_file(path, replay_html(loaded, page_files()))
         echo(f"{loaded.name}: {path}")
         return
-    loaded = saved_flight(saved)
+    loaded = Flight.load(saved)
     check_live_installed()
     from tandemlift.apps.live.server import PageServer
 
@@ -195,7 +195,7 @@ def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:
     """
     if not out and not html:
         raise InputError("give the place of the page: --html FILE for one file, --out DIR for a web server")
-    one_file = output_path("--html", html, HTML) if html else None
+    one_file = file_path("--html", html, *HTML) if html else None
     if out and Path(out).is_file():
         raise InputError(f"--out {out}: is a file, not a folder")
     from tandemlift.apps.live import page_modules, pages

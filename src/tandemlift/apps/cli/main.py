@@ -11,7 +11,7 @@ import click
 from tandemlift.apps.cli.compare import compare
 from tandemlift.apps.cli.console import compile_notices, exit_now, handle_interrupts
 from tandemlift.apps.cli.export import compile, export, render
-from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, schema, template
+from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, new, schema, template
 from tandemlift.apps.cli.linearize import check, linearize
 from tandemlift.apps.cli.live import live, page, replay, score
 from tandemlift.apps.cli.report import paper, plot, report
@@ -29,7 +29,7 @@ INTERRUPTED = 130  # as shells report it
 
 GROUPS: dict[str, tuple[click.Command, ...]] = {
     "Try first": (run, live, missions),
-    "Write a mission": (template, explain, check, controllers, engines, schema, completion),
+    "Write a mission": (new, template, explain, check, controllers, engines, schema, completion),
     "Look at a flight": (report, plot, render, replay),
     "Fly many, compare, analyse": (compare, score, study, tune, feel, linearize, paper),
     "Take it elsewhere": (gazebo, ros, page, export, compile),
@@ -70,7 +70,7 @@ def cli() -> None:
     Fly a mission:    tandemlift run paper
     Push it by hand:  tandemlift live
     Change a key:     tandemlift run paper --set controller.switching=saturation
-    Your mission:     tandemlift template > mine.toml
+    Your beam:        tandemlift new mine.toml
                       tandemlift run mine.toml
     Explain a key:    tandemlift explain admittance.damping
     Your controller:  tandemlift run mine.toml --controller my_pd.py

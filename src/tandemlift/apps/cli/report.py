@@ -15,11 +15,10 @@ from tandemlift.apps.cli.flying import (
     FILES,
     HTML,
     figures_option,
+    file_path,
     flight_file,
     kept_style_option,
-    output_path,
     results_folder,
-    saved_flight,
     style_option,
     write_flight,
 )
@@ -95,7 +94,7 @@ def _report_study(folder: Path, out: str | None, metrics: tuple[str, ...], *, no
     """
     if no_figures:
         raise InputError("--no-figures: the report of a study has its figures in it")
-    path = folder / "report.html" if out is None else output_path("--out", out, HTML)
+    path = folder / "report.html" if out is None else file_path("--out", out, *HTML)
     from tandemlift.analysis.studies.table import load_study
     from tandemlift.pictures.report.study.study_report import write_study_report
 
@@ -124,7 +123,7 @@ def plot(figure: str, flights: tuple[str, ...], out: str | None) -> None:
     """
     from tandemlift.pictures.figures import registry
 
-    path = output_path("--out", out or f"out/{figure}.png", DRAWINGS)
+    path = file_path("--out", out or f"out/{figure}.png", *DRAWINGS)
     loaded = [_load(given) for given in flights]
     names = [folder.resolve().name for _, folder in loaded]
     named = dict(zip(names if len(set(names)) == len(names) else flights, (f for f, _ in loaded), strict=True))
@@ -138,6 +137,7 @@ def _load(given: str) -> tuple[Flight, Path]:
         InputError: there is no such flight.
     """
     from tandemlift.apps.export.reading import read_bag
+    from tandemlift.flight.record import Flight
 
     path = Path(given)
     if path.suffix.lower() in BAGS or (path / "metadata.yaml").exists():
@@ -150,7 +150,7 @@ def _load(given: str) -> tuple[Flight, Path]:
             f"{given}: must be flight.npz, its folder, a bag (.bag, .mcap, or the folder of a ROS 2 bag), or, for a "
             "report, the folder of a study"
         )
-    return saved_flight(saved), folder
+    return Flight.load(saved), folder
 
 
 OUT = "out/paper.pdf"
@@ -184,9 +184,10 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
       0   everything was written
       2   bad input, or no typst: one message
     """
+    from tandemlift.apps.ros.gazebo_flight import gazebo_sentence
     from tandemlift.pictures.report.paper_report import typeset, write_paper_files
 
-    path = output_path("--out", out, (".pdf",))
+    path = file_path("--out", out, ".pdf")
     with results_folder(str(path.parent), path.parent, (path.name,)):
         flights = fly_paper()
         folder = path.with_name(f"{path.stem}-files")
@@ -216,15 +217,3 @@ def fly_paper() -> PaperFlights:
     with progress_bar("Flying", "flights") as progress:
         flown, corridor, *choices = fly_many(missions, progress=progress)
     return PaperFlights(flown, corridor, [flight.metrics() for flight in choices])
-
-
-def gazebo_sentence() -> str:
-    """Whether Gazebo can fly the corridor on this machine."""
-    from tandemlift.engines.gazebo_server import root
-
-    how = "`tandemlift gazebo zigzag --fast --pictures` flies this corridor in Gazebo 11 and photographs it"
-    try:
-        root()
-    except InputError:
-        return f"{how}. Gazebo is not installed on the machine that made this report."
-    return f"{how}. Gazebo is installed on the machine that made this report, which flew the compiled engine."

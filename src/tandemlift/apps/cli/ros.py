@@ -207,55 +207,38 @@ def gazebo(
         raise InputError(
             f"--by-hand flies in real time and takes no pictures: leave out {'--fast' if fast else '--pictures'}"
         )
+    from tandemlift.apps.ros.gazebo_flight import has_display
     from tandemlift.engines.gazebo_server import root
 
     loaded = load(mission, with_after_crash(settings, after_crash))
     root()  # raises if there is no Gazebo, before anything is compiled
     with results_folder(out, Path("out/gazebo") / loaded.mission.name, FILES) as folder:
         began = time.perf_counter()
-        window = not no_window and _has_display()
-        flight, photographs = (
-            _fly_by_hand(loaded, window) if by_hand else _fly_to_end(loaded, window, not fast, pictures)
+        if not (no_window or has_display()):
+            click.echo("No window: DISPLAY is not set", err=True)
+        window = has_display() and not no_window
+        flight, photographs = _fly_in_gazebo(
+            loaded, by_hand=by_hand, window=window, real_time=not fast, pictures=pictures
         )
         recording = None if by_hand else loaded.person.recording
         write_results(flight, folder, began, recording, figures=not no_figures, photographs=photographs)
     exit_if_amiss({flight.name: flight}, strict=strict)
 
 
-def _has_display() -> bool:
-    from tandemlift.apps.ros.gazebo_flight import has_display
-
-    if not has_display():
-        click.echo("No window: DISPLAY is not set", err=True)
-    return has_display()
-
-
-def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool) -> tuple[Flight, Photographs]:
-    """Fly a mission to its end; the flight, and its photographs if requested, each with its title."""
-    from tandemlift.apps.ros.gazebo_flight import fly_to_end
-
-    def begun(gazebo: GazeboSession) -> None:
-        _print_how_to_push(mission.mission.name, gazebo)
-
-    with progress_bar("Flying", "steps") as progress:
-        return fly_to_end(mission, begun, progress, window=window, real_time=real_time, pictures=pictures)
-
-
-def _fly_by_hand(mission: Mission, window: bool) -> tuple[Flight, Photographs]:
-    """Fly a mission without its own pushes until Ctrl-C; pushes come by Gazebo's topic."""
-    from tandemlift.apps.ros.gazebo_flight import fly_by_hand
-
-    def begun(gazebo: GazeboSession) -> None:
-        _print_how_to_push(mission.mission.name, gazebo)
-        echo("  Ctrl-C ends it")
-
-    return fly_by_hand(mission, begun, window=window), []
-
-
-def _print_how_to_push(name: str, gazebo: GazeboSession) -> None:
+def _fly_in_gazebo(
+    mission: Mission, *, by_hand: bool, window: bool, real_time: bool, pictures: bool
+) -> tuple[Flight, Photographs]:
+    """Fly a mission to its end, or by hand until Ctrl-C; the flight, and its photographs, each with its title."""
+    from tandemlift.apps.ros.gazebo_flight import fly_by_hand, fly_to_end
     from tandemlift.engines.gazebo_server import shell_command_for_user
 
-    push = """gz topic -p /gazebo/default/tandemlift/push -m 'data: "force 2 0 0 point 0 0 0 duration 2"'"""
-    echo(f"{name} flies in Gazebo. To push it, run in another terminal:")
-    echo(f"  {shell_command_for_user(gazebo.master, push)}")
-    sys.stdout.flush()
+    def begun(gazebo: GazeboSession) -> None:
+        push = """gz topic -p /gazebo/default/tandemlift/push -m 'data: "force 2 0 0 point 0 0 0 duration 2"'"""
+        echo(f"{mission.mission.name} flies in Gazebo. To push it, run in another terminal:")
+        echo(f"  {shell_command_for_user(gazebo.master, push)}" + "\n  Ctrl-C ends it" * by_hand)
+        sys.stdout.flush()
+
+    if by_hand:
+        return fly_by_hand(mission, begun, window=window), []
+    with progress_bar("Flying", "steps") as progress:
+        return fly_to_end(mission, begun, progress, window=window, real_time=real_time, pictures=pictures)

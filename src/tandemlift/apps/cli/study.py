@@ -10,7 +10,7 @@ import click
 
 from tandemlift.apps.cli.completion import names
 from tandemlift.apps.cli.console import compile_notices, echo, progress_bar
-from tandemlift.apps.cli.flying import parse_setting
+from tandemlift.core.files import parse_setting
 
 if TYPE_CHECKING:
     from tandemlift.analysis.studies.design.plan import StudyPlan

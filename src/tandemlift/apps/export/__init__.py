@@ -1,1 +1,1 @@
-"""Conversion of a flight to files of other tools and back: ROS bags and tables."""
+"""Conversion of a flight to files of other tools and back: ROS bags and tables; new mission files."""

@@ -120,6 +120,16 @@ def running_gazebo(
                 os.environ[name] = value
 
 
+def gazebo_sentence() -> str:
+    """Whether Gazebo can fly the corridor on this machine."""
+    how = "`tandemlift gazebo zigzag --fast --pictures` flies this corridor in Gazebo 11 and photographs it"
+    try:
+        root()
+    except InputError:
+        return f"{how}. Gazebo is not installed on the machine that made this report."
+    return f"{how}. Gazebo is installed on the machine that made this report, which flew the compiled engine."
+
+
 def has_display() -> bool:
     """Whether there is a screen for a window."""
     return bool(os.environ.get("DISPLAY"))

@@ -1,7 +1,7 @@
 """A vehicle as rigid bodies: its parts in the form that laws use, and links for the model file of another simulator.
 
 Links are those of the true vehicle, fixed to each other. The difference between the true and the nominal vehicle
-(`plant`) is concentrated at the centre of mass, as in the engines. Here it is part of the payload.
+(`plant`), a mass and an inertia at the real centre of mass less those at the modelled one, is part of the payload.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from tandemlift.core.vector import each, quarters, spread, vec3
 from tandemlift.engines.models.scene import Scene
 from tandemlift.parts.mechanics.loads import PartsLayout
 from tandemlift.parts.mechanics.vehicle import Vehicle, parallel_axis_term
+from tandemlift.parts.mechanics.vehicle_table import PlantTable
 
 ROUNDING = 1e-9  # relative tolerance of the triangle inequality of principal moments
 
@@ -71,24 +72,20 @@ def links_of(scene: Scene, vehicle: Vehicle) -> list[Link]:
 
 
 def _payload(scene: Scene, vehicle: Vehicle) -> Link:
-    """The payload, with the difference between the true and the nominal vehicle."""
+    """The payload, with the real whole added and the modelled whole taken away."""
     own, origin, plant = vehicle.payload, 0.0 + vehicle.origin, scene.plant
-    place = 0.0 + vehicle.payload_center
     known = Link("payload", origin, own.mass, np.array(own.center_of_mass), own.tensor)
-    if plant.mass_scale == 1.0 and plant.inertia_scale == (1.0, 1.0, 1.0):
+    if plant == PlantTable():
         return known
-    scale, J, more = np.diag(np.sqrt(plant.inertia_scale)), vehicle.inertia, (plant.mass_scale - 1.0) * vehicle.mass
-    mass = own.mass + more
+    whole, real = vehicle.mass, plant.mass_scale * vehicle.mass
+    mass = own.mass + real - whole
     if mass <= 0.0:
         raise _no_body(scene, f"a mass of {mass:g} kg")
-    center = own.mass / mass * place  # from the system's, where the difference is concentrated
-    inertia = (
-        known.inertia
-        + parallel_axis_term(own.mass, place - center)
-        + scale @ J @ scale
-        - J
-        + parallel_axis_term(more, center)
-    )
+    place, off = vehicle.payload_center, np.array(plant.center_of_mass_offset)
+    center = (own.mass * place + real * off) / mass  # from the modelled whole's
+    inertia = known.inertia + parallel_axis_term(own.mass, place - center)
+    inertia = inertia + vehicle.real_inertia(plant) + parallel_axis_term(real, off - center)
+    inertia = inertia - vehicle.inertia - parallel_axis_term(whole, center)
     least, middle, most = np.linalg.eigvalsh(inertia)
     if least <= 0.0 or least + middle < most * (1.0 - ROUNDING):
         raise _no_body(scene, f"principal moments of {least:g}, {middle:g} and {most:g} kg m2")
@@ -98,6 +95,7 @@ def _payload(scene: Scene, vehicle: Vehicle) -> Link:
 def _no_body(scene: Scene, what: str) -> InputError:
     plant = scene.plant
     return InputError(
-        f"plant.mass_scale = {plant.mass_scale:g}, plant.inertia_scale = {list(plant.inertia_scale)}: the difference "
-        f"is part of the payload, which would have {what}; a model file needs a physical mass and inertia"
+        f"plant.mass_scale = {plant.mass_scale:g}, plant.inertia_scale = {list(plant.inertia_scale)}, "
+        f"plant.center_of_mass_offset = {list(plant.center_of_mass_offset)}: the difference is part of the payload, "
+        f"which would have {what}; a model file needs a physical mass and inertia"
     )

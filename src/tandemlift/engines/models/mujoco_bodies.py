@@ -22,7 +22,7 @@ from tandemlift.engines.models.scene import Scene
 from tandemlift.parts.contact.feet import Floor
 from tandemlift.parts.contact.walls import Walls
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.vehicle_table import Quadrotor
+from tandemlift.parts.mechanics.vehicle_table import PlantTable, Quadrotor
 
 Weight = tuple[float, ArrayLike]  # kg; kg m², principal moments
 
@@ -108,17 +108,20 @@ def _add_quadrotor(spec: Any, name: str, quadrotor: Quadrotor, center: Array) ->
 
 
 def _add_difference(spec: Any, scene: Scene, vehicle: Vehicle) -> list[Weight]:
-    """Add a body at the centre of mass with the difference in inertia between true and nominal vehicle.
+    """Add the real whole at its centre of mass, and take away the modelled one at its own, of negative mass.
 
-    Its mass and principal moments may be negative. No body is added if there is no difference.
+    No body is added if there is no difference.
     """
-    scale, J = np.diag(np.sqrt(scene.plant.inertia_scale)), vehicle.inertia
-    mass = (scene.plant.mass_scale - 1.0) * vehicle.mass
-    moments, quat = principal_axes(scale @ J @ scale - J)
-    if not mass and not moments.any():
+    plant = scene.plant
+    if plant == PlantTable():
         return []
-    spec.body("payload").add_body(name="difference", iquat=quat, **_placeholder_inertia())
-    return [(mass, moments)]
+    weights: list[Weight] = []
+    real = (plant.mass_scale * vehicle.mass, vehicle.real_inertia(plant), np.array(plant.center_of_mass_offset))
+    for name, (mass, J, center) in {"real": real, "modelled": (-vehicle.mass, -vehicle.inertia, np.zeros(3))}.items():
+        moments, quat = principal_axes(J)
+        spec.body("payload").add_body(name=name, iquat=quat, **_placeholder_inertia(center))
+        weights.append((mass, moments))
+    return weights
 
 
 def principal_axes(tensor: Array) -> tuple[Array, Array]:

@@ -44,7 +44,7 @@ from tandemlift.parts.mechanics.loads import (
     sum_over_set,
     translated,
 )
-from tandemlift.parts.mechanics.rigid_body import RigidBody, State, apply_inertia
+from tandemlift.parts.mechanics.rigid_body import RigidBody, State, about_center, apply_inertia, at_position
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 CORE = 0.25  # of the radius; the rest is left to the springs
@@ -103,7 +103,8 @@ def approach(
     turning = dot(n, spin) * dot(arm, spin) - dot(n, arm) * dot(spin, spin)
     freely = rate_along(n, lever, free.velocity, free.rates)
     acceleration = turning + minimum(freely, rate_along(n, lever, sprung.velocity, sprung.rates))
-    mobility = add_to_each(dot(lever, apply_inertia(body.inverse_inertia, lever)), body.inverse_mass)
+    turned = about_center(body.center, s.attitude, n, lever)
+    mobility = add_to_each(dot(turned, apply_inertia(body.inverse_inertia, turned)), body.inverse_mass)
     return Approach(n, lever, mobility, least_rate(sqrt(square), radius, acceleration, dt))
 
 
@@ -115,9 +116,10 @@ def after_worst(a: Approach, body: RigidBody, s: State) -> tuple[State, Any]:
     numbers = each(count)(*[1.0 + i for i in range(count)])
     worst = least(number_at(change, greatest(change), numbers, 1.0 + count))
     impulse = if_number(numbers, worst, change / a.mobility)
-    velocity = s.velocity + sum_over_set(scaled(a.normal, impulse)) * body.inverse_mass
-    rates = s.rates + apply_inertia(body.inverse_inertia, sum_over_set(scaled(a.lever, impulse)))
-    return State(s.position, velocity, s.attitude, rates), impulse
+    forces, moments = sum_over_set(scaled(a.normal, impulse)), sum_over_set(scaled(a.lever, impulse))
+    turned = apply_inertia(body.inverse_inertia, about_center(body.center, s.attitude, forces, moments))
+    velocity = at_position(body.center, s.attitude, s.velocity + forces * body.inverse_mass, turned)
+    return State(s.position, velocity, s.attitude, s.rates + turned), impulse
 
 
 T = TypeVar("T", bound=tuple[Any, ...])

@@ -1,7 +1,8 @@
 """The vehicle as one rigid body: state, wrench, equations of motion, one Runge-Kutta step.
 
-Position p and velocity v are the system centre of mass's, in world axes; rates ω = (p, q, r) and moments are in body
-axes, moments about the centre of mass. An inertia tensor is a `Vec3` if it is diagonal, else a `Mat3`.
+Position p and velocity v are those of the modelled centre of mass, in world axes; rates ω = (p, q, r) and moments are
+in body axes, moments about that point. The real centre of mass may be off it. An inertia tensor is a `Vec3` if it is
+diagonal, else a `Mat3`.
 """
 
 import math
@@ -16,9 +17,23 @@ from tandemlift.core.arrays import largest
 from tandemlift.core.keys import Axes3, Table, Triple, key, must
 from tandemlift.core.law import choice, law
 from tandemlift.core.types import GRAVITY, Number
-from tandemlift.core.vector import Mat3, Quat, Vec3, apply, cross, dot, linear, mat3, plus, times, vec3
+from tandemlift.core.vector import (
+    Absent,
+    Mat3,
+    Quat,
+    Vec3,
+    apply,
+    apply_transposed,
+    cross,
+    dot,
+    linear,
+    mat3,
+    plus,
+    times,
+    vec3,
+)
 from tandemlift.parts.mechanics.push import Push, PushSamples, push_moment
-from tandemlift.parts.mechanics.rotation import body_z_axis, quaternion_rate
+from tandemlift.parts.mechanics.rotation import body_z_axis, quaternion_rate, rotation_from_quaternion
 
 Inertia: TypeAlias = Vec3 | Mat3
 OFF_DIAGONAL = ~np.eye(3, dtype=bool)
@@ -107,7 +122,8 @@ class RigidBody(NamedTuple):
     """Parameters of the equations of motion of one rigid body.
 
     `inverse_mass` [1/kg]; `inertia` [kg·m²] and `inverse_inertia`, both a Vec3 or both a Mat3; drag coefficients on
-    world velocity [N·s/m] and on body rates [N·m·s]; a constant disturbing force [N, world] and moment [N·m, body].
+    world velocity [N·s/m] and on body rates [N·m·s]; a constant disturbing force [N, world] and moment [N·m, body]; the
+    centre of mass from the state's position [m, body], about which the inertia is, `Absent` if they coincide.
     """
 
     inverse_mass: Number
@@ -117,6 +133,43 @@ class RigidBody(NamedTuple):
     drag_moment: Vec3
     force: Vec3
     moment: Vec3
+    center: Vec3 | Absent = Absent()
+
+
+@choice(absent="moment")
+def about_center(center: Vec3 | Absent, attitude: Quat, force: Vec3, moment: Vec3) -> Vec3:
+    """The moment about the centre of mass [N·m, body axes] of a force [N, world axes] and a moment about the position.
+
+    Force and moment may be of sets.
+    """
+
+
+@about_center.register(Vec3)
+def _moved(center: Vec3, attitude: Quat, force: Vec3, moment: Vec3) -> Vec3:
+    return moment + cross(apply_transposed(rotation_from_quaternion(attitude), force), center)
+
+
+@choice(absent="linear")
+def at_position(center: Vec3 | Absent, attitude: Quat, linear: Vec3, angular: Vec3) -> Vec3:
+    """A change of velocity of the position, from that of the centre of mass [world axes] and of the rates [body axes].
+
+    Accelerations are also such changes, but for the centripetal one.
+    """
+
+
+@at_position.register(Vec3)
+def _carried(center: Vec3, attitude: Quat, linear: Vec3, angular: Vec3) -> Vec3:
+    return linear - apply(rotation_from_quaternion(attitude), cross(angular, center))
+
+
+@choice(absent="linear")
+def turning_about(center: Vec3 | Absent, attitude: Quat, linear: Vec3, rates: Vec3) -> Vec3:
+    """An acceleration of the position, with the centripetal one [m/s², world axes]."""
+
+
+@turning_about.register(Vec3)
+def _centripetal(center: Vec3, attitude: Quat, linear: Vec3, rates: Vec3) -> Vec3:
+    return at_position(cross(rates, center), attitude, linear, rates)
 
 
 @choice
@@ -130,11 +183,14 @@ def rigid_body_motion(body: RigidBody, s: State, u: Wrench, push: Push) -> State
     # paper: trans_rot_sys_equ
     force = body_z_axis(s.attitude) * u.thrust - body.drag_force * s.velocity + body.force + push.force
     moment = u.moment + gyroscopic(body.inertia, s.rates) - body.drag_moment * s.rates + body.moment
+    about = about_center(body.center, s.attitude, force, moment + push_moment(push, s.attitude))
+    linear, angular = force * body.inverse_mass - UP * GRAVITY, apply_inertia(body.inverse_inertia, about)
+    turning = turning_about(body.center, s.attitude, linear, s.rates)
     return State(
         s.velocity,
-        force * body.inverse_mass - UP * GRAVITY,
+        at_position(body.center, s.attitude, turning, angular),
         quaternion_rate(s.attitude, s.rates),
-        apply_inertia(body.inverse_inertia, moment + push_moment(push, s.attitude)),
+        angular,
     )
 
 

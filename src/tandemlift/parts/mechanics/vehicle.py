@@ -19,7 +19,7 @@ from tandemlift.core.arrays import array, condition_number, has_symbols, inverse
 from tandemlift.core.caching import cached
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
-from tandemlift.parts.mechanics.vehicle_table import Drag, Payload, Quadrotor, VehicleTable
+from tandemlift.parts.mechanics.vehicle_table import Drag, Payload, PlantTable, Quadrotor, VehicleTable
 
 
 def mixer(quadrotor: Quadrotor) -> Array:
@@ -178,6 +178,22 @@ class Vehicle:
         for q, d in zip(self.quadrotors, self.lever_arms, strict=True):
             total = total + np.diag(q.inertia) + parallel_axis_term(q.mass, d)
         return total
+
+    def real_inertia(self, plant: PlantTable) -> Array:
+        """The real body's inertia about its centre of mass [kg m²], body axes (3 × 3).
+
+        That centre is off the modelled one because the payload's mass is off its place, by as much as that takes.
+        """
+        J, off, scale = (
+            self.inertia,
+            array(plant.center_of_mass_offset),
+            np.diag(square_roots(array(plant.inertia_scale))),
+        )
+        if any(x != 0.0 for x in plant.center_of_mass_offset):
+            mass, place = self.payload.mass, self.payload_center
+            moved = parallel_axis_term(mass, place + off * (self.mass / mass)) - parallel_axis_term(mass, place)
+            J = J + moved - parallel_axis_term(self.mass, off)
+        return scale @ J @ scale
 
     @cached_property
     def B(self) -> Array:

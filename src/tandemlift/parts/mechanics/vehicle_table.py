@@ -26,11 +26,17 @@ from tandemlift.core.keys import (
 )
 from tandemlift.core.types import Array
 
+Metre = Annotated[float, Field(ge=-1e3, le=1e3)]
+Corner = Annotated[tuple[Metre, Metre], PerAxis(2, single=False)]
+Place = Annotated[tuple[Metre, Metre, Metre], PerAxis(3, single=False)]
+Turns = Literal[-1, 1]
+COINCIDING = 1e-3  # m
+
 
 class DisturbanceTable(Table):
     """`[disturbance]`: a constant force and moment that are unknown to the pilot."""
 
-    force: Axes3 = key((0.0, 0.0, 0.0), "N", "force at the centre of mass, world axes")
+    force: Axes3 = key((0.0, 0.0, 0.0), "N", "force at the modelled centre of mass, world axes")
     moment: Axes3 = key((0.0, 0.0, 0.0), "N m", "moment, body axes")
 
 
@@ -39,14 +45,15 @@ class PlantTable(Table):
 
     mass_scale: Scale = key(1.0, "1", "real mass over the modelled mass", source="the model is right")
     inertia_scale: Annotated[tuple[Scale, Scale, Scale], PerAxis(3)] = key(
-        (1.0, 1.0, 1.0),
-        "1",
-        "real inertia over the modelled inertia, about each body axis",
-        source="the model is right",
+        (1.0, 1.0, 1.0), "1", "real over modelled inertia, about each body axis", source="the model is right"
     )
-
-
-COINCIDING = 1e-3  # m
+    center_of_mass_offset: Place = key(
+        (0.0, 0.0, 0.0),
+        "m",
+        "real centre of mass of the vehicle from the modelled one, body axes: the payload's mass is off its place",
+        source="the model is right",
+        example=[0.0, 0.02, 0.0],
+    )
 
 
 def _principal(inertia: Triple) -> Triple:
@@ -140,12 +147,6 @@ class Payload(Table):
         return (2.0 * radius * length, math.pi * radius**2, 2.0 * radius * length)
 
 
-Metre = Annotated[float, Field(ge=-1e3, le=1e3)]
-Corner = Annotated[tuple[Metre, Metre], PerAxis(2, single=False)]
-Joint = Annotated[tuple[Metre, Metre, Metre], PerAxis(3, single=False)]
-Turns = Literal[-1, 1]
-
-
 class Quadrotor(Table):
     """`[[vehicle.quadrotors]]`: one table for each quadrotor, 1 to 64 of them, rigidly fixed to the payload.
 
@@ -213,7 +214,7 @@ class Quadrotor(Table):
         "height of the rotors' hubs above the quadrotor's centre of mass, for contact with floor and walls",
         source="chosen: a fifth of an arm of 0.25 m, as the pictures show it",
     )
-    joint: Joint | None = key(
+    joint: Place | None = key(
         None,
         "m",
         "position of the joint and its force sensor from the payload's origin, body axes",

@@ -179,10 +179,10 @@ def reading_delays(s: SensorsTable, state: str, step: float) -> ReadingDelays:
 def open_loop(loop: ControlLoop, w: Array, K: NDArray[np.complex128] | Array) -> NDArray[np.complex128]:
     """The loop (w, 4, 4) in accelerations at frequencies w [rad/s] without delay and lag; K (w, 4, 5, 3)."""
     s, hover, o, push = 1j * w, loop.hover, loop.observer, loop.push
-    vehicle, scale = hover.vehicle, np.diag(np.sqrt(hover.plant.inertia_scale))
+    vehicle = hover.vehicle
     assumed, real = np.eye(4), np.eye(4)
     assumed[0, 0], assumed[1:, 1:] = vehicle.mass, vehicle.inertia
-    real[0, 0], real[1:, 1:] = hover.mass, scale @ vehicle.inertia @ scale
+    real[0, 0], real[1:, 1:] = hover.mass, vehicle.real_inertia(hover.plant)
     bandwidth = np.array([o.force_bandwidth[2], *o.moment_bandwidth])
     Q = (bandwidth / (s[:, None] + bandwidth)) ** 2 * (o.model != "none")
     M = 1.0 / (1.0 + 0.5 * s * (o.rotor_lag + o.rotor_delay + loop.step)) ** 2

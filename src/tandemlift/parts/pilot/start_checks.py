@@ -63,7 +63,7 @@ def motion_checks(initial: InitialTable, hover: HoverFacts, *, real: bool) -> It
     speed, fastest = float(np.linalg.norm(initial.velocity)), FASTEST[hover.actuators.model]
     limits = np.full(3, SPINNING)
     if real:
-        inertia = np.diag(hover.vehicle.inertia) * hover.plant.inertia_scale
+        inertia = np.diag(hover.vehicle.real_inertia(hover.plant))
         limits = np.minimum(limits, np.sqrt(2.0 * np.array(TURNS) * hover.authority / inertia))
     found = [("velocity", "speed", speed, fastest, "m/s")]
     rates = zip(AXES, np.abs(initial.rates).tolist(), limits.tolist(), strict=True)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.types import Array
+from tandemlift.core.types import GRAVITY, Array
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import PlantTable
 from tandemlift.parts.rotors.allocation import AllocationTable
@@ -64,8 +64,23 @@ class HoverFacts(NamedTuple):
 
     @property
     def thrusts(self) -> Array:
-        """Thrusts of all rotors [N] by the allocation of the weight (N × 4)."""
-        return self.vehicle.allocation(self.allocation.weights)[:, 0].reshape(-1, 4) * self.weight
+        """Thrusts of all rotors [N] by the allocation of the weight, at the real centre of mass (N × 4)."""
+        inverse, (x, y, _) = self.vehicle.allocation(self.allocation.weights), self.plant.center_of_mass_offset
+        return (inverse[:, 0] + y * inverse[:, 1] - x * inverse[:, 2]).reshape(-1, 4) * self.weight
+
+    @property
+    def share(self) -> float:
+        """The thrust of the most loaded rotor, of the largest that it can give."""
+        return float(np.max(self.thrusts / [[q.max_thrust] for q in self.vehicle.quadrotors]))
+
+    def largest_payload(self, share: float) -> float:
+        """The largest mass of such a payload [kg] with which no rotor exceeds a share of its thrust; 0 if none."""
+        low, high, payload = 0.0, self.lift / GRAVITY, self.vehicle.payload
+        for _ in range(50):
+            mass = 0.5 * (low + high)
+            heavier = Vehicle(payload.model_copy(update={"mass": mass}), self.vehicle.quadrotors)
+            low, high = (mass, high) if self._replace(vehicle=heavier).share <= share else (low, mass)
+        return low
 
     @property
     def authority(self) -> Array:
@@ -76,7 +91,7 @@ class HoverFacts(NamedTuple):
         """
         inverse = self.vehicle.allocation(self.allocation.weights)
         most = np.repeat([q.max_thrust for q in self.vehicle.quadrotors], 4)
-        hover = inverse[:, 0] * self.weight
+        hover = self.thrusts.ravel()
         up, down = np.maximum(most - hover, 0.0)[:, None], np.maximum(hover, 0.0)[:, None]
         column = inverse[:, 1:]
         size = np.maximum(np.abs(column), 1e-12)
