@@ -93,7 +93,7 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from sensors.sensor_fault_checks(m.sensor_faults, s, count)
     for i, push in enumerate(m.pushes):
         yield from point_checks(f"pushes.{i}.point", push.point, Vehicle.from_settings(m.vehicle))
-    yield from person_checks(m.person, m.corridor, m.vehicle.payload.length)
+    yield from person_checks(m.person, m.corridor, m.vehicle.payload.box)
     yield from recording_checks(m.person, m.vehicle)
     yield from outcomes.crash_checks(m.crash, m.initial)
     yield from outcomes.promise_checks(m.promise, m.findings, m.crash, guidance)
