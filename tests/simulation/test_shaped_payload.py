@@ -71,7 +71,7 @@ def test_models_and_pictures_show_the_box_about_its_origin(tmp_path):
         ),
         ({"vehicle.payload.shape": "box"}, r'must have size with shape = "box"'),
         (BOX | {"vehicle.payload.length": 2.0}, r'no length = 2\.0 with shape = "box"'),
-        (BOX | {"vehicle.payload.size.2": 0.0}, r"payload\.size\.2 = 0\.0: must be more than 0"),
+        (BOX | {"vehicle.payload.size.2": 0.0}, r"payload\.size\.2 = 0\.0: must be a number > 0"),
         ({"vehicle.payload.shape": "plate"}, r'shape = "plate": must be .*"box"'),
     ],
 )
@@ -152,7 +152,7 @@ def test_a_spoiled_mesh_is_refused_with_what_is_wrong(brick, way):
     mesh = trimesh.load_mesh(brick)
     spoil(mesh)
     mesh.export(brick)
-    with pytest.raises(tl.InputError, match=rf'vehicle\.payload\.mesh = ".*brick\.stl":.*{says}'):
+    with pytest.raises(tl.InputError, match=rf"vehicle\.payload\.mesh = .*brick.*: .*{says}"):
         tl.load_mission("iris", of_mesh(brick))
 
 

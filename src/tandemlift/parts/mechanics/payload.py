@@ -133,7 +133,7 @@ class Payload(Table):
         None,
         "shape of the payload",
         choices={
-            "beam": "a beam with length and radius; without them, a body without shape",
+            "beam": "a beam with length and radius, or without them a body without shape",
             "box": "a box with edges along the body axes, such as a plate",
             "mesh": "the body in the file of a mesh",
         },
@@ -174,7 +174,7 @@ class Payload(Table):
         "corners of the convex hull of a mesh, from the payload's origin, body axes",
         rule=f"4 to {MOST_CORNERS} corners of a convex body; with shape 'mesh'",
         unset="those of the mesh",
-        example=[[0.3, 0.0, 0.0], [-0.2, 0.8, 0.0], [-0.2, -0.8, 0.0], [0.0, 0.0, 0.4]],
+        example=[[1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 0]],
     )
     inertia: Inertia | None = key(
         None,
@@ -207,6 +207,8 @@ class Payload(Table):
                 if shape != self.shape and getattr(self, name) is not None:
                     given = f"{name} = {shown(getattr(self, name))}"
                     raise must("payload", f'have no {given} with shape = "{self.shape}", or shape must be "{shape}"')
+        if self.mesh_scale != 1.0:
+            raise must("payload", f"have no mesh_scale = {shown(self.mesh_scale)} without mesh")
         if self.shape == "box" and self.size is None:
             raise must("payload", 'have size with shape = "box": its edges along the body axes [m]')
         if self.shape == "mesh" and (self.corners is None or self.inertia is None):

@@ -53,6 +53,10 @@ class Skeleton(NamedTuple):
         R = body_to_world(attitude)
         return Skeleton(*(points @ R.T + position for points in self))
 
+    def width(self, points: float) -> float:
+        """Width of the payload's lines [points]: as given for the axis of a beam, thinner for the edges of a body."""
+        return points if len(self.beam) <= 2 else 0.3 * points
+
     @property
     def points(self) -> Array:
         """All points (n, 3) [m]."""
