@@ -167,3 +167,16 @@ def test_a_spoiled_mesh_is_refused_with_what_is_wrong(brick, way):
 def test_a_mesh_needs_its_file_and_density_and_nothing_beside(brick, changes, says):
     with pytest.raises(tl.InputError, match=says):
         tl.load_mission("iris", of_mesh(brick, **changes))
+
+
+def test_a_body_of_many_corners_is_led_through_a_corridor(tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    mesh = trimesh.creation.icosphere(subdivisions=3, radius=0.3)
+    mesh.apply_scale([1.0, 3.4, 0.3])
+    mesh.export(tmp_path / "pod.ply")
+    pod = {"vehicle.payload.shape": "mesh", "vehicle.payload.mesh": str(tmp_path / "pod.ply")}
+    mission = tl.load_mission("narrow", pod | {"vehicle.payload.mass": 0.5, "mission.duration": 16.0})
+    assert len(mission.vehicle.payload.hull.corners) == 32
+    flight = tl.fly(mission)
+    assert flight.findings == ()
+    assert np.linalg.norm(flight["velocity"], axis=1).max() > 0.1

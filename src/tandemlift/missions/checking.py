@@ -13,9 +13,9 @@ from tandemlift.missions.changes import MISSING, Place, Tables, changed_tables, 
 from tandemlift.missions.checks import mission_checks, refusals
 from tandemlift.missions.flight_checks import worst_failures
 from tandemlift.missions.mission import Mission
-from tandemlift.missions.payload_mesh import with_mesh
 from tandemlift.missions.refusals import Problem, problems_in
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
+from tandemlift.parts.mechanics.payload_mesh import with_mesh
 
 MAX_PROBLEMS = 8  # reported at once
 

@@ -37,8 +37,8 @@ class TouchGeometry(NamedTuple):
     payload: Vec3
     half: Number
     radius: Number
-    corners: Vec3 | Absent
     margin: Number
+    corners: Vec3 | Absent = Absent()
 
 
 class BeamMatch(NamedTuple):
