@@ -202,6 +202,8 @@ def test_the_template_is_a_mission_with_all_that_it_keeps_out_as_well():
     tables |= {"actuators": {"model": "rotors"}, "ground": tables["ground"] | {"model": "floor"}}
     tables["wind"]["model"], tables["allocation"]["method"] = "air", "constrained"
     tables["initial"]["euler"] = 0.0
+    for name in ("size", "mesh", "density", "corners"):  # of other shapes than the beam
+        del tables["vehicle"]["payload"][name]
     del tables["person"]["recording"]  # no such file
     tables["pilot"]["guidance"], tables["sensors"]["model"] = "interactive", "simulated"
     tables["controller"] = {"name": "pid"}  # whose defaults real rotors bear; the paper's gains do not

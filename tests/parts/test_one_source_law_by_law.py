@@ -27,13 +27,13 @@ from tandemlift.core.vector import (
 from tandemlift.parts.compliance import admittance
 from tandemlift.parts.contact import feet as contact
 from tandemlift.parts.contact import hull, impulses, spheres, touches, walls
-from tandemlift.parts.contact.wall_geometry import Wall
 from tandemlift.parts.controllers import equations_of_motion, sliding_surface
 from tandemlift.parts.estimation import wind_compensation
 from tandemlift.parts.guidance import guidance
 from tandemlift.parts.mechanics import loads, low_pass, parts, rotation, trajectories
 from tandemlift.parts.mechanics.push import PointPush
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench, gyroscopic, motion
+from tandemlift.parts.mechanics.wall_geometry import Wall
 from tandemlift.parts.rotors import allocation, ground_effect, rotor_faults, rotor_lag, rotors
 from tandemlift.parts.rotors import decision as rotor_loss_decision
 from tandemlift.parts.rotors import detection as rotor_loss_detection

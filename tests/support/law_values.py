@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from tandemlift.core.vector import ZERO, Mat3, Quat, Vec3, vec3
 from tandemlift.engines.models.links import parts_layout_from
-from tandemlift.parts.mechanics.air_drag import AirDrag
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, inertia_value
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import Payload, Quadrotor
+from tandemlift.parts.mechanics.wind import AirDrag
 
 IRIS = {
     "mass": 1.5,

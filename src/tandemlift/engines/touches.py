@@ -15,7 +15,9 @@ from tandemlift.parts.contact.hull import HullContact
 from tandemlift.parts.contact.touches import (
     PartContacts,
     SurfaceContacts,
+    SurfaceTouches,
     Touches,
+    TouchRecord,
     floor_contacts,
     start_touches,
     touches_after,
@@ -24,6 +26,8 @@ from tandemlift.parts.contact.touches import (
 from tandemlift.parts.contact.walls import NearWallContact, NearWalls, Walls, near_wall_contact
 from tandemlift.parts.mechanics.loads import PartsLayout
 from tandemlift.parts.mechanics.rigid_body import State
+
+__all__ = ["ContactLog", "SurfaceTouches", "TouchRecord", "Touches", "touches_in"]
 
 SURFACES, KINDS = ("floor", "wall"), ("rotor", "guard", "beam")
 

@@ -7,9 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
+from tandemlift.core.vector import Quat
 from tandemlift.flight.data_frames import LoggedFlight
 from tandemlift.parts.contact.corridor import wall_tables
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,13 +58,13 @@ def thumbnail(flight: LoggedFlight) -> str:
 
 
 def _draw_path(ax: Axes, flight: LoggedFlight, sound: Any) -> None:
-    """Path, reference, walls, and the beam at start and end, to one scale."""
+    """Path, reference, walls, and the payload at start and end, to one scale."""
     path = flight.channels["position"][sound, :2]
     desired = flight.channels.get("reference_position")
     for wall in _walls(flight.mission, path):
         ax.plot(*wall.T, color=GREY, lw=2.0)
-    for beam in (b for k in (0, -1) for b in _beam(flight, int(np.flatnonzero(sound)[k]))):
-        ax.plot(*beam.T, color=INK, lw=2.5, alpha=0.55)
+    for payload in (b for k in (0, -1) for b in _payload(flight, int(np.flatnonzero(sound)[k]))):
+        ax.plot(*payload.T, color=INK, lw=2.5 if len(payload) == 2 else 1.0, alpha=0.55)
     if desired is not None:
         wanted = desired[np.isfinite(desired).all(axis=1) & (np.abs(desired) < 1e6).all(axis=1), :2]
         ax.plot(*_thinned(wanted).T, "--", color=VERMILLION, lw=1.0)
@@ -73,16 +77,18 @@ def _draw_path(ax: Axes, flight: LoggedFlight, sound: Any) -> None:
     ax.set_title("path from above (m)", loc="left")
 
 
-def _beam(flight: LoggedFlight, k: int) -> list[Array]:
-    """The beam at a sample, as a line (2, 2) [m]; None if it is unknown."""
-    length = flight.mission.get("vehicle", {}).get("payload", {}).get("length")
+def _payload(flight: LoggedFlight, k: int) -> list[Array]:
+    """The outline of the payload at a sample (n, 2) [m]; none if its shape or attitude is unknown."""
     attitude = flight.channels.get("attitude")
-    if not length or attitude is None or not np.isfinite(attitude[k]).all():
+    try:
+        vehicle = Vehicle.from_mission(flight.mission)
+    except InputError:
         return []
-    w, x, y, z = attitude[k]
-    half = 0.5 * length * np.array([2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z)])  # of the body's y axis
-    centre = flight.channels["position"][k, :2]
-    return [np.array([centre - half, centre + half])]
+    outline = vehicle.payload.outline
+    if len(outline) < 2 or attitude is None or not np.isfinite(attitude[k]).all():
+        return []
+    R = np.array(rotation_from_quaternion(Quat(*attitude[k])))
+    return [flight.channels["position"][k, :2] + (vehicle.origin + outline) @ R[:2].T]
 
 
 def _walls(mission: dict[str, Any], around: Array) -> list[Array]:

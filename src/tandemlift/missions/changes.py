@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import functools
 import re
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -85,12 +86,23 @@ def changed_tables(tables: Tables, key: object, value: Any, source: str) -> Tabl
     value = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else copy.deepcopy(value)
     if re.match(r"admittance\.(mass|damping)\b", key):
         tables = _without_feel(tables)
-    tables = _axis_by_axis(tables, parts)
+    tables = without_old_shape(_axis_by_axis(tables, parts), functools.reduce(lambda t, p: {p: t}, parts[::-1], value))
     after = _with(tables, parts, value, f"{source}: {key}")
     names = [value_at(t, ("controller", "name")) for t in (tables, after)]
     if names[0] != names[1] and key in ("controller", "controller.name"):
         after["controller"] = value if isinstance(value, dict) else {"name": value}
     return after
+
+
+def without_old_shape(tables: Tables, changes: Tables) -> Tables:
+    """Tables whose payload keeps its mass alone if `changes` give a new shape; mass and density replace each other."""
+    old, new = (value_at(t, ("vehicle", "payload")) for t in (tables, changes))
+    if not (isinstance(old, dict) and isinstance(new, dict)):
+        return tables
+    same = new.get("shape", old.get("shape", "beam")) == old.get("shape", "beam")
+    replaced = {"density" if name == "mass" else "mass" for name in ("mass", "density") if name in new}
+    kept = {name: value for name, value in old.items() if (same or name == "mass") and name not in replaced}
+    return tables if kept == old else {**tables, "vehicle": {**tables["vehicle"], "payload": kept}}
 
 
 def without_entries(tables: Mapping[str, Any], above: str = "") -> tuple[Tables, list[tuple[str, Any]]]:

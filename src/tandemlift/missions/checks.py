@@ -27,11 +27,11 @@ from tandemlift.parts.guidance.guidance import reading_checks
 from tandemlift.parts.mechanics.push import point_checks
 from tandemlift.parts.mechanics.trajectories import phase_checks, phase_warnings
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.vehicle_checks import vehicle_checks
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 from tandemlift.parts.mechanics.wind import wind_warnings
 from tandemlift.parts.person.person_table import PersonTable, person_checks, person_warnings
 from tandemlift.parts.person.requests import request_checks
+from tandemlift.parts.pilot.vehicle_checks import vehicle_checks
 from tandemlift.parts.rotors import lift_checks as lifts
 from tandemlift.parts.rotors.detection_table import detection_checks
 from tandemlift.parts.rotors.rotor_faults import fault_checks, fault_warnings
@@ -93,7 +93,7 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from sensors.sensor_fault_checks(m.sensor_faults, s, count)
     for i, push in enumerate(m.pushes):
         yield from point_checks(f"pushes.{i}.point", push.point, Vehicle.from_settings(m.vehicle))
-    yield from person_checks(m.person, m.corridor, m.vehicle.payload.length)
+    yield from person_checks(m.person, m.corridor, m.vehicle.payload.box)
     yield from recording_checks(m.person, m.vehicle)
     yield from outcomes.crash_checks(m.crash, m.initial)
     yield from outcomes.promise_checks(m.promise, m.findings, m.crash, guidance)

@@ -15,7 +15,16 @@ import tomli_w
 
 from tandemlift.core.errors import InputError, shown, suggestion, unknown
 from tandemlift.core.files import DATA, toml_tables
-from tandemlift.missions.changes import MISSING, Tables, changed_tables, merge, tables_of, value_at, without_entries
+from tandemlift.missions.changes import (
+    MISSING,
+    Tables,
+    changed_tables,
+    merge,
+    tables_of,
+    value_at,
+    without_entries,
+    without_old_shape,
+)
 from tandemlift.missions.checking import Layer, as_checked, check
 from tandemlift.missions.mission import Mission
 from tandemlift.missions.recording import unpacked_recording
@@ -69,7 +78,8 @@ def _tables_in(content: bytes, path: Path | str) -> Tables:
 
 
 def overlay(base: Tables, changes: Tables) -> Tables:
-    """Merge missions; the settings of another controller are not kept."""
+    """Merge missions; the settings of another controller, and the sizes of another payload, are not kept."""
+    base = without_old_shape(base, changes)
     name = value_at(changes, ("controller", "name"))
     if name not in (MISSING, value_at(base, ("controller", "name"))):
         base = {key: value for key, value in base.items() if key != "controller"}
@@ -107,11 +117,13 @@ def layers_of(path: Path, seen: tuple[tuple[int, int], ...] = ()) -> Iterator[La
 
 
 def _anchored(tables: Tables, folder: Path) -> Tables:
-    """Tables of a file, with a recording's path resolved from the file's folder."""
-    recording = value_at(tables, ("person", "recording"))
-    if not isinstance(recording, str):
-        return tables
-    return merge(tables, {"person": {"recording": str((folder / recording).resolve())}})
+    """Tables of a file, with the paths of a recording and of a mesh resolved from the file's folder."""
+    for *above, name in (("person", "recording"), ("vehicle", "payload", "mesh")):
+        path = value_at(tables, (*above, name))
+        if isinstance(path, str):
+            found: Tables = {name: str((folder / path).resolve())}
+            tables = merge(tables, functools.reduce(lambda inner, key: {key: inner}, above[::-1], found))
+    return tables
 
 
 def _last_said_of(controller: str, folded: Sequence[Tables]) -> object:

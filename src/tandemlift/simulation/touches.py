@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.core.vector import ZERO, Absent, Vec3
+from tandemlift.engines.touches import SurfaceTouches, Touches, TouchRecord
 from tandemlift.flight.record import Flight
-from tandemlift.parts.contact.touches import SurfaceTouches, Touches, TouchRecord
 from tandemlift.parts.estimation.contact_detection import ContactEstimate
 from tandemlift.parts.guidance.contact_hold import BEAM, DIRECTIONS, HALF_PLACES, PLACES, code_of
 from tandemlift.simulation.loop.step import FlightState

@@ -16,11 +16,11 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.engines.models.links import parts_layout_from
-from tandemlift.parts.contact.wall_geometry import Wall, offset, wall
 from tandemlift.parts.contact.walls import near_wall_loads, nearest_with
 from tandemlift.parts.mechanics.loads import PartLoads, resultant
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.wall_geometry import Wall, offset, wall
 
 # Distances
 

@@ -15,11 +15,11 @@ from scipy.spatial.transform import Rotation
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.engines.models.links import parts_layout_from
-from tandemlift.parts.mechanics.air_drag import AirDrag, air_drag_from, air_loads
 from tandemlift.parts.mechanics.loads import resultant
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import Payload
+from tandemlift.parts.mechanics.wind import AirDrag, air_drag_from, air_loads
 
 DENSITY = 1.225
 

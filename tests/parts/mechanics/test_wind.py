@@ -22,7 +22,6 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import ZERO, Absent, Vec3
 from tandemlift.engines.models.links import parts_layout_from
-from tandemlift.parts.mechanics.air_drag import AirDrag, air_loads
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.turbulence import (
     Dryden,
@@ -33,7 +32,7 @@ from tandemlift.parts.mechanics.turbulence import (
     turbulence_step,
     turbulence_velocity,
 )
-from tandemlift.parts.mechanics.wind import Gust, Wind, gust_velocity, wind_step
+from tandemlift.parts.mechanics.wind import AirDrag, Gust, Wind, air_loads, gust_velocity, wind_step
 from tandemlift.simulation.loop.random_numbers import key_from_seed, normals
 
 FOOT = 0.3048

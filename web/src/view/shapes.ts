@@ -2,7 +2,7 @@
 
 import {
   BoxGeometry,
-  type BufferGeometry,
+  BufferGeometry,
   Color,
   CylinderGeometry,
   Float32BufferAttribute,
@@ -34,8 +34,18 @@ export function together(parts: BufferGeometry[]): BufferGeometry {
 
 function geometry({ kind, size }: SceneShape, sides: number): BufferGeometry {
   if (kind === "box") return new BoxGeometry(...size);
+  if (kind === "hull") return facets(size);
   if (kind === "sphere") return new SphereGeometry(size[0], sides, Math.ceil(sides / 2));
   return new CylinderGeometry(size[0], size[0], size[1], sides).rotateX(Math.PI / 2); // three.js builds it along y
+}
+
+/** A surface of flat triangles, nine numbers each. */
+function facets(corners: readonly number[]): BufferGeometry {
+  const count = corners.length / 3;
+  const shape = new BufferGeometry().setAttribute("position", new Float32BufferAttribute([...corners], 3));
+  shape.setAttribute("uv", new Float32BufferAttribute(new Float32Array(2 * count), 2)); // merging needs equal attributes
+  shape.setIndex([...Array(count).keys()]).computeVertexNormals();
+  return shape;
 }
 
 function painted(shape: BufferGeometry, color: string): BufferGeometry {

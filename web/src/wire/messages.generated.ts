@@ -60,8 +60,8 @@ export const LIMITS = {
 
 /** A part of the vehicle as drawn. */
 export interface SceneShape {
-  kind: "box" | "sphere" | "cylinder";
-  size: readonly number[]; // edges of a box, radius of a sphere, radius and length of a cylinder, m
+  kind: "box" | "sphere" | "cylinder" | "hull";
+  size: readonly number[]; // edges of a box, radius of a sphere, radius and length of a cylinder, corners of a hull's triangles, m
   position: Vector; // of its centre; m, body axes
   axes: readonly number[]; // columns of its rotation to body axes (9); a cylinder lies along its z
   color: string; // #rrggbb
@@ -84,7 +84,7 @@ export interface SceneQuadrotor {
   rotors: SceneRotor[];
 }
 
-/** The payload as it can be held: a beam along body y. */
+/** The payload as it can be held: a beam or a body along body y. */
 export interface ScenePayload {
   position: Vector; // m, body axes
   length: number; // m

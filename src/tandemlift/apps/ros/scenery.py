@@ -117,7 +117,7 @@ def still(types: MessageTypes, scene: Mapping[str, Any], vehicle: Vehicle) -> ob
     """The markers of vehicle, floor and walls; the vehicle's move with its frame."""
     body = MarkerWriter(types, BASE, "vehicle", locked=True)
     world = MarkerWriter(types, WORLD, "surroundings", locked=True)
-    made = [body.shape(i, shape) for i, shape in enumerate(vehicle_shapes(vehicle))]
+    made = [body.shape(i, shape) for i, shape in enumerate(vehicle_shapes(vehicle, solid=False))]
     low, high = _around(scene)
     floor = np.array([*(low + high) / 2.0, scene["floor"] - THICK / 2.0])
     shapes = [
@@ -192,7 +192,7 @@ class PushMarkers:
 def _ghost(vehicle: Vehicle) -> Iterator[VisualShape]:
     """Its payload, and a disc for each quadrotor."""
     payload, at = vehicle.payload, 0.0 + vehicle.origin
-    for shape in payload_shapes(payload, tuple(vehicle.quadrotors))[:1]:
+    for shape in payload_shapes(payload, (), solid=False):
         yield shape._replace(position=at + shape.position, color=REFERENCE, opacity=OPACITY)
     for q, center in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):
         yield VisualShape("disc", "cylinder", (q.guard_radius, 0.02), center, color=REFERENCE, opacity=OPACITY)

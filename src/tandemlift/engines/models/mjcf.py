@@ -18,7 +18,7 @@ from tandemlift.core.types import Array
 from tandemlift.core.vector import vec3
 from tandemlift.engines.models.links import Link, links_of
 from tandemlift.engines.models.mujoco_bodies import principal_axes, specification
-from tandemlift.engines.models.mujoco_contact import set_contact_stiffness
+from tandemlift.engines.models.mujoco_contact import HULL, set_contact_stiffness
 from tandemlift.engines.models.mujoco_import import mujoco
 from tandemlift.engines.models.scene import Scene
 from tandemlift.engines.models.surroundings import floor_from, walls_from
@@ -122,7 +122,7 @@ def _add_visuals(spec: Any, scene: Scene, vehicle: Vehicle) -> None:
             geom.rgba = _rgba(WALL, GLASS)
         else:
             geom.group = CONTACT_GROUP
-    depth = vehicle.payload.radius or 0.0
+    depth = float(vehicle.payload.box[1][2])
     _add_shapes(spec.body("payload"), payload_shapes(vehicle.payload, tuple(vehicle.quadrotors)), vehicle.origin)
     for i, q in enumerate(vehicle.quadrotors, 1):
         _add_shapes(spec.body(f"quadrotor{i}"), quadrotor_shapes(q, depth), np.zeros(3))
@@ -137,6 +137,10 @@ def _add_shapes(body: Any, shapes: Sequence[VisualShape], origin: Array) -> None
     """Add visual shapes; `origin` (3) is theirs in the body's frame [m]."""
     kinds, quat = mujoco.mjtGeom, np.empty(4)
     for shape in shapes:
+        if shape.kind == "hull":
+            place: dict[str, Any] = {"type": kinds.mjGEOM_MESH, "meshname": HULL, "rgba": _rgba(shape.color)}
+            body.add_geom(name=f"{body.name} visual", pos=origin, mass=0.0, contype=0, conaffinity=0, **place)
+            continue
         mujoco.mju_mat2Quat(quat, np.ascontiguousarray(shape.axes).ravel())
         size = np.zeros(3)
         size[: len(shape.size)] = shape.size

@@ -16,7 +16,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.core.types import GRAVITY, Array
-from tandemlift.engines.models.mujoco_contact import add_floor, add_vehicle_shapes, add_walls, set_contact_stiffness
+from tandemlift.engines.models.mujoco_contact import (
+    HULL,
+    add_floor,
+    add_vehicle_shapes,
+    add_walls,
+    set_contact_stiffness,
+)
 from tandemlift.engines.models.mujoco_import import mujoco
 from tandemlift.engines.models.scene import Scene
 from tandemlift.parts.contact.feet import Floor
@@ -94,6 +100,9 @@ def _add_payload(spec: Any, vehicle: Vehicle) -> None:
     body = spec.worldbody.add_body(name="payload", iquat=quat, **_placeholder_inertia(vehicle.payload_center))
     body.add_joint(name="free", type=mujoco.mjtJoint.mjJNT_FREE, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
     body.add_site(name="payload", pos=vehicle.origin)
+    hull = vehicle.payload.hull
+    if hull is not None:
+        spec.add_mesh(name=HULL, uservert=hull.corners.ravel(), userface=hull.triangles.ravel())
 
 
 def _add_quadrotor(spec: Any, name: str, quadrotor: Quadrotor, center: Array) -> None:

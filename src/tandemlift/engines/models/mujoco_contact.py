@@ -6,7 +6,7 @@ the contact, so a foot of stiffness K sinks by exactly f/K. Friction is MuJoCo's
 micrometres per second.
 
 To the floor, rotors and guards are flat ellipsoids; to walls, guards and the rotors out of them are spheres; the beam
-is a capsule to both.
+is a capsule to both, a box a box, and a mesh its convex hull.
 """
 
 from __future__ import annotations
@@ -31,6 +31,7 @@ POINT = 1e-4  # m, radius of the sphere that represents a foot's ball joint
 GROUND = "ground"  # the floor, for everything but feet
 THIN = 1e-4  # m, thickness of a wall
 KINDS = mujoco.mjtGeom
+HULL = "hull"  # name of a payload's box or mesh
 DEEP = 1e3  # m, height of the walls, which reach below any floor
 
 
@@ -61,7 +62,7 @@ class VehicleShapes(NamedTuple):
 
 
 def add_vehicle_shapes(spec: Any, floor: Any, walls: Any, vehicle: Vehicle) -> VehicleShapes:
-    """Add the shapes of the vehicle: balls at the feet's joints, ellipsoids, spheres, and a capsule along the payload.
+    """Add the shapes of the vehicle: balls at the feet's joints, ellipsoids, spheres, and the shape of the payload.
 
     Args:
         spec: the `mujoco.MjSpec`.
@@ -75,9 +76,13 @@ def add_vehicle_shapes(spec: Any, floor: Any, walls: Any, vehicle: Vehicle) -> V
         _add_feet(spec, floor, vehicle, shapes.feet)
     if isinstance(hull, Hull):
         _add_discs(spec, hull, vehicle, shapes.on_floor)
-        if isinstance(hull.beam, Ellipsoids):
+        if isinstance(hull.beam, Ellipsoids) and vehicle.beam:
             _add_beam(spec, np.array(hull.beam.center).T, hull.beam.radius[0])
             shapes.on_floor.append("beam")
+    if vehicle.payload.hull is not None and (isinstance(hull, Hull) or isinstance(walls, Walls)):
+        _add_body(spec, vehicle)
+        shapes.on_floor.extend([HULL] * isinstance(hull, Hull))
+        shapes.on_walls.extend([HULL] * isinstance(walls, Walls))
     if isinstance(walls, Walls):
         _add_spheres(spec, walls, vehicle, shapes.on_walls)
         if isinstance(walls.beam, Beam):
@@ -133,6 +138,16 @@ def _add_beam(spec: Any, ends: Array, radius: float) -> None:
     _add_shape(spec.body("payload"), "beam", KINDS.mjGEOM_CAPSULE, size=size, fromto=ends.ravel())
 
 
+def _add_body(spec: Any, vehicle: Vehicle) -> None:
+    """Add a box, or the convex hull of a mesh, with its origin at the payload's."""
+    if vehicle.payload.size is not None:
+        attributes: dict[str, Any] = {"size": 0.5 * np.array(vehicle.payload.size)}
+    else:
+        attributes = {"meshname": HULL}
+    kind = KINDS.mjGEOM_MESH if "meshname" in attributes else KINDS.mjGEOM_BOX
+    _add_shape(spec.body("payload"), HULL, kind, pos=vehicle.origin, **attributes)
+
+
 def add_floor(spec: Any, floor: Floor, shapes: VehicleShapes) -> None:
     """Add the floor twice: to the feet, whose radius is left out, and to everything else."""
     flat = {"floor": (floor.height + floor.radius - POINT, shapes.feet), GROUND: (floor.height, shapes.on_floor)}
@@ -180,7 +195,7 @@ def touching_parts(model: Any) -> dict[tuple[int, int], tuple[str, str, int]]:
         if surface == "floor":
             continue
         numbers = [int("".join(filter(str.isdigit, word))) for word in part.split() if word[-1].isdigit()]
-        kind = "beam" if part == "beam" else "rotor" if " rotor" in part else "guard"
+        kind = "beam" if part in ("beam", HULL) else "rotor" if " rotor" in part else "guard"
         index = 4 * (numbers[0] - 1) + numbers[1] - 1 if kind == "rotor" else numbers[0] - 1 if numbers else 0
         found[min(pair), max(pair)] = "floor" if surface == GROUND else "wall", kind, index
     return found

@@ -179,8 +179,8 @@ def _add_vehicle(top: Element, scene: Scene, vehicle: Vehicle, plugin: int | str
     pose(model, scene.initial.position, R)
     fill(model, {"allow_auto_disable": "false", "self_collide": "false"})
     payload, *quadrotors = links_of(scene, vehicle)
-    collisions, fleet, depth = VehicleCollisions(scene, vehicle), vehicle.quadrotors, vehicle.payload.radius or 0.0
-    element = _add_link(model, payload, payload_shapes(vehicle.payload, tuple(fleet)))
+    collisions, fleet, depth = VehicleCollisions(scene, vehicle), vehicle.quadrotors, float(vehicle.payload.box[1][2])
+    element = _add_link(model, payload, payload_shapes(vehicle.payload, tuple(fleet), solid=False))
     collisions.add_to_payload(element, payload)
     for i, (link, q) in enumerate(zip(quadrotors, fleet, strict=True)):
         collisions.add_to_quadrotor(_add_link(model, link, quadrotor_shapes(q, depth)), link, i)

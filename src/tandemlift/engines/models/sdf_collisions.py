@@ -7,6 +7,7 @@
 | `beam_tip_K` | the payload | the floor | the same: an end of the beam |
 | `guard`, `rotor_J_sphere` | a quadrotor | walls | `parts.contact.walls`: a sphere |
 | `beam`, `beam_end_K` | the payload | walls | the same: a capsule |
+| `beam_box`, `beam_edge_K` | the payload | walls | `parts.contact.polyhedron`: a box, or the edges of a mesh's hull |
 
 Gazebo has no flat ellipsoid: a disc is a cylinder of the same radius and thickness, which reaches up to 4 mm farther
 where it leans. Shapes without a common bit do not touch, so no shape touches the same surface twice.
@@ -25,10 +26,11 @@ from tandemlift.engines.models.links import Link
 from tandemlift.engines.models.scene import Scene
 from tandemlift.engines.models.sdf_elements import Element, add, fill, geometry, pose
 from tandemlift.engines.models.surroundings import feet_and_floor_from, wall_contact_from
-from tandemlift.engines.models.visuals import VisualShape, frame_along
+from tandemlift.engines.models.visuals import VisualShape, frame_along, hull_shapes
 from tandemlift.parts.contact.feet import Floor
 from tandemlift.parts.contact.hull import Ellipsoids, Hull
 from tandemlift.parts.contact.walls import Beam, Walls
+from tandemlift.parts.mechanics.payload import Payload
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 FLOOR_BIT, WALL_BIT = 1, 2  # of collide_bitmask
@@ -74,6 +76,7 @@ class VehicleCollisions:
 
     def __init__(self, scene: Scene, vehicle: Vehicle) -> None:
         self._floor, self._walls = feet_and_floor_from(scene, vehicle), wall_contact_from(scene, vehicle)
+        self._payload = vehicle.payload
         floor, hull, walls = self._floor, self._floor.hull, self._walls
         assert isinstance(hull, Hull)
         self._parts = hull
@@ -82,8 +85,8 @@ class VehicleCollisions:
         self._wall = CollisionSurface(WALL_BIT, walls.friction, walls.stiffness, walls.damping)
 
     def add_to_payload(self, element: Element, link: Link) -> None:
-        """Add the shapes of the beam; none without a beam."""
-        for shape in _beam(self._walls):
+        """Add the shapes of the payload; none if it has no shape."""
+        for shape in [*_beam(self._walls), *_body(self._payload)]:
             add_collision(element, shape, self._wall)
         for tip in _shapes(self._parts.beam, "beam_tip", link.position):
             add_collision(element, tip, self._hull)
@@ -134,6 +137,15 @@ def _beam(walls: Walls) -> list[VisualShape]:
         VisualShape(f"beam_end_{k}", "sphere", (radius,), np.array([0.0, y, 0.0])) for k, y in enumerate(ends, 1)
     ]
     return [middle, *spheres]
+
+
+def _body(payload: Payload) -> list[VisualShape]:
+    """A box, or the edges of a convex hull as cylinders, for walls, which are thin."""
+    if payload.hull is None:
+        return []
+    if payload.size is not None:
+        return [VisualShape("beam_box", "box", payload.size, np.zeros(3))]
+    return [shape._replace(name=f"beam_{shape.name}") for shape in hull_shapes(payload.hull, solid=False)]
 
 
 def _feet(floor: Floor, i: int, link: Link) -> Iterator[VisualShape]:

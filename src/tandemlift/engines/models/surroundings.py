@@ -62,5 +62,6 @@ def _walls(vehicle: Vehicle, friction: float, mass_scale: float, step: float) ->
         friction=friction,
         rotors=rotor_spheres(vehicle.lever_arms, hubs, [q.rotor_radius for q in fleet], guards),
         beam=vehicle.beam,
+        body=vehicle.payload.hull,
         payload=vehicle.origin,
     )

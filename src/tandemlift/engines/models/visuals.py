@@ -1,5 +1,7 @@
 """Looks of a vehicle and its surroundings: boxes, spheres and cylinders, which every simulator has, and their colours.
 
+The hull of a mesh is one more, of triangles; where there are none, its edges are drawn as cylinders.
+
 Front parts are orange and rear parts blue, so that the heading is visible. Pictures, the live page, MuJoCo, Gazebo and
 RViz draw this one list.
 """
@@ -14,8 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.core.types import Array
+from tandemlift.parts.mechanics.payload import ConvexHull, Payload
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.vehicle_table import Payload, Quadrotor
+from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 
 CARBON, METAL, SHELL, WOOD = "#2b2f36", "#8d949e", "#d9dce0", "#c2853f"
 FRONT, REAR, JOINT, GUARD = "#e8641b", "#2f6fb0", "#f0b429", "#5b636e"
@@ -24,6 +27,7 @@ BLUR, GLASS = 0.3, 0.35  # opacity of rotors and of walls
 SUN = np.array([0.35, -0.42, 0.84]) / np.linalg.norm([0.35, -0.42, 0.84])  # unit vector towards the sun
 SHAPELESS = 0.2  # m, edge of the box that represents a payload without length
 BEAM_RADIUS = 0.03  # m, of a beam whose radius is not given
+EDGE_RADIUS = 0.005  # m, of the edges of a hull
 SEGMENTS = 16  # straight pieces of a guard ring
 LEVEL = np.eye(3)
 SHORTEST = 1e-6  # m, a shorter cylinder is left out
@@ -48,8 +52,9 @@ class VisualShape(NamedTuple):
 
     Attributes:
         name: unique among the shapes of its link.
-        kind: `box`, `sphere` or `cylinder` (along its z).
-        size: edges of a box (3), radius of a sphere (1), radius and length of a cylinder (2) [m].
+        kind: `box`, `sphere`, `cylinder` (along its z) or `hull`.
+        size: edges of a box (3), radius of a sphere (1), radius and length of a cylinder (2), corners of a hull's
+            triangles, counterclockwise from outside (9 each) [m].
         position: of its centre [m] (3).
         axes: rotation (3 × 3).
         color: #rrggbb.
@@ -57,7 +62,7 @@ class VisualShape(NamedTuple):
     """
 
     name: str
-    kind: Literal["box", "sphere", "cylinder"]
+    kind: Literal["box", "sphere", "cylinder", "hull"]
     size: tuple[float, ...]
     position: Array
     axes: Array = LEVEL
@@ -79,26 +84,44 @@ def _box(name: str, center: ArrayLike, edges: ArrayLike, color: str) -> VisualSh
     return VisualShape(name, "box", (x, y, z), np.asarray(center, dtype=float), LEVEL, color)
 
 
-def payload_shapes(payload: Payload, quadrotors: tuple[Quadrotor, ...]) -> list[VisualShape]:
-    """The payload about its origin: a beam with end caps, or a box, and struts to joints that lie beside it."""
-    if not payload.length:
-        shapes, half = [_box("payload", np.zeros(3), [SHAPELESS] * 3, WOOD)], 0.0
+def hull_shapes(hull: ConvexHull, *, solid: bool) -> list[VisualShape]:
+    """A convex hull as one shape, or its edges."""
+    if solid:
+        corners = hull.corners[hull.triangles].ravel().tolist()
+        return [VisualShape("payload", "hull", tuple(corners), np.zeros(3), LEVEL, WOOD)]
+    ends = enumerate(hull.corners[hull.edges], 1)
+    return [piece for k, (a, b) in ends for piece in cylinder(f"edge_{k}", a, b, EDGE_RADIUS, WOOD)]
+
+
+def payload_shapes(payload: Payload, quadrotors: tuple[Quadrotor, ...], *, solid: bool = True) -> list[VisualShape]:
+    """The payload about its origin: a beam with end caps, a box or a hull, and struts to joints that lie beside it.
+
+    Not `solid`: a hull is drawn as its edges.
+    """
+    low, high = payload.box
+    if payload.hull is not None and payload.size is None:
+        shapes = hull_shapes(payload.hull, solid=solid)
+    elif payload.size is not None:
+        shapes = [_box("payload", np.zeros(3), payload.size, WOOD)]
+    elif not payload.length:
+        shapes = [_box("payload", np.zeros(3), [SHAPELESS] * 3, WOOD)]
     else:
         radius, half = payload.radius or BEAM_RADIUS, payload.length / 2.0
+        low, high = np.array([0.0, -half, 0.0]), np.array([0.0, half, 0.0])
         shapes = cylinder("beam", [0.0, -half, 0.0], [0.0, half, 0.0], radius, WOOD)
         for i, end in enumerate((half, -half), 1):
             cap = 0.25 * radius
             shapes += cylinder(f"cap_{i}", [0.0, end - cap, 0.0], [0.0, end + cap, 0.0], 1.1 * radius, CARBON)
     for i, q in enumerate(quadrotors, 1):
         joint = q.joint_position
-        shapes += cylinder(f"strut_{i}", [0.0, np.clip(joint[1], -half, half), 0.0], joint, 0.072 * mean_arm(q), METAL)
+        shapes += cylinder(f"strut_{i}", np.clip(joint, low, high), joint, 0.072 * mean_arm(q), METAL)
     return shapes
 
 
-def vehicle_shapes(vehicle: Vehicle) -> list[VisualShape]:
-    """A whole vehicle; positions are relative to the system's centre of mass."""
-    payload, depth = vehicle.origin, vehicle.payload.radius or 0.0
-    placed = [(shape, payload) for shape in payload_shapes(vehicle.payload, tuple(vehicle.quadrotors))]
+def vehicle_shapes(vehicle: Vehicle, *, solid: bool = True) -> list[VisualShape]:
+    """A whole vehicle, as by `payload_shapes`; positions are relative to the system's centre of mass."""
+    payload, depth = vehicle.origin, float(vehicle.payload.box[1][2])
+    placed = [(shape, payload) for shape in payload_shapes(vehicle.payload, tuple(vehicle.quadrotors), solid=solid)]
     for q, center in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):
         placed += [(shape, center) for shape in quadrotor_shapes(q, depth)]
     return [shape._replace(position=shape.position + at) for shape, at in placed]

@@ -1,7 +1,8 @@
-"""Clearance of the vehicle from walls: of the guards around its quadrotors, of rotors out of them, and of its beam.
+"""Clearance of the vehicle from walls: of the guards around its quadrotors, of rotors out of them, and of its payload.
 
 It is exact in every state: the walls near each part are known, and the distance to these is measured. The point of a
-straight beam nearest to an upright wall is one of its ends, or lies at one of the wall's edges, or at its top.
+straight beam nearest to an upright wall is one of its ends, or lies at one of the wall's edges, or at its top. Of a
+convex body it is that of its corners and edges, or of a face above one of the wall's upper corners.
 """
 
 from __future__ import annotations
@@ -13,12 +14,13 @@ from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Condition, Number, PerQuadrotor, PerRotor
 from tandemlift.core.vector import Absent, Vec3, apply, dot
 from tandemlift.parts.contact.beam_axis import beam_axis, beam_point, point_by_edge, point_by_top
+from tandemlift.parts.contact.polyhedron import NearPolyhedron, Polyhedron, spots_by_walls
 from tandemlift.parts.contact.spheres import NearRotors, RotorSpheres
-from tandemlift.parts.contact.wall_geometry import offset, offset_from_top
 from tandemlift.parts.contact.walls import Beam, NearBeam, NearWalls, Walls
 from tandemlift.parts.mechanics.loads import PartsLayout, translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.wall_geometry import offset, offset_from_top
 
 FAR = 1000.0  # m
 STALE = 0.05  # m, by which the vehicle may move before the nearest walls are found anew
@@ -42,7 +44,7 @@ class RotorClearance(NamedTuple):
 
 
 class BeamClearance(NamedTuple):
-    """The smallest distance of the beam [m]: of its ends (a set), and along its length."""
+    """The smallest distance of the payload [m]: of a beam's ends or a body's corners (a set), and of all the rest."""
 
     ends: Number
     length: Number
@@ -77,9 +79,9 @@ def _spheres(rotors: RotorSpheres, near: NearRotors, s: State) -> RotorClearance
 
 @choice(absent="beam")
 def beam_clearance(
-    beam: Beam | Absent, w: Walls, near: NearBeam | Absent, frame: PartsLayout, s: State
+    beam: Beam | Polyhedron | Absent, w: Walls, near: NearBeam | NearPolyhedron | Absent, frame: PartsLayout, s: State
 ) -> BeamClearance | Absent:
-    """Clearance of the beam from the walls near it."""
+    """Clearance of the payload from the walls near it."""
 
 
 @beam_clearance.register(Beam)
@@ -93,6 +95,12 @@ def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State)
         sphere_distance(top, beam.radius),
     )
     return BeamClearance(sphere_distance(offset(near.ends, beam_point(a, beam.ends)), beam.radius), length)
+
+
+@beam_clearance.register(Polyhedron)
+def _polyhedron(p: Polyhedron, w: Walls, near: NearPolyhedron, frame: PartsLayout, s: State) -> BeamClearance:
+    first, second, *others = [sphere_distance(spots.offset, p.radius) for spots in spots_by_walls(p, near, frame, s)]
+    return BeamClearance(minimum(first, second), least([least(distances) for distances in others]))
 
 
 @choice(absent="w")

@@ -1,8 +1,9 @@
-"""Contact of rotors, guards and beam with a level floor, in every attitude.
+"""Contact of rotors, guards and payload with a level floor, in every attitude.
 
 Rotor discs and the quadrotors' guards are flat ellipsoids: radius r across body z, half thickness c along it. The ends
-of the beam are spheres (r = c), as the lowest point of a capsule is always at one of its ends. With body z at b, and
-with the part of the vertical n that lies in the disc, u = n − (b·n) b, a shape reaches below its centre by
+of the beam are spheres (r = c), as the lowest point of a capsule is always at one of its ends; so are the corners of a
+convex body, small ones. With body z at b, and with the part of the vertical n that lies in the disc, u = n − (b·n) b,
+a shape reaches below its centre by
 
     h = √(r² |u|² + c² (b·n)²),        at its point        −(c² n + (r² − c²) u)/h.
 
@@ -40,12 +41,14 @@ from tandemlift.core.vector import (
 )
 from tandemlift.parts.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
 from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each, sum_over_set
+from tandemlift.parts.mechanics.payload import ConvexHull
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import world_z_in_body
 
 MAX_ACCELERATION = 500.0  # m/s², more than rotors, pushes and walls give
 MAX_ANGULAR_ACCELERATION = 1000.0  # rad/s², more than rotors give
 HALF_THICKNESS = 0.01  # m, of a rotor's disc and of a guard
+CORNER = 1e-3  # m, radius of the corners of a convex body
 
 
 class Ellipsoids(NamedTuple):
@@ -60,8 +63,8 @@ class Hull(NamedTuple):
     """The parts of a vehicle besides its feet that touch the floor; of one contact k [N/m], c and c_t [N·s/m].
 
     `rotors`: number j of quadrotor i, both from 0, is 4 i + j; `guards`: one for each quadrotor; `beam`: its two ends,
-    at −y and at +y, or `Absent` if the payload has no shape. All are in a box about `middle` with sides of twice
-    `half` [m, body axes], no further than `reach` [m] from the centre of mass.
+    at −y and at +y, or the corners of a convex body, or `Absent` if the payload has no shape. All are in a box about
+    `middle` with sides of twice `half` [m, body axes], no further than `reach` [m] from the centre of mass.
     """
 
     stiffness: Number
@@ -211,6 +214,7 @@ def hull(
     step: float,
     *,
     beam: tuple[float, float] | None = None,
+    body: ConvexHull | None = None,
     payload: ArrayLike = (0.0, 0.0, 0.0),
     stiffness: float = 20000.0,
     damping_ratio: float = 0.2,
@@ -226,19 +230,24 @@ def hull(
         inertia: 3 × 3 about its centre of mass [kg·m²].
         step: of the Runge-Kutta method [s].
         beam: length [m] of the axis and radius [m] of a capsule along body y, if the payload is one.
-        payload: its centre of mass from the system's [m, body axes].
+        body: the convex hull of the payload from its origin, if it has one.
+        payload: its origin from the system's centre of mass [m, body axes].
         stiffness: of a contact [N/m].
         damping_ratio: of the vehicle oscillating on one contact, without rotation.
     """
     centers = array(quadrotors)
     hubs = (centers[:, None] + array(rotors)).reshape(-1, 3)
-    ends = array([np.add(payload, [0.0, 0.5 * side * beam[0], 0.0]) for side in (-1.0, 1.0)]) if beam else None
-    points = np.concatenate([hubs, centers] if ends is None else [hubs, centers, ends])
+    ends, radius = np.zeros((0, 3)), beam[1] if beam else CORNER
+    if beam is not None:
+        ends = array([np.add(payload, [0.0, 0.5 * side * beam[0], 0.0]) for side in (-1.0, 1.0)])
+    elif body is not None:
+        ends = array(np.add(payload, body.inset(CORNER)))
+    points = np.concatenate([hubs, centers, ends])
     body_mobility = mobility(points, mass, array(inertia))
     k, c = softened_for_step(stiffness, 2.0 * damping_ratio * sqrt(stiffness * mass), body_mobility, step)
     shapes = [_discs(hubs, np.repeat(radii, 4)), _discs(centers, guards)]
-    if beam is not None and ends is not None:
-        shapes.append(_ellipsoids(ends, [beam[1]] * 2, [beam[1]] * 2))
+    if len(ends):
+        shapes.append(_ellipsoids(ends, [radius] * len(ends), [radius] * len(ends)))
     box = _box_of(shapes)
     return Hull(
         stiffness=k,
@@ -246,7 +255,7 @@ def hull(
         tangential_damping=minimum(c, 1.0 / (body_mobility * step)),
         rotors=shapes[0],
         guards=shapes[1],
-        beam=shapes[2] if beam is not None else Absent(),
+        beam=shapes[2] if len(ends) else Absent(),
         middle=box.middle,
         half=box.half,
         reach=_reach_of(shapes),

@@ -32,8 +32,8 @@ from tandemlift.core.vector import (
     is_set,
     set_of,
 )
+from tandemlift.parts.contact.polyhedron import Polyhedron, PolyhedronContact
 from tandemlift.parts.contact.spheres import ContactPair, RotorSpheres, WallContact, inverse_root
-from tandemlift.parts.contact.touches import if_number, number_at
 from tandemlift.parts.contact.walls import Beam, BeamContact, NearWallContact, Walls, loads_of_walls
 from tandemlift.parts.mechanics.loads import (
     PartLoad,
@@ -46,6 +46,7 @@ from tandemlift.parts.mechanics.loads import (
 )
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, about_center, apply_inertia, at_position
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.wall_geometry import if_number, number_at
 
 CORE = 0.25  # of the radius; the rest is left to the springs
 SWEEPS = 3  # over all kinds of contact; what is left of a collision of several parts is stopped in the next step
@@ -148,17 +149,28 @@ def struck_spheres(pair: ContactPair | Absent, forces: Sequence[NumberSet]) -> A
 
 
 @choice(absent="contact")
-def struck_beam(contact: BeamContact | Absent, forces: NumberSet, center: Vec3) -> BeamContact | Absent:
-    """A beam, by its centre [m, world axes], that presses on walls by forces [N]: of its ends, and of its length."""
+def struck_beam(
+    contact: BeamContact | PolyhedronContact | Absent, several: Sequence[NumberSet], center: Vec3
+) -> BeamContact | PolyhedronContact | Absent:
+    """A payload, by its origin [m, world axes], that presses on walls by forces [N].
+
+    Those of a beam are one set, of its ends and of its length; a convex body has a set for each of its contacts.
+    """
 
 
 @struck_beam.register(BeamContact)
-def _struck_beam(contact: BeamContact, forces: NumberSet, center: Vec3) -> BeamContact:
-    ends, *single = contact
+def _struck_beam(contact: BeamContact, several: Sequence[NumberSet], center: Vec3) -> BeamContact:
+    (ends, *single), (forces,) = contact, several
     return BeamContact(
         struck(ends, set_of(forces[:2]), translated(-center, ends.place)),
         *[struck(c, force, c.place - center) for c, force in zip(single, forces[2:], strict=True)],
     )
+
+
+@struck_beam.register(PolyhedronContact)
+def _struck_polyhedron(contact: PolyhedronContact, several: Sequence[NumberSet], center: Vec3) -> PolyhedronContact:
+    arms = [translated(-center, c.place) for c in contact]
+    return PolyhedronContact(*map(struck, contact, several, arms))
 
 
 @law
@@ -189,6 +201,8 @@ def impulses_of_walls(
         shapes += [(c, w.rotors.radius) for c in contact.rotors]
     if isinstance(w.beam, Beam):
         shapes.append((in_one_set(*contact.beam), w.beam.radius))
+    if isinstance(w.beam, Polyhedron):
+        shapes += [(c, w.beam.radius) for c in contact.beam]
     approaches = [approach(c, radius, body, s, free, sprung, dt) for c, radius in shapes]
     after, forces = s, [a.mobility * 0.0 for a in approaches]
     for i, a in [*enumerate(approaches)] * SWEEPS:
@@ -197,6 +211,6 @@ def impulses_of_walls(
     after = chosen(greatest([greatest(force) for force in forces]), after, s)
     R, spheres = rotation_from_quaternion(s.attitude), 2 + len(contact.rotors)
     guards, rotors = struck_spheres(contact.guards, forces[:2]), struck_spheres(contact.rotors, forces[2:spheres])
-    beam = struck_beam(contact.beam, forces[-1], s.position + apply(R, frame.payload))
+    beam = struck_beam(contact.beam, forces[spheres:], s.position + apply(R, frame.payload))
     struck_parts = NearWallContact(guards, rotors, beam)
     return WallImpulses(after, struck_parts, loads_of_walls(w, struck_parts, frame, R))

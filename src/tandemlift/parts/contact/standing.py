@@ -103,7 +103,7 @@ def floor_warnings(
             'actuators.model = "ideal": thrusts have no limits and may pull down, so the pilot may press the vehicle '
             'on the floor with the force of an impact; "rotors" cannot'
         )
-    lower = min(q.position[2] - q.feet_depth for q in vehicle.quadrotors) + (vehicle.payload.radius or 0.0)
+    lower = min(q.position[2] - q.feet_depth for q in vehicle.quadrotors) - float(vehicle.payload.box[0][2])
     if lower > 0.0:
         yield warned(f"the payload hangs {lower:.3g} m lower than the feet: the vehicle stands on it, and may roll")
 

@@ -8,15 +8,17 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra import absolute, greatest, least, maximum, where
+from tandemlift.core.algebra import greatest, least, maximum, where
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import NEVER, Number, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Vec3, each, set_of, total
 from tandemlift.parts.contact.hull import Ellipsoids, FloorContact, Hull, HullContact
+from tandemlift.parts.contact.polyhedron import Polyhedron, PolyhedronContact
 from tandemlift.parts.contact.spheres import ContactPair, RotorSpheres
 from tandemlift.parts.contact.walls import Beam, BeamContact, NearWallContact, Walls
 from tandemlift.parts.mechanics.loads import translated
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.wall_geometry import if_number, number_at
 
 
 class TouchRecord(NamedTuple):
@@ -66,18 +68,6 @@ class SurfaceContacts(NamedTuple):
     rotors: PartContacts | Absent
     guards: PartContacts
     beam: PartContacts
-
-
-@elementwise
-def number_at(normal: Number, limit: Number, number: Number, none: Number) -> Number:
-    """The number of a part whose normal force [N] reaches a limit, else `none`."""
-    return where(normal >= limit, number, none)
-
-
-@elementwise
-def if_number(number: Number, wanted: Number, value: Number) -> Number:
-    """The value if the part has the number `wanted`, else 0."""
-    return where(absolute(number - wanted) < 0.5, value, 0.0)
 
 
 @elementwise
@@ -211,8 +201,8 @@ def _harder(pair: ContactPair) -> PartContacts:
 
 
 @choice(absent="contact")
-def beam_parts(contact: BeamContact | Absent) -> PartContacts | Absent:
-    """Contacts of the beam with walls, wherever along its length."""
+def beam_parts(contact: BeamContact | PolyhedronContact | Absent) -> PartContacts | Absent:
+    """Contacts of the payload with walls, wherever on it."""
 
 
 @beam_parts.register(BeamContact)
@@ -221,6 +211,13 @@ def _of_beam(c: BeamContact) -> PartContacts:
     places = zip(ends.place, *[touch.place for touch in single], strict=True)
     normals = set_of([*ends.normal, *[touch.normal for touch in single]])  # type: ignore[misc]  # of a set
     return PartContacts(normals, Vec3(*[set_of([*both, *rest]) for both, *rest in places]))
+
+
+@beam_parts.register(PolyhedronContact)
+def _of_polyhedron(contact: PolyhedronContact) -> PartContacts:
+    places = zip(*[c.place for c in contact], strict=True)
+    normals = set_of([normal for c in contact for normal in c.normal])  # type: ignore[attr-defined]  # of a set
+    return PartContacts(normals, Vec3(*[set_of([x for axis in axes for x in axis]) for axes in places]))
 
 
 @law
@@ -241,5 +238,5 @@ def start_touches(floor: object, walls: object, rotors: int) -> Touches | Absent
     return Touches(each(rotors)(*[1.0] * rotors), on_floor, on_walls)
 
 
-def _unless_absent(part: Ellipsoids | RotorSpheres | Beam | Absent) -> TouchRecord | Absent:
+def _unless_absent(part: Ellipsoids | RotorSpheres | Beam | Polyhedron | Absent) -> TouchRecord | Absent:
     return part if isinstance(part, Absent) else UNTOUCHED

@@ -1,7 +1,7 @@
-"""Contact of the quadrotors and of the beam with walls.
+"""Contact of the quadrotors and of the payload with walls.
 
 A quadrotor's shape is a sphere about its centre of mass, its guard, and one about each rotor that stands out of it
-(`spheres`). The beam is a capsule: its ends touch as spheres, its length touches a wall's edges and its top.
+(`spheres`). The payload is a capsule (`beam_axis`) or a convex body (`polyhedron`).
 Each contact acts at the nearest point, with its penetration δ there:
 
     N = max(0, k δ + c δ̇) if δ > 0, else 0         F = −c_t v, shortened to the length μ N if it is longer,
@@ -23,23 +23,28 @@ from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra import greatest, minimum, sqrt
 from tandemlift.core.arrays import array, lengths
-from tandemlift.core.law import choice, law
-from tandemlift.core.types import Number, PerQuadrotor, number
-from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, dot, each
+from tandemlift.core.law import law
+from tandemlift.core.types import Array, Number, PerQuadrotor, number
+from tandemlift.core.vector import Absent, Mat3, apply, apply_transposed, cross, each
 from tandemlift.parts.contact.beam_axis import (
     Beam,
-    BeamAxis,
-    WallToBeam,
-    beam_axis,
-    beam_point,
-    point_by_edge,
-    point_by_top,
+    BeamContact,
+    NearBeam,
+    beam_contact,
+    beam_load,
+    nearest_to_beam_with,
+)
+from tandemlift.parts.contact.polyhedron import (
+    NearPolyhedron,
+    Polyhedron,
+    PolyhedronContact,
+    no_walls_near_polyhedron,
+    polyhedron,
 )
 from tandemlift.parts.contact.spheres import (
     ContactPair,
     NearRotors,
     RotorSpheres,
-    WallContact,
     nearest_to_rotors_with,
     no_walls_near_rotors,
     rotor_wall_contact,
@@ -47,35 +52,21 @@ from tandemlift.parts.contact.spheres import (
     with_rotor_loads,
 )
 from tandemlift.parts.contact.springs import mobility, softened_for_step, surface_mobility
-from tandemlift.parts.contact.wall_geometry import (
-    WALL,
-    Wall,
-    edges_of,
-    nearer,
-    offset,
-    offset_from_top,
-    second_nearest,
-    selected_wall,
-)
-from tandemlift.parts.mechanics.loads import (
-    PartLoad,
-    PartLoads,
-    PartsLayout,
-    scaled,
-    sum_over_set,
-    translated,
-)
+from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, translated
+from tandemlift.parts.mechanics.payload import ConvexHull
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.wall_geometry import WALL, Wall, nearer, offset, second_nearest
 
 IN_GUARDS = Absent()
+EDGES = 3  # of a body, which may press at a corner, too
 
 
 class Walls(NamedTuple):
     """Contact with walls: k [N/m], c [N·s/m], μ and c_t [N·s/m]; `guards`: radius of every quadrotor's sphere [m].
 
-    `rotors`: a `RotorSpheres`, or `Absent` if all rotors are in their guard; `beam`: a `Beam`, or `Absent` if the
-    payload has no shape; `reach` [m]: of all these from the centre of mass.
+    `rotors`: a `RotorSpheres`, or `Absent` if all rotors are in their guard; `beam`: a `Beam`, a
+    `Polyhedron`, or `Absent` if the payload has no shape; `reach` [m]: of all these from the centre of mass.
     """
 
     stiffness: Number
@@ -84,35 +75,17 @@ class Walls(NamedTuple):
     tangential_damping: Number
     guards: PerQuadrotor
     rotors: RotorSpheres | Absent
-    beam: Beam | Absent
+    beam: Beam | Polyhedron | Absent
     reach: Number
 
 
-class NearBeam(NamedTuple):
-    """The wall nearest to each end of the beam (of sets), the two nearest edges, the wall with the nearest top."""
-
-    ends: Wall
-    edge: Wall
-    other_edge: Wall
-    topped: Wall
-
-
 class NearWalls(NamedTuple):
-    """The two walls nearest to every quadrotor (of sets); a `NearRotors` and a `NearBeam`, each or `Absent`."""
+    """The two walls nearest to every quadrotor (of sets); those near the rotors and the payload, or `Absent`."""
 
     first: Wall
     second: Wall
     rotors: NearRotors | Absent
-    beam: NearBeam | Absent
-
-
-class BeamContact(NamedTuple):
-    """Contact of the beam about its centre: of its ends (sets), with the two nearest edges, with a wall's top."""
-
-    ends: WallContact
-    edge: WallContact
-    other: WallContact
-    top: WallContact
+    beam: NearBeam | NearPolyhedron | Absent
 
 
 class NearWallContact(NamedTuple):
@@ -120,48 +93,7 @@ class NearWallContact(NamedTuple):
 
     guards: ContactPair
     rotors: ContactPair | Absent
-    beam: BeamContact | Absent
-
-
-@law
-def contact_at_beam_point(w: WallToBeam, a: BeamAxis, along: Number, o: Vec3) -> WallContact:
-    """Contact of the beam with a wall at a point `along` its axis [m], at the offset o [m]."""
-    arm = scaled(a.direction, along)
-    velocity = translated(a.velocity, cross(a.spin, arm))
-    found = sphere_contact(w, translated(a.center, arm), o, w.beam.radius, velocity, a.spin)
-    return found._replace(load=PartLoad(found.load.force, found.load.moment + cross(arm, found.load.force)))
-
-
-@choice(absent="beam")
-def beam_contact(
-    beam: Beam | Absent, w: Walls, near: NearBeam | Absent, frame: PartsLayout, s: State
-) -> BeamContact | Absent:
-    """Contact of the beam with the near walls."""
-
-
-@beam_contact.register(Beam)
-def _capsule(beam: Beam, w: WallToBeam, near: NearBeam, frame: PartsLayout, s: State) -> BeamContact:
-    a, half = beam_axis(frame.payload, s), beam.ends[1]
-    i, j = point_by_edge(a, half, near.edge), point_by_edge(a, half, near.other_edge)
-    k = point_by_top(a, half, near.topped)
-    return BeamContact(
-        contact_at_beam_point(w, a, beam.ends, offset(near.ends, beam_point(a, beam.ends))),
-        contact_at_beam_point(w, a, i, offset(near.edge, beam_point(a, i))),
-        contact_at_beam_point(w, a, j, offset(near.other_edge, beam_point(a, j))),
-        contact_at_beam_point(w, a, k, offset_from_top(near.topped, beam_point(a, k))),
-    )
-
-
-@choice(absent=PartLoad(ZERO, ZERO))
-def beam_load(contact: BeamContact | Absent, R: Mat3) -> PartLoad:
-    """Load of the near walls on the payload."""
-
-
-@beam_load.register(BeamContact)
-def _of_capsule(c: BeamContact, R: Mat3) -> PartLoad:
-    ends = PartLoad(sum_over_set(c.ends.load.force), sum_over_set(c.ends.load.moment))
-    load = ends + c.edge.load + c.other.load + c.top.load
-    return PartLoad(load.force, apply_transposed(R, load.moment))
+    beam: BeamContact | PolyhedronContact | Absent
 
 
 @law
@@ -193,34 +125,6 @@ def near_wall_loads(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> 
     return loads_of_walls(w, near_wall_contact(w, near, frame, s), frame, rotation_from_quaternion(s.attitude))
 
 
-@choice(absent="near")
-def nearest_to_beam_with(
-    beam: Beam | Absent, wall: Wall, near: NearBeam | Absent, frame: PartsLayout, s: State
-) -> NearBeam | Absent:
-    """The walls nearest to the beam, with `wall` taken into account."""
-
-
-@nearest_to_beam_with.register(Beam)
-def _near_beam(beam: Beam, wall: Wall, near: NearBeam, frame: PartsLayout, s: State) -> NearBeam:
-    a, half = beam_axis(frame.payload, s), beam.ends[1]
-    ends, (start, end) = beam_point(a, beam.ends), edges_of(wall)
-    edge, other = two_nearest_edges(a, half, start, near.edge, near.other_edge)
-    edge, other = two_nearest_edges(a, half, end, edge, other)
-    d = offset_from_top(wall, beam_point(a, point_by_top(a, half, wall)))
-    e = offset_from_top(near.topped, beam_point(a, point_by_top(a, half, near.topped)))
-    return NearBeam(
-        nearer(wall, near.ends, ends, ends), edge, other, selected_wall(dot(d, d), dot(e, e), wall, near.topped)
-    )
-
-
-@law
-def two_nearest_edges(a: BeamAxis, half: Number, edge: Wall, first: Wall, second: Wall) -> tuple[Wall, Wall]:
-    """The two of three edges that are nearest to the beam."""
-    p = beam_point(a, point_by_edge(a, half, edge))
-    p1, p2 = beam_point(a, point_by_edge(a, half, first)), beam_point(a, point_by_edge(a, half, second))
-    return nearer(edge, first, p, p1), second_nearest(edge, first, second, p, p1, p2)
-
-
 @law
 def nearest_with(w: Walls, wall: Wall, near: NearWalls, frame: PartsLayout, s: State) -> NearWalls:
     """The nearest walls, with `wall` (of numbers) taken into account."""
@@ -236,8 +140,8 @@ def nearest_with(w: Walls, wall: Wall, near: NearWalls, frame: PartsLayout, s: S
 def no_walls_near(w: Walls) -> NearWalls:
     """No wall is near."""
     walls, ends = [Wall(*[each(n)(*[v] * n) for v in WALL]) for n in (len(w.guards), 2)]
-    rotors = no_walls_near_rotors(w.rotors)
-    return NearWalls(walls, walls, rotors, NearBeam(ends, WALL, WALL, WALL) if isinstance(w.beam, Beam) else Absent())
+    beam = NearBeam(ends, WALL, WALL, WALL) if isinstance(w.beam, Beam) else no_walls_near_polyhedron(w.beam)
+    return NearWalls(walls, walls, no_walls_near_rotors(w.rotors), beam)
 
 
 def walls(
@@ -250,6 +154,7 @@ def walls(
     friction: float,
     rotors: RotorSpheres | Absent = IN_GUARDS,
     beam: tuple[float, float] | None = None,
+    body: ConvexHull | None = None,
     payload: ArrayLike = (0.0, 0.0, 0.0),
     stiffness: float = 5000.0,
     damping_ratio: float = 0.5,
@@ -265,23 +170,24 @@ def walls(
         friction: μ of guards, rotors and beam on walls.
         rotors: a `RotorSpheres`, or `Absent` if all rotors are in their guard.
         beam: length [m] of the axis and radius [m] of a capsule along body y, if the payload is one.
-        payload: its centre of mass from the system's [m, body axes].
+        body: the convex hull of the payload from its origin, if it has one.
+        payload: its origin from the system's centre of mass [m, body axes].
         stiffness: of a contact [N/m].
         damping_ratio: of the vehicle oscillating on one contact, without rotation.
     """
-    J, centers = array(inertia), array(quadrotors)
-    radii = np.broadcast_to(guards, len(centers))
-    spheres = list(zip(centers, radii, strict=True))
-    if beam:
-        half = 0.5 * beam[0]
-        spheres += [(np.add(payload, [0.0, end, 0.0]), beam[1]) for end in (-half, half)]
+    J, shape = array(inertia), Beam(number(beam[1]), each(2)(*_ends(beam))) if beam else polyhedron(body)
+    radii = np.broadcast_to(guards, len(array(quadrotors)))
+    of_payload = _payload_spheres(shape, payload)
+    spheres = [*zip(array(quadrotors), radii, strict=True), *of_payload]
     if isinstance(rotors, RotorSpheres):
         spheres += [(array([x, y, z]), radius) for x, y, z, radius in zip(*rotors.hub, rotors.radius, strict=True)]
-    centers = array([tuple(center) for center, _ in spheres])  # where N acts, were all in contact at once
-    k, c = softened_for_step(stiffness, 2.0 * damping_ratio * sqrt(stiffness * mass), mobility(centers, mass, J), step)
+    several = spheres + of_payload * EDGES if isinstance(shape, Polyhedron) else spheres
+    pressed = array([tuple(center) for center, _ in several])  # where N acts, were all in contact at once
+    k, c = softened_for_step(stiffness, 2.0 * damping_ratio * sqrt(stiffness * mass), mobility(pressed, mass, J), step)
     tangential_mobility = sum(surface_mobility(center, radius, mass, J) for center, radius in spheres)
-    shape = Beam(number(beam[1]), each(2)(-half, half)) if beam else Absent()
-    reach = greatest([number(far + radius) for far, (_, radius) in zip(lengths(centers), spheres, strict=True)])
+    reach = greatest([number(far + radius) for far, (_, radius) in zip(lengths(pressed), several, strict=True)])
+    if body is not None:
+        reach = max(reach, float(lengths(np.add(payload, body.corners)).max()))
     return Walls(
         k,
         c,
@@ -292,3 +198,16 @@ def walls(
         shape,
         reach,
     )
+
+
+def _ends(beam: tuple[float, float]) -> tuple[float, float]:
+    return -0.5 * beam[0], 0.5 * beam[0]
+
+
+def _payload_spheres(shape: Beam | Polyhedron | Absent, payload: ArrayLike) -> list[tuple[Array, Number]]:
+    """Centre [m] and radius [m] of the ends of a beam, or of the corners of a body."""
+    if isinstance(shape, Beam):
+        return [(np.add(payload, [0.0, end, 0.0]), shape.radius) for end in shape.ends]
+    if isinstance(shape, Absent):
+        return []
+    return [(np.add(payload, corner), shape.radius) for corner in np.array(shape.corners).T]

@@ -8,15 +8,17 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra import chosen, maximum, where
+from tandemlift.core.algebra import chosen, greatest, least, maximum, where
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, PerQuadrotor
-from tandemlift.core.vector import ZERO, Absent, Vec3, apply, dot, total
-from tandemlift.parts.contact.wall_geometry import Wall, offset
-from tandemlift.parts.contact.walls import BeamAxis, NearBeam, NearWalls, beam_axis, beam_point, point_by_edge
+from tandemlift.core.vector import ZERO, Absent, Vec3, apply, dot, each, total
+from tandemlift.parts.contact.beam_axis import BeamAxis, NearBeam, beam_axis, beam_point, point_by_edge
+from tandemlift.parts.contact.polyhedron import NearPolyhedron
+from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.mechanics.loads import translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.wall_geometry import Wall, if_number, number_at, offset
 
 LEAST_COSINE = 0.6  # between a force and a wall's normal: friction of 0.8 rotates it by 39°, noise by more
 
@@ -25,7 +27,8 @@ class TouchGeometry(NamedTuple):
     """The parts that touch, from the system's centre of mass [m, body axes].
 
     `quadrotors`: centres of the guards (a vector of sets) with their radii `guards` [m]; `payload`: the centre of the
-    beam, which is `half` long either way along body y, with a `radius` [m]. `margin` [m]: how far from a known wall a
+    beam, which is `half` long either way along body y, with a `radius` [m]; `corners`: those of a convex body (a vector
+    of sets), or `Absent`. `margin` [m]: how far from a known wall a
     part may seem to be when it touches.
     """
 
@@ -35,6 +38,7 @@ class TouchGeometry(NamedTuple):
     half: Number
     radius: Number
     margin: Number
+    corners: Vec3 | Absent = Absent()
 
 
 class BeamMatch(NamedTuple):
@@ -130,8 +134,8 @@ def first_match(a: BeamMatch, b: BeamMatch) -> BeamMatch:
 
 
 @choice(absent=UNMATCHED)
-def beam_matched(near: NearBeam | Absent, g: TouchGeometry, s: State, force: Vec3) -> BeamMatch:
-    """`BeamMatch` of a force on the beam [N, world axes]."""
+def beam_matched(near: NearBeam | NearPolyhedron | Absent, g: TouchGeometry, s: State, force: Vec3) -> BeamMatch:
+    """`BeamMatch` of a force on the payload [N, world axes]."""
 
 
 @beam_matched.register(NearBeam)
@@ -142,6 +146,26 @@ def _beam_on_map(near: NearBeam, g: TouchGeometry, s: State, force: Vec3) -> Bea
     start = beam_match(g, a, -g.half, wall_of(near.ends, 0), force)
     end = beam_match(g, a, g.half, wall_of(near.ends, 1), force)
     return first_match(first_match(by_edge, by_other), first_match(start, end))
+
+
+@beam_matched.register(NearPolyhedron)
+def _body_on_map(near: NearPolyhedron, g: TouchGeometry, s: State, force: Vec3) -> BeamMatch:
+    """By the first of its corners that a wall near it explains."""
+    arm = g.corners
+    assert isinstance(arm, Vec3)
+    p = translated(s.position, apply(rotation_from_quaternion(s.attitude), arm))
+    return first_match(corner_match(g, near.first, arm, p, force), corner_match(g, near.second, arm, p, force))
+
+
+@law
+def corner_match(g: TouchGeometry, walls: Wall, arm: Vec3, p: Vec3, force: Vec3) -> BeamMatch:
+    """Whether one of the walls, one for each corner at p [m, world axes], explains a force [N, world axes]."""
+    o, count = level(offset(walls, p)), len(arm.x)
+    matched = explains(dot(o, o), 0.0, g.margin, dot(o, force), dot(force, force))
+    numbers = each(count)(*[1.0 + i for i in range(count)])
+    first = least(number_at(matched, 1.0, numbers, 1.0 + count))
+    along, x, y = (total(if_number(numbers, first, axis)) for axis in (arm.y, o.x, o.y))
+    return BeamMatch(greatest(matched), along - g.payload.y, Vec3(x, y, 0.0))
 
 
 @law

@@ -63,8 +63,9 @@ def start_contact_detection(
         quadrotors=spread(vehicle.lever_arms),
         guards=each(N)(*[number(q.guard_radius) for q in vehicle.quadrotors]),
         payload=vec3(vehicle.origin),
-        half=0.0 if payload.length is None else 0.5 * payload.length,
+        half=0.0 if payload.span is None else 0.5 * payload.span,
         radius=0.0 if payload.radius is None else payload.radius,
+        corners=Absent() if payload.hull is None else spread(vehicle.origin + payload.hull.corners),
         margin=MARGIN,
     )
     detector = ContactDetector(

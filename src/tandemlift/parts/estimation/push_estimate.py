@@ -7,7 +7,7 @@ Wind on the payload counts as a push. ω̇ is the difference of consecutive samp
 
 In hover, over a window, the means of F and M are taken as the sensors' bias, after the payload's mass if it is
 identified (`parts.estimation.tare`); the place of an excess mass is not observable in hover (`inertial_force`). Wind on
-the payload may be subtracted (`parts.mechanics.air_drag`).
+the payload may be subtracted (`parts.mechanics.wind`).
 
 The external force on quadrotor i is f_i + m_i s_i, with s_i its specific force. Thrust is only in z, so x and y are
 wind or sensor error; where they differ between quadrotors, the push is not trusted. Errors in z, of torques, and errors

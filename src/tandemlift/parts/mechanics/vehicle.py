@@ -19,7 +19,8 @@ from tandemlift.core.arrays import array, condition_number, has_symbols, inverse
 from tandemlift.core.caching import cached
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
-from tandemlift.parts.mechanics.vehicle_table import Drag, Payload, PlantTable, Quadrotor, VehicleTable
+from tandemlift.parts.mechanics.payload import Payload
+from tandemlift.parts.mechanics.vehicle_table import Drag, PlantTable, Quadrotor, VehicleTable
 
 
 def mixer(quadrotor: Quadrotor) -> Array:
@@ -151,6 +152,7 @@ class Vehicle:
             "radii": [q.rotor_radius for q in self.quadrotors],
             "guards": [q.guard_radius for q in self.quadrotors],
             "beam": self.beam,
+            "body": self.payload.hull,
             "payload": self.origin,
         }
 
@@ -161,9 +163,8 @@ class Vehicle:
         for q, (x, y, z) in zip(self.quadrotors, self.lever_arms, strict=True):
             wide = max(q.guard_radius, *[math.hypot(*r) + q.rotor_radius for r in q.rotors])
             ends += [(x - wide, y - wide, z - q.feet_depth), (x + wide, y + wide, z + max(q.rotor_height, 0.0))]
-        length, radius = self.beam or (0.0, 0.0)
-        half = np.array([radius, 0.5 * length, radius])
-        ends += [self.origin - half, self.origin + half]
+        low, high = self.payload.box
+        ends += [tuple(self.origin + low), tuple(self.origin + high)]
         return np.min(ends, axis=0), np.max(ends, axis=0)
 
     def beside(self, point: Sequence[float]) -> float:

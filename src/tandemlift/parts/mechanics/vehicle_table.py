@@ -1,12 +1,11 @@
-"""The parts of the vehicle: payload, quadrotors, drag; differences of the real body from the modelled one."""
+"""The vehicle: quadrotors and drag beside the payload; differences of the real body from the modelled one."""
 
 from __future__ import annotations
 
 import math
 from typing import Annotated, Literal
 
-import numpy as np
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, model_validator
 
 from tandemlift.core.keys import (
     Axes3,
@@ -16,7 +15,6 @@ from tandemlift.core.keys import (
     NonNegative3,
     PerAxis,
     Positive,
-    Positive3,
     Scale,
     Size,
     Table,
@@ -24,11 +22,9 @@ from tandemlift.core.keys import (
     key,
     must,
 )
-from tandemlift.core.types import Array
+from tandemlift.parts.mechanics.payload import Areas, Inertia, Metre, Payload, Place
 
-Metre = Annotated[float, Field(ge=-1e3, le=1e3)]
 Corner = Annotated[tuple[Metre, Metre], PerAxis(2, single=False)]
-Place = Annotated[tuple[Metre, Metre, Metre], PerAxis(3, single=False)]
 Turns = Literal[-1, 1]
 COINCIDING = 1e-3  # m
 
@@ -54,97 +50,6 @@ class PlantTable(Table):
         source="the model is right",
         example=[0.0, 0.02, 0.0],
     )
-
-
-def _principal(inertia: Triple) -> Triple:
-    x, y, z = sorted(inertia)
-    if z > (x + y) * (1.0 + 1e-9):
-        raise must("inertia", "be principal moments of a body, none greater than the sum of the other two")
-    return inertia
-
-
-Inertia = Annotated[Positive3, AfterValidator(_principal)]
-Areas = Annotated[tuple[Size, Size, Size], PerAxis(3)]
-
-
-class Payload(Table):
-    """`[vehicle.payload]`: a thin beam along body y, or any body with a mass and principal moments of inertia.
-
-    Positions on the vehicle are from the payload's origin: the middle of the beam, whether its mass is even or not.
-    """
-
-    mass: Positive = key(..., "kg", "mass of the payload", example=0.5)
-    center_of_mass: Exactly3 = key(
-        (0.0, 0.0, 0.0),
-        "m",
-        "centre of mass of the payload from its origin, body axes",
-        source="the middle of the beam",
-    )
-    length: Positive | None = key(
-        None,
-        "m",
-        "length of the beam, along body y, with the origin in its middle",
-        unset="inertia must be given",
-        example=2.0,
-    )
-    radius: Positive | None = key(None, "m", "radius of the beam", unset="inertia must be given", example=0.05)
-    inertia: Inertia | None = key(
-        None,
-        "kg m²",
-        "moments of inertia Jx, Jy, Jz about the payload's centre of mass, body axes",
-        rule="none above the sum of the other two",
-        unset="that of the beam",
-        example=[0.1667, 0.000625, 0.1667],
-    )
-    products: Exactly3 = key(
-        (0.0, 0.0, 0.0),
-        "kg m²",
-        "products of inertia: the elements Jxy, Jxz, Jyz of the tensor",
-        rule="with inertia, those of a body",
-        source="the body axes are principal axes",
-    )
-    drag_area: Areas | None = key(
-        None,
-        "m²",
-        "area A seen along each body axis; drag in moving air is ½ ρ c A v²",
-        unset="that of the beam, or none",
-        example=[0.2, 0.008, 0.2],
-    )
-    drag_coefficient: Size = key(1.0, "1", "drag coefficient c", source="chosen: a bluff body")
-
-    @model_validator(mode="after")
-    def _complete(self) -> Payload:
-        if self.inertia is None and (self.length is None or self.radius is None):
-            raise must("payload", "have either inertia, or length and radius (of a beam)")
-        if any(self.products):
-            least, middle, most = np.linalg.eigvalsh(self.tensor)
-            if least <= 0.0 or least + middle < most * (1.0 - 1e-9):
-                moments = f"{least:.4g}, {middle:.4g}, {most:.4g} kg m²"
-                raise must("payload", f"have products of inertia of a body; its principal moments would be {moments}")
-        return self
-
-    @property
-    def moments(self) -> Triple:
-        """Jx, Jy, Jz [kg m²]: as given, or of a thin rod along y (m L²/12) with a solid section (m r²/2)."""
-        if self.inertia is not None:
-            return self.inertia
-        length, radius = (0.0 if size is None else size for size in (self.length, self.radius))
-        across = self.mass * length**2 / 12.0
-        return (across, self.mass * radius**2 / 2.0, across)
-
-    @property
-    def tensor(self) -> Array:
-        """The tensor of inertia about the centre of mass [kg m²], body axes (3 × 3)."""
-        xy, xz, yz = self.products
-        return np.diag(self.moments) + np.array([[0.0, xy, xz], [xy, 0.0, yz], [xz, yz, 0.0]])
-
-    @property
-    def areas(self) -> Triple:
-        """Areas [m²] seen along the body axes: as given, or of a beam along y; zero for a payload without size."""
-        if self.drag_area is not None:
-            return self.drag_area
-        length, radius = (0.0 if size is None else size for size in (self.length, self.radius))
-        return (2.0 * radius * length, math.pi * radius**2, 2.0 * radius * length)
 
 
 class Quadrotor(Table):

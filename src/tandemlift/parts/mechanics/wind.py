@@ -1,7 +1,8 @@
-"""The velocity of the air: steady wind, discrete gusts and turbulence.
+"""The velocity of the air: steady wind, discrete gusts and turbulence; its drag on payload and quadrotors.
 
 Gusts have the 1 − cosine shape of MIL-F-8785C, section 3.7. Velocities are in world axes [m/s]. They are unknown to
-the pilot.
+the pilot. The drag is quadratic in the velocity through the air, with `wind.model = "air"`; the linear drag of the
+whole vehicle, `vehicle.drag`, is in `rigid_body`.
 """
 
 from __future__ import annotations
@@ -13,16 +14,16 @@ from typing import Annotated, Literal, NamedTuple
 import numpy as np
 from pydantic import Field
 
-from tandemlift.core.algebra import clip, cos, maximum
+from tandemlift.core.algebra import clip, cos, maximum, sqrt
 from tandemlift.core.arrays import distance
 from tandemlift.core.errors import CheckResult, warned
 from tandemlift.core.keys import NonNegative, PerAxis, Positive, Table, key
-from tandemlift.core.law import choice, law
+from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number
-from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
-from tandemlift.parts.mechanics.air_drag import AirDrag, air_drag_from, air_loads
-from tandemlift.parts.mechanics.loads import PartLoads, PartsLayout
+from tandemlift.core.vector import ZERO, Absent, Vec3, apply, apply_transposed, cross, dot, spread, vec3
+from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.turbulence import (
     FOOT,
     HIGHEST,
@@ -122,6 +123,51 @@ def wind_step(
     """(Velocity of the air now [m/s, world axes], the turbulence one step later); `gust`: the gusts' velocity now."""
     air = wind.velocity + gust + turbulence_velocity(wind.turbulence, memory)
     return air, turbulence_step(wind.turbulence, memory, noise)
+
+
+TINY = 1e-200  # m²/s², lost in the square of any speed; keeps the derivative of its root finite
+
+
+class AirDrag(NamedTuple):
+    """½ ρ C_d A along each body axis [N/(m/s)²], of the payload and of every quadrotor (a vector of sets)."""
+
+    payload: Vec3
+    quadrotors: Vec3
+
+
+@elementwise
+def zero_like(x: Number) -> Number:
+    """0, for a number or for every value of a set."""
+    return 0.0
+
+
+@law
+def quadratic_drag(k: Vec3, v: Vec3) -> Vec3:
+    """−k |v| v by component [N], v [m/s] through the air; vectors of numbers or of sets."""
+    speed = sqrt(maximum(dot(v, v), TINY))
+    return Vec3(-(k.x * v.x * speed), -(k.y * v.y * speed), -(k.z * v.z * speed))
+
+
+@law
+def air_loads(drag: AirDrag, frame: PartsLayout, s: State, air: Vec3) -> PartLoads:
+    """Drag of every part, quadratic in the velocity of its centre of mass through the air; no moments about it."""
+    # sets are the left factors of products: a CasADi number on the left does not know them
+    R = rotation_from_quaternion(s.attitude)
+    v, turn = apply_transposed(R, s.velocity - air), -cross(frame.quadrotors, s.rates)
+    payload = apply(R, quadratic_drag(drag.payload, v + cross(s.rates, frame.payload)))
+    around = Vec3(add_to_each(turn.x, v.x), add_to_each(turn.y, v.y), add_to_each(turn.z, v.z))
+    each = quadratic_drag(drag.quadrotors, around)
+    moments = Vec3(zero_like(each.x), zero_like(each.y), zero_like(each.z))
+    return PartLoads(PartLoad(payload, ZERO), PartLoad(Vec3(dot(each, R.x), dot(each, R.y), dot(each, R.z)), moments))
+
+
+def air_drag_from(vehicle: Vehicle, density: float) -> AirDrag:
+    """The drag of a vehicle's parts in air of a density [kg/m³]."""
+    payload, quadrotors = vehicle.payload, vehicle.quadrotors
+    return AirDrag(
+        vec3(payload.areas) * (0.5 * density * payload.drag_coefficient),
+        spread([[a * (0.5 * density * q.drag_coefficient) for a in q.drag_area] for q in quadrotors]),
+    )
 
 
 class WindModel(NamedTuple):

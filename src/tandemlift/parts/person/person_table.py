@@ -10,7 +10,7 @@ from pydantic import Field
 from tandemlift.core.algebra import where
 from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.keys import Delay, NonNegative, Positive, Share, Table, key
-from tandemlift.core.types import Number, number
+from tandemlift.core.types import Array, Number, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.parts.contact.corridor import CorridorTable, Point2
 from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass
@@ -260,9 +260,9 @@ def start_person(p: PersonTable, vehicle: Vehicle, step: float, walk: Walk) -> t
     return person, memory, NO_TREMOR_NOISE
 
 
-def person_checks(p: PersonTable, corridor: CorridorTable, length: float | None) -> Iterator[CheckResult]:
-    """Check for a person without a path, or with a grip beside a payload of `length` [m]."""
-    half = (length or 0.0) / 2.0
+def person_checks(p: PersonTable, corridor: CorridorTable, box: tuple[Array, Array]) -> Iterator[CheckResult]:
+    """Check for a person without a path, or with a grip beside a payload in a `box` from its origin [m]."""
+    low, high = box[0][1], box[1][1]
     if p.recording is not None and p.model != "virtual-hand":
         yield refused(f'person.recording = "{p.recording}": must be left out where person.model is "{p.model}"')
     if p.model in ("none", "virtual-hand"):
@@ -271,8 +271,8 @@ def person_checks(p: PersonTable, corridor: CorridorTable, length: float | None)
         yield refused(
             f'person.model = "{p.model}": must be "none" without a path; give [[person.path]] or corridor.centreline'
         )
-    if abs(p.grip) > half:
-        yield refused(f"person.grip = {p.grip}: must be on the payload, within ±{half:g} m of its centre")
+    if not low <= p.grip <= high:
+        yield refused(f"person.grip = {p.grip}: must be on the payload, from {low:g} m to {high:g} m of its origin")
 
 
 def person_warnings(p: PersonTable, guidance: str, tared: float | None) -> Iterator[CheckResult]:

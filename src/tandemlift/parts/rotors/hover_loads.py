@@ -16,12 +16,11 @@ import numpy as np
 
 from tandemlift.core.types import Array
 from tandemlift.core.vector import vec3
-from tandemlift.parts.mechanics.air_drag import quadratic_drag
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.turbulence import dryden
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable
-from tandemlift.parts.mechanics.wind import WindTable, gust_velocity, gusts_from
+from tandemlift.parts.mechanics.wind import WindTable, gust_velocity, gusts_from, quadratic_drag
 
 SIGMAS = 2.0  # standard deviations of turbulence
 ALWAYS = "always"  # when loads act that neither pushes nor gusts make

@@ -73,8 +73,8 @@ def _vehicle(ax: Axes, flight: Flight, k: int, color: str) -> None:
     body = skeleton(Vehicle.from_mission(flight.mission)).placed(flight["position"][k], flight["attitude"][k])
     centers, vehicle = body.struts[:, 1, :2], Vehicle.from_mission(flight.mission)
     ax.add_collection(LineCollection([*body.arms[:, :, :2]], colors=color, lw=0.4, zorder=4))
-    if len(body.beam) == 2:
-        ax.plot(*body.beam[:, :2].T, color=color, lw=1.6, solid_capstyle="round", zorder=4)
+    if len(body.beam) > 1:
+        ax.plot(*body.beam[:, :2].T, color=color, lw=body.width(1.6), solid_capstyle="round", zorder=4)
     across = [2.0 * q.guard_radius for q in vehicle.quadrotors]
     rings = EllipseCollection(
         across,

@@ -97,7 +97,9 @@ def _draw_vehicle(scene: Scene3D, body: Skeleton, color: str, order: float) -> N
     bars = LineCollection(list(on_paper([*body.arms, *body.struts])), colors=color, lw=0.7, **common)
     scene.axes.add_collection(discs)
     scene.axes.add_collection(bars)
-    look: dict[str, Any] = {"lw": 2.4, "solid_capstyle": "round"} if len(body.beam) == 2 else {"marker": "s", "ms": 4.0}
+    look: dict[str, Any] = (
+        {"lw": body.width(2.4), "solid_capstyle": "round"} if len(body.beam) > 1 else {"marker": "s", "ms": 4.0}
+    )
     scene.line(body.beam, color=color, zorder=order, gid="payload", **look)
 
 

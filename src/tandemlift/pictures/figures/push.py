@@ -101,7 +101,7 @@ def _place(ax: Axes, flight: Flight) -> None:
     for place in true:
         line(ax, flight.time, place, zorder=3, **TRUE)
     line(ax, flight.time, point, zorder=4, **ESTIMATE)
-    length = Vehicle.from_mission(flight.mission).payload.length
+    length = Vehicle.from_mission(flight.mission).payload.span
     fit(ax, point, *true, least=LEAST_PLACE)
     if length:
         ax.set_ylim(-BEYOND * length / 2.0, BEYOND * length / 2.0)

@@ -172,6 +172,9 @@ class Studio:
             return self._pv.Cube(**dict(zip(("x_length", "y_length", "z_length"), shape.size, strict=True)))
         if shape.kind == "sphere":
             return self._pv.Sphere(radius=shape.size[0])
+        if shape.kind == "hull":
+            corners = np.reshape(shape.size, (-1, 3))
+            return self._pv.PolyData.from_regular_faces(corners, np.arange(len(corners)).reshape(-1, 3))
         radius, length = shape.size
         return self._pv.Cylinder(direction=(0.0, 0.0, 1.0), radius=radius, height=length, resolution=28)
 

@@ -57,7 +57,7 @@ def _vehicle(ax: Axes, body: Skeleton) -> None:
     bars = LineCollection(list(on_paper([*body.arms, *body.struts])), colors=INK, lw=0.9, zorder=10)
     ax.add_collection(discs)
     ax.add_collection(bars)
-    ax.plot(*on_paper(body.beam).T, color=INK, lw=3.0, solid_capstyle="round", zorder=10)
+    ax.plot(*on_paper(body.beam).T, color=INK, lw=body.width(3.0), solid_capstyle="round", zorder=10)
 
 
 def _walls(ax: Axes, flight: Flight, place: Array, floor: float) -> list[Array]:

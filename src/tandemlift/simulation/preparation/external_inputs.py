@@ -22,7 +22,6 @@ from tandemlift.core.vector import ZERO, Absent, Vec3, mat3, vec3
 from tandemlift.parts.contact.clearance import is_fast
 from tandemlift.parts.contact.corridor import WallTable
 from tandemlift.parts.contact.feet import may_touch
-from tandemlift.parts.contact.wall_geometry import WALL, Wall, wall
 from tandemlift.parts.contact.walls import NearWalls, nearest_with, no_walls_near
 from tandemlift.parts.mechanics.push import (
     SUPPORT,
@@ -34,6 +33,7 @@ from tandemlift.parts.mechanics.push import (
     PushTable,
     push_at,
 )
+from tandemlift.parts.mechanics.wall_geometry import WALL, Wall, wall
 from tandemlift.parts.mechanics.wind import Gust, WindTable, gust_velocity, gusts_from
 from tandemlift.parts.person.person import PATH_LEG, PathLeg
 from tandemlift.parts.person.person_table import PersonTable

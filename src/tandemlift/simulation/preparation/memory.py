@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from tandemlift.compiler.machine_code.code import Code
 from tandemlift.core.types import flat
-from tandemlift.parts.contact.wall_geometry import Wall
 from tandemlift.parts.mechanics.push import GaussianPush
+from tandemlift.parts.mechanics.wall_geometry import Wall
 from tandemlift.parts.mechanics.wind import Gust
 from tandemlift.parts.person.person import PathLeg
 from tandemlift.simulation.preparation.external_inputs import ROWS, InputTables

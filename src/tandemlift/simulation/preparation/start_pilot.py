@@ -152,7 +152,7 @@ def start_estimators(
         quadrotor_masses=[q.mass for q in quadrotors],
         step=step,
         imu_period=steps_of(s.interval, step),
-        length=math.inf if payload.length is None else payload.length,
+        length=math.inf if payload.span is None else payload.span,
         bandwidth=e.push_bandwidth,
         min_force=e.min_force,
         tare_start=0.0 if e.tare == "hover" else e.tare_start,

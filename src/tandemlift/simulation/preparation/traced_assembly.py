@@ -30,6 +30,7 @@ FIXED = {
     "mission.step": "determines the number of steps, and the steps of every time",
     "mission.log_interval": "determines the steps between rows of the log",
 }
+SHAPE = ("vehicle.payload.size.", "vehicle.payload.corners.")
 SCHEDULED = "belongs to a change in flight, which becomes a mission of its own"
 WHOLE = "is a whole number, on which the layout of the flight may depend"
 UNTRACED = ("controller.", "vehicle.")  # tables that a controller's start reads
@@ -80,7 +81,9 @@ def trace_assembly(mission: Mission, build: Callable[[Mission], Any] = assemble)
 
 def _fixed_always(mission: Mission) -> dict[str, str]:
     fixed = {**FIXED, **dict.fromkeys(counts_of_mission(mission), WHOLE)}
-    return fixed | {key: SCHEDULED for key in numbers_of_mission(mission) if key.startswith("changes.")}
+    numbers = numbers_of_mission(mission)
+    fixed |= {key: "determines the faces of the payload" for key in numbers if key.startswith(SHAPE)}
+    return fixed | {key: SCHEDULED for key in numbers if key.startswith("changes.")}
 
 
 def _tried(

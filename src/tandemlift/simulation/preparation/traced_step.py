@@ -18,6 +18,7 @@ from tandemlift.engines.compiled import BodyStep, first_motion
 from tandemlift.engines.compiled_contact import CompiledPlant, on_feet_only, without_contact
 from tandemlift.parts.contact.clearance import clearance, may_touch_wall
 from tandemlift.parts.contact.hull import hull_may_touch
+from tandemlift.parts.contact.polyhedron import Polyhedron
 from tandemlift.parts.controllers import control
 from tandemlift.parts.mechanics.push import push_at, push_moment
 from tandemlift.parts.mechanics.wind import gust_velocity
@@ -100,7 +101,11 @@ class TracedStep:
     ) -> None:
         self.templates, self.calls_python = templates, calls_python
         self.trace = tracer(fuses)
-        self.graph = graph_for(len(templates.model.plant.frame.mass), rolls=rolls)
+        plant = templates.model.plant
+        quadrotors = len(plant.frame.mass)
+        if isinstance(getattr(plant.walls, "beam", None), Polyhedron):  # which has large sets
+            quadrotors = max(quadrotors, MANY)
+        self.graph = graph_for(quadrotors, rolls=rolls)
         self.model = self.input_of("fly", templates.model)
         self.t, self.dt = self.graph.input("t"), self.graph.input("dt")
         outer = StepInputs(

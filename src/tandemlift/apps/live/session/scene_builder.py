@@ -94,17 +94,22 @@ def _lowest(height: float, vehicle: Vehicle) -> float:
 
 def _vehicle(vehicle: Vehicle) -> SceneVehicle:
     payload = vehicle.payload
-    if payload.length:
-        length, across = payload.length, 2.0 * (payload.radius or BEAM_RADIUS)
+    low, high = payload.box
+    if payload.hull is not None:
+        width, length, height = high - low
+    elif payload.length:
+        length, width = payload.length, 2.0 * (payload.radius or BEAM_RADIUS)
+        height = width
     else:
-        length, across = SHAPELESS, SHAPELESS
+        length, width, height = SHAPELESS, SHAPELESS, SHAPELESS
+    middle = vehicle.origin if payload.hull is None else vehicle.origin + 0.5 * (low + high)
     shapes = vehicle_shapes(vehicle)
     blades, discs = ([_shape(s) for s in shapes if s.name.startswith(name)] for name in TURNING)
     turning = list(zip(blades, discs, strict=True))
     parts = zip(vehicle.quadrotors, vehicle.lever_arms, strict=True)
     return SceneVehicle(
         quadrotors=[_quadrotor(q, center, turning[4 * i : 4 * i + 4]) for i, (q, center) in enumerate(parts)],
-        payload=ScenePayload(position=_list(vehicle.origin), length=length, width=across, height=across),
+        payload=ScenePayload(position=_list(middle), length=float(length), width=float(width), height=float(height)),
         shapes=[_shape(s) for s in shapes if not s.name.startswith(TURNING)],
         mass=vehicle.mass,
     )

@@ -42,8 +42,11 @@ FrameFieldName = Annotated[str, OneOf("FrameFieldName", FIELD_NAMES)]
 class SceneShape(TypedDict):
     """A part of the vehicle as drawn."""
 
-    kind: Literal["box", "sphere", "cylinder"]
-    size: Annotated[list[float], "edges of a box, radius of a sphere, radius and length of a cylinder, m"]
+    kind: Literal["box", "sphere", "cylinder", "hull"]
+    size: Annotated[
+        list[float],
+        "edges of a box, radius of a sphere, radius and length of a cylinder, corners of a hull's triangles, m",
+    ]
     position: Annotated[BodyPosition, "of its centre"]
     axes: Annotated[list[float], "columns of its rotation to body axes (9); a cylinder lies along its z"]
     color: Annotated[str, "#rrggbb"]
@@ -69,7 +72,7 @@ class SceneQuadrotor(TypedDict):
 
 
 class ScenePayload(TypedDict):
-    """The payload as it can be held: a beam along body y."""
+    """The payload as it can be held: a beam or a body along body y."""
 
     position: BodyPosition
     length: Metres

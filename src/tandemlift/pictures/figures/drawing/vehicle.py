@@ -38,7 +38,10 @@ CORNERS = 24  # of the polygon that stands for a rotor's disc
 
 
 class Skeleton(NamedTuple):
-    """Points of a vehicle [m]: `beam` (1 or 2, 3), `struts` (N, 2, 3), `arms` (4N, 2, 3), `rotors` (4N, corners, 3)."""
+    """Points of a vehicle [m]: `struts` (N, 2, 3), `arms` (4N, 2, 3), `rotors` (4N, corners, 3).
+
+    `beam` (n, 3): the payload's `outline`; a single point if it has no shape.
+    """
 
     beam: Array
     struts: Array
@@ -50,28 +53,29 @@ class Skeleton(NamedTuple):
         R = body_to_world(attitude)
         return Skeleton(*(points @ R.T + position for points in self))
 
+    def width(self, points: float) -> float:
+        """Width of the payload's lines [points]: as given for the axis of a beam, thinner for the edges of a body."""
+        return points if len(self.beam) <= 2 else 0.3 * points
+
     @property
     def points(self) -> Array:
         """All points (n, 3) [m]."""
-        return np.concatenate([part.reshape(-1, 3) for part in self])
+        points = np.concatenate([part.reshape(-1, 3) for part in self])
+        return points[np.isfinite(points).all(axis=1)]
 
 
 def skeleton(vehicle: Vehicle) -> Skeleton:
-    """The skeleton of a vehicle, in body axes about the system's centre of mass.
-
-    A payload with a length is a beam along body y; one without is the point that the struts meet in.
-    """
-    half = (vehicle.payload.length or 0.0) / 2.0
-    origin = vehicle.origin
-    beam = origin + np.array([[0.0, -half, 0.0], [0.0, half, 0.0]])[: 2 if half else 1]
+    """The skeleton of a vehicle, in body axes about the system's centre of mass."""
+    origin, outline = vehicle.origin, vehicle.payload.outline
+    low, high = np.nanmin(outline, axis=0), np.nanmax(outline, axis=0)
     struts, arms, rotors = [], [], []
     turn = np.linspace(0.0, 2.0 * np.pi, CORNERS, endpoint=False)
     circle = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(CORNERS)])
     for quadrotor, center in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):
-        nearest = origin + np.array([0.0, np.clip(quadrotor.position[1], -half, half), 0.0])
+        nearest = origin + np.clip(quadrotor.position, low, high)
         struts.append([nearest, center])
         _, roll, pitch, _ = mixer(quadrotor)
         for hub in center + np.column_stack([-pitch, roll, np.zeros(4)]):  # a rotor's levers are where it stands
             arms.append([center, hub])
             rotors.append(hub + quadrotor.rotor_radius * circle)
-    return Skeleton(beam, np.array(struts), np.array(arms), np.array(rotors))
+    return Skeleton(origin + outline, np.array(struts), np.array(arms), np.array(rotors))

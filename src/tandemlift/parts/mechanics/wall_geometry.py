@@ -5,7 +5,7 @@ World axes. A rectangle of numbers serves one point, one of sets serves a set of
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra import clip, maximum, where
+from tandemlift.core.algebra import absolute, clip, maximum, where
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number, number
 from tandemlift.core.vector import Vec3, dot
@@ -60,6 +60,12 @@ def height_above_top(z: Number, top: Number) -> Number:
     return maximum(z - top, 0.0)
 
 
+@elementwise
+def height_from_top(z: Number, top: Number) -> Number:
+    """Height of z above the top [m]."""
+    return z - top
+
+
 @law
 def offset(wall: Wall, p: Vec3) -> Vec3:
     """Offset of p from the nearest point of a wall [m]."""
@@ -75,7 +81,7 @@ def offset(wall: Wall, p: Vec3) -> Vec3:
 def offset_from_top(wall: Wall, p: Vec3) -> Vec3:
     """Offset of p from the nearest point of a wall's top edge [m]."""
     o = offset(wall, p)
-    return Vec3(o.x, o.y, p.z - wall.top)
+    return Vec3(o.x, o.y, height_from_top(p.z, wall.top))
 
 
 @law
@@ -89,6 +95,18 @@ def edges_of(wall: Wall) -> tuple[Wall, Wall]:
 def selected(d: Number, limit: Number, a: Number, b: Number) -> Number:
     """a where d < limit, else b."""
     return where(d < limit, a, b)
+
+
+@elementwise
+def number_at(value: Number, limit: Number, number: Number, none: Number) -> Number:
+    """The number of what reaches a limit, such as the part with the greatest normal force, else `none`."""
+    return where(value >= limit, number, none)
+
+
+@elementwise
+def if_number(number: Number, wanted: Number, value: Number) -> Number:
+    """The value if the number is the `wanted` one, else 0."""
+    return where(absolute(number - wanted) < 0.5, value, 0.0)
 
 
 @law

@@ -1,0 +1,130 @@
+"""A payload from the file of a mesh: mass, centre of mass and inertia by trimesh; a convex hull of few corners."""
+
+from __future__ import annotations
+
+import functools
+import warnings
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.core.errors import FlightWarning, InputError, extra, shown
+from tandemlift.core.keys import Triple
+from tandemlift.core.types import Array
+from tandemlift.parts.mechanics.payload import MOST_CORNERS, ConvexHull, convex_hull
+
+KINDS = (".stl", ".obj", ".ply")
+SMALLEST, LARGEST = 1e-3, 20.0  # m, extent of a payload
+FINE, ROUGH = 1e-3, 0.02  # of the extent: how far a mesh may stick out of its hull until corners are added, or silently
+ALIKE = 1e-5  # of the extent: points are as far as this out of a plane alike
+COMES = ("center_of_mass", "inertia", "products", "corners")  # keys that come from a mesh
+
+
+class MeshBody(NamedTuple):
+    """A closed mesh of density 1: volume [m³], centre of mass [m], inertia about it [m⁵], corners of its hull [m]."""
+
+    volume: float
+    center: Array
+    tensor: Array
+    corners: tuple[Triple, ...]
+
+
+def with_mesh(payload: dict[str, Any]) -> dict[str, Any]:
+    """The table of a payload with the numbers of its mesh in place of the file, so that nothing else reads it.
+
+    Raises:
+        InputError: the file is missing or is no closed mesh, keys are missing or contradict it, or trimesh is missing.
+    """
+    path, density = payload.get("mesh"), payload.get("density")
+    if path is None and density is not None:
+        raise InputError(f"density = {shown(density)}: must be left out without mesh; mass is given in kg")
+    if not isinstance(path, str) or payload.get("shape") != "mesh":
+        return payload
+    for name in COMES:
+        if name in payload:
+            raise InputError(f"{name} = {shown(payload[name])}: must be left out, because it comes from mesh")
+    if ("mass" in payload) == (density is not None):
+        raise InputError("mesh needs either density [kg/m³] or mass [kg]" + (", not both" if "mass" in payload else ""))
+    number: Any = payload.get("mass") if density is None else density
+    scale = payload.get("mesh_scale", 1.0)
+    for name, value in (("density" if density is not None else "mass", number), ("mesh_scale", scale)):
+        if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 < value < 1e12:
+            raise InputError(f"{name} = {shown(value)}: must be a number above 0")
+    body = _body(path, Path(path).stat().st_mtime_ns if Path(path).exists() else 0, float(scale))
+    per_volume = number if density is not None else number / body.volume
+    tensor = per_volume * body.tensor
+    (x, xy, xz), (_, y, yz), (_, _, z) = tensor.tolist()
+    kept = {name: value for name, value in payload.items() if name not in ("mesh", "mesh_scale", "density")}
+    return kept | {
+        "mass": float(per_volume * body.volume),
+        "center_of_mass": body.center.tolist(),
+        "inertia": [x, y, z],
+        "products": [xy, xz, yz],
+        "corners": [list(corner) for corner in body.corners],
+    }
+
+
+@functools.lru_cache(maxsize=16)
+def _body(path: str, changed: int, scale: float) -> MeshBody:
+    """The mesh of a file in its version of a time, its unit so many metres."""
+    given = f"mesh = {shown(path)}"
+    if not Path(path).is_file():
+        raise InputError(f"{given}: there is no such file")
+    if Path(path).suffix.lower() not in KINDS:
+        raise InputError(f"{given}: must be a file of {', '.join(KINDS)}")
+    with extra("mesh", "a payload from a mesh"):
+        import trimesh
+    try:
+        mesh = trimesh.load_mesh(path, process=True)
+        if not len(mesh.faces):
+            raise ValueError("it has no triangles")
+        mesh.apply_scale(scale)
+        extent = float(np.ptp(mesh.vertices, axis=0).max())
+        closed, volume = bool(mesh.is_watertight and mesh.is_winding_consistent), float(mesh.volume)
+    except Exception as error:  # of whatever kind a reader of files raises
+        raise InputError(f"{given}: cannot be read as a mesh: {error}") from error
+    if not SMALLEST <= extent <= LARGEST:
+        hint = f"looks like millimetres; scale it with mesh_scale = {0.001 * scale:g}"
+        size = f"its extent is {extent:g} m, and must be {SMALLEST:g} m to {LARGEST:g} m"
+        raise InputError(
+            f"{given}: {size}" + (f": {hint}" if extent > LARGEST else f", or mesh_scale = {scale:g} larger")
+        )
+    if not closed:
+        raise InputError(f"{given}: must be closed, with all triangles turned outside, or it has no mass")
+    if volume <= 0.0:
+        raise InputError(
+            f"{given}: is inside out, with a volume of {volume:g} m³: its triangles must be turned outside"
+        )
+    hull, out = few_corners(np.asarray(mesh.vertices, dtype=float))
+    if out > ROUGH * extent:
+        text = f"{given}: sticks out of its convex hull of {MOST_CORNERS} corners, which touches, by {out:.2g} m"
+        warnings.warn(text, FlightWarning, stacklevel=2)
+    tensor = np.asarray(mesh.moment_inertia, dtype=float) / float(mesh.density)
+    return MeshBody(volume, np.asarray(mesh.center_mass, dtype=float), tensor, tuple(map(tuple, hull.corners.tolist())))
+
+
+def few_corners(points: Array) -> tuple[ConvexHull, float]:
+    """The convex hull of at most `MOST_CORNERS` of some points, and how far others stick out of it at most [m].
+
+    Corners are added where a point is farthest outside, until none sticks out by `FINE` of the extent.
+    """
+    extent = float(np.ptp(points, axis=0).max())
+    away = np.linalg.norm(points - points.mean(axis=0), axis=1)
+
+    def farthest(out: Array) -> int:
+        """Of the points that are farthest out, the one farthest from the middle, which is a corner."""
+        return int(np.where(out >= out.max() - ALIKE * extent, away, -1.0).argmax())
+
+    a = farthest(away)
+    b = farthest(np.linalg.norm(points - points[a], axis=1))
+    along, off = (points[b] - points[a]) / np.linalg.norm(points[b] - points[a]), points - points[a]
+    c = farthest(np.linalg.norm(off - np.outer(off @ along, along), axis=1))
+    normal = np.cross(along, off[c]) / np.linalg.norm(np.cross(along, off[c]))
+    chosen = [a, b, c, farthest(np.abs(off @ normal))]
+    while True:
+        hull = convex_hull(tuple(map(tuple, points[chosen].tolist())))
+        out = (points @ hull.normals.T - hull.offsets).max(axis=1)
+        if out.max() <= FINE * extent or len(chosen) == MOST_CORNERS:
+            return hull, max(float(out.max()), 0.0)
+        chosen.append(farthest(out))
