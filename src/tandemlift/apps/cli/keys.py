@@ -47,10 +47,11 @@ def _answer(option: str, given: float | None, default: float, low: float, high: 
 def new(
     file: str, quadrotor: str | None, length: float | None, center: float | None, mass: float | None, force: bool
 ) -> None:
-    """Write a mission FILE of your beam on two quadrotors, and tell what they can lift.
+    """Write a mission FILE of your beam on two quadrotors.
 
-    A terminal is asked for what no option gives. Forces, moments and thresholds of the mission suit the weight:
-    docs/how-to/change-the-vehicle.md has the rule and the models with their sources.
+    It tells what they can lift, and how far from their limits they are. A terminal is asked for what no option gives.
+    Forces, moments and thresholds of the mission suit the weight: docs/how-to/change-the-vehicle.md has the rule and
+    the models with their sources.
 
     \b
     Examples:
