@@ -1,5 +1,6 @@
 """Ctrl-C ends every verb, and a script, whatever is being done: one line, status 130, nothing left behind."""
 
+import contextlib
 import os
 import random
 import signal
@@ -163,8 +164,8 @@ def test_processes_that_optimise_are_ended_with_it(begin, tmp_path):
     def optimising():
         found = []
         for task in os.listdir(children):
-            with open(f"{children}{task}/children", encoding="ascii") as file:
-                found += file.read().split()
+            with contextlib.suppress(OSError), open(f"{children}{task}/children", encoding="ascii") as file:
+                found += file.read().split()  # unless this thread has just ended
         return found
 
     if not os.path.exists(f"{children}{begun.process.pid}/children"):
