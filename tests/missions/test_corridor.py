@@ -96,7 +96,7 @@ def test_the_file_keeps_the_centreline_and_the_loop_gets_walls_and_legs():
         ({"corridor.centreline": [[0.0, 0.0], [5.0, 0.0], [5.0, 1.0], [0.0, 1.0]]}, "farther apart"),
         ({"corridor.centreline": LINE, "ground.model": "none"}, "ground.model"),
         ({"person.model": "steer"}, "[[person.path]]"),
-        ({"person.model": "pull", "person.grip": 1.2, "corridor.centreline": LINE}, "within ±1 m"),
+        ({"person.model": "pull", "person.grip": 1.2, "corridor.centreline": LINE}, "from -1 m to 1 m"),
         ({"person.delay": 1.5}, "person.delay"),
         ({"person.model": "push"}, '"two-hands"'),
         ({"mission.step": 1e-5, "person.delay": 0.9, "mission.duration": 1.0}, "10000 steps"),

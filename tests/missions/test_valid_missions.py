@@ -150,7 +150,7 @@ def test_every_leaf_that_the_design_gives_per_axis_is_one():
             "allocation.priorities",
             "wind.velocity",
             *(f"vehicle.{part}.drag_area" for part in ("payload", "quadrotors.0")),
-            "vehicle.payload.inertia",
+            *(f"vehicle.payload.{key}" for key in ("inertia", "size")),
             "vehicle.quadrotors.0.inertia",
             "vehicle.drag.force",
             "vehicle.drag.moment",
@@ -176,6 +176,7 @@ def test_every_leaf_that_the_design_gives_per_axis_is_one():
 def test_one_number_serves_all_axes_and_whole_numbers_are_numbers(key, count):
     place = tuple(int(part) if part.isdigit() else part for part in key.split("."))
     name, entries = ("iris", EVERYTHING) if place[0] == "sensor_faults" else ("paper", {})
+    entries = {**entries, "vehicle.payload.shape": "box"} if key == "vehicle.payload.size" else entries
     one = tables_of(load_mission(name, {**entries, key: 1}))
     each = tables_of(load_mission(name, {**entries, key: [1.0] * count}))
     assert value_at(one, place) == [1.0] * count

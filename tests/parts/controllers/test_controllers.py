@@ -111,8 +111,8 @@ def test_the_python_of_the_guide_runs(folder, monkeypatch):
 
 def test_the_variants_of_the_guide_are_chosen_by_the_type_of_a_gain():
     names: dict = {"__name__": "variants"}
-    exec("from typing import NamedTuple\nfrom tandemlift.core.algebra import Number, choice, tanh, where", names)
-    exec(re.findall(r"```python\n(class Soft.*?)```", GUIDE, re.DOTALL)[0], names)
+    (block,) = [block for block in re.findall(r"```python\n(.*?)```", GUIDE, re.DOTALL) if "class Soft" in block]
+    exec(block, names)
     assert names["switching"](names["Soft"](0.1), 0.05) == pytest.approx(np.tanh(0.5))
     assert names["switching"](names["Hard"](), 0.05) == 1.0
 
