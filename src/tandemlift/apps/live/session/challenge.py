@@ -37,7 +37,7 @@ FREE = ("mission.name", "mission.duration", "person.recording")  # keys that dif
 EQUAL = 1e-6  # s: scores are the same
 
 
-class Score(NamedTuple):
+class CorridorScore(NamedTuple):
     """Time [s], number of touches, effort [N s], logarithm of the dimensionless jerk; see the module."""
 
     time: float
@@ -51,15 +51,15 @@ class Score(NamedTuple):
         return self.time + TOUCH * self.touches + EFFORT * self.effort + JERK * self.jerk
 
 
-class Entry(NamedTuple):
+class HandedIn(NamedTuple):
     """What a participant handed in: name, and its score, or the reason for which it has none."""
 
     name: str
-    score: Score | None
+    score: CorridorScore | None
     refused: str = ""
 
 
-def score_of(flight: Flight) -> Score:
+def score_of(flight: Flight) -> CorridorScore:
     """The score of a flight through its corridor.
 
     Raises:
@@ -80,7 +80,7 @@ def score_of(flight: Flight) -> Score:
     if len(outside):
         raise InputError(f"{flight.name}: left the corridor at {time[outside[0]]:.2f} s")
     push = np.linalg.norm(flight["push_force"][span], axis=1)
-    return Score(
+    return CorridorScore(
         float(time[-1] - time[0]),
         count_touches(time, flight["contact_force"][span]),
         float(np.trapezoid(push, time)),
@@ -128,7 +128,7 @@ def write_score(flight: Flight, folder: Path) -> None:
     write_file(folder / SCORE_FILE, json.dumps({**score._asdict(), "score": score.total}, indent=1))
 
 
-def entries(folder: Path, challenge: Mission, free: Iterable[str] = ()) -> Iterator[Entry]:
+def entries(folder: Path, challenge: Mission, free: Iterable[str] = ()) -> Iterator[HandedIn]:
     """Fly what was handed in again and score it, one after another in the order of the names.
 
     Args:
@@ -138,9 +138,9 @@ def entries(folder: Path, challenge: Mission, free: Iterable[str] = ()) -> Itera
     """
     for path in sorted(handed_in(folder)):
         try:
-            yield Entry(path.stem, _score_again(path, interactive_mission(challenge), (*FREE, *free)))
+            yield HandedIn(path.stem, _score_again(path, interactive_mission(challenge), (*FREE, *free)))
         except InputError as error:
-            yield Entry(path.stem, None, str(error))
+            yield HandedIn(path.stem, None, str(error))
 
 
 def handed_in(folder: Path) -> list[Path]:
@@ -155,7 +155,7 @@ def handed_in(folder: Path) -> list[Path]:
     return found
 
 
-def _score_again(path: Path, challenge: Mission, free: tuple[str, ...]) -> Score:
+def _score_again(path: Path, challenge: Mission, free: tuple[str, ...]) -> CorridorScore:
     with without_flight_warnings():
         mission = load_mission(path if path.suffix == ".zip" else path / MISSION_FILE)
         if mission.person.recording is None:
@@ -197,7 +197,7 @@ def ranked(
     Raises:
         InputError: nothing was handed in.
     """
-    results, total = list[Entry](), len(handed_in(folder))
+    results, total = list[HandedIn](), len(handed_in(folder))
     for entry in entries(folder, challenge, free):
         results.append(entry)
         if progress:
