@@ -23,7 +23,10 @@ STIFF, DAMPED = 5000.0, 0.5  # N/m and damping ratio of walls and of parts that 
 
 
 class Body(NamedTuple):
-    """The real vehicle: mass [kg], centre of mass from the payload's [m], inertia about it [kg m2], parts' places."""
+    """The real vehicle: mass [kg], centre of mass from the payload's origin [m], inertia about it [kg m2].
+
+    From that centre [m]: the payload's origin, and the quadrotors' places.
+    """
 
     mass: float
     center: np.ndarray
@@ -35,7 +38,7 @@ class Body(NamedTuple):
 class Model(NamedTuple):
     """The compiled model, the real vehicle, how many of its steps make one of the mission's, and the floor's z [m].
 
-    `arms` (N + 1, 3): centres of payload and quadrotors from the centre of mass [m].
+    `arms` (N + 1, 3): origin of the payload and centres of quadrotors from the centre of mass [m].
     """
 
     mujoco: Any
@@ -49,16 +52,18 @@ def body_of(mission: dict[str, Any]) -> Body:
     """The real vehicle of a mission: the parts, then the factors of `plant`."""
     payload, fleet, plant = mission["vehicle"]["payload"], mission["vehicle"]["quadrotors"], mission["plant"]
     masses = np.array([payload["mass"], *(q["mass"] for q in fleet)])
-    places = np.array([[0.0, 0.0, 0.0], *(q["position"] for q in fleet)])
+    places = np.array([payload["center_of_mass"], *(q["position"] for q in fleet)])
     center = masses @ places / masses.sum()
     inertia = np.diag(moments_of_payload(payload))
+    for (i, j), product in zip(((0, 1), (0, 2), (1, 2)), payload["products"], strict=True):
+        inertia[i, j] = inertia[j, i] = product
     for q in fleet:
         inertia = inertia + np.diag(q["inertia"])
     for mass, d in zip(masses, places - center, strict=True):
         inertia = inertia + mass * (d @ d * np.eye(3) - np.outer(d, d))
     root = np.diag(np.sqrt(plant["inertia_scale"]))
-    places = places - center
-    return Body(float(masses.sum() * plant["mass_scale"]), center, root @ inertia @ root, places[0], places[1:])
+    inertia = root @ inertia @ root
+    return Body(float(masses.sum() * plant["mass_scale"]), center, inertia, -center, places[1:] - center)
 
 
 def moments_of_payload(payload: dict[str, Any]) -> list[float]:

@@ -81,7 +81,9 @@ def test_the_judge_shares_no_code_with_the_package():
 
 @pytest.mark.parametrize("name", ["paper", "iris", "four"])
 def test_the_judge_weighs_the_vehicle_as_the_package_does(name):
-    mission = tl.load_mission(name, {"plant.mass_scale": 1.2, "plant.inertia_scale": [1.1, 0.9, 1.3]})
+    payload = {"vehicle.payload.center_of_mass": [0.02, 0.1, -0.03]}
+    payload |= {} if name == "four" else {"vehicle.payload.products": [0.0, 1e-4, 0.0]}  # a thin plate has none
+    mission = tl.load_mission(name, {**payload, "plant.mass_scale": 1.2, "plant.inertia_scale": [1.1, 0.9, 1.3]})
     body, vehicle = body_of(tables_of(mission)), Vehicle.from_settings(mission.vehicle)
     scale = np.sqrt([1.1, 0.9, 1.3])
     assert body.mass == pytest.approx(1.2 * vehicle.mass, rel=1e-12)
