@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import zipfile
 
 import numpy as np
 import pytest
@@ -100,6 +101,17 @@ def test_what_participants_may_change_is_free(handed_in, tmp_path):
     code, said, _ = run(tmp_path, "--mission", handed_in / "class.toml", "--free", "admittance")
     assert code == 0
     assert "dora" in said
+
+
+def test_a_file_of_a_page_without_a_server_is_ranked_although_it_rounds_in_its_own_way(handed_in, tmp_path):
+    challenge = tl.load_mission(handed_in / "class.toml", {"mission.fma": False})  # as in `page_modules.page_mission`
+    pulled(challenge, (1.5, 0.0, 0.0), 9.0).save(tmp_path / "saved")
+    (tmp_path / "in").mkdir()
+    with zipfile.ZipFile(tmp_path / "in" / "emil.zip", "w") as archive:
+        for name in ("recorded.toml", "hand.npz"):
+            archive.write(tmp_path / "saved" / name, name)
+    code, said, _ = run(tmp_path / "in", "--mission", handed_in / "class.toml")
+    assert (code, said.splitlines()[1].split()[:2]) == (0, ["1", "emil"])
 
 
 def test_a_folder_without_flights_and_a_mission_without_a_corridor_are_refused(tmp_path):

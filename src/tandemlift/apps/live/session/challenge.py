@@ -33,7 +33,7 @@ SCORE_FILE = "score.json"
 TOUCH, EFFORT, JERK = 5.0, 0.2, 1.0  # s a touch, s per N s, s per unit
 PRESSED = 0.5  # N, of a horizontal contact force: a touch
 APART = 0.5  # s without one between two touches
-FREE = ("mission.name", "mission.duration", "person.recording")  # keys that differ from flight to flight
+FREE = ("mission.name", "mission.duration", "person.recording", "mission.fma")  # of each flight; rounding, of its page
 EQUAL = 1e-6  # s: scores are the same
 
 
@@ -128,31 +128,30 @@ def write_score(flight: Flight, folder: Path) -> None:
     write_file(folder / SCORE_FILE, json.dumps({**score._asdict(), "score": score.total}, indent=1))
 
 
-def entries(folder: Path, challenge: Mission, free: Iterable[str] = ()) -> Iterator[HandedIn]:
-    """Fly what was handed in again and score it, one after another in the order of the names.
-
-    Args:
-        folder: holds a folder or a .zip for each participant, as the page saves them.
-        challenge: the mission that all were to fly by hand.
-        free: keys, or tables of keys, that participants may change.
-    """
-    for path in sorted(handed_in(folder)):
-        try:
-            yield HandedIn(path.stem, _score_again(path, interactive_mission(challenge), (*FREE, *free)))
-        except InputError as error:
-            yield HandedIn(path.stem, None, str(error))
-
-
 def handed_in(folder: Path) -> list[Path]:
-    """The saved flights in a folder.
+    """The saved flights in a folder, in the order of their names: a folder or a .zip each, as pages save them.
 
     Raises:
         InputError: there are none.
     """
-    found = [p for p in folder.glob("*") if p.suffix == ".zip" or (p / MISSION_FILE).exists()]
+    found = sorted(p for p in folder.glob("*") if p.suffix == ".zip" or (p / MISSION_FILE).exists())
     if not found:
         raise InputError(f"{folder}: must hold flights that a page saved, a folder or a .zip each; there are none")
     return found
+
+
+def scored(path: Path, challenge: Mission, free: tuple[str, ...]) -> HandedIn:
+    """A saved flight, flown again and scored.
+
+    Args:
+        path: its folder or .zip.
+        challenge: the mission that all were to fly, as a page flies it.
+        free: keys, or tables of keys, that may differ from it.
+    """
+    try:
+        return HandedIn(path.stem, _score_again(path, challenge, free))
+    except InputError as error:
+        return HandedIn(path.stem, None, str(error))
 
 
 def _score_again(path: Path, challenge: Mission, free: tuple[str, ...]) -> CorridorScore:
@@ -194,19 +193,25 @@ def ranked(
 ) -> tuple[list[str], int]:
     """The table of what was handed in, best first, as lines of text; and how many were refused.
 
+    Args:
+        folder: holds a folder or a .zip for each participant.
+        challenge: the mission that all were to fly by hand.
+        free: keys, or tables of keys, that participants may change.
+        progress: called with (flights flown, flights in all).
+
     Raises:
         InputError: nothing was handed in.
     """
-    results, total = list[HandedIn](), len(handed_in(folder))
-    for entry in entries(folder, challenge, free):
-        results.append(entry)
+    paths, results, flown = handed_in(folder), list[HandedIn](), interactive_mission(challenge)
+    for path in paths:
+        results.append(scored(path, flown, (*FREE, *free)))
         if progress:
-            progress(len(results), total)
-    width = max(len(entry.name) for entry in results)
-    scored = [(entry.name, entry.score) for entry in results if entry.score]
-    rows = [f"rank  {'name':{width}}   score    time  touches     effort  jerk"]
-    for rank, (name, score) in enumerate(sorted(scored, key=lambda row: row[1].total), 1):
+            progress(len(results), len(paths))
+    width = max(len(one.name) for one in results)
+    scores = sorted([(one.name, one.score) for one in results if one.score], key=lambda row: row[1].total)
+    rows = [f"rank  {'name':{width}}   score    time  touches     effort  jerk"] if scores else []
+    for rank, (name, score) in enumerate(scores, 1):
         cells = f"{score.total:6.1f} s {score.time:5.1f} s {score.touches:8d} {score.effort:6.1f} N s {score.jerk:5.1f}"
         rows.append(f"{rank:4d}  {name:{width}} {cells}")
-    refused = [f"   –  {entry.name:{width}} refused: {entry.refused}" for entry in results if not entry.score]
-    return [*(rows if scored else []), *refused], len(refused)
+    refused = [f"   –  {one.name:{width}} refused: {one.refused}" for one in results if not one.score]
+    return [*rows, *refused], len(refused)
