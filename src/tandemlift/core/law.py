@@ -18,12 +18,6 @@ F = TypeVar("F", bound=Callable[..., Any])
 LAWS: list[Callable[..., Any]] = []
 
 
-def law(function: F) -> F:
-    """Mark a pure function of values as a law. It is returned unchanged."""
-    LAWS.append(function)
-    return function
-
-
 class Elementwise:
     """A law of scalars that also acts on vectors, component by component. A scalar beside a vector serves all."""
 
@@ -50,11 +44,6 @@ class Elementwise:
         kind = type(shape)
         columns = [a if isinstance(a, kind) else (a,) * len(shape) for a in args]
         return kind(*map(self.scalar, *columns))
-
-
-def elementwise(scalar: Callable[..., Any]) -> Elementwise:
-    """Mark a law of scalars, written with elementary operations only, as one that also maps over vectors."""
-    return Elementwise(law(scalar))
 
 
 class Absent(NamedTuple):
@@ -147,3 +136,40 @@ def _choice(signature: Callable[..., Any], absent: Any) -> Choice:
     if absent is not REQUIRED:
         made.register(Absent)(_without(signature, absent))
     return made
+
+
+@overload
+def law(function: F) -> F: ...
+
+
+@overload
+def law(*, absent: Any) -> Callable[[Callable[..., Any]], Choice]: ...
+
+
+def law(function: Callable[..., Any] | None = None, *, absent: Any = REQUIRED) -> Any:
+    """Mark a pure function of values as a law. It is returned unchanged, unless `absent` is given.
+
+    Args:
+        function: the law. With `absent`, its first argument is annotated with one type, by name.
+        absent: the result if the first argument is `Absent`, as for `choice`: the law is then that of a part which a
+            flight may not have, and the same as a choice between these two types.
+
+    Raises:
+        TypeError: `absent` names an argument that the function does not have.
+    """
+    if function is None:
+        return functools.partial(_optional, absent=absent)
+    LAWS.append(function)
+    return function
+
+
+def _optional(function: Callable[..., Any], absent: Any) -> Choice:
+    made = _choice(function, absent)
+    kind = function.__annotations__[function.__code__.co_varnames[0]]
+    made.register(function.__globals__[kind] if isinstance(kind, str) else kind)(function)
+    return made
+
+
+def elementwise(scalar: Callable[..., Any]) -> Elementwise:
+    """Mark a law of scalars, written with elementary operations only, as one that also maps over vectors."""
+    return Elementwise(law(scalar))

@@ -183,13 +183,9 @@ def _distant_hull(hull: DistantHull, floor: Floor, s: State) -> Absent:
     return Absent()
 
 
-@choice(absent="contact")
-def loads_of_hull(contact: HullContact | Absent, frame: PartsLayout, s: State) -> PartLoads | Absent:
+@law(absent="contact")
+def loads_of_hull(contact: HullContact, frame: PartsLayout, s: State) -> PartLoads:
     """Loads of a `HullContact` on all parts, or `Absent`."""
-
-
-@loads_of_hull.register(HullContact)
-def _of_hull(contact: HullContact, frame: PartsLayout, s: State) -> PartLoads:
     return hull_loads(contact, frame, rotation_from_quaternion(s.attitude))
 
 
@@ -221,13 +217,9 @@ def _of_no_contact(load: ZeroLoad, frame: PartsLayout, attitude: Quat) -> PartLo
     return NO_LOAD
 
 
-@choice(absent="rate")
-def with_load(load: PartLoad | Absent, body: RigidBody, attitude: Quat, rate: State) -> State:
+@law(absent="rate")
+def with_load(load: PartLoad, body: RigidBody, attitude: Quat, rate: State) -> State:
     """The motion with a further load about the position."""
-
-
-@with_load.register(PartLoad)
-def _with_load(load: PartLoad, body: RigidBody, attitude: Quat, rate: State) -> State:
     turned = apply_inertia(body.inverse_inertia, about_center(body.center, attitude, load.force, load.moment))
     velocity = at_position(body.center, attitude, rate.velocity + load.force * body.inverse_mass, turned)
     return State(rate.position, velocity, rate.attitude, rate.rates + turned)
@@ -263,13 +255,9 @@ def _unloaded(load: ZeroLoad, frame: PartsLayout, attitude: Quat, readings: Perf
     )
 
 
-@choice(absent="readings")
-def with_contact_force(load: PartLoad | Absent, readings: PerfectReadings) -> PerfectReadings:
+@law(absent="readings")
+def with_contact_force(load: PartLoad, readings: PerfectReadings) -> PerfectReadings:
     """`readings`, with the force of a contact about the centre of mass."""
-
-
-@with_contact_force.register(PartLoad)
-def _with_contact(load: PartLoad, readings: PerfectReadings) -> PerfectReadings:
     return PerfectReadings(
         readings.specific_force, readings.joint_force, readings.joint_torque, readings.contact_force + load.force
     )

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.core.law import choice
+from tandemlift.core.law import choice, law
 from tandemlift.core.types import Array, Number, flat
 from tandemlift.core.vector import Absent, Vec3, set_of
 from tandemlift.engines.compiled_contact import CompiledPlant, DistantWalls, hull_contact_with
@@ -129,16 +129,10 @@ def _on_walls(contact: NearWallContact, s: State) -> SurfaceContacts:
     return wall_contacts(contact)
 
 
-@choice(absent="touches")
+@law(absent="touches")
 def touches_in(
-    touches: Touches | Absent, plant: CompiledPlant, near: NearWalls | Absent, s: State, t: Number, dt: Number
-) -> Touches | Absent:
-    """The touches after a step of dt [s] that began at time t [s] in state `s`."""
-
-
-@touches_in.register(Touches)
-def _touches(
     touches: Touches, plant: CompiledPlant, near: NearWalls | Absent, s: State, t: Number, dt: Number
 ) -> Touches:
+    """The touches after a step of dt [s] that began at time t [s] in state `s`."""
     floor, walls = hull_contact_with(plant.floor, s), wall_contact_with(plant.walls, near, plant.frame, s)
     return touches_after(touches, parts_touched(floor, s), parts_touched(walls, s), t, dt)

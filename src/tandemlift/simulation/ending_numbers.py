@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.algebra import atan2, chosen, maximum, sqrt, where
-from tandemlift.core.law import choice, law
+from tandemlift.core.law import law
 from tandemlift.core.phases import LEFT_FENCE, STRUCK, TURNED_OVER
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Vec3, dot
@@ -39,34 +39,22 @@ class EndingNumbers(NamedTuple):
     place: Vec3
 
 
-@choice(absent="now")
-def moment_of(crash: CrashMemory | Absent, now: EndingMoment) -> EndingMoment:
+@law(absent="now")
+def moment_of(crash: CrashMemory, now: EndingMoment) -> EndingMoment:
     """The `EndingMoment` of a crash that is remembered; without one, that of now."""
-
-
-@moment_of.register(CrashMemory)
-def _remembered(crash: CrashMemory, now: EndingMoment) -> EndingMoment:
     before = EndingMoment(crash.number, crash.time, crash.state, crash.impulse)
     return chosen(crash.number, before, now)
 
 
-@choice(absent=0.0)
-def impulse_of(strike: Strike | Absent, impulse: Number | Absent) -> Number:
+@law(absent=0.0)
+def impulse_of(strike: Strike, impulse: Number) -> Number:
     """The impulse of contact [N·s]; 0 if there is nothing to touch."""
-
-
-@impulse_of.register(Strike)
-def _impulse_of(strike: Strike, impulse: Number) -> Number:
     return impulse
 
 
-@choice(absent=0.0)
-def outside_of(fence: OuterFence | Absent, position: Vec3) -> Number:
+@law(absent=0.0)
+def outside_of(fence: OuterFence, position: Vec3) -> Number:
     """The distance of a position outside the fence [m]."""
-
-
-@outside_of.register(OuterFence)
-def _outside_of(fence: OuterFence, position: Vec3) -> Number:
     return distance_outside(fence.low, fence.high, position)
 
 

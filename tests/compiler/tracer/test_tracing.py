@@ -216,9 +216,10 @@ def _remembered(gains, memory, x):
     return memory + dot(gains, gains), gains.x, x * gains.y
 
 
-@choice(absent="x")
-def passed(gains, x):
+@law(absent="x")
+def passed(gains: Vec3, x):
     """What is left of x."""
+    return x * gains.y
 
 
 def test_a_choice_says_what_stands_for_an_absent_part():
@@ -226,6 +227,12 @@ def test_a_choice_says_what_stands_for_an_absent_part():
     assert remembered(Vec3(1.0, 2.0, 0.0), 3.0, 5.0) == (8.0, 1.0, 10.0)
     held = object()
     assert passed(Absent(), held) is held
+
+
+def test_the_law_of_an_optional_part_is_a_choice_between_the_part_and_its_absence():
+    assert passed(Vec3(1.0, 2.0, 0.0), 5.0) == 10.0
+    with pytest.raises(TypeError, match=r"passed\(\) has no law for float; it knows Absent, Vec3"):
+        passed(1.0, 5.0)
 
 
 def test_an_absent_part_leaves_nothing_in_the_graph():

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.algebra import clip, where
-from tandemlift.core.law import Absent, choice
+from tandemlift.core.law import law
 from tandemlift.core.types import Number
 from tandemlift.parts.compliance.compliance import Compliance, ComplianceState, with_speed
 
@@ -22,23 +22,15 @@ class GroundClearance(NamedTuple):
     height: Number
 
 
-@choice(absent=0.0)
-def has_floor(k: GroundClearance | Absent) -> Number:
+@law(absent=0.0)
+def has_floor(k: GroundClearance) -> Number:
     """1 where there is a floor, else 0."""
-
-
-@has_floor.register(GroundClearance)
-def _floor(k: GroundClearance) -> Number:
     return 1.0
 
 
-@choice(absent="compliance")
-def above_ground(k: GroundClearance | Absent, compliance: Compliance, m: ComplianceState, height: Number) -> Compliance:
+@law(absent="compliance")
+def above_ground(k: GroundClearance, compliance: Compliance, m: ComplianceState, height: Number) -> Compliance:
     """The compliance with a limit of the speed downwards; `height` [m] of the reference above the ground."""
-
-
-@above_ground.register(GroundClearance)
-def _above(k: GroundClearance, compliance: Compliance, m: ComplianceState, height: Number) -> Compliance:
     speed, pull = compliance.limits.speed, m.output.value.z
     down = where(pull == 0.0, m.velocity.z, pull)
     slower = clip(APPROACH_GAIN * (height - k.height), 0.0, speed.z)

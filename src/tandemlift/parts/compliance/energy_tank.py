@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple
 
 from tandemlift.core.algebra import clip, maximum
 from tandemlift.core.keys import NonNegative, Positive, Table, key
-from tandemlift.core.law import choice
+from tandemlift.core.law import law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Vec3, dot
 
@@ -58,17 +58,11 @@ class EnergyTankState(NamedTuple):
     added: Number
 
 
-@choice(absent=(0.0, "m"))
+@law(absent=(0.0, "m"))
 def passivity_damping(
-    k: EnergyTank | Absent, m: EnergyTankState | Absent, push: Vec3, velocity: Vec3, dissipated: Number, dt: Number
-) -> tuple[Number, EnergyTankState | Absent]:
-    """(damping to add [N·s/m], the new memory) under a push [N] at a velocity [m/s]; `dissipated`: by damping [W]."""
-
-
-@passivity_damping.register(EnergyTank)
-def _tank(
     k: EnergyTank, m: EnergyTankState, push: Vec3, velocity: Vec3, dissipated: Number, dt: Number
 ) -> tuple[Number, EnergyTankState]:
+    """(damping to add [N·s/m], the new memory) under a push [N] at a velocity [m/s]; `dissipated`: by damping [W]."""
     energy = clip(m.energy + (dot(push, velocity) + dissipated * k.refill_fraction) * dt, -k.capacity, k.capacity)
     added = maximum(1.0 - clip(energy / k.low_energy, 0.0, 1.0), m.added * (1.0 - k.decay_rate * dt))
     return k.max_damping * added, EnergyTankState(energy, added)

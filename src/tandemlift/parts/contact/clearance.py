@@ -62,13 +62,9 @@ def sphere_distance(o: Vec3, radius: Number) -> Number:
     return surface_distance(dot(o, o), radius)
 
 
-@choice(absent="rotors")
-def rotor_clearance(rotors: RotorSpheres | Absent, near: NearRotors | Absent, s: State) -> RotorClearance | Absent:
+@law(absent="rotors")
+def rotor_clearance(rotors: RotorSpheres, near: NearRotors, s: State) -> RotorClearance:
     """Clearance of the rotors from the walls near them."""
-
-
-@rotor_clearance.register(RotorSpheres)
-def _spheres(rotors: RotorSpheres, near: NearRotors, s: State) -> RotorClearance:
     p = translated(s.position, apply(rotation_from_quaternion(s.attitude), rotors.hub))
     first, second = (
         sphere_distance(offset(near.first, p), rotors.radius),
@@ -103,13 +99,9 @@ def _polyhedron(p: Polyhedron, w: Walls, near: NearPolyhedron, frame: PartsLayou
     return BeamClearance(minimum(first, second), least([least(distances) for distances in others]))
 
 
-@choice(absent="w")
-def clearance(w: Walls | Absent, near: NearWalls | Absent, frame: PartsLayout, s: State) -> Clearance | Absent:
+@law(absent="w")
+def clearance(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> Clearance:
     """Clearance of the vehicle from the walls near it."""
-
-
-@clearance.register(Walls)
-def _walls(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> Clearance:
     p = translated(s.position, apply(rotation_from_quaternion(s.attitude), frame.quadrotors))
     guards = minimum(
         sphere_distance(offset(near.first, p), w.guards), sphere_distance(offset(near.second, p), w.guards)

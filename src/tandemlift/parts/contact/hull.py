@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra import absolute, greatest, least, minimum, sqrt
 from tandemlift.core.arrays import array
-from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Array, Condition, Number, NumberSet, number
 from tandemlift.core.vector import (
     ZERO,
@@ -106,15 +106,9 @@ def sideways(radius: Number, half_thickness: Number, below: Number, along: Numbe
     return (radius * radius - half_thickness * half_thickness) / below * along
 
 
-@choice(absent="shapes")
-def floor_contact(
-    shapes: Ellipsoids | Absent, hull: Hull, friction: Number, height: Number, s: State, R: Mat3
-) -> FloorContact | Absent:
+@law(absent="shapes")
+def floor_contact(shapes: Ellipsoids, hull: Hull, friction: Number, height: Number, s: State, R: Mat3) -> FloorContact:
     """Contact of shapes, or of `Absent`, with a floor at a height z [m]; R of the state's attitude."""
-
-
-@floor_contact.register(Ellipsoids)
-def _touching(shapes: Ellipsoids, hull: Hull, friction: Number, height: Number, s: State, R: Mat3) -> FloorContact:
     leaning, level = R.x.z * R.x.z + R.y.z * R.y.z, R.z.z * R.z.z
     below = reach_below(shapes.radius, shapes.half_thickness, leaning, level)
     center = apply(R, shapes.center)
@@ -149,13 +143,9 @@ def summed_load(contact: FloorContact, center: Vec3) -> PartLoad:
     return PartLoad(force, sum_over_set(cross(contact.arm, contact.force)) - cross(center, force))
 
 
-@choice(absent=PartLoad(ZERO, ZERO))
-def beam_end_load(contact: FloorContact | Absent, center: Vec3) -> PartLoad:
+@law(absent=PartLoad(ZERO, ZERO))
+def beam_end_load(contact: FloorContact, center: Vec3) -> PartLoad:
     """Load of the floor on the beam, world axes."""
-
-
-@beam_end_load.register(FloorContact)
-def _beam_ends(contact: FloorContact, center: Vec3) -> PartLoad:
     return summed_load(contact, center)
 
 

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra import greatest, maximum, sqrt, where
 from tandemlift.core.arrays import array
-from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number, PerRotor, number
 from tandemlift.core.vector import Absent, Mat3, Vec3, apply, cross, dot, each, spread
 from tandemlift.parts.contact.hull import rotor_sums
@@ -112,15 +112,9 @@ class NearRotors(NamedTuple):
     second: Wall
 
 
-@choice(absent="rotors")
-def rotor_wall_contact(
-    rotors: RotorSpheres | Absent, w: SpringyWall, near: NearRotors | Absent, s: State, R: Mat3
-) -> ContactPair | Absent:
+@law(absent="rotors")
+def rotor_wall_contact(rotors: RotorSpheres, w: SpringyWall, near: NearRotors, s: State, R: Mat3) -> ContactPair:
     """Contact of the rotors with the walls nearest to each, about their hubs; `Absent` where all are in guards."""
-
-
-@rotor_wall_contact.register(RotorSpheres)
-def _spheres(rotors: RotorSpheres, w: SpringyWall, near: NearRotors, s: State, R: Mat3) -> ContactPair:
     spin, arm = apply(R, s.rates), apply(R, rotors.hub)
     p, v = translated(s.position, arm), translated(s.velocity, cross(spin, arm))
     return ContactPair(
@@ -129,29 +123,19 @@ def _spheres(rotors: RotorSpheres, w: SpringyWall, near: NearRotors, s: State, R
     )
 
 
-@choice(absent="load")
+@law(absent="load")
 def with_rotor_loads(
-    contact: ContactPair | Absent, rotors: RotorSpheres | Absent, load: PartLoad, frame: PartsLayout, R: Mat3
+    contact: ContactPair, rotors: RotorSpheres, load: PartLoad, frame: PartsLayout, R: Mat3
 ) -> PartLoad:
     """A load on the quadrotors about their centres, world axes, with that of the walls on their rotors."""
-
-
-@with_rotor_loads.register(ContactPair)
-def _with_spheres(contact: ContactPair, rotors: RotorSpheres, load: PartLoad, frame: PartsLayout, R: Mat3) -> PartLoad:
     more = contact.first.load + contact.second.load
     force, moment = rotor_sums(more.force), rotor_sums(more.moment + cross(apply(R, rotors.hub), more.force))
     return PartLoad(load.force + force, load.moment + moment - cross(apply(R, frame.quadrotors), force))
 
 
-@choice(absent="near")
-def nearest_to_rotors_with(
-    rotors: RotorSpheres | Absent, wall: Wall, near: NearRotors | Absent, s: State
-) -> NearRotors | Absent:
+@law(absent="near")
+def nearest_to_rotors_with(rotors: RotorSpheres, wall: Wall, near: NearRotors, s: State) -> NearRotors:
     """The walls nearest to the rotors, with `wall` taken into account."""
-
-
-@nearest_to_rotors_with.register(RotorSpheres)
-def _near_rotors(rotors: RotorSpheres, wall: Wall, near: NearRotors, s: State) -> NearRotors:
     p = translated(s.position, apply(rotation_from_quaternion(s.attitude), rotors.hub))
     return NearRotors(nearer(wall, near.first, p, p), second_nearest(wall, near.first, near.second, p, p, p))
 

@@ -101,27 +101,15 @@ def record_after(r: TouchRecord, contacts: PartContacts, t: Number, dt: Number) 
     )
 
 
-@choice(absent="record")
-def record_with(
-    contacts: PartContacts | Absent, record: TouchRecord | Absent, t: Number, dt: Number
-) -> TouchRecord | Absent:
+@law(absent="record")
+def record_with(contacts: PartContacts, record: TouchRecord, t: Number, dt: Number) -> TouchRecord:
     """The record after a step, unchanged without contacts."""
-
-
-@record_with.register(PartContacts)
-def _with_contacts(contacts: PartContacts, record: TouchRecord, t: Number, dt: Number) -> TouchRecord:
     return record_after(record, contacts, t, dt)
 
 
-@choice(absent="records")
-def surface_records_with(
-    contacts: SurfaceContacts | Absent, records: SurfaceTouches | Absent, t: Number, dt: Number
-) -> SurfaceTouches | Absent:
+@law(absent="records")
+def surface_records_with(contacts: SurfaceContacts, records: SurfaceTouches, t: Number, dt: Number) -> SurfaceTouches:
     """The records of a surface after a step, unchanged while it is out of reach."""
-
-
-@surface_records_with.register(SurfaceContacts)
-def _with_surface(contacts: SurfaceContacts, records: SurfaceTouches, t: Number, dt: Number) -> SurfaceTouches:
     return SurfaceTouches(
         record_with(contacts.rotors, records.rotors, t, dt),
         record_with(contacts.guards, records.guards, t, dt),
@@ -162,23 +150,15 @@ def thrust_if_turning(thrust: Number, turning: Number) -> Number:
     return where(turning > 0.5, thrust, 0.0)
 
 
-@choice(absent="thrusts")
-def of_turning_rotors(touches: Touches | Absent, thrusts: PerRotor) -> PerRotor:
+@law(absent="thrusts")
+def of_turning_rotors(touches: Touches, thrusts: PerRotor) -> PerRotor:
     """The thrust of each rotor [N], 0 of one that has touched anything."""
-
-
-@of_turning_rotors.register(Touches)
-def _turning(touches: Touches, thrusts: PerRotor) -> PerRotor:
     return thrust_if_turning(thrusts, touches.turning)
 
 
-@choice(absent="contact")
-def floor_parts(contact: FloorContact | Absent, s: State) -> PartContacts | Absent:
+@law(absent="contact")
+def floor_parts(contact: FloorContact, s: State) -> PartContacts:
     """Contacts of one kind of part with the floor."""
-
-
-@floor_parts.register(FloorContact)
-def _on_floor(contact: FloorContact, s: State) -> PartContacts:
     return PartContacts(contact.normal, translated(s.position, contact.arm))
 
 
@@ -188,13 +168,9 @@ def floor_contacts(contact: HullContact, s: State) -> SurfaceContacts:
     return SurfaceContacts(floor_parts(contact.rotors, s), floor_parts(contact.guards, s), floor_parts(contact.beam, s))
 
 
-@choice(absent="pair")
-def harder_of(pair: ContactPair | Absent) -> PartContacts | Absent:
+@law(absent="pair")
+def harder_of(pair: ContactPair) -> PartContacts:
     """Contacts with two walls as one: both normal forces, at the place of the greater."""
-
-
-@harder_of.register(ContactPair)
-def _harder(pair: ContactPair) -> PartContacts:
     n, m = pair.first.normal, pair.second.normal
     places = zip(pair.first.place, pair.second.place, strict=True)
     return PartContacts(n + m, Vec3(*[first_or_second(n, m, a, b) for a, b in places]))

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.algebra import chosen, maximum, sqrt, where
-from tandemlift.core.law import choice, law
+from tandemlift.core.law import law
 from tandemlift.core.types import Number, PerQuadrotor
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, dot
 from tandemlift.parts.contact.walls import NearWalls
@@ -183,16 +183,16 @@ def is_explained(m: ContactState) -> Number:
     return where(m.over_time < EXPLAINED_TIME, 1.0, where(m.seen_time > 0.0, 1.0, 0.0))
 
 
-@choice(absent=("k", "m"))
+@law(absent=("k", "m"))
 def contact_step(
-    k: ContactDetector | Absent,
-    m: ContactState | Absent,
+    k: ContactDetector,
+    m: ContactState,
     e: PushEstimator,
     x: PushReading,
     s: State,
     surroundings: KnownSurroundings,
     dt: Number,
-) -> tuple[ContactEstimate | Absent, ContactState | Absent]:
+) -> tuple[ContactEstimate, ContactState]:
     """(`ContactEstimate`, the new memory) at a sample.
 
     Args:
@@ -204,18 +204,6 @@ def contact_step(
         surroundings: the pilot's knowledge of its surroundings.
         dt: since the last sample [s].
     """
-
-
-@contact_step.register(ContactDetector)
-def _detected(
-    k: ContactDetector,
-    m: ContactState,
-    e: PushEstimator,
-    x: PushReading,
-    s: State,
-    surroundings: KnownSurroundings,
-    dt: Number,
-) -> tuple[ContactEstimate, ContactState]:
     before = m.contact
     evidence, d = heard(k, m.evidence, e, x, where(before.part == 0.0, 0.0, 1.0), dt)
     guards = guards_matched(surroundings.walls, k.geometry, s, world_forces(s, d.lasting))
@@ -240,23 +228,15 @@ def _detected(
     )
 
 
-@choice(absent=0.0)
-def shaken(m: ContactState | Absent) -> Number:
+@law(absent=0.0)
+def shaken(m: ContactState) -> Number:
     """1 in a contact and shortly after it, when readings of different times differ; `m`: memory of the detection."""
-
-
-@shaken.register(ContactState)
-def _shaken(m: ContactState) -> Number:
     return is_explained(m)
 
 
-@choice(absent="push")
-def explained_push(m: ContactState | Absent, push: PushEstimate) -> PushEstimate:
+@law(absent="push")
+def explained_push(m: ContactState, push: PushEstimate) -> PushEstimate:
     """The push, trusted although joints disagree while a contact explains it; `m`: memory of the detection."""
-
-
-@explained_push.register(ContactState)
-def _explained(m: ContactState, push: PushEstimate) -> PushEstimate:
     trusted = maximum(push.trusted, is_explained(m))
     return push._replace(trusted=trusted, usable=push.force * (trusted * push.armed))
 

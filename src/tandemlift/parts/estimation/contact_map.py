@@ -174,13 +174,9 @@ def wall_of(walls: Wall, i: int) -> Wall:
     return Wall(*[value[i] for value in walls])  # type: ignore[index]  # of a set of walls
 
 
-@choice(absent=UNMATCHED)
-def beam_of(near: NearWalls | Absent, g: TouchGeometry, s: State, force: Vec3) -> BeamMatch:
+@law(absent=UNMATCHED)
+def beam_of(near: NearWalls, g: TouchGeometry, s: State, force: Vec3) -> BeamMatch:
     """`beam_matched` by the walls that the pilot knows near the beam."""
-
-
-@beam_of.register(NearWalls)
-def _beam_of(near: NearWalls, g: TouchGeometry, s: State, force: Vec3) -> BeamMatch:
     return beam_matched(near.beam, g, s, force)
 
 

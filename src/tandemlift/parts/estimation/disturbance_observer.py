@@ -26,7 +26,7 @@ from tandemlift.core.algebra import absolute, clip, minimum, sqrt
 from tandemlift.core.arrays import array, inverse
 from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import BELIEVED, TRIAL, NonNegative, Positive, Positive3, Table, key
-from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import GRAVITY, Number, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, vec3
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
@@ -146,29 +146,6 @@ def growth(e: Number, bandwidth: Number, slope: Number) -> Number:
     return clip(bandwidth * bandwidth * e, -slope, slope)
 
 
-@choice(absent=(NONE, "memory"))
-def observer_step(
-    k: DisturbanceObserver | Absent,
-    memory: ObserverState | Absent,
-    pilot_input: PushedState,
-    thrusts: PerRotor,
-    active: Number,
-    learning: Number,
-    dt: Number,
-) -> tuple[DisturbanceEstimate, ObserverState | Absent]:
-    """(`DisturbanceEstimate`, the new memory) at a sample.
-
-    Args:
-        k: the observer, or `Absent`.
-        memory: its memory.
-        pilot_input: the pilot's input, a `PilotInput`.
-        thrusts: of all rotors [N], as allocated at the last sample.
-        active: 1 in flight; 0 on the ground, where nothing is estimated.
-        learning: 1; 0 holds the estimate while feet may touch the floor, whose force is no disturbance.
-        dt: since the last sample [s].
-    """
-
-
 @law
 def expected(
     k: DisturbanceObserver, memory: ObserverState, thrusts: PerRotor
@@ -187,8 +164,8 @@ def rates_of_change(k: DisturbanceObserver, pilot_input: PushedState, u: Wrench)
     return force * (1.0 / k.mass) - UP * GRAVITY, apply_inertia(k.inverse_inertia, moment)
 
 
-@observer_step.register(DisturbanceObserver)
-def _observed(
+@law(absent=(NONE, "memory"))
+def observer_step(
     k: DisturbanceObserver,
     memory: ObserverState,
     pilot_input: PushedState,
@@ -197,6 +174,17 @@ def _observed(
     learning: Number,
     dt: Number,
 ) -> tuple[DisturbanceEstimate, ObserverState]:
+    """(`DisturbanceEstimate`, the new memory) at a sample.
+
+    Args:
+        k: the observer, or `Absent`.
+        memory: its memory.
+        pilot_input: the pilot's input, a `PilotInput`.
+        thrusts: of all rotors [N], as allocated at the last sample.
+        active: 1 in flight; 0 on the ground, where nothing is estimated.
+        learning: 1; 0 holds the estimate while feet may touch the floor, whose force is no disturbance.
+        dt: since the last sample [s].
+    """
     thrust, moment = expected(k, memory, thrusts)
     linear, angular = rates_of_change(k, pilot_input, Wrench(thrust.value, moment.value))
     f, m = k.force_follower, k.moment_follower
@@ -218,13 +206,9 @@ def unmodelled(k: DisturbanceObserver, m: ObserverState) -> DisturbanceEstimate:
     )
 
 
-@choice(absent=NONE)
-def last_known(k: DisturbanceObserver | Absent, memory: ObserverState | Absent) -> DisturbanceEstimate:
+@law(absent=NONE)
+def last_known(k: DisturbanceObserver, memory: ObserverState) -> DisturbanceEstimate:
     """The `DisturbanceEstimate` at the last sample."""
-
-
-@last_known.register(DisturbanceObserver)
-def _known(k: DisturbanceObserver, memory: ObserverState) -> DisturbanceEstimate:
     return unmodelled(k, memory)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from tandemlift.core.law import choice, law
+from tandemlift.core.law import law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Vec3, cross, vec3
 from tandemlift.parts.sensors.readings import ImuReading
@@ -22,13 +22,9 @@ def off_center_at(place: Sequence[float]) -> OffCenter | Absent:
     return OffCenter(vec3(place)) if any(x != 0.0 for x in place) else Absent()
 
 
-@choice(absent="specific_force")
-def at_center(center: OffCenter | Absent, specific_force: Vec3, rates: Vec3, angular: Vec3) -> Vec3:
+@law(absent="specific_force")
+def at_center(center: OffCenter, specific_force: Vec3, rates: Vec3, angular: Vec3) -> Vec3:
     """The specific force at the payload's centre of mass [m/s², body axes], from that at its origin."""
-
-
-@at_center.register(OffCenter)
-def _carried(center: OffCenter, specific_force: Vec3, rates: Vec3, angular: Vec3) -> Vec3:
     return specific_force + cross(cross(center.place, rates), rates) - cross(center.place, angular)
 
 
@@ -38,11 +34,7 @@ def about_center(center: OffCenter | Absent, imu: ImuReading, angular: Vec3) -> 
     return imu._replace(specific_force=at_center(center, imu.specific_force, imu.rates, angular))
 
 
-@choice(absent="y")
-def from_origin(center: OffCenter | Absent, y: Number) -> Number:
+@law(absent="y")
+def from_origin(center: OffCenter, y: Number) -> Number:
     """A place on the beam's axis from its middle [m], from that about the payload's centre of mass."""
-
-
-@from_origin.register(OffCenter)
-def _shifted(center: OffCenter, y: Number) -> Number:
     return y + center.place.y

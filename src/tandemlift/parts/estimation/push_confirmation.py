@@ -105,14 +105,10 @@ def speed_at(thrust: Number, per_constant: Number) -> Number:
     return sqrt(maximum(thrust, REST_THRUST) * per_constant)
 
 
-@choice(absent=(OutsideLoad(ZERO, 0.0), "memory"))
+@law(absent=(OutsideLoad(ZERO, 0.0), "memory"))
 def outside_load(
-    rotors: RotorModel | Absent,
-    memory: PerRotor | Absent,
-    commands: PerRotor | Absent,
-    quadrotors: Vec3,
-    turning: Number,
-) -> tuple[OutsideLoad, PerRotor | Absent]:
+    rotors: RotorModel, memory: PerRotor, commands: PerRotor, quadrotors: Vec3, turning: Number
+) -> tuple[OutsideLoad, PerRotor]:
     """(`OutsideLoad` of a sample, the new memory).
 
     Args:
@@ -122,27 +118,21 @@ def outside_load(
         quadrotors: Σ (f_i + m_i s_i) [N, body axes].
         turning: rate of the angular momentum less the push's moment, along body z [N·m].
     """
-
-
-@outside_load.register(RotorModel)
-def _beside_thrust(
-    rotors: RotorModel, memory: PerRotor, commands: PerRotor, quadrotors: Vec3, turning: Number
-) -> tuple[OutsideLoad, PerRotor]:
     squares, speeds = lag_step(rotors.up, rotors.down, memory, speed_at(commands, rotors.per_constant))
     made = wrench(rotors.effect, squares * rotors.constant)
     return OutsideLoad(quadrotors - UP * made.thrust, turning - made.moment.z), speeds
 
 
-@choice(absent=("push", "memory"))
+@law(absent=("p", "m"))
 def confirm(
-    k: PushConfirmation | Absent,
-    memory: ConfirmationState | Absent,
-    push: PushEstimate,
-    reading: SampledPush,
+    k: PushConfirmation,
+    m: ConfirmationState,
+    p: PushEstimate,
+    x: SampledPush,
     commands: PerRotor | Absent,
     explained: Number,
     dt: Number,
-) -> tuple[PushEstimate, ConfirmationState | Absent]:
+) -> tuple[PushEstimate, ConfirmationState]:
     """(the confirmed push, a `PushEstimate`, the new memory).
 
     Args:
@@ -154,18 +144,6 @@ def confirm(
         explained: 1 while a contact with a wall explains the force on the quadrotors, else 0.
         dt: since the last sample [s].
     """
-
-
-@confirm.register(PushConfirmation)
-def _confirmed(
-    k: PushConfirmation,
-    m: ConfirmationState,
-    p: PushEstimate,
-    x: SampledPush,
-    commands: PerRotor | Absent,
-    explained: Number,
-    dt: Number,
-) -> tuple[PushEstimate, ConfirmationState]:
     imu, e, after = x.imu, x.estimator, x.memory
     sampled = apply_transposed(rotation_from_quaternion(imu.frame), p.measured)
     momentum = apply_inertia(k.inertia, after.angular) - gyroscopic(k.inertia, imu.rates)

@@ -17,7 +17,7 @@ import numpy as np
 from tandemlift.core.algebra import maximum
 from tandemlift.core.arrays import array
 from tandemlift.core.errors import CheckResult, refused
-from tandemlift.core.law import choice, law
+from tandemlift.core.law import law
 from tandemlift.core.types import Number, PerQuadrotor, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, total
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
@@ -41,16 +41,22 @@ class PayloadDragState(NamedTuple):
     force: LowPassState[Vec3]
 
 
-@choice(absent=(ZERO, "memory"))
+@law
+def tare_mean(memory: PayloadDragState) -> Vec3:
+    """The mean over the tare [N]."""
+    return memory.sum * (1.0 / maximum(memory.count, 1.0))
+
+
+@law(absent=(ZERO, "memory"))
 def wind_on_payload(
-    k: PayloadDrag | Absent,
-    memory: PayloadDragState | Absent,
+    k: PayloadDrag,
+    memory: PayloadDragState,
     x: PerQuadrotor,
     y: PerQuadrotor,
     begun: Number,
     taken: Number,
     armed: Number,
-) -> tuple[Vec3, PayloadDragState | Absent]:
+) -> tuple[Vec3, PayloadDragState]:
     """(force of the wind on the payload beyond the tare's [N, body axes], the new memory).
 
     Args:
@@ -62,37 +68,15 @@ def wind_on_payload(
         taken: 1 if this sample is one of the tare, else 0.
         armed: 1 once the tare is over, else 0.
     """
-
-
-@law
-def tare_mean(memory: PayloadDragState) -> Vec3:
-    """The mean over the tare [N]."""
-    return memory.sum * (1.0 / maximum(memory.count, 1.0))
-
-
-@wind_on_payload.register(PayloadDrag)
-def _scaled(
-    k: PayloadDrag,
-    memory: PayloadDragState,
-    x: PerQuadrotor,
-    y: PerQuadrotor,
-    begun: Number,
-    taken: Number,
-    armed: Number,
-) -> tuple[Vec3, PayloadDragState]:
     force = Vec3(total(x) * k.ratio_x, total(y) * k.ratio_y, 0.0)
     summed = PayloadDragState(memory.sum * begun + force * taken, memory.count * begun + taken, memory.force)
     after = low_pass_step(k.low_pass, memory.force, (force - tare_mean(summed)) * armed)
     return after.value, PayloadDragState(summed.sum, summed.count, after)
 
 
-@choice(absent=ZERO)
-def subtracted_wind(memory: PayloadDragState | Absent) -> Vec3:
+@law(absent=ZERO)
+def subtracted_wind(memory: PayloadDragState) -> Vec3:
     """The force that was subtracted from the push at the last sample [N, body axes]."""
-
-
-@subtracted_wind.register(PayloadDragState)
-def _subtracted(memory: PayloadDragState) -> Vec3:
     return memory.force.value
 
 

@@ -115,17 +115,11 @@ def code_of(c: ContactEstimate) -> Number:
     return (part * DIRECTIONS + direction) * PLACES + ((place + ROUND) - ROUND)
 
 
-@choice(absent=("k", "m"))
+@law(absent=("k", "m"))
 def react_to_contact(
-    k: ContactReaction | Absent, m: ContactReactionState | Absent, pilot_input: PilotInput, aloft: Number, dt: Number
-) -> tuple[Boundary | Absent, ContactReactionState | Absent]:
-    """(`Boundary`, the new memory) at a sample; `aloft` is 1 in flight, except in lift and landing."""
-
-
-@react_to_contact.register(ContactReaction)
-def _held(
     k: ContactReaction, m: ContactReactionState, pilot_input: PilotInput, aloft: Number, dt: Number
 ) -> tuple[Boundary, ContactReactionState]:
+    """(`Boundary`, the new memory) at a sample; `aloft` is 1 in flight, except in lift and landing."""
     c, state = contact_of(pilot_input.sensed), pilot_input.state
     touching = where(c.part == 0.0, 0.0, aloft)
     begins = touching * where(dot(c.normal, m.normal) * m.holding > SAME_WALL, 0.0, 1.0)
@@ -160,13 +154,9 @@ def _outward(boundary: Boundary, acceleration: Vec3) -> Vec3:
     return outward(boundary, acceleration)
 
 
-@choice(absent="m")
-def kept_out(b: Boundary | Absent, m: ComplianceState, dt: Number) -> ComplianceState:
+@law(absent="m")
+def kept_out(b: Boundary, m: ComplianceState, dt: Number) -> ComplianceState:
     """The reference on the outer side of a boundary."""
-
-
-@kept_out.register(Boundary)
-def _kept_out(b: Boundary, m: ComplianceState, dt: Number) -> ComplianceState:
     place = dot(b.normal, m.position)
     least = minimum(b.least, maximum(place, b.level) + LEAVING_SPEED * dt)
     inside = maximum(least - place, 0.0) * b.on
@@ -181,13 +171,9 @@ def _kept_out(b: Boundary, m: ComplianceState, dt: Number) -> ComplianceState:
     )
 
 
-@choice(absent="moment")
-def turning_out(b: Boundary | Absent, moment: Number) -> Number:
+@law(absent="moment")
+def turning_out(b: Boundary, moment: Number) -> Number:
     """The moment about the vertical that may rotate the vehicle [N·m]: none that rotates the part into the wall."""
-
-
-@turning_out.register(Boundary)
-def _turning_out(b: Boundary, moment: Number) -> Number:
     return where(b.on * b.lever * moment < 0.0, 0.0, moment)
 
 
@@ -198,36 +184,24 @@ def slower(m: HandWrench, force: Vec3, moment: Vec3, dt: Number) -> HandWrench:
     return HandWrench(moved_towards(m.force, force, step), moved_towards(m.moment, moment, step))
 
 
-@choice(absent="pilot_input")
-def without_wall(b: Boundary | Absent, pilot_input: PilotInput) -> PilotInput:
+@law(absent="pilot_input")
+def without_wall(b: Boundary, pilot_input: PilotInput) -> PilotInput:
     """The pilot's input without the wall's part of the push; while the beam touches, without any part out of it."""
-
-
-@without_wall.register(Boundary)
-def _less_wall(b: Boundary, pilot_input: PilotInput) -> PilotInput:
     force = b.push.force - b.normal * (maximum(dot(b.normal, b.push.force), 0.0) * b.on_beam)
     return pilot_input._replace(
         push=chosen(b.on, force, pilot_input.push), moment=chosen(b.on, b.push.moment, pilot_input.moment)
     )
 
 
-@choice(absent="bounds")
-def bounded_by(b: Boundary | Absent, bounds: PhaseBounds) -> PhaseBounds:
+@law(absent="bounds")
+def bounded_by(b: Boundary, bounds: PhaseBounds) -> PhaseBounds:
     """The bounds of the phases, with those of a contact."""
-
-
-@bounded_by.register(Boundary)
-def _bounded(b: Boundary, bounds: PhaseBounds) -> PhaseBounds:
     return bounds._replace(land=maximum(bounds.land, b.land), contact=b.on)
 
 
-@choice(absent=Absent())
-def load_of_wall(b: Boundary | Absent) -> LoadOfWall | Absent:
+@law(absent=Absent())
+def load_of_wall(b: Boundary) -> LoadOfWall:
     """The load of the wall on a guard that touches; that on the beam is a part of the measured push already."""
-
-
-@load_of_wall.register(Boundary)
-def _load_of_wall(b: Boundary) -> LoadOfWall:
     return b.wall
 
 
@@ -239,13 +213,9 @@ def load_at(c: ContactEstimate, state: State) -> LoadOfWall:
     return LoadOfWall(force, moment, where(c.part == 0.0, 0.0, 1.0))
 
 
-@choice(absent=0.0)
-def contact_code(b: Boundary | Absent) -> Number:
+@law(absent=0.0)
+def contact_code(b: Boundary) -> Number:
     """The code of the contact that holds, or 0."""
-
-
-@contact_code.register(Boundary)
-def _code(b: Boundary) -> Number:
     return b.code
 
 

@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple, TypeVar
 from tandemlift.core.algebra import where
 from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import Table, key
-from tandemlift.core.law import Absent, choice
+from tandemlift.core.law import Absent, choice, law
 from tandemlift.core.types import NEVER, Number, PerRotor
 from tandemlift.core.vector import Vec3
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
@@ -167,23 +167,15 @@ def checked_input(g: object, m: object, pilot_input: PilotInput, thrust: Number,
     """The pilot's input, made usable; with the thrust of all rotors [N], and 1 once a rotor has failed, else 0."""
 
 
-@choice(absent="pilot_input")
-def with_wall(wall: LoadOfWall | Absent, pilot_input: PilotInput) -> PilotInput:
+@law(absent="pilot_input")
+def with_wall(wall: LoadOfWall, pilot_input: PilotInput) -> PilotInput:
     """The pilot's input with the load of a wall added to the push, so that it is no disturbance."""
-
-
-@with_wall.register(LoadOfWall)
-def _with_wall(wall: LoadOfWall, pilot_input: PilotInput) -> PilotInput:
     return pilot_input._replace(push=pilot_input.push + wall.force, moment=pilot_input.moment + wall.moment)
 
 
-@choice(absent=1.0)
-def untouched(wall: LoadOfWall | Absent) -> Number:
+@law(absent=1.0)
+def untouched(wall: LoadOfWall) -> Number:
     """1 while no wall acts, else 0."""
-
-
-@untouched.register(LoadOfWall)
-def _untouched(wall: LoadOfWall) -> Number:
     return 1.0 - wall.touching
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.algebra import chosen, clip, maximum, where
-from tandemlift.core.law import Absent, choice, elementwise
+from tandemlift.core.law import Absent, choice, elementwise, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.compliance.compliance import Compliance, ComplianceState, with_speed
@@ -67,32 +67,22 @@ def speed_limit(
     return clip(gain * where(toward > 0.0, high - position, position - low), 0.0, max_speed)
 
 
-@choice(absent="compliance")
-def fenced(k: Supervision | Absent, compliance: Compliance, m: ComplianceState, lift: Number) -> Compliance:
+@law(absent="compliance")
+def fenced(k: Supervision, compliance: Compliance, m: ComplianceState, lift: Number) -> Compliance:
     """The compliance with speed limits that keep the reference inside the fence; `lift`: height already lifted [m]."""
-
-
-@fenced.register(Supervision)
-def _fenced(k: Supervision, compliance: Compliance, m: ComplianceState, lift: Number) -> Compliance:
     f, at, max_speed = k.fence, m.position + Vec3(0.0, 0.0, lift), compliance.limits.speed
     limit = speed_limit(at, m.velocity, m.output.value, f.low, f.high, f.braking_gain, max_speed)
     return with_speed(compliance, limit)
 
 
-@choice(absent="target")
+@law(absent="target")
 def with_blind_descent(
-    k: Supervision | Absent, target: Trajectory, state: State, blind: Number, landing: Number, fraction: Number
+    k: Supervision, target: Trajectory, state: State, blind: Number, landing: Number, fraction: Number
 ) -> Trajectory:
     """The reference; a level descent if the motion is unknown (`blind` 1) and the vehicle lands (1).
 
     `fraction` of the landing's time that is over: in the second half the descent accelerates, so that the feet press.
     """
-
-
-@with_blind_descent.register(Supervision)
-def _descent(
-    k: Supervision, target: Trajectory, state: State, blind: Number, landing: Number, fraction: Number
-) -> Trajectory:
     late = maximum(fraction - 0.5, 0.0)
     descent = k.blind_descent_acceleration
     return Trajectory(

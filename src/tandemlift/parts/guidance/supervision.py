@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra import maximum, where
-from tandemlift.core.law import Absent, choice, elementwise, law
+from tandemlift.core.law import elementwise, law
 from tandemlift.core.phases import HOLD, IDLE, STOPPED
 from tandemlift.core.types import Number, NumberSet, PerRotor
 from tandemlift.core.vector import Vec3, total
@@ -125,21 +125,8 @@ UNSUPERVISED = SupervisionOutput(
 )
 
 
-@choice(absent=(UNSUPERVISED, "m"))
+@law(absent=(UNSUPERVISED, "m"))
 def supervise(
-    k: Supervision | Absent,
-    m: SupervisionState | Absent,
-    pilot_input: PilotInput,
-    phase: PhaseState,
-    lift_requested: Number,
-    t: Number,
-    dt: Number,
-) -> tuple[SupervisionOutput, SupervisionState | Absent]:
-    """(`SupervisionOutput`, the new memory) at time t [s]; `lift_requested` is 1 or 0."""
-
-
-@supervise.register(Supervision)
-def _supervised(
     k: Supervision,
     m: SupervisionState,
     pilot_input: PilotInput,
@@ -148,6 +135,7 @@ def _supervised(
     t: Number,
     dt: Number,
 ) -> tuple[SupervisionOutput, SupervisionState]:
+    """(`SupervisionOutput`, the new memory) at time t [s]; `lift_requested` is 1 or 0."""
     state, status = pilot_input.state, pilot_input.status
     sensors = sensor_status(pilot_input.sensed, k.payload)
     available = total(k.limits * efficiency_at(k.known, t))
@@ -227,22 +215,11 @@ def with_event(k: Supervision, m: EventLog, now: Number, failed_check: Number, t
     )
 
 
-@choice(absent=("k", "m"))
+@law(absent=("k", "m"))
 def finish_supervision(
-    k: Supervision | Absent,
-    m: SupervisionState | Absent,
-    phase: PhaseState,
-    reference: Vec3,
-    contact: Number,
-    t: Number,
-) -> tuple[SupervisionChannels | Absent, SupervisionState | Absent]:
-    """(`SupervisionChannels`, the new memory) once the phase and the reference [m] are known; `contact`: its code."""
-
-
-@finish_supervision.register(Supervision)
-def _finished(
     k: Supervision, m: SupervisionState, phase: PhaseState, reference: Vec3, contact: Number, t: Number
 ) -> tuple[SupervisionChannels, SupervisionState]:
+    """(`SupervisionChannels`, the new memory) once the phase and the reference [m] are known; `contact`: its code."""
     waiting = where(phase.phase == HOLD, where(m.reaction > 0.0, 0.0, m.failed_guidance_check), 0.0)
     failed_check = where(phase.phase == IDLE, m.failed_lift_check, waiting)
     now = contact * CONTACT + phase.phase * PHASE + m.alarm * ALARM

@@ -136,39 +136,27 @@ class RigidBody(NamedTuple):
     center: Vec3 | Absent = Absent()
 
 
-@choice(absent="moment")
-def about_center(center: Vec3 | Absent, attitude: Quat, force: Vec3, moment: Vec3) -> Vec3:
+@law(absent="moment")
+def about_center(center: Vec3, attitude: Quat, force: Vec3, moment: Vec3) -> Vec3:
     """The moment about the centre of mass [N·m, body axes] of a force [N, world axes] and a moment about the position.
 
     Force and moment may be of sets.
     """
-
-
-@about_center.register(Vec3)
-def _moved(center: Vec3, attitude: Quat, force: Vec3, moment: Vec3) -> Vec3:
     return moment + cross(apply_transposed(rotation_from_quaternion(attitude), force), center)
 
 
-@choice(absent="linear")
-def at_position(center: Vec3 | Absent, attitude: Quat, linear: Vec3, angular: Vec3) -> Vec3:
+@law(absent="linear")
+def at_position(center: Vec3, attitude: Quat, linear: Vec3, angular: Vec3) -> Vec3:
     """A change of velocity of the position, from that of the centre of mass [world axes] and of the rates [body axes].
 
     Accelerations are also such changes, but for the centripetal one.
     """
-
-
-@at_position.register(Vec3)
-def _carried(center: Vec3, attitude: Quat, linear: Vec3, angular: Vec3) -> Vec3:
     return linear - apply(rotation_from_quaternion(attitude), cross(angular, center))
 
 
-@choice(absent="linear")
-def turning_about(center: Vec3 | Absent, attitude: Quat, linear: Vec3, rates: Vec3) -> Vec3:
+@law(absent="linear")
+def turning_about(center: Vec3, attitude: Quat, linear: Vec3, rates: Vec3) -> Vec3:
     """An acceleration of the position, with the centripetal one [m/s², world axes]."""
-
-
-@turning_about.register(Vec3)
-def _centripetal(center: Vec3, attitude: Quat, linear: Vec3, rates: Vec3) -> Vec3:
     return at_position(cross(rates, center), attitude, linear, rates)
 
 

@@ -184,13 +184,9 @@ class TiltLimit(NamedTuple):
     tangent: Number
 
 
-@choice(absent="u")
-def limit_tilt(limit: TiltLimit | Absent, u: Vec3) -> Vec3:
+@law(absent="u")
+def limit_tilt(limit: TiltLimit, u: Vec3) -> Vec3:
     """The force (u_x, u_y, u_z) [N, world axes], its horizontal part shortened to stay within a tilt limit."""
-
-
-@limit_tilt.register(TiltLimit)
-def _tilted(limit: TiltLimit, u: Vec3) -> Vec3:
     horizontal = sqrt(maximum(u.x * u.x + u.y * u.y, 1e-24))
     fraction = minimum(limit.tangent * maximum(u.z, 0.0) / horizontal, 1.0)
     return Vec3(u.x * fraction, u.y * fraction, u.z)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from tandemlift.core.algebra import atan2, cos, exp, expm1, maximum, minimum, sin, sqrt
 from tandemlift.core.arrays import mapped
-from tandemlift.core.law import choice, law
+from tandemlift.core.law import law
 from tandemlift.core.types import Number, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 
@@ -157,25 +157,15 @@ def hidden_component(step: Transverse, v: Number, h: Number, n: Number, m: Numbe
     return step.hv * v + step.hh * h + step.hn * n + step.hm * m
 
 
-@choice(absent=ZERO)
-def turbulence_velocity(turbulence: Dryden | Absent, memory: TurbulenceState | Absent) -> Vec3:
+@law(absent=ZERO)
+def turbulence_velocity(d: Dryden, m: TurbulenceState) -> Vec3:
     """Velocity of the turbulence [m/s, world axes]."""
-
-
-@turbulence_velocity.register(Dryden)
-def _dryden_velocity(d: Dryden, m: TurbulenceState) -> Vec3:
     return d.along * m.along + d.across * m.across + d.up * m.up
 
 
-@choice(absent="memory")
-def turbulence_step(
-    turbulence: Dryden | Absent, memory: TurbulenceState | Absent, noise: WindNoise | Absent
-) -> TurbulenceState | Absent:
+@law(absent="m")
+def turbulence_step(d: Dryden, m: TurbulenceState, n: WindNoise) -> TurbulenceState:
     """The memory of the turbulence one step later."""
-
-
-@turbulence_step.register(Dryden)
-def _dryden_step(d: Dryden, m: TurbulenceState, n: WindNoise) -> TurbulenceState:
     return TurbulenceState(
         d.longitudinal.keep * m.along + d.longitudinal.kick * n.along,
         visible_component(d.lateral, m.across, m.across_hidden, n.across),

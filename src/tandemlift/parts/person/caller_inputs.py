@@ -6,7 +6,7 @@ Both are held over the step. A flight without a caller has `Absent`.
 from typing import NamedTuple
 
 from tandemlift.core.algebra import where
-from tandemlift.core.law import Absent, choice, elementwise
+from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import ZERO, Mat3, Quat, Vec3, linear, outer, plus
 from tandemlift.parts.mechanics.push import CentralPush, PointPush, Push, PushSamples, push_moment
@@ -52,13 +52,9 @@ def _on_points(push: PointPush, force: Vec3, point: Vec3) -> PointPush:
     return PointPush(push.force + force, push.spread + outer(force, point))
 
 
-@choice(absent="push")
-def with_caller_push(external: CallerInput | Absent, push: PushSamples[Push]) -> PushSamples[Push | AddedPush]:
+@law(absent="push")
+def with_caller_push(external: CallerInput, push: PushSamples[Push]) -> PushSamples[Push | AddedPush]:
     """The push of a step with that of the caller."""
-
-
-@with_caller_push.register(CallerInput)
-def _with_force(external: CallerInput, push: PushSamples[Push]) -> PushSamples[Push | AddedPush]:
     F, r = external.force, external.point
     return PushSamples(with_force(push.start, F, r), with_force(push.middle, F, r), with_force(push.end, F, r))
 
@@ -69,11 +65,7 @@ def overridden(thrust: Number, given: Number, override: Number) -> Number:
     return where(override > 0.0, given, thrust)
 
 
-@choice(absent="thrusts")
-def commanded_thrusts(external: CallerInput | Absent, thrusts: PerRotor) -> PerRotor:
+@law(absent="thrusts")
+def commanded_thrusts(external: CallerInput, thrusts: PerRotor) -> PerRotor:
     """The commanded thrusts [N], where the pilot commands `thrusts`."""
-
-
-@commanded_thrusts.register(CallerInput)
-def _by_caller(external: CallerInput, thrusts: PerRotor) -> PerRotor:
     return overridden(thrusts, external.thrusts, external.override)

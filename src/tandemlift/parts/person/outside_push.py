@@ -7,7 +7,7 @@ step, but part of the record and of the person's work. A body without such pushe
 from typing import NamedTuple
 
 from tandemlift.core.algebra import where
-from tandemlift.core.law import Absent, choice
+from tandemlift.core.law import law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Vec3, dot
 
@@ -22,33 +22,21 @@ class OutsidePush(NamedTuple):
     moment: Vec3
 
 
-@choice(absent="force")
-def total_force(outside: OutsidePush | Absent, force: Vec3) -> Vec3:
+@law(absent="force")
+def total_force(outside: OutsidePush, force: Vec3) -> Vec3:
     """The force of all pushes on the body [N, world axes], where those of the loop are `force`."""
-
-
-@total_force.register(OutsidePush)
-def _force(outside: OutsidePush, force: Vec3) -> Vec3:
     return force + outside.force
 
 
-@choice(absent="moment")
-def total_moment(outside: OutsidePush | Absent, moment: Vec3) -> Vec3:
+@law(absent="moment")
+def total_moment(outside: OutsidePush, moment: Vec3) -> Vec3:
     """The moment of all pushes about the centre of mass [N·m, body axes], where those of the loop are `moment`."""
-
-
-@total_moment.register(OutsidePush)
-def _moment(outside: OutsidePush, moment: Vec3) -> Vec3:
     return moment + outside.moment
 
 
-@choice(absent="held")
-def held_by_anyone(outside: OutsidePush | Absent, held: Number) -> Number:
+@law(absent="held")
+def held_by_anyone(outside: OutsidePush, held: Number) -> Number:
     """1 while the vehicle is held in the loop (`held` is 1) or pushed outside of it, else 0."""
-
-
-@held_by_anyone.register(OutsidePush)
-def _held(outside: OutsidePush, held: Number) -> Number:
     F, M = outside.force, outside.moment
     turned = where(dot(M, M) > 0.0, 1.0, held)
     return where(dot(F, F) > 0.0, 1.0, turned)

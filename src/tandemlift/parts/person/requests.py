@@ -96,13 +96,9 @@ def operator_request(person: object) -> OperatorRequest:
     """`OperatorRequest` of a person at the vehicle, from their memory."""
 
 
-@choice(absent=RequestCounts(0.0, 0.0, 0.0, 1.0))
-def requests_until(requests: RequestSchedule | Absent, t: Number) -> RequestCounts:
+@law(absent=RequestCounts(0.0, 0.0, 0.0, 1.0))
+def requests_until(requests: RequestSchedule, t: Number) -> RequestCounts:
     """`RequestCounts` of a schedule until time t [s]."""
-
-
-@requests_until.register(RequestSchedule)
-def _until(requests: RequestSchedule, t: Number) -> RequestCounts:
     r = requests
     return RequestCounts(
         total(due(r.time, r.lift, t)),

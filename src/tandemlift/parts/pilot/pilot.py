@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.law import choice, law
+from tandemlift.core.law import law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import Absent, total
 from tandemlift.parts.compliance.admittance import AdmittanceState
@@ -87,23 +87,15 @@ class Decision(NamedTuple):
     thrusts: PerRotor
 
 
-@choice(absent="allocation")
-def last_thrusts(allocation: AllocationState | Absent) -> PerRotor | Absent:
+@law(absent="allocation")
+def last_thrusts(allocation: AllocationState) -> PerRotor:
     """The thrusts [N] of the last sample, from the memory of the allocation."""
-
-
-@last_thrusts.register(AllocationState)
-def _thrusts(allocation: AllocationState) -> PerRotor:
     return allocation.thrusts
 
 
-@choice(absent=0.0)
-def last_total_thrust(allocation: AllocationState | Absent) -> Number:
+@law(absent=0.0)
+def last_total_thrust(allocation: AllocationState) -> Number:
     """The thrust of all rotors [N] at the last sample; 0 if the allocation has no memory of it."""
-
-
-@last_total_thrust.register(AllocationState)
-def _total(allocation: AllocationState) -> Number:
     return total(allocation.thrusts)
 
 

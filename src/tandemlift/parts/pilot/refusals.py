@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from tandemlift.core.algebra import absolute, atan2, maximum, minimum, selected, sqrt, where
 from tandemlift.core.faults import FAULTS
-from tandemlift.core.law import Absent, choice, law
+from tandemlift.core.law import choice, law
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, STOPPED
 from tandemlift.core.refusals import NUMBER_OF, REQUESTS, Refusals, refusal_of
 from tandemlift.core.types import GRAVITY, Number
@@ -106,13 +106,9 @@ def _by_hand(g: HandGuidance, m: HandGuidanceState, t: Number) -> RefusalNumbers
     )
 
 
-@choice(absent=NONE)
-def lift_check(k: Supervision | Absent, m: SupervisionState | Absent, t: Number) -> ReasonNumbers:
+@law(absent=NONE)
+def lift_check(k: Supervision, m: SupervisionState, t: Number) -> ReasonNumbers:
     """`ReasonNumbers` of the check that fails before a lift; `k`: the supervision."""
-
-
-@lift_check.register(Supervision)
-def _lift_check(k: Supervision, m: SupervisionState, t: Number) -> ReasonNumbers:
     c, state = k.checks, m.state
     available = total(k.limits * efficiency_at(k.known, t))
     hover = (k.mass + m.payload - k.payload) * GRAVITY / maximum(available, 1e-9)
@@ -145,26 +141,18 @@ def failed_sensor(k: Supervision, m: SupervisionState) -> ReasonNumbers:
     return selected(m.fault > 0.0, reason("sensors", m.fault), over)
 
 
-@choice(absent=reason("disabled"))
-def why_it_holds(k: Supervision | Absent, m: SupervisionState | Absent) -> ReasonNumbers:
+@law(absent=reason("disabled"))
+def why_it_holds(k: Supervision, m: SupervisionState) -> ReasonNumbers:
     """`ReasonNumbers` of a vehicle in the air that does not follow pushes; `k`: the supervision."""
-
-
-@why_it_holds.register(Supervision)
-def _why_it_holds(k: Supervision, m: SupervisionState) -> ReasonNumbers:
     tared = {NUMBER_OF[key]: reason(key) for key in ("tare", "joints")}
     cases = {**tared, NUMBER_OF["payload"]: reason("payload", m.payload)}
     check = by_value(m.failed_guidance_check, cases, reason("disabled"))
     return selected(m.reaction >= HOLDS, reason("fault", m.alarm), check)
 
 
-@choice(absent=NONE)
-def touching_part(k: ContactReaction | Absent, m: ContactReactionState | Absent) -> ReasonNumbers:
+@law(absent=NONE)
+def touching_part(k: ContactReaction, m: ContactReactionState) -> ReasonNumbers:
     """`ReasonNumbers` of the part that touches a wall; `k`: the reaction to contacts."""
-
-
-@touching_part.register(ContactReaction)
-def _touching_part(k: ContactReaction, m: ContactReactionState) -> ReasonNumbers:
     return selected(m.part < 0.0, reason("beam_touches"), reason("guard_touches", m.part))
 
 

@@ -23,7 +23,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.algebra import maximum, minimum, where
-from tandemlift.core.law import Absent, choice, elementwise, law
+from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import GRAVITY, Number, NumberSet, PerRotor
 from tandemlift.core.vector import Mat3, Vec3, each, total
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
@@ -77,29 +77,6 @@ class DetectionState(NamedTuple):
     mean: LowPassState[NumberSet]
     scatter: LowPassState[NumberSet]
     verdict: DecisionState
-
-
-@choice(absent="memory")
-def detection_step(
-    k: RotorLossDetection | Absent,
-    memory: DetectionState | Absent,
-    pilot_input: PushedState,
-    thrusts: PerRotor,
-    active: Number,
-    t: Number,
-    dt: Number,
-) -> DetectionState | Absent:
-    """The memory after a sample.
-
-    Args:
-        k: `RotorLossDetection` or `Absent`.
-        memory: its memory.
-        pilot_input: the pilot's input, a `PilotInput`.
-        thrusts: of all rotors [N], as allocated at the last sample.
-        active: 1 in flight, else 0.
-        t: time [s].
-        dt: since the last sample [s].
-    """
 
 
 @elementwise
@@ -194,8 +171,8 @@ def explained_by(k: RotorLossDetection, verdict: DecisionState, thrusts: PerRoto
     return FOUR(-missing.thrust, -missing.moment.x, -missing.moment.y, -missing.moment.z)
 
 
-@detection_step.register(RotorLossDetection)
-def _watched(
+@law(absent="memory")
+def detection_step(
     k: RotorLossDetection,
     memory: DetectionState,
     pilot_input: PushedState,
@@ -204,6 +181,17 @@ def _watched(
     t: Number,
     dt: Number,
 ) -> DetectionState:
+    """The memory after a sample.
+
+    Args:
+        k: `RotorLossDetection` or `Absent`.
+        memory: its memory.
+        pilot_input: the pilot's input, a `PilotInput`.
+        thrusts: of all rotors [N], as allocated at the last sample.
+        active: 1 in flight, else 0.
+        t: time [s].
+        dt: since the last sample [s].
+    """
     m = followed(k, memory, pilot_input, thrusts, t)
     r, f = residual(k, m, pilot_input), m.thrusts.value
     off = r - m.mean.value
@@ -222,13 +210,9 @@ def _watched(
     return m._replace(mean=mean, scatter=LowPassState(still, scatter.rate * free), verdict=verdict)
 
 
-@choice(absent=0.0)
-def failed_rotors(k: RotorLossDetection | Absent, memory: DetectionState | Absent, t: Number) -> Number:
+@law(absent=0.0)
+def failed_rotors(k: RotorLossDetection, memory: DetectionState, t: Number) -> Number:
     """1 once a rotor is lost for good at time t [s], else 0."""
-
-
-@failed_rotors.register(RotorLossDetection)
-def _lost(k: RotorLossDetection, memory: DetectionState, t: Number) -> Number:
     return confirmed(k, memory.verdict, t)
 
 
@@ -238,23 +222,13 @@ def allotted(lost: Number) -> Number:
     return 1.0 - lost
 
 
-@choice(absent=1.0)
-def left_of(k: RotorLossDetection | Absent, memory: DetectionState | Absent) -> PerRotor | Number:
+@law(absent=1.0)
+def left_of(k: RotorLossDetection, memory: DetectionState) -> PerRotor:
     """The fraction of its largest thrust that each rotor may be allocated, by the detection: a set, or 1."""
-
-
-@left_of.register(RotorLossDetection)
-def _alive(k: RotorLossDetection, memory: DetectionState) -> PerRotor:
     return allotted(memory.verdict.lost)
 
 
-@choice(absent="commands")
-def with_trials(
-    k: RotorLossDetection | Absent, memory: DetectionState | Absent, commands: PerRotor, t: Number
-) -> PerRotor:
+@law(absent="commands")
+def with_trials(k: RotorLossDetection, memory: DetectionState, commands: PerRotor, t: Number) -> PerRotor:
     """Commands [N], with those by which a lost rotor is tried again."""
-
-
-@with_trials.register(RotorLossDetection)
-def _with_a_trial(k: RotorLossDetection, memory: DetectionState, commands: PerRotor, t: Number) -> PerRotor:
     return commands + trials(k, memory.verdict, t)

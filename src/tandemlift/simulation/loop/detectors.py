@@ -155,13 +155,9 @@ def _with_limits(rotors: Rotors, commands: PerRotor, usable: Number) -> Number:
     return total(counted(at_limit(commands, rotors.max_thrust), usable))
 
 
-@choice(absent=0.0)
-def thrust_needed(reach: Excess | Absent, mass: Number, a: Vec3) -> Number:
+@law(absent=0.0)
+def thrust_needed(reach: Excess, mass: Number, a: Vec3) -> Number:
     """The square of the thrust [N²] that an acceleration of the reference [m/s²] needs."""
-
-
-@thrust_needed.register(Excess)
-def _needed(reach: Excess, mass: Number, a: Vec3) -> Number:
     up = a.z + GRAVITY
     return (a.x * a.x + a.y * a.y + up * up) * (mass * mass)
 

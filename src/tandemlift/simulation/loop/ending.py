@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple, TypeVar
 
 from tandemlift.core.algebra import chosen, maximum, sqrt, where
-from tandemlift.core.law import choice, law
+from tandemlift.core.law import law
 from tandemlift.core.phases import DIVERGED, FAR, FLIES, LEFT_FENCE, STRUCK, TURNED_OVER
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import Absent, Vec3, dot
@@ -63,34 +63,22 @@ class CrashMemory(NamedTuple):
     still_time: Number
 
 
-@choice(absent=Absent())
-def impulse_after(strike: Strike | Absent, impulse: Number | Absent, force: Vec3, dt: Number) -> Number | Absent:
+@law(absent=Absent())
+def impulse_after(strike: Strike, impulse: Number, force: Vec3, dt: Number) -> Number:
     """The impulse of contact [N·s] after a step with a force of contact [N, world axes]; `Absent` without ground."""
-
-
-@impulse_after.register(Strike)
-def _impulse(strike: Strike, impulse: Number, force: Vec3, dt: Number) -> Number:
     beyond = Vec3(force.x, force.y, maximum(force.z - strike.weight, 0.0))
     return impulse + (sqrt(dot(beyond, beyond)) - impulse * (1.0 / FADING)) * dt
 
 
-@choice(absent="number")
-def unless_struck(strike: Strike | Absent, impulse: Number | Absent, number: Number) -> Number:
+@law(absent="number")
+def unless_struck(strike: Strike, impulse: Number, number: Number) -> Number:
     """The number of an ending; that of an impact, if the impulse is too large."""
-
-
-@unless_struck.register(Strike)
-def _struck(strike: Strike, impulse: Number, number: Number) -> Number:
     return where(impulse > strike.impulse, STRUCK, number)
 
 
-@choice(absent=FLIES)
-def outside_fence(fence: OuterFence | Absent, position: Vec3) -> Number:
+@law(absent=FLIES)
+def outside_fence(fence: OuterFence, position: Vec3) -> Number:
     """The number of the ending of a vehicle that has left the fence; else 0."""
-
-
-@outside_fence.register(OuterFence)
-def _outside(fence: OuterFence, position: Vec3) -> Number:
     return where(distance_outside(fence.low, fence.high, position) > fence.margin, LEFT_FENCE, FLIES)
 
 
@@ -103,23 +91,11 @@ def ending_number(c: CrashLimits, s: State, impulse: Number | Absent) -> Number:
     return where(dot(s.position, s.position) < FAR * FAR, sound, DIVERGED)
 
 
-@choice(absent=("crash", "number"))
+@law(absent=("crash", "number"))
 def with_aftermath(
-    aftermath: Aftermath | Absent,
-    crash: CrashMemory | Absent,
-    number: Number,
-    state: State,
-    impulse: Number | Absent,
-    t: Number,
-    dt: Number,
-) -> tuple[CrashMemory | Absent, Number]:
-    """(the memory of the crash, the number of the ending that stops the flight now) after a step."""
-
-
-@with_aftermath.register(Aftermath)
-def _flies_on(
     a: Aftermath, crash: CrashMemory, number: Number, state: State, impulse: Number | Absent, t: Number, dt: Number
 ) -> tuple[CrashMemory, Number]:
+    """(the memory of the crash, the number of the ending that stops the flight now) after a step."""
     fast = dot(state.velocity, state.velocity) - STILL_SPEED * STILL_SPEED
     turning = dot(state.rates, state.rates) - STILL_RATES * STILL_RATES
     still = where(maximum(fast, turning) < 0.0, crash.still_time + dt, 0.0)
@@ -130,21 +106,13 @@ def _flies_on(
     return after, where(number == DIVERGED, DIVERGED, crashed)
 
 
-@choice(absent="thrusts")
-def unless_crashed(crash: CrashMemory | Absent, thrusts: PerRotor) -> PerRotor:
+@law(absent="thrusts")
+def unless_crashed(crash: CrashMemory, thrusts: PerRotor) -> PerRotor:
     """Commanded thrusts [N]; none after a crash."""
-
-
-@unless_crashed.register(CrashMemory)
-def _stopped(crash: CrashMemory, thrusts: PerRotor) -> PerRotor:
     return thrusts * where(crash.number > 0.0, 0.0, 1.0)
 
 
-@choice(absent="after")
-def until_crash(crash: CrashMemory | Absent, before: M, after: M) -> M:
+@law(absent="after")
+def until_crash(crash: CrashMemory, before: M, after: M) -> M:
     """Running metrics, or the memory of the detectors, after a step; after a crash, those before it."""
-
-
-@until_crash.register(CrashMemory)
-def _until(crash: CrashMemory, before: M, after: M) -> M:
     return chosen(crash.number, before, after)

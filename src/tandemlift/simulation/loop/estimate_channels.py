@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.law import choice
+from tandemlift.core.law import choice, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Quat, Vec3
 from tandemlift.parts.estimation.contact_detection import ContactEstimate
@@ -79,13 +79,9 @@ def channels_of_additional(readings: Any) -> Any:
     return by_name(tuple(f"measured_{name}" for name in readings._fields))
 
 
-@choice(absent="readings")
-def measured_channels(readings: Readings | Absent) -> MeasuredChannels | Absent:
+@law(absent="readings")
+def measured_channels(readings: Readings) -> MeasuredChannels:
     """The channels of readings."""
-
-
-@measured_channels.register(Readings)
-def _readings(readings: Readings) -> MeasuredChannels:
     m, u = readings.motion, readings.imu
     more = [reading.value for reading in readings.additional]
     return MeasuredChannels(

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.algebra import chosen, where
-from tandemlift.core.law import choice
+from tandemlift.core.law import law
 from tandemlift.core.types import Number
-from tandemlift.core.vector import ZERO, Absent, Vec3
+from tandemlift.core.vector import ZERO, Vec3
 
 
 class Excess(NamedTuple):
@@ -30,8 +30,8 @@ class Excess(NamedTuple):
 NO_EXCESS = Excess(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, ZERO)
 
 
-@choice(absent="m")
-def exceed(m: Excess | Absent, over: Number, value: Number, place: Vec3, t: Number, dt: Number) -> Excess | Absent:
+@law(absent="m")
+def exceed(m: Excess, over: Number, value: Number, place: Vec3, t: Number, dt: Number) -> Excess:
     """The memory after a step.
 
     Args:
@@ -42,10 +42,6 @@ def exceed(m: Excess | Absent, over: Number, value: Number, place: Vec3, t: Numb
         t: time at the start of the step [s].
         dt: length of the step [s].
     """
-
-
-@exceed.register(Excess)
-def _exceed(m: Excess, over: Number, value: Number, place: Vec3, t: Number, dt: Number) -> Excess:
     since = where(over > m.now, t, m.since)
     stretch = t - since + dt
     longer, worse = over * where(stretch > m.stretch, 1.0, 0.0), over * where(value > m.worst, 1.0, 0.0)

@@ -103,15 +103,9 @@ class DisturbanceChannels(NamedTuple):
     disturbance_angular_residual: Vec3
 
 
-@choice(absent="observer")
-def disturbance_channels(
-    observer: DisturbanceObserver | Absent, unknown: DisturbanceEstimate
-) -> DisturbanceChannels | Absent:
+@law(absent="observer")
+def disturbance_channels(observer: DisturbanceObserver, unknown: DisturbanceEstimate) -> DisturbanceChannels:
     """The channels of a disturbance observer."""
-
-
-@disturbance_channels.register(DisturbanceObserver)
-def _observed(observer: DisturbanceObserver, unknown: DisturbanceEstimate) -> DisturbanceChannels:
     return DisturbanceChannels(
         disturbance_force=unknown.force,
         disturbance_moment=unknown.moment,
@@ -120,15 +114,9 @@ def _observed(observer: DisturbanceObserver, unknown: DisturbanceEstimate) -> Di
     )
 
 
-@choice(absent="detection")
-def detection_channels(
-    detection: RotorLossDetection | Absent, memory: DetectionState | Absent
-) -> DetectionChannels | Absent:
+@law(absent="detection")
+def detection_channels(detection: RotorLossDetection, memory: DetectionState) -> DetectionChannels:
     """The channels of the detection of failed rotors."""
-
-
-@detection_channels.register(RotorLossDetection)
-def _detected(detection: RotorLossDetection, memory: DetectionState) -> DetectionChannels:
     return DetectionChannels(failed_rotor=dot(memory.verdict.lost, detection.numbers))
 
 
@@ -156,13 +144,9 @@ def _limited(rotors: Rotors, effect: Mixer, command: Wrench, commands: PerRotor)
     )
 
 
-@choice(absent="loads")
-def wind_channels(loads: PartLoads | Absent, velocity: Vec3) -> WindChannels | Absent:
+@law(absent="loads")
+def wind_channels(loads: PartLoads, velocity: Vec3) -> WindChannels:
     """The channels of moving air."""
-
-
-@wind_channels.register(PartLoads)
-def _wind(loads: PartLoads, velocity: Vec3) -> WindChannels:
     return WindChannels(
         wind_velocity=velocity,
         wind_force=loads.payload.force + sum_over_set(loads.quadrotors.force),

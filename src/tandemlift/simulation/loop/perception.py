@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple, TypeVar
 
-from tandemlift.core.law import choice
+from tandemlift.core.law import choice, law
 from tandemlift.core.phases import LAND
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import Absent, Quat, Vec3
@@ -190,30 +190,17 @@ def surroundings_of(
     """The estimators' knowledge of obstacles; `near`: the walls near the vehicle, `guidance`: its memory."""
 
 
-@choice(absent=Absent())
-def walls_known(known: KnownWalls | Absent, near: NearWalls | Absent) -> NearWalls | Absent:
+@law(absent=Absent())
+def walls_known(known: KnownWalls, near: NearWalls) -> NearWalls:
     """The walls near the vehicle, if the pilot has a map."""
-
-
-@walls_known.register(KnownWalls)
-def _known(known: KnownWalls, near: NearWalls) -> NearWalls:
     return near
 
 
-@choice(absent=NO_SURROUNDINGS)
+@law(absent=NO_SURROUNDINGS)
 def known_surroundings(
-    contact: ContactDetector | Absent,
-    sources: PilotSources,
-    near: NearWalls | Absent,
-    guidance: AdmittanceState | HandGuidanceState,
-) -> KnownSurroundings:
-    """The same, for the detector of contacts that the estimators have."""
-
-
-@known_surroundings.register(ContactDetector)
-def _known_surroundings(
     contact: ContactDetector, sources: PilotSources, near: NearWalls | Absent, guidance: HandGuidanceState
 ) -> KnownSurroundings:
+    """The same, for the detector of contacts that the estimators have."""
     m = guidance.phase
     return KnownSurroundings(walls_known(sources.map, near), in_the_air(m), is_in(m, LAND), m.ground)
 
@@ -248,11 +235,7 @@ def _contact(what: PerceptionData) -> ContactEstimate | Absent:
     return what.known.contact
 
 
-@choice(absent="readings")
-def all_sensed(readings: Readings | Absent, known: EstimatedFlight | Absent) -> PerceptionData | Absent:
+@law(absent="readings")
+def all_sensed(readings: Readings, known: EstimatedFlight) -> PerceptionData:
     """`PerceptionData`, or `Absent` without sensors."""
-
-
-@all_sensed.register(Readings)
-def _some_sensed(readings: Readings, known: EstimatedFlight) -> PerceptionData:
     return PerceptionData(readings, known)

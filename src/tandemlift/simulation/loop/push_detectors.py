@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.algebra import chosen, clip, maximum, sqrt, where
-from tandemlift.core.law import choice, law
+from tandemlift.core.law import law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, dot
 from tandemlift.parts.compliance.admittance import soft_threshold
@@ -68,13 +68,9 @@ NO_RESPONSE = PushResponse(0.0, 0.0, 0.0, 0.0, NO_EXCESS)
 UNMOVED = UnpushedMotion(0.0, 0.0, 0.0, ZERO, NO_EXCESS)
 
 
-@choice(absent="gated")
-def push_to_answer(threshold: Vec3 | Absent, least: Number, gated: Vec3, true: Vec3) -> Vec3:
+@law(absent="gated")
+def push_to_answer(threshold: Vec3, least: Number, gated: Vec3, true: Vec3) -> Vec3:
     """The push that should move the vehicle [N]: that after the gate, else a true one that should have an effect."""
-
-
-@push_to_answer.register(Vec3)
-def _heard_or_true(threshold: Vec3, least: Number, gated: Vec3, true: Vec3) -> Vec3:
     return chosen(where(dot(gated, gated) > least, 1.0, 0.0), gated, soft_threshold(true, threshold))
 
 

@@ -93,13 +93,9 @@ EMPTY = RunningMetrics(
 NO_EFFORT = PersonEffort(0.0, 0.0, 0.0)
 
 
-@choice(absent="effort")
-def added(effort: PersonEffort | Absent, more: PersonEffort | Absent) -> PersonEffort | Absent:
+@law(absent="effort")
+def added(effort: PersonEffort, more: PersonEffort) -> PersonEffort:
     """A person's effort with that of one more step."""
-
-
-@added.register(PersonEffort)
-def _with_more(effort: PersonEffort, more: PersonEffort) -> PersonEffort:
     return PersonEffort(effort.steps + more.steps, effort.force_sum + more.force_sum, effort.speed_sum + more.speed_sum)
 
 
@@ -226,13 +222,9 @@ def _effort(person: PersonState | VirtualHandState, x: Sample, outside: OutsideP
     return effort_of(held, x.push_force, x.velocity)
 
 
-@choice(absent=0.0)
-def push_active(channels: HandGuidanceChannels | Absent) -> Number:
+@law(absent=0.0)
+def push_active(channels: HandGuidanceChannels) -> Number:
     """1 while the pilot follows a push along any axis, else 0; from the channels of guidance."""
-
-
-@push_active.register(HandGuidanceChannels)
-def _push_active(channels: HandGuidanceChannels) -> Number:
     return greatest(channels.push_active)
 
 
