@@ -7,6 +7,7 @@ import warnings
 
 import numpy as np
 import tomli_w
+from as_toml import to_toml
 from for_all import for_all
 from hypothesis import given
 from hypothesis import strategies as st
@@ -15,7 +16,7 @@ from mission_schema import EVERYTHING, SCHEMA
 import tandemlift as tl
 from tandemlift.core.files import parse_setting
 from tandemlift.core.types import flat
-from tandemlift.missions import check, load_mission, to_toml
+from tandemlift.missions import check, load_mission
 from tandemlift.missions.keys import allowed
 from tandemlift.simulation.preparation.assemble import assemble
 

@@ -1,9 +1,10 @@
 """A mission from the content of a file: the same, and the same errors, as from the file."""
 
 import pytest
+from as_toml import to_toml
 
 import tandemlift as tl
-from tandemlift.missions import built_in, load_mission, mission_from_text, to_toml
+from tandemlift.missions import built_in, load_mission, mission_from_text
 
 
 @pytest.mark.parametrize("name", built_in())

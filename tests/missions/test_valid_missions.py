@@ -6,11 +6,12 @@ import warnings
 import numpy as np
 import pytest
 import tomli_w
+from as_toml import to_toml
 from mission_schema import EVERYTHING, SCHEMA
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.missions import DATA, Mission, built_in, format_toml, load_mission, merge, tables_of, to_toml
+from tandemlift.missions import DATA, Mission, built_in, format_toml, load_mission, merge, tables_of
 from tandemlift.missions.changes import value_at
 from tandemlift.missions.keys import allowed
 

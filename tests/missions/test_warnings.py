@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 import tandemlift as tl
 from tandemlift.core.types import leaves
 from tandemlift.missions import built_in, load_mission
-from tandemlift.missions.checks import sample_size
 from tandemlift.parts.contact.feet import sinkage_of, standing_height
 from tandemlift.parts.contact.standing import standing_on
 from tandemlift.simulation.plan import FlightPlan
@@ -164,4 +163,4 @@ WITHOUT = {"detection.model": "none", "supervision.model": "none"}
 @pytest.mark.parametrize("name", built_in())
 def test_the_size_of_a_logged_sample_is_that_of_the_log(name, changes):
     mission = load_mission(name, changes)
-    assert sample_size(mission) == 8 * (leaves(FlightPlan(mission).sample) + 1)  # and its time
+    assert mission.sample_size == 8 * (leaves(FlightPlan(mission).sample) + 1)  # and its time

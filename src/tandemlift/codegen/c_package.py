@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +15,7 @@ from tandemlift.codegen.c_text import wrapped
 from tandemlift.codegen.prepare import PrepareFile
 from tandemlift.core.types import Array, leaves
 from tandemlift.missions import Mission
+from tandemlift.missions.mission import MissionTable
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.fly import fly
 from tandemlift.simulation.pilot_api import INPUT, Pilot, pilot_at_start
@@ -46,26 +47,26 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
         InputError: the mission's controller is plain Python, or the mission changes while it is flown.
     """
     mission = portable_mission(mission)
-    texts, file = code_texts(mission, single), _file(mission, single)
-    texts |= {
-        f"{file.name}_pilot_selftest.c": pilot_selftest(file, mission),
-        f"{file.name}_flight_selftest.c": flight_selftest(file, mission),
+    file = _file(mission.mission, single)
+    selftests = {
+        f"{file.name}_pilot_selftest.c": pilot_selftest(file, pilot_vectors(mission)),
+        f"{file.name}_flight_selftest.c": flight_selftest(file, FlightPlan(mission)),
     }
-    return written(texts, Path(folder))
+    return written(code_texts(mission, single) | selftests, Path(folder))
 
 
-def _file(mission: Mission, single: bool) -> SourceFile:
-    return SourceFile(mission.mission.name, single, mission.mission.step)
+def _file(m: MissionTable, single: bool) -> SourceFile:
+    return SourceFile(m.name, single, m.step)
 
 
 def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
     """The texts of all files but the self-tests, by name."""
     mission = portable_mission(mission)
-    pilot = PilotFile(_file(mission, single), assembled_by_graph(mission, pilot_at_start))
-    flight = FlightFile(_file(mission, single), FlightPlan(mission))
-    pilot_prepare = PrepareFile(_file(mission, single), trace_assembly(mission, pilot_at_start), "pilot")
-    flight_prepare = PrepareFile(_file(mission, single), trace_assembly(mission), "flight")
-    file = _file(mission, single)
+    pilot = PilotFile(_file(mission.mission, single), assembled_by_graph(mission, pilot_at_start))
+    flight = FlightFile(_file(mission.mission, single), FlightPlan(mission))
+    pilot_prepare = PrepareFile(_file(mission.mission, single), trace_assembly(mission, pilot_at_start), "pilot")
+    flight_prepare = PrepareFile(_file(mission.mission, single), trace_assembly(mission), "flight")
+    file = _file(mission.mission, single)
     how = {"PRECISION": "single" if single else "double"}
     how["COMPARED"] = "within 1e-3 of the range of thrusts" if single else "to the last bit"
     return {
@@ -102,7 +103,7 @@ def braced(file: SourceFile, values: Iterable[float]) -> str:
 
 def pilot_vectors(mission: Mission) -> list[tuple[Array, Array, Array]]:
     """(Memory, input, thrusts) of samples; the pilot is given the logged states of a flight one after the other."""
-    pilot, flight, found = Pilot(mission), fly(mission, "compiled"), []
+    pilot, flight, vectors = Pilot(mission), fly(mission, "compiled"), []
     rows = np.hstack([flight[name] for name in MEASURED])
     rows = rows[np.isfinite(rows).all(axis=1)]
     hold = max(1, mission.mission.steps // VECTORS)
@@ -112,22 +113,21 @@ def pilot_vectors(mission: Mission) -> list[tuple[Array, Array, Array]]:
             pilot.step(measurement)
         memory = pilot.memory
         thrusts = pilot.step(measurement).copy()
-        given = np.zeros(leaves(INPUT))
-        given[:16], given[22] = measurement, 1.0
-        found.append((memory, given, thrusts))
-    return found
+        pilot_input = np.zeros(leaves(INPUT))
+        pilot_input[:16], pilot_input[22] = measurement, 1.0
+        vectors.append((memory, pilot_input, thrusts))
+    return vectors
 
 
-def pilot_selftest(file: SourceFile, mission: Mission) -> str:
-    """The program that compares the pilot."""
-    vectors = pilot_vectors(mission)
+def pilot_selftest(file: SourceFile, vectors: Sequence[tuple[Array, Array, Array]]) -> str:
+    """The program that compares the pilot with samples of `pilot_vectors`."""
     lines = [wrapped("{" + ", ".join(braced(file, part) for part in vector) + "},") for vector in vectors]
-    memory, given, _ = vectors[0]
+    memory, pilot_input, _ = vectors[0]
     span = np.ptp([thrusts for *_, thrusts in vectors])
     words = {
         "VECTORS": str(len(vectors)),
         "MEMORY": str(len(memory)),
-        "INPUT": str(len(given)),
+        "INPUT": str(len(pilot_input)),
         "TOLERANCE": number(TOLERANCE * float(span), "float"),
         "DATA": "\n".join(lines),
     }
@@ -142,9 +142,8 @@ def sum_over(log: Array) -> int:
     return int(np.sum(bits * weights, dtype=np.uint64))
 
 
-def flight_selftest(file: SourceFile, mission: Mission) -> str:
+def flight_selftest(file: SourceFile, p: FlightPlan) -> str:
     """The program that compares the whole flight."""
-    p = FlightPlan(mission)
     memory = FlightMemory(p.loop_code.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
     memory.fly(p.steps + 1)
     log = memory.log[0][: min(memory.k, p.steps) // p.every + 1]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import inspect
 import json
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -134,20 +134,17 @@ def compile_mission(mission: MissionLike, target: str, folder: Path | str, *, si
         raise InputError(f"single = true: only for target 'c'; {target} computes in double precision")
     if target == "c":
         return write_c(mission_of(mission), folder, single)
-    return list(_write_module(mission_of(mission), target, Path(folder)))
-
-
-def _write_module(mission: Mission, target: str, folder: Path) -> Iterator[Path]:
-    module = module_of(mission, target)
-    folder.mkdir(parents=True, exist_ok=True)
-    name = mission.mission.name
-    for ending, content in (
-        (ENDINGS.get(target, "o"), module.code),
-        ("json", json.dumps(module.manifest, indent=1, ensure_ascii=False).encode()),
-    ):
-        with atomic_write(folder / f"{name}.{ending}") as partial:
+    module = module_of(mission_of(mission), target)
+    manifest = json.dumps(module.manifest, indent=1, ensure_ascii=False).encode()
+    Path(folder).mkdir(parents=True, exist_ok=True)
+    files = {
+        Path(folder) / f"{module.manifest['mission']}.{ending}": content
+        for ending, content in ((ENDINGS.get(target, "o"), module.code), ("json", manifest))
+    }
+    for path, content in files.items():
+        with atomic_write(path) as partial:
             partial.write_bytes(content)
-        yield folder / f"{name}.{ending}"
+    return list(files)
 
 
 # ---- The manifest: meanings and places of a module's numbers, for a caller without Python
@@ -202,13 +199,13 @@ def number(value: float) -> float | str:
 
 def _channels(plan: FlightPlan) -> list[dict[str, Any]]:
     row = np.arange(leaves(plan.sample), dtype=np.float64)[None, :]
-    found = []
+    channels = []
     for name, columns in channels_of(plan.sample, row):
         channel = channel_of(name)
         places = columns.ravel().astype(int).tolist()
         facts = {"unit": channel.unit, "frame": channel.frame, "meaning": channel.meaning}
-        found.append({"name": name, "columns": places, **facts})
-    return found
+        channels.append({"name": name, "columns": places, **facts})
+    return channels
 
 
 def number_facts(mission: Mission, key: str) -> dict[str, Any]:

@@ -5,7 +5,7 @@ else is replaced, and another `controller.name` starts from that controller's de
 """
 
 from tandemlift.missions.changes import merge, tables_of
-from tandemlift.missions.checking import changed, check, in_turn
+from tandemlift.missions.checking import changed, check
 from tandemlift.missions.loading import (
     DATA,
     MissionLike,
@@ -15,7 +15,6 @@ from tandemlift.missions.loading import (
     load_mission,
     mission_from_text,
     mission_of,
-    to_toml,
 )
 from tandemlift.missions.mission import Mission, check_keys
 
@@ -29,11 +28,9 @@ __all__ = [
     "check",
     "check_keys",
     "format_toml",
-    "in_turn",
     "load_mission",
     "merge",
     "mission_from_text",
     "mission_of",
     "tables_of",
-    "to_toml",
 ]

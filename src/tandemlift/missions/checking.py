@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from pydantic import BaseModel, ValidationError
 
-from tandemlift.core.errors import FlightWarning, InputError, accepted, shown, suggestion
+from tandemlift.core.errors import FlightWarning, InputError, accepted, shown, suggestion, without_flight_warnings
 from tandemlift.missions.changes import MISSING, Place, Tables, changed_tables, tables_of, value_at
 from tandemlift.missions.checks import mission_checks, refusals
 from tandemlift.missions.flight_checks import worst_failures
@@ -65,7 +65,17 @@ def check(
         _refuse(problems, tables, source, layers)
     try:
         results = accepted(refusals(mission) if quiet else mission_checks(mission))
-        list(in_turn(mission))
+        later, before = mission, 0.0
+        for i, c in enumerate(mission.changes):
+            if c.time < before:
+                raise InputError(
+                    f"changes.{i}.time = {c.time}: must not be before the change above it, at {before:g} s"
+                )
+            try:
+                with without_flight_warnings():
+                    later, before = changed(later, c.key, c.value), c.time
+            except InputError as error:
+                raise InputError(f"changes.{i}: {error}") from None
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
     for result in worst_failures(results):
@@ -113,26 +123,6 @@ def changed(mission: Mission, key: str, value: Any) -> Mission:
         InputError: the changed mission is invalid.
     """
     return check(changed_tables(tables_of(mission.model_copy(update={"changes": ()})), key, value, "mission"))
-
-
-def in_turn(mission: Mission) -> Iterator[Mission]:
-    """The missions that a mission becomes by its `changes`, one after the other.
-
-    Raises:
-        InputError: a change is earlier than the one above it, or its mission is invalid.
-    """
-    before = 0.0
-    for i, c in enumerate(mission.changes):
-        if c.time < before:
-            raise InputError(f"changes.{i}.time = {c.time}: must not be before the change above it, at {before:g} s")
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", FlightWarning)
-                mission = changed(mission, c.key, c.value)
-        except InputError as error:
-            raise InputError(f"changes.{i}: {error}") from None
-        before = c.time
-        yield mission
 
 
 def _refuse(problems: list[Problem], tables: Tables, source: str, layers: Sequence[Layer]) -> None:

@@ -37,22 +37,11 @@ from tandemlift.parts.rotors.detection_table import detection_checks
 from tandemlift.parts.rotors.rotor_faults import fault_checks, fault_warnings
 from tandemlift.parts.rotors.rotors import ActuatorsTable
 from tandemlift.parts.sensors import sensor_checks as sensors
-from tandemlift.parts.sensors.sensor_list import ADDITIONAL
 from tandemlift.parts.sensors.sensors_table import SensorsTable
 
 MAX_STEPS = 1_000_000_000
 MAX_LOG = 4_000_000_000  # bytes
 GRIP = slice(1, 4)  # of a recorded hand
-
-
-def mission_checks(m: Mission) -> Iterator[CheckResult]:
-    """The results of all checks, or only the first refusal if there is one."""
-    refusal = next(refusals(m), None)
-    if refusal is not None:
-        yield refusal
-        return
-    yield from setting_warnings(m)
-    yield from flight_checks(m)
 
 
 def refusals(m: Mission) -> Iterator[CheckResult]:
@@ -63,7 +52,7 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     guidance, step, rotors, s = m.pilot.guidance, m.mission.step, m.actuators.model, m.sensors
     count, walls = len(m.vehicle.quadrotors), bool(m.all_walls)
     yield from time_checks(m.mission)
-    yield from log_checks(m.mission, sample_size(m))
+    yield from log_checks(m.mission, m.sample_size)
     yield from phase_checks(m.phases)
     yield from vehicle_checks(m.vehicle, m.allocation.weights)
     yield from admittance_checks(m.admittance, step)
@@ -101,8 +90,12 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from standing.lift_height_checks(m.ground, m.phases)
 
 
-def setting_warnings(m: Mission) -> Iterator[CheckResult]:
-    """Warnings of settings that do not suit each other."""
+def mission_checks(m: Mission) -> Iterator[CheckResult]:
+    """The first refusal alone; else of settings that do not suit each other, then `flight_checks`."""
+    refusal = next(refusals(m), None)
+    if refusal is not None:
+        yield refusal
+        return
     guidance, hover, p, e, end = m.pilot.guidance, m.hover, m.phases, m.estimator, m.mission.duration
     simulated, over_floor = m.sensors.model == "simulated", m.ground.model == "floor"
     yield from phase_warnings(p)
@@ -132,25 +125,7 @@ def setting_warnings(m: Mission) -> Iterator[CheckResult]:
     tared = None if e.tare_start is None or m.pilot.push == "truth" else e.tare_start + e.tare_duration
     yield from person_warnings(m.person, guidance, tared)
     yield from m.controller.checks(m.mission.step)
-
-
-def sample_size(m: Mission) -> int:
-    """Size of a logged sample [bytes]: 8 for its time and for each number of the mission's channels."""
-    count = len(m.vehicle.quadrotors)
-    numbers = {
-        "time, state, reference, admittance, push, wrench; rotors and joints": 51 + 10 * count,
-        "commands of real rotors": (5 + 4 * count) * (m.actuators.model == "rotors"),
-        "wind": 6 * (m.wind.model == "air"),
-        "force of floor and walls": 3 * (m.ground.model == "floor"),
-        "readings and estimates": (45 + 6 * count) * (m.sensors.model == "simulated"),
-        "additional sensors": sum(ADDITIONAL[s.name].width for s in m.sensors.additional if s.name in ADDITIONAL),
-        "observer": 12 * (m.observer.model != "none"),
-        "interactive guidance": 10 * (m.pilot.guidance == "interactive"),
-        "contact": 13 * (m.contact.model == "on"),
-        "supervision": 2 * (m.supervision.model == "on"),
-        "rotor-failure detection": 1 * (m.detection.model != "none"),
-    }
-    return 8 * sum(numbers.values())
+    yield from flight_checks(m)
 
 
 def time_checks(t: MissionTable) -> Iterator[CheckResult]:

@@ -14,7 +14,7 @@ from tandemlift.missions.outcomes import promise_of
 from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.person.passage import passage_checks
 from tandemlift.parts.person.person_table import waypoints_from
-from tandemlift.parts.pilot.loop_checks import ControlLoop, loop_checks, push_feedback, reading_delays
+from tandemlift.parts.pilot.loop_checks import loop_checks
 from tandemlift.parts.pilot.push_checks import point_checks, push_checks
 from tandemlift.parts.pilot.schedule_checks import (
     Schedule,
@@ -185,14 +185,6 @@ CHECKS = (
 )
 
 
-def control_loop(m: Mission) -> ControlLoop:
-    """The control loop of a mission."""
-    step, hover = m.mission.step, m.hover
-    readings = reading_delays(m.sensors, m.pilot.state, step)
-    push = push_feedback(m.pilot, m.compliance, m.estimator, hover, m.disturbance)
-    return ControlLoop(hover, m.controller, m.observer, readings, push, step)
-
-
 @np.errstate(all="ignore")
 def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
     """The results of all checks of a mission, by closed forms, in the order of the parts."""
@@ -215,7 +207,7 @@ def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
             gain_checks(controller),
             offset_checks(controller, hover, step, wind, m.disturbance, offsets) if m.observer.model == "none" else (),
         ),
-        "loop checks": loop_checks(control_loop(m)),
+        "loop checks": loop_checks(m.control_loop),
         "sensing checks": sensing_checks(m.sensors, pilot, m.estimator, schedule, wind),
         "schedule checks": itertools.chain(
             lift_checks(schedule, m.outcome.lifted_height),

@@ -20,7 +20,6 @@ from tandemlift.missions.changes import (
     Tables,
     changed_tables,
     merge,
-    tables_of,
     value_at,
     without_entries,
     without_old_shape,
@@ -289,8 +288,3 @@ def format_toml(tables: Mapping[str, Any]) -> str:
     """Nested tables as TOML without loss, with lists of numbers on one line."""
     text = re.sub(r"\[\n\s*([-+.\w\s,]*),\n\s*\]", lambda m: f"[{' '.join(m[1].split())}]", tomli_w.dumps(tables))
     return re.sub(r"\[\n\s*(\[[^\[\]\n]*\]),\n\s*\]", r"[\1]", text)  # a list of one such list
-
-
-def to_toml(mission: Mission) -> str:
-    """The resolved mission as TOML; loading it gives the same mission."""
-    return format_toml(tables_of(mission))

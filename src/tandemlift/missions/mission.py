@@ -34,11 +34,13 @@ from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTabl
 from tandemlift.parts.mechanics.wind import WindTable
 from tandemlift.parts.person.person_table import PersonTable
 from tandemlift.parts.person.requests import RequestTable
+from tandemlift.parts.pilot.loop_checks import ControlLoop, push_feedback, reading_delays
 from tandemlift.parts.rotors.allocation import AllocationTable
 from tandemlift.parts.rotors.detection_table import DetectionTable
 from tandemlift.parts.rotors.hover import HoverFacts
 from tandemlift.parts.rotors.rotor_faults import FaultTable
 from tandemlift.parts.rotors.rotors import ActuatorsTable
+from tandemlift.parts.sensors.sensor_list import ADDITIONAL
 from tandemlift.parts.sensors.sensors_table import SensorFaultTable, SensorsTable
 
 
@@ -161,6 +163,11 @@ class Mission(Table):
         return (*self.walls, *self.corridor.walls)
 
     @property
+    def changes_in_flight(self) -> bool:
+        """Whether parameters, or the virtual hand of a recording, change in flight."""
+        return bool(self.changes or self.person.recording)
+
+    @property
     def by_hand(self) -> ComplianceTable | None:
         """The limits of interactive guidance; None with scheduled guidance."""
         return self.compliance if self.pilot.guidance == "interactive" else None
@@ -170,6 +177,33 @@ class Mission(Table):
         """The vehicle in hover, with all faults of rotors that the flight has."""
         faults = tuple(f for f in self.faults if f.time < self.mission.duration)
         return HoverFacts(Vehicle.from_settings(self.vehicle), self.plant, self.actuators, self.allocation, faults)
+
+    @property
+    def control_loop(self) -> ControlLoop:
+        """The control loop about hover."""
+        step, hover = self.mission.step, self.hover
+        readings = reading_delays(self.sensors, self.pilot.state, step)
+        push = push_feedback(self.pilot, self.compliance, self.estimator, hover, self.disturbance)
+        return ControlLoop(hover, self.controller, self.observer, readings, push, step)
+
+    @property
+    def sample_size(self) -> int:
+        """Size of a logged sample [bytes]: 8 for its time and for each number of its channels."""
+        count, more = len(self.vehicle.quadrotors), self.sensors.additional
+        numbers = {
+            "time, state, reference, admittance, push, wrench; rotors and joints": 51 + 10 * count,
+            "commands of real rotors": (5 + 4 * count) * (self.actuators.model == "rotors"),
+            "wind": 6 * (self.wind.model == "air"),
+            "force of floor and walls": 3 * (self.ground.model == "floor"),
+            "readings and estimates": (45 + 6 * count) * (self.sensors.model == "simulated"),
+            "additional sensors": sum(ADDITIONAL[s.name].width for s in more if s.name in ADDITIONAL),
+            "observer": 12 * (self.observer.model != "none"),
+            "interactive guidance": 10 * (self.pilot.guidance == "interactive"),
+            "contact": 13 * (self.contact.model == "on"),
+            "supervision": 2 * (self.supervision.model == "on"),
+            "rotor-failure detection": 1 * (self.detection.model != "none"),
+        }
+        return 8 * sum(numbers.values())
 
     def _repr_html_(self) -> str:
         """HTML for a notebook: the main choices of the mission."""

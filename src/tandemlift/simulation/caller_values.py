@@ -47,17 +47,17 @@ def numbers(name: str, value: Any, count: int, what: str) -> Array:
         InputError: the value is something else.
     """
     try:
-        found = np.asarray(value)
+        array = np.asarray(value)
     except ValueError:  # rows of different lengths
-        found = np.empty(0, dtype=object)
-    if found.shape != (count,) or found.dtype.kind not in "fiu" or not all(map(math.isfinite, found.tolist())):
-        given = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
-        raise InputError(f"{name} = {shown(given)}: must be {count} finite numbers ({what})")
-    return found
+        array = np.empty(0, dtype=object)
+    if array.shape != (count,) or array.dtype.kind not in "fiu" or not all(map(math.isfinite, array.tolist())):
+        plain = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
+        raise InputError(f"{name} = {shown(plain)}: must be {count} finite numbers ({what})")
+    return array
 
 
-def with_seed(mission: Mission, seed: Any) -> Mission:
-    """A mission with another seed.
+def checked_seed(seed: Any) -> int:
+    """A seed as a whole number.
 
     Raises:
         InputError: the seed is not allowed.
@@ -68,4 +68,4 @@ def with_seed(mission: Mission, seed: Any) -> Mission:
         number = -1
     if not 0 <= number <= MOST_SEED:
         raise InputError(f"seed = {shown(seed)}: must be a whole number from 0 to {MOST_SEED:g}")
-    return mission.model_copy(update={"mission": mission.mission.model_copy(update={"seed": number})})
+    return number

@@ -17,7 +17,6 @@ from tandemlift.flight.record import Flight
 from tandemlift.missions import MissionLike, mission_of
 from tandemlift.missions.recording import engine_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
-from tandemlift.simulation.parameter_changes import changes_in_flight
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import LANES, FlightMemory
 from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
@@ -88,11 +87,6 @@ def _fly_compiled(
     ]
 
 
-def _flies_stepwise(p: FlightPlan) -> bool:
-    """Whether a mission is flown step by step, because Python is part of its loop."""
-    return p.interpreted is not None or changes_in_flight(p.mission)
-
-
 def _fly_together(
     flights: Sequence[FlightPlan],
     rows: int,
@@ -101,7 +95,7 @@ def _fly_together(
     going: Callable[[], bool] = always,
 ) -> list[RawResult]:
     """Fly flights of one group, as a block if there are several."""
-    if _flies_stepwise(flights[0]):
+    if flights[0].stepwise:
         return [fly_stepwise(flights[0], rows, every, progress, going=going)]
     return _fly_compiled(flights, rows, every, progress, going)
 
@@ -278,7 +272,7 @@ class _FlightGroups:
             self.read, p = place + 1, self._plan(mission)
             if isinstance(p, InputError):
                 yield _FlightGroup([place], [], p)
-            elif _flies_stepwise(p):
+            elif p.stepwise:
                 yield _FlightGroup([place], [p])
             else:
                 key = (p.variant, p.steps, p.every, p.dt, tuple(p.delays.tolist()))

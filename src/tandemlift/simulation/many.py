@@ -9,6 +9,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.phases import INTERRUPTED
 from tandemlift.core.types import Progress
 from tandemlift.engines.registry import EngineLost, engine_named
+from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission
 from tandemlift.simulation.fly import fly, fly_many
 
@@ -47,7 +48,7 @@ def fly_each(
         return _Engine(engine, keep, threads, refusals, interrupted).flown(missions, progress)
     missions, engines = list(missions), list(engine)
     ways = {name: _Engine(name, keep, threads, refusals, interrupted) for name in engines}
-    found, done = [None] * len(missions), 0
+    results, done = dict[int, Any](), 0
 
     def advanced(flown: int, _: int) -> None:
         if progress:
@@ -55,37 +56,35 @@ def fly_each(
 
     for name, way in ways.items():
         places = [i for i, own in enumerate(engines) if own == name]
-        for i, result in zip(places, way.flown([missions[i] for i in places], advanced), strict=True):
-            found[i] = result
+        results.update(zip(places, way.flown([missions[i] for i in places], advanced), strict=True))
         done += len(places)
-    return found
+    return [results[i] for i in range(len(missions))]
 
 
 class _Engine:
     """An engine that flies many missions."""
 
     def __init__(self, name: str, keep: Keep, threads: int | None, refusals: bool, interrupted: bool) -> None:
-        self.name, self.keep, self.threads, self.refusals = name, keep, threads, refusals
-        self.interrupted = interrupted
+        self.name, self.keep, self.threads = name, keep, threads
+        self.refusals, self.interrupted = refusals, interrupted
         self.in_blocks = engine_named(name).load is None
 
     def flown(self, missions: Iterable[Mission], progress: Progress | None) -> list[Any]:
         if self.in_blocks:
             return fly_many(missions, self.keep, self.threads, refusals=self.refusals, progress=progress)
-        missions, found = list(missions), list[Any]()
+        missions, results = list(missions), list[Any]()
         for mission in missions:
-            found.append(self._alone(mission))
+            try:
+                results.append(self._kept(fly(mission, self.name)))
+            except InputError as error:
+                if not self.refusals:
+                    raise
+                results.append(error)
             if progress:
-                progress(len(found), len(missions))
-        return found
+                progress(len(results), len(missions))
+        return results
 
-    def _alone(self, mission: Mission) -> Any:
-        try:
-            flight = fly(mission, self.name)
-        except InputError as error:
-            if not self.refusals:
-                raise
-            return error
+    def _kept(self, flight: Flight) -> Any:
         if flight.outcome == INTERRUPTED and not self.interrupted:
             raise EngineLost(flight.failure)
         return flight if self.keep == "flights" else flight.metrics()

@@ -13,10 +13,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.core.errors import InputError
+from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.types import Array, flat, leaves
 from tandemlift.core.vector import Absent, layout
-from tandemlift.missions import Mission, in_turn
+from tandemlift.missions import changed
 from tandemlift.missions.recording import read_recording
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset
@@ -24,11 +24,6 @@ from tandemlift.simulation.preparation import leaf_offset
 STEADY = {"changes": ()}
 LATER = "is chosen before a flight begins, and cannot be changed in flight"
 NO_EFFECT = "has no effect in this flight once it has begun"
-
-
-def changes_in_flight(mission: Mission) -> bool:
-    """Whether a mission changes in flight."""
-    return bool(mission.changes or mission.person.recording)
 
 
 class ScheduledChange(NamedTuple):
@@ -39,12 +34,14 @@ class ScheduledChange(NamedTuple):
     prepared: FlightPlan
 
 
-def scheduled_change(before: FlightPlan, mission: Mission, key: str, first: int, duration: float) -> ScheduledChange:
+def scheduled_change(before: FlightPlan, key: str, value: Any, first: int, duration: float) -> ScheduledChange:
     """A change of one key, checked against the flight as it is before.
 
     Raises:
-        InputError: the key cannot be changed in flight.
+        InputError: the changed mission is invalid, or the key cannot be changed in flight.
     """
+    with without_flight_warnings():
+        mission = changed(before.mission, key, value)
     after = FlightPlan(mission, before.engine, interactive=before.interactive)
     _check(before, after, key)
     return ScheduledChange(first, max(1, round(duration / before.dt)), after)
@@ -53,8 +50,8 @@ def scheduled_change(before: FlightPlan, mission: Mission, key: str, first: int,
 def scheduled_changes(p: FlightPlan) -> list[ScheduledChange]:
     """The changes of a mission in the order of time."""
     dues, last = list[ScheduledChange](), p
-    for change, mission in zip(p.mission.changes, in_turn(p.mission), strict=True):
-        dues.append(scheduled_change(last, mission, change.key, round(change.time / p.dt), change.duration))
+    for change in p.mission.changes:
+        dues.append(scheduled_change(last, change.key, change.value, round(change.time / p.dt), change.duration))
         last = dues[-1].prepared
     return dues
 

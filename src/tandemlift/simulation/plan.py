@@ -18,7 +18,8 @@ from tandemlift.parts.person.caller_inputs import CallerInput
 from tandemlift.parts.person.outside_push import OutsidePush
 from tandemlift.simulation.loop.log_sample import Sample
 from tandemlift.simulation.preparation import FlightStart, LoopCode, PythonController, TimeGrid
-from tandemlift.simulation.preparation.traced_assembly import assembled_flight
+from tandemlift.simulation.preparation.assemble import assemble
+from tandemlift.simulation.preparation.traced_assembly import assembled_by_graph
 
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second
 
@@ -42,7 +43,7 @@ class FlightPlan:
         self.steps = mission.mission.steps
         self.every = mission.mission.log_every
         self.dt = mission.mission.step
-        self.model, self.given, self.tables, self.delays, self.seeds = assembled_flight(mission)
+        self.model, self.given, self.tables, self.delays, self.seeds = assembled_by_graph(mission, assemble)
         if interactive:
             rotors = 4 * len(mission.vehicle.quadrotors)
             nothing = CallerInput(ZERO, ZERO, each(rotors)(*[0.0] * rotors), 0.0)
@@ -77,6 +78,16 @@ class FlightPlan:
         return self.loop_code.templates.sample
 
     @property
+    def stepwise(self) -> bool:
+        """Whether it is flown step by step, because Python is part of its loop."""
+        return self.interpreted is not None or self.mission.changes_in_flight
+
+    @property
+    def takes_long(self) -> bool:
+        """Whether flying it, once compiled, takes more than a second or so."""
+        return self.steps >= (LONG_STEPWISE if self.stepwise else LONG_RUN)
+
+    @property
     def late_step(self) -> int:
         """The first step that starts at `LATE` or later."""
         return math.ceil(LATE / self.dt - 1e-9)
@@ -105,9 +116,3 @@ class FlightPlan:
             return np.zeros((1, 0))
         row = np.concatenate([numbers[span.at : span.at + span.size] for span in self.loop_code.delayed])
         return np.tile(row, (1 << int(self.delays.max()).bit_length(), 1))
-
-
-def takes_long(mission: Mission) -> bool:
-    """Whether flying this mission, once compiled, takes more than a second or so."""
-    stepwise = FlightPlan(mission).interpreted is not None or mission.changes or mission.person.recording
-    return mission.mission.steps >= (LONG_STEPWISE if stepwise else LONG_RUN)

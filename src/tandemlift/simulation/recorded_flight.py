@@ -248,8 +248,7 @@ class RecordedFlight:
         Raises:
             InputError: it cannot be made in flight.
         """
-        with without_flight_warnings():
-            due = scheduled_change(self._stepper.p, changed(self.now, key, value), key, 0, duration)
+        due = scheduled_change(self._stepper.p, key, value, 0, duration)
         if due.prepared.variant != self._stepper.p.variant:
             Stepper(due.prepared, self._stepper.body)  # its code is compiled
         return due

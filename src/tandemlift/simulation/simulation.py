@@ -20,7 +20,7 @@ from tandemlift.missions import MissionLike, mission_of
 from tandemlift.missions.recording import engine_of
 from tandemlift.parts.mechanics.push import point_checks
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.simulation.caller_values import numbers, with_seed
+from tandemlift.simulation.caller_values import checked_seed, numbers
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.outcome import ending_of
 from tandemlift.simulation.plan import FlightPlan
@@ -95,7 +95,8 @@ class Simulation:
             InputError: the seed is not a whole number from 0 to 10¹⁸.
         """
         if seed is not None:
-            self.mission = with_seed(self.mission, seed)
+            table = self.mission.mission.model_copy(update={"seed": checked_seed(seed)})
+            self.mission = self.mission.model_copy(update={"mission": table})
             self._prepare()
         self._begin()
         return self.state

@@ -7,6 +7,7 @@ import warnings
 
 import numpy as np
 import pytest
+from as_toml import to_toml
 from html_page import check_page
 
 import tandemlift as tl
@@ -20,7 +21,7 @@ from tandemlift.analysis.studies.comparison_scores import (
     scores,
 )
 from tandemlift.apps.cli.main import main
-from tandemlift.missions import built_in, tables_of, to_toml
+from tandemlift.missions import built_in, tables_of
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.pictures.report.comparison import write_comparison
 from tandemlift.pictures.report.comparison_figures import draw_errors, draw_thrusts

@@ -6,10 +6,11 @@ import warnings
 from pathlib import Path
 
 import pytest
+from as_toml import to_toml
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli, main
-from tandemlift.missions import built_in, load_mission, to_toml
+from tandemlift.missions import built_in, load_mission
 from tandemlift.pictures.figures.registry import figures
 
 METRICS = [

@@ -7,7 +7,6 @@ from scipy.integrate import solve_ivp
 import tandemlift as tl
 from tandemlift.core.phases import GUIDED
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
-from tandemlift.parts.compliance.admittance import admittance_from
 from tandemlift.parts.compliance.compliance import (
     BIAS_CLIP,
     QUIET_TIME,
@@ -45,9 +44,7 @@ def guided(changes=None):
     mission = tl.load_mission(
         "one-push", {"pilot.guidance": "interactive", "admittance.gate": "soft", **(changes or {})}
     )
-    return start_hand_guidance(
-        mission, Vehicle.from_settings(mission.vehicle), admittance_from(mission.admittance), NoFaults()
-    )
+    return start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), NoFaults())
 
 
 def motion(push, seconds, changes=None, across=100.0):

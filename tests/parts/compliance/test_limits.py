@@ -8,7 +8,6 @@ from tandemlift.core.phases import REASONS
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Absent, Vec3, each, vec3
 from tandemlift.parts.compliance.above_ground import GroundClearance, above_ground
-from tandemlift.parts.compliance.admittance import admittance_from
 from tandemlift.parts.compliance.available import (
     AvailableForce,
     available_acceleration,
@@ -113,9 +112,7 @@ def lowest(clearance, push, start=1.0, seconds=8.0):
     """The height of the reference above the ground at every step under a push F(t) [N]."""
     changes = {"pilot.guidance": "interactive", "admittance.gate": "soft"}
     mission = tl.load_mission("one-push", changes)
-    g, m = start_hand_guidance(
-        mission, Vehicle.from_settings(mission.vehicle), admittance_from(mission.admittance), NoFaults()
-    )
+    g, m = start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), NoFaults())
     m, heights = m.compliance, []
     for i in range(round(seconds / H)):
         k = above_ground(clearance, g.compliance, m, m.position.z + start)

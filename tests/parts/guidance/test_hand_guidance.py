@@ -7,7 +7,6 @@ from scipy.spatial.transform import Rotation
 import tandemlift as tl
 from tandemlift.core.phases import GUIDED, IDLE, LAND, LIFT
 from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, vec3
-from tandemlift.parts.compliance.admittance import admittance_from
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.guidance import PilotInput, guide
 from tandemlift.parts.guidance.hand_guidance import grounded_at, presses_on_ground, with_lift_and_landing
@@ -21,9 +20,7 @@ from tandemlift.parts.rotors.rotor_faults import NoFaults
 from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
 
 MISSION = tl.load_mission("iris", {"supervision.model": "on"})
-GUIDANCE, MEMORY = start_hand_guidance(
-    MISSION, Vehicle.from_settings(MISSION.vehicle), admittance_from(MISSION.admittance), NoFaults()
-)
+GUIDANCE, MEMORY = start_hand_guidance(MISSION, Vehicle.from_settings(MISSION.vehicle), NoFaults())
 SUPERVISION, SEEN = GUIDANCE.supervision, MEMORY.supervision
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
 STATE = State(Vec3(1.0, 2.0, 3.0), Vec3(0.1, 0.2, 0.3), LEVEL, Vec3(0.3, 0.2, 0.1))
@@ -73,9 +70,7 @@ def test_on_the_ground_the_reference_stays_with_the_vehicle_at_rest_and_in_the_a
 
 def test_the_heading_yields_to_the_moment_about_the_vertical_however_the_vehicle_is_tilted():
     mission = tl.load_mission("one-push", {"pilot.guidance": "interactive", "compliance.yaw.model": "compliant"})
-    g, m = start_hand_guidance(
-        mission, Vehicle.from_settings(mission.vehicle), admittance_from(mission.admittance), NoFaults()
-    )
+    g, m = start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), NoFaults())
     tilted, moment = Rotation.from_euler("zxy", [0.7, 0.3, -0.2]), [0.5, -0.3, 0.8]
     state = STATE._replace(attitude=Quat(*tilted.as_quat(scalar_first=True).tolist()))
     pilot_input = PilotInput(state, ZERO, vec3(moment), 0.0, Absent())

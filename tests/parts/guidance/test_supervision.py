@@ -6,7 +6,6 @@ import tandemlift as tl
 from tandemlift.core.faults import REACTIONS
 from tandemlift.core.phases import GUIDED, HOLD, IDLE
 from tandemlift.core.vector import ZERO
-from tandemlift.parts.compliance.admittance import admittance_from
 from tandemlift.parts.guidance.fault_detection import FaultReaction
 from tandemlift.parts.guidance.preflight_checks import SensorStatus
 from tandemlift.parts.guidance.supervision import (
@@ -24,9 +23,7 @@ from tandemlift.parts.sensors.health import WELL
 from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
 
 MISSION = tl.load_mission("iris", {"supervision.model": "on"})
-GUIDANCE, MEMORY = start_hand_guidance(
-    MISSION, Vehicle.from_settings(MISSION.vehicle), admittance_from(MISSION.admittance), NoFaults()
-)
+GUIDANCE, MEMORY = start_hand_guidance(MISSION, Vehicle.from_settings(MISSION.vehicle), NoFaults())
 DT = 0.25  # s: times add up exactly
 K = GUIDANCE.supervision._replace(recovery_time=1.0, hold_timeout=3.0)
 START, STARTED_PHASE = MEMORY.supervision, MEMORY.phase

@@ -8,7 +8,6 @@ import pytest
 import tandemlift as tl
 from tandemlift.analysis.linearization.loop_margins import is_stable, largest, open_loop, single_loop
 from tandemlift.missions import load_mission, tables_of
-from tandemlift.missions.flight_checks import control_loop
 from tandemlift.parts.pilot.loop_checks import (
     PushFeedback,
     delay_to_crossing,
@@ -23,7 +22,7 @@ from tandemlift.parts.pilot.stiffness_checks import stiffness_of
 def test_the_closed_forms_of_a_load_agree_with_the_linear_model(controller):
     mission = load_mission("iris", controller=controller)
     lag, loop = mission.hover.lag, open_loop(mission)
-    max_delay = {found.axis: found.bears for found in loop_delays(control_loop(mission))}
+    max_delay = {found.axis: found.bears for found in loop_delays(mission.control_loop)}
     cut = loop.L / (1.0 + 1j * loop.w * lag)[:, None, None]
     for i, axis in enumerate(("z", "roll", "pitch", "yaw")):
         delay, _ = delay_to_crossing(loop.w, single_loop(cut, i))
@@ -42,7 +41,7 @@ def test_the_closed_forms_agree_with_the_linear_model_wherever_the_quadrotors_ar
         warnings.simplefilter("ignore", tl.FlightWarning)
         mission = load_mission("iris", changes, controller=("nftsmc", "pid", "geometric", "smc")[case])
     lag, loop = mission.hover.lag, open_loop(mission)
-    max_delay = min(found.bears for found in loop_delays(control_loop(mission)))
+    max_delay = min(found.bears for found in loop_delays(mission.control_loop))
     assert max_delay == pytest.approx(largest(lambda delay: is_stable(loop, delay, lag)) + 0.0015, rel=0.06)
 
 
@@ -52,7 +51,7 @@ def test_a_quadrotor_off_the_axis_does_not_make_a_loop_oscillate(mirrored):
         warnings.simplefilter("error", tl.FlightWarning)
         mission = load_mission("iris", {"vehicle.quadrotors.0.position": [0.03 * mirrored, 1.0, 0.075]})
     for found, centred in zip(
-        loop_delays(control_loop(mission)), loop_delays(control_loop(load_mission("iris"))), strict=True
+        loop_delays(mission.control_loop), loop_delays(load_mission("iris").control_loop), strict=True
     ):
         assert found.bears == pytest.approx(centred.bears, rel=1e-3), found.axis
 

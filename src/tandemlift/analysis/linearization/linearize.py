@@ -93,7 +93,7 @@ def linearize(
 
 def _known_kinks(point: OperatingPoint) -> Iterator[Kink]:
     """Kinks that are no edges in the step: the rotors' lag by direction, the push during the tare."""
-    lags, left = averaged_lags(point.plan.mission), tare_left(point.plan, point.numbers, point.k * point.plan.dt)
+    lags, left = averaged_lags(point.plan), tare_left(point.plan, point.numbers, point.k * point.plan.dt)
     if lags:
         name, file = law_name(by_direction.scalar)
         yield Kink(
@@ -221,7 +221,7 @@ def assumptions(r: LinearizationPlan, made: PeriodDerivative, of: str) -> list[s
         said.append("Noise is 0 from the point on; the flight to the point has it.")
     if not isinstance(plan.model.sensors, Absent):
         said.append("The quantization of sensors is replaced by a straight line.")
-    lags, left = averaged_lags(plan.mission), tare_left(plan, r.point.numbers, r.point.k * plan.dt)
+    lags, left = averaged_lags(plan), tare_left(plan, r.point.numbers, r.point.k * plan.dt)
     if of == "loop" and lags:
         said.append(f"The rotors' lag is the mean of up and down, {shown_lags(lags)}: noise drives them both ways.")
     if of == "loop" and left > -math.inf:

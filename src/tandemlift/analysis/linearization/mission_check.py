@@ -16,7 +16,7 @@ from tandemlift.analysis.linearization.loop_margins import (
     slowest_modes,
 )
 from tandemlift.core.errors import CLOSE, FAILS, REFUSED, CheckResult, InputError, judged, noted
-from tandemlift.missions import Mission, MissionLike, mission_of
+from tandemlift.missions import MissionLike, mission_of
 from tandemlift.missions.checks import mission_checks
 from tandemlift.missions.flight_checks import FlightCheck
 
@@ -65,28 +65,23 @@ def check(mission: MissionLike) -> tuple[CheckResult, ...]:
     """
     mission = mission_of(mission)
     results = tuple(mission_checks(mission))
-    return results if results and results[-1].verdict == REFUSED else (*results, *loop_results(mission))
-
-
-def loop_results(mission: Mission) -> Iterator[CheckResult]:
-    """Check the margins of the loops, and their tolerated delay and lag."""
+    if results and results[-1].verdict == REFUSED:
+        return results
     try:
         loop = open_loop(mission)
     except InputError as error:
-        yield noted("loop", f"there is no linear model: {error}", verdict=CLOSE)
-        return
-    real = mission.actuators.model == "rotors"
-    delay, lag = (mission.actuators.delay, mission.hover.lag) if real else (0.0, 0.0)
+        return *results, noted("loop", f"there is no linear model: {error}", verdict=CLOSE)
     if not loop.stable:
         text = (
             "the hover is unstable even without delay and lag of the rotors: see what fails above, or lower the gains"
         )
-        yield noted("loop", text, verdict=FAILS)
-        return
-    yield from delay_and_lag_limits(loop, delay, lag)
-    if is_stable(loop, delay, lag):
-        yield from margins(loop, delay, lag)
-        yield from modes(slowest_modes(mission, lag))
+        return *results, noted("loop", text, verdict=FAILS)
+    real = mission.actuators.model == "rotors"
+    delay, lag = (mission.actuators.delay, mission.hover.lag) if real else (0.0, 0.0)
+    limits = (*results, *delay_and_lag_limits(loop, delay, lag))
+    if not is_stable(loop, delay, lag):
+        return limits
+    return *limits, *margins(loop, delay, lag), *modes(slowest_modes(mission, lag))
 
 
 def delay_and_lag_limits(loop: OpenLoop, delay: float, lag: float) -> Iterator[CheckResult]:
@@ -117,13 +112,13 @@ def delay_and_lag_limits(loop: OpenLoop, delay: float, lag: float) -> Iterator[C
 def margins(loop: OpenLoop, delay: float, lag: float) -> Iterator[CheckResult]:
     """Phase and gain margin of each axis, with the other loops closed."""
     G = rotors_response(loop.w, delay, lag)[:, None, None]
-    for found in axis_margins(loop.w, loop.L * G):
-        if not math.isnan(found.phase):
-            text = f"the {found.axis} loop lacks {-found.phase:.3g} deg of phase at {found.crossover:.3g} rad/s"
-            yield judged("loop phase", 180.0 - found.phase, 180.0, "deg", text, subject=found.axis, near=NEAR_PHASE)
-        for name, value, limit in (("most", 1.0, found.gain), ("least", found.least_gain, 1.0)):
-            nearer = found.nearest_gain in (value, limit)
-            subject = f"{found.axis}, {name}{' (nearer)' if nearer else ''}"
+    for margin in axis_margins(loop.w, loop.L * G):
+        if not math.isnan(margin.phase):
+            text = f"the {margin.axis} loop lacks {-margin.phase:.3g} deg of phase at {margin.crossover:.3g} rad/s"
+            yield judged("loop phase", 180.0 - margin.phase, 180.0, "deg", text, subject=margin.axis, near=NEAR_PHASE)
+        for name, value, limit in (("most", 1.0, margin.gain), ("least", margin.least_gain, 1.0)):
+            nearer = margin.nearest_gain in (value, limit)
+            subject = f"{margin.axis}, {name}{' (nearer)' if nearer else ''}"
             yield judged("loop gain", value, limit, "1", "", subject=subject, near=NEAR_GAIN)
 
 

@@ -60,11 +60,12 @@ def tare_left(p: FlightPlan, numbers: Array, t: float) -> float:
     return e.tare_duration - float(numbers[leaf_offset(p.model, *GUIDANCE_MEMORY, "phase", "hover_time").at])
 
 
-def averaged_lags(m: Mission) -> list[tuple[float, float]]:
+def averaged_lags(p: FlightPlan) -> list[tuple[float, float]]:
     """The lags of each rotor up and down [s] that a linear model takes in the mean.
 
     None where they are equal, or where no noise of sensors, turbulence or tremor moves the rotors all the time.
     """
+    m = p.mission
     lags = [(q.lag_up, q.lag_down) for q in m.vehicle.quadrotors for _ in range(4)]
     if m.actuators.model != "rotors" or all(up == down for up, down in lags):
         return []
@@ -78,7 +79,7 @@ def averaged_lags(m: Mission) -> list[tuple[float, float]]:
 
 def with_mean_lag(point: OperatingPoint) -> OperatingPoint:
     """A point whose rotors have equal lags up and down, if noise drives them both ways within the sample time."""
-    p, lags, numbers = point.plan, averaged_lags(point.plan.mission), point.numbers.copy()
+    p, lags, numbers = point.plan, averaged_lags(point.plan), point.numbers.copy()
     if not lags:
         return point
     for direction in ("up", "down"):

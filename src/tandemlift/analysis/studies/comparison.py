@@ -98,7 +98,7 @@ class MissionComparison:
         except InputError:
             raise
         except Exception as error:
-            raise _explained(error, missions) from error
+            raise _explained(error, [mission.controller.name for mission in missions]) from error
         flown = iter(flights)
         return replace(self, entries=[e._replace(flight=next(flown)) if e.mission else e for e in self.entries])
 
@@ -234,10 +234,10 @@ def _own_mission(name: str, changes: Mapping[str, Any], others: Mapping[str, Any
         ) from None
 
 
-def _explained(error: Exception, missions: Iterable[Mission]) -> Exception:
+def _explained(error: Exception, controllers: Iterable[str]) -> Exception:
     """The error of a user's controller, with the line of its file; any other error unchanged."""
     files = {frame.filename for frame in traceback.extract_tb(error.__traceback__)}
-    for own in (controller(mission.controller.name) for mission in missions):
+    for own in map(controller, controllers):
         if not own.start.__module__.startswith("tandemlift.") and file_of(own) in files:
             return InputError(f"controller {own.name!r} fails: {error_text(error, file_of(own))}")
     return error

@@ -18,6 +18,8 @@ from tandemlift.core.types import Array, Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, merge, tables_of
 from tandemlift.missions.changes import Tables
+from tandemlift.parts.estimation.estimator_table import EstimatorTable
+from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.simulation.many import fly_each
 
@@ -101,7 +103,7 @@ def pushed_axes(m: Mission, progress: Progress | None = None) -> tuple[PushedAxi
     Raises:
         InputError: the mission cannot be flown without its surroundings.
     """
-    axes, start = axes_of(m), start_of(m)
+    axes, start = axes_of(m), start_of(m.phases, m.compliance.spin_up_time, m.estimator)
     end = start + 2.0 * max(map(hold_of, axes)) + LEAST_HOLD
     flights = fly_each([push_mission(m, k, start, end) for k in axes], keep="flights", progress=progress)
     return tuple(_measured(k, flight, start) for k, flight in zip(axes, flights, strict=True))
@@ -112,13 +114,12 @@ def hold_of(k: AxisFeel) -> float:
     return min(max(LEAST_HOLD, HOLD * k.time), MOST_HOLD)
 
 
-def start_of(m: Mission) -> float:
+def start_of(p: PhasesTable, spin_up_time: float, e: EstimatorTable) -> float:
     """The time at which the vehicle hovers at rest after the tare [s]."""
-    lifted = m.phases.lift_start + m.phases.lift_duration + m.compliance.spin_up_time
-    tare = m.estimator.tare_duration
-    if m.estimator.tare == "hover":
-        return lifted + SETTLING + tare + SETTLING
-    tared = 0.0 if m.estimator.tare_start is None else m.estimator.tare_start + tare
+    lifted = p.lift_start + p.lift_duration + spin_up_time
+    if e.tare == "hover":
+        return lifted + SETTLING + e.tare_duration + SETTLING
+    tared = 0.0 if e.tare_start is None else e.tare_start + e.tare_duration
     return math.ceil(max(lifted, tared) + SETTLING)
 
 
@@ -160,14 +161,14 @@ def _pushes(k: AxisFeel, start: float, hold: float, yaw: float) -> list[dict[str
         return [{"force": along, "time": float(t), "sigma": spacing} for t in times]
     fine = np.linspace(0.0, hold, 2000)
     turned = np.concatenate([[0.0], np.cumsum(speed_at(k, fine, hold)[:-1] * np.diff(fine))])
-    found = []
+    pushes = []
     for t in times:
         angle = yaw + float(np.interp(t - start, fine, turned))
         force = np.array([-math.cos(angle), -math.sin(angle), 0.0]) * (0.5 * peak / ARM)
         for side in (1.0, -1.0):
             point = [0.0, side * ARM, 0.0]
-            found.append({"force": (side * force).tolist(), "time": float(t), "sigma": spacing, "point": point})
-    return found
+            pushes.append({"force": (side * force).tolist(), "time": float(t), "sigma": spacing, "point": point})
+    return pushes
 
 
 def _measured(k: AxisFeel, flight: Flight, start: float) -> PushedAxis:

@@ -29,8 +29,6 @@ from tandemlift.core.files import write_file
 
 if TYPE_CHECKING:
     from tandemlift.apps.live.server import PageServer
-    from tandemlift.apps.live.session.session import Session
-    from tandemlift.missions import Mission
 
 HOST, PORT = "127.0.0.1", 8710
 DEFAULT, OUT = "zigzag", Path("out/live")
@@ -87,19 +85,13 @@ def live(
 
     check_live_installed()
     engine_named(engine)
-    session = session_of(load(mission, settings, controller), engine, Path(out))
     from tandemlift.apps.live.page_files import page_files
     from tandemlift.apps.live.server import PageServer
-
-    serve_until_interrupt(PageServer(page_files(), session, host, port), f"{mission}, live", browser=not no_browser)
-    exit_now(0)  # a thread may still be compiling
-
-
-def session_of(mission: Mission, engine: str, out: Path = OUT) -> Session:
-    """A checked flight in real time; nothing is compiled yet."""
     from tandemlift.apps.live.session.session import Session
 
-    return Session(mission, engine, out)
+    session = Session(load(mission, settings, controller), engine, Path(out))
+    serve_until_interrupt(PageServer(page_files(), session, host, port), f"{mission}, live", browser=not no_browser)
+    exit_now(0)  # a thread may still be compiling
 
 
 def check_live_installed() -> None:

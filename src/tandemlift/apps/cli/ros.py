@@ -24,7 +24,7 @@ from tandemlift.apps.cli.flying import (
     strict_option,
     with_after_crash,
 )
-from tandemlift.apps.cli.live import DEFAULT, session_of
+from tandemlift.apps.cli.live import DEFAULT, OUT
 from tandemlift.apps.cli.run import write_results
 from tandemlift.core.errors import InputError, without_flight_warnings
 
@@ -79,14 +79,14 @@ def ros(
       2   bad input: one message, nothing is flown
       3   crashed, diverged or interrupted, or ROS 1's master is gone: the flight so far is saved with --save
     """
+    from tandemlift.apps.live.session.session import Session
+    from tandemlift.apps.ros import ros1, ros2
     from tandemlift.apps.ros.node import middleware_for, version_for
-    from tandemlift.apps.ros.ros1 import folder as package
-    from tandemlift.apps.ros.ros2 import KILTED
     from tandemlift.apps.ros.sample_queue import steps_between_samples
     from tandemlift.engines.registry import engine_named
 
     if folder:
-        echo(str(package()))
+        echo(str(ros1.folder()))
         return
     if rviz and version == "2":
         raise InputError("--rviz: needs ROS 1, not --version 2")
@@ -97,11 +97,11 @@ def ros(
     spoken = version_for("1" if rviz else version)
     middleware = middleware_for(spoken, arguments, asked=rviz or version is not None)
     try:
-        session = session_of(loaded, engine)
+        session = Session(loaded, engine, OUT)
         session.prepare()
         session.flight.optimise()
         if spoken == "2":
-            echo(KILTED)
+            echo(ros2.KILTED)
         failures = _fly_and_save(session, middleware, rate, f"{mission} in ROS {spoken}", save, rviz=rviz)
     finally:
         gone = _shut_down(middleware)

@@ -138,10 +138,10 @@ def _selected(
 def _fly(mission: Mission, engine: str | None, controller: Controller | None) -> Flight:
     from tandemlift.parts.controllers import error_text, file_of
     from tandemlift.simulation.fly import fly
-    from tandemlift.simulation.plan import takes_long
+    from tandemlift.simulation.plan import FlightPlan
 
     try:
-        with progress_bar("Flying", "steps", shown=takes_long(mission)) as progress:
+        with progress_bar("Flying", "steps", shown=FlightPlan(mission).takes_long) as progress:
             return fly(mission, engine, progress=progress)
     except InputError:
         raise

@@ -22,7 +22,7 @@ from tandemlift.core.phases import DIVERGED, ENDING_OF, ENDINGS, EndingKind
 from tandemlift.core.refusals import REQUESTS, refusals_for, sentences_for
 from tandemlift.core.types import flat
 from tandemlift.flight.record import CAUSE_TEXT, ENDING_TEXT
-from tandemlift.missions import changed, tables_of
+from tandemlift.missions import tables_of
 from tandemlift.missions.changes import Tables
 from tandemlift.missions.keys import allowed, bounds, plain
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
@@ -147,7 +147,7 @@ def _absent(plan: FlightPlan, tables: Tables, present: set[str]) -> dict[str, st
 def _refusal(plan: FlightPlan, key: str, value: object) -> str:
     """The reason for which a value of a key is refused in flight."""
     try:
-        scheduled_change(plan, changed(plan.mission, key, value), key, 0, RAMP)
+        scheduled_change(plan, key, value, 0, RAMP)
     except InputError as error:
         return str(error)
     raise AssertionError(f"{key} = {value} is not refused")

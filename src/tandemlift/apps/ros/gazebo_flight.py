@@ -40,12 +40,13 @@ class Photo(NamedTuple):
 
 
 class GazeboSession:
-    """A Gazebo server for one flight.
+    """A Gazebo server for one flight, which engine `gazebo` joins while the context of this is open.
 
     Args:
         mission: the mission that will be flown.
         views: photographs to be taken.
         window: whether to open Gazebo's window.
+        real_time: whether to fly in real time.
 
     Attributes:
         master: address of Gazebo's own transport.
@@ -57,7 +58,9 @@ class GazeboSession:
         InputError: there is no Gazebo, no display for the window, or the cameras save no picture.
     """
 
-    def __init__(self, mission: Mission, views: Sequence[ViewRequest] = (), *, window: bool = False) -> None:
+    def __init__(
+        self, mission: Mission, views: Sequence[ViewRequest] = (), *, window: bool = False, real_time: bool = False
+    ) -> None:
         self.photos: list[Photo] = []
         self._due, self.port = list(views), free_port(socket.SOCK_DGRAM)
         text = world_from(mission, self.port)
@@ -70,7 +73,14 @@ class GazeboSession:
             if window:
                 closing.enter_context(_window(self.master))
             self._await_cameras()
+            closing.enter_context(_joined(self.port, self.check, real_time=real_time))
             self._closing = closing.pop_all()
+
+    def __enter__(self) -> GazeboSession:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self._closing.close()
 
     def _await_cameras(self) -> None:
         until = time.monotonic() + PATIENCE
@@ -95,25 +105,17 @@ class GazeboSession:
                 self._due.remove(view)
                 self.photos.append(Photo(view, at, files[-2].read_bytes()))
 
-    def close(self) -> None:
-        """End the server and its window."""
-        self._closing.close()
-
 
 @contextmanager
-def running_gazebo(
-    mission: Mission, views: Sequence[ViewRequest] = (), *, window: bool = False, real_time: bool = False
-) -> Iterator[GazeboSession]:
-    """A Gazebo that engine `gazebo` joins while the context is open; arguments and errors as of `GazeboSession`."""
-    gazebo = GazeboSession(mission, views, window=window)
+def _joined(port: int, check: Callable[[], None], *, real_time: bool) -> Iterator[None]:
+    """A context in which engine `gazebo` joins the server at a port."""
     before = {name: os.environ.get(name) for name in (PORT, REAL_TIME)}
-    CHECKS[gazebo.port] = gazebo.check
-    os.environ |= {PORT: str(gazebo.port), REAL_TIME: str(int(real_time))}
+    CHECKS[port] = check
+    os.environ |= {PORT: str(port), REAL_TIME: str(int(real_time))}
     try:
-        yield gazebo
+        yield
     finally:
-        del CHECKS[gazebo.port]
-        gazebo.close()
+        del CHECKS[port]
         for name, value in before.items():
             os.environ.pop(name)
             if value is not None:
@@ -183,7 +185,7 @@ def fly_to_end(
         pictures: whether to take photographs, where the flight of the compiled engine says.
     """
     views, step = views_from(fly(mission)) if pictures else [], mission.mission.step
-    with running_gazebo(mission, views, window=window, real_time=real_time) as gazebo:
+    with GazeboSession(mission, views, window=window, real_time=real_time) as gazebo:
         begun(gazebo)
 
         def take_photographs(done: int, total: int) -> None:
@@ -204,7 +206,7 @@ def fly_by_hand(mission: Mission, begun: Callable[[GazeboSession], None], *, win
         window: whether to open Gazebo's window.
     """
     mission = interactive_mission(mission)
-    with running_gazebo(mission, window=window, real_time=True) as gazebo, _stop_signals() as stopped:
+    with GazeboSession(mission, window=window, real_time=True) as gazebo, _stop_signals() as stopped:
         recorded = RecordedFlight(mission, "gazebo")
         begun(gazebo)
         while not (stopped() or recorded.over):

@@ -142,19 +142,6 @@ def start_perception(
     )
 
 
-def _start_rotors(mission: Mission, vehicle: Vehicle, floor: Any, *, delayed: bool) -> tuple[Any, Any, Any]:
-    near_ground = mission.ground.effect and mission.actuators.model == "rotors"
-    return start_rotors(
-        mission.actuators,
-        mission.faults,
-        vehicle,
-        mission.mission.step,
-        weights=mission.allocation.weights,
-        floor=floor.height if near_ground else None,
-        delayed=delayed,
-    )
-
-
 def assemble(mission: Mission) -> AssembledFlight:
     """Assemble the flight of a mission at t = 0.
 
@@ -167,13 +154,17 @@ def assemble(mission: Mission) -> AssembledFlight:
     state, plant = start_state(mission), plant_from(mission, vehicle)
     grip = Absent() if isinstance(plant.floor, Absent) else _grip(plant.floor, state)
     delays = delays_from(mission.sensors, mission.actuators, mission.person, step)
-    rotors, spinning, thrusts = _start_rotors(mission, vehicle, plant.floor, delayed=bool(delays[2]))
+    weights, over = mission.allocation.weights, plant.floor.height if mission.ground.effect else None
+    rotors, spinning, thrusts = start_rotors(
+        mission.actuators, mission.faults, vehicle, step, weights=weights, floor=over, delayed=bool(delays[2])
+    )
     wind, wind_state = start_wind(mission.wind, vehicle, step, chance)
     near, hand = near_walls_from(plant.walls), push_kind(mission.pushes, mission.person)
     at_rest = lambda: readings_at_rest(plant, state, grip, near, thrusts, hand)  # noqa: E731
     senses = start_perception(mission, vehicle, state, chance, at_rest)
-    waypoints = waypoints_from(mission.person, mission.corridor)
-    walk = Walk(waypoints, state, mission.initial.euler[2], mission.phases.height)
+    walk = Walk(
+        waypoints_from(mission.person, mission.corridor), state, mission.initial.euler[2], mission.phases.height
+    )
     person, memory_of_person, tremor_noise = start_person(mission.person, vehicle, step, walk)
     mass, floor = vehicle.mass * mission.plant.mass_scale, mission.ground.model != "none"
     limits = crash_limits_from(mission.crash, mission.supervision, mass, floor=floor)

@@ -13,8 +13,8 @@ from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.missions import Mission
 from tandemlift.parts.compliance.above_ground import GroundClearance
 from tandemlift.parts.compliance.admittance import (
-    Admittance,
     AdmittanceState,
+    AdmittanceTable,
     admittance_from,
     gate_from,
 )
@@ -58,17 +58,6 @@ from tandemlift.simulation.loop.perception import Estimators, EstimatorState, Ta
 from tandemlift.simulation.loop.sources import NominalVehicle
 
 
-def _guidance(
-    mission: Mission, vehicle: Vehicle, known: NoFaults | RotorFaults
-) -> tuple[HandGuidance | ScheduledGuidance, AdmittanceState | HandGuidanceState]:
-    """The guidance of a mission and its memory; `known`: the known rotor faults."""
-    admittance = admittance_from(mission.admittance)
-    if mission.pilot.guidance == "interactive":
-        return start_hand_guidance(mission, vehicle, admittance, known)
-    gate, phases, rotors = gate_from(mission.admittance), scheduled_phases(mission.phases), running_from(mission.phases)
-    return ScheduledGuidance(gate, admittance, phases, 0.0, rotors), AdmittanceState(ZERO, ZERO, ZERO)
-
-
 def start_pilot(mission: Mission, vehicle: Vehicle) -> tuple[PilotParameters, PilotMemory]:
     """The pilot of a mission before its first sample, for its nominal vehicle.
 
@@ -78,12 +67,22 @@ def start_pilot(mission: Mission, vehicle: Vehicle) -> tuple[PilotParameters, Pi
     step, initial, hovers = mission.mission.step, mission.initial, mission.actuators.start == "hover"
     known, effect = known_faults(mission.faults, vehicle), mixer_of(vehicle)
     gains, memory = controller(mission.controller.name).start(mission.controller, vehicle, step)
-    guidance, guidance_memory = _guidance(mission, vehicle, known)
+    guidance, guidance_memory = (
+        start_hand_guidance(mission, vehicle, known)
+        if mission.pilot.guidance == "interactive"
+        else start_scheduled_guidance(mission.admittance, mission.phases)
+    )
     observer, observer_memory = start_observer(mission.observer, vehicle, effect, step, initial, hovers=hovers)
     allocation, allocation_memory = start_allocation(mission.allocation, vehicle, known)
     detection, detection_memory = start_detection(mission.detection, vehicle, effect, step, initial, hovers=hovers)
     parameters = PilotParameters(guidance, observer, gains, allocation, detection)
     return parameters, PilotMemory(guidance_memory, observer_memory, memory, allocation_memory, detection_memory)
+
+
+def start_scheduled_guidance(table: AdmittanceTable, p: PhasesTable) -> tuple[ScheduledGuidance, AdmittanceState]:
+    """Scheduled guidance before its first sample, and its memory."""
+    guidance = ScheduledGuidance(gate_from(table), admittance_from(table), scheduled_phases(p), 0.0, running_from(p))
+    return guidance, AdmittanceState(ZERO, ZERO, ZERO)
 
 
 NO_PUSH = LowPassState(ZERO, ZERO)
@@ -106,7 +105,7 @@ def phase_settings(p: PhasesTable, c: ComplianceTable, requests: Sequence[Reques
 
 
 def start_hand_guidance(
-    mission: Mission, vehicle: Vehicle, admittance: Admittance, known: NoFaults | RotorFaults
+    mission: Mission, vehicle: Vehicle, known: NoFaults | RotorFaults
 ) -> tuple[HandGuidance, HandGuidanceState]:
     """Interactive guidance before its first sample, and its memory; `known`: the known rotor faults."""
     c, of_controller = mission.compliance, getattr(mission.controller, "max_tilt", None)
@@ -119,7 +118,7 @@ def start_hand_guidance(
     max_tilt = c.max_tilt if of_controller is None else minimum(c.max_tilt, of_controller)
     guided = HandGuidance(
         phasing=phase_settings(mission.phases, c, mission.requests),
-        compliance=compliance_from(c, push, admittance, vec3(mission.admittance.threshold)),
+        compliance=compliance_from(c, push, admittance_from(mission.admittance), vec3(mission.admittance.threshold)),
         tank=tank,
         heading=heading,
         moment=push.input,

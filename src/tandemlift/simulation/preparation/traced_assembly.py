@@ -20,7 +20,7 @@ from tandemlift.core.caching import cached_for_a_trace
 from tandemlift.core.errors import dotted
 from tandemlift.core.types import is_value
 from tandemlift.missions import Mission
-from tandemlift.simulation.preparation.assemble import AssembledFlight, assemble
+from tandemlift.simulation.preparation.assemble import assemble
 
 T = TypeVar("T")
 Place = tuple[str | int, ...]
@@ -71,23 +71,18 @@ def trace_assembly(mission: Mission, build: Callable[[Mission], Any] = assemble)
     Raises:
         InputError: a part of the mission cannot be built.
     """
-    numbers, fixed = numbers_of_mission(mission), _fixed_always(mission)
+    numbers, fixed = numbers_of_mission(mission), {**FIXED, **dict.fromkeys(counts_of_mission(mission), WHOLE)}
+    fixed |= {key: "determines the faces of the payload" for key in numbers if key.startswith(SHAPE)}
+    fixed |= {key: SCHEDULED for key in numbers if key.startswith("changes.")}
     while True:
-        traced, reasons = _tried(mission, numbers, fixed, build)
+        traced, reasons = _tried(numbers, fixed, lambda symbols: build(with_numbers(mission, symbols)))
         if traced is not None and not reasons:
             return traced
         fixed |= reasons
 
 
-def _fixed_always(mission: Mission) -> dict[str, str]:
-    fixed = {**FIXED, **dict.fromkeys(counts_of_mission(mission), WHOLE)}
-    numbers = numbers_of_mission(mission)
-    fixed |= {key: "determines the faces of the payload" for key in numbers if key.startswith(SHAPE)}
-    return fixed | {key: SCHEDULED for key in numbers if key.startswith("changes.")}
-
-
 def _tried(
-    mission: Mission, numbers: dict[str, float], fixed: dict[str, str], build: Callable[[Mission], Any]
+    numbers: dict[str, float], fixed: dict[str, str], build: Callable[[dict[str, Symbol]], Any]
 ) -> tuple[TracedAssembly | None, dict[str, str]]:
     """A trace with all numbers that are not fixed, and the numbers that were found to be fixed."""
     inputs = {key: value for key, value in numbers.items() if key not in fixed}
@@ -96,7 +91,7 @@ def _tried(
     before = FUSES.set(False)
     try:
         with cached_for_a_trace():
-            assembled = build(with_numbers(mission, symbols))
+            assembled = build(symbols)
     except Exception as error:  # a controller's start may use its settings and the vehicle in any way
         return None, _left_plain(keys, error)
     finally:
@@ -108,9 +103,9 @@ def _tried(
 def _left_plain(keys: tuple[str, ...], error: Exception) -> dict[str, str]:
     """The next keys to fix after an error that the assembly of plain numbers may not raise."""
     for table in UNTRACED:
-        found = [key for key in keys if key.startswith(table)]
-        if found:
-            return dict.fromkeys(found, f"is read by code that cannot be traced: {type(error).__name__}: {error}")
+        untraced = [key for key in keys if key.startswith(table)]
+        if untraced:
+            return dict.fromkeys(untraced, f"is read by code that cannot be traced: {type(error).__name__}: {error}")
     raise error
 
 
@@ -126,17 +121,11 @@ def with_values(value: Any, graph: ValuedGraph) -> Any:
 
 
 def assembled_by_graph(mission: Mission, build: Callable[[Mission], Any]) -> Any:
-    """The result of `build` for a mission; if the mission is not fused, with the numbers of its graph."""
+    """The result of `build` for a mission; if it is not fused, of its graph: bit-identical on every machine."""
     if mission.mission.fma:
         return build(mission)
     traced = trace_assembly(mission, build)
     return with_values(traced.assembled, traced.graph)
-
-
-def assembled_flight(mission: Mission) -> AssembledFlight:
-    """The flight of a mission at t = 0; if the mission is not fused, bit-identical on every machine."""
-    made: AssembledFlight = assembled_by_graph(mission, assemble)
-    return made
 
 
 # ---- The numbers of a mission by their dotted keys, as `--set` takes them, and a mission with other numbers or symbols

@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
+from as_toml import to_toml
 from repository import ROOT
 from sessions import fly, say
 
 import tandemlift as tl
 from tandemlift.apps.cli import live as command
 from tandemlift.apps.live.session.session import Session
-from tandemlift.missions import built_in, to_toml
+from tandemlift.missions import built_in
 from tandemlift.parts.controllers import load_controller
 
 MINE = 'extends = "iris"\n[mission]\nname = "mine"\n[admittance]\nmass = 2.5\n'

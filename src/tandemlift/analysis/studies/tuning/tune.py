@@ -95,7 +95,10 @@ def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: T
     _check_count("--holdout", how.holdout)
     loaded = source.load()
     kind, parameters = _parameters(loaded, goals, how)
-    drawn = _drawn(loaded, source, how)
+    if isinstance(how.draws, int):
+        _check_count("--draws", how.draws)
+    study = default_study(loaded, source, how.draws, how.seed) if isinstance(how.draws, int) else how.draws
+    drawn = DrawSource(study, loaded.mission.name, source.changes)
     compared, unseen = drawn.search_draws(), drawn.other_draws(how.holdout, HOLDOUT_SEED)
     _check_apart(compared, parameters)
     goals = tuple(goal.with_targets(drawn.targets) for goal in goals)
@@ -166,15 +169,6 @@ def _optimiser(kind: str, task: Task, seed: int, *, step: float) -> Optimiser:
     from tandemlift.analysis.studies.tuning.optuna_optimiser import ParzenEstimator
 
     return ParzenEstimator(task.parameters, seed, len(task.goals))
-
-
-def _drawn(mission: Mission, source: MissionSource, how: How) -> DrawSource:
-    """The source of draws: the given study, or the default one."""
-    given = how.draws
-    if not isinstance(given, int):
-        return DrawSource(given, mission.mission.name, source.changes)
-    _check_count("--draws", given)
-    return DrawSource(default_study(mission, source, given, how.seed), mission.mission.name, source.changes)
 
 
 def _check_count(option: str, count: int) -> None:
