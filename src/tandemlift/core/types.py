@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 GRAVITY = 9.81  # m/s², paper Table II
 NEVER = 1e18  # s
+LN_20 = 2.995732273553991  # time constants until 95 %
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]

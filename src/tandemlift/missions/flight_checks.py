@@ -12,8 +12,7 @@ from tandemlift.core.errors import CLOSE, FAILS, SETTINGS, CheckResult, noted
 from tandemlift.missions.mission import Mission
 from tandemlift.missions.outcomes import promise_of
 from tandemlift.parts.controllers.interface import tilt_limit_of
-from tandemlift.parts.person.passage import passage_checks
-from tandemlift.parts.person.person_table import waypoints_from
+from tandemlift.parts.person.passage import passage_checks, way_checks
 from tandemlift.parts.pilot.loop_checks import loop_checks
 from tandemlift.parts.pilot.push_checks import point_checks, push_checks
 from tandemlift.parts.pilot.schedule_checks import (
@@ -23,7 +22,6 @@ from tandemlift.parts.pilot.schedule_checks import (
     landing_checks,
     lift_checks,
     push_time_checks,
-    way_checks,
 )
 from tandemlift.parts.pilot.sensing_checks import sensing_checks
 from tandemlift.parts.pilot.start_checks import start_checks
@@ -215,7 +213,7 @@ def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
             push_time_checks(schedule, m.estimator, pilot.push),
             descent_checks(schedule) if m.ground.model == "floor" else (),
             landing_checks(schedule),
-            way_checks(schedule, m.person, waypoints_from(m.person, m.corridor), m.initial),
+            way_checks(m.person, m.corridor, m.initial, m.phases, schedule.landing_duration, end),
         ),
         "push checks": push_checks(() if joined else m.pushes, m.admittance.threshold, compliant_yaw=compliant_yaw),
         "point checks": point_checks(m.pushes, hover.vehicle),

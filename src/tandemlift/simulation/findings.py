@@ -10,7 +10,7 @@ from tandemlift.core.findings import Finding, FindingName, finding
 from tandemlift.core.phases import IDLE, LAND, LIFT, REASONS, STOPPED
 from tandemlift.core.vector import Absent, dot, total
 from tandemlift.missions.outcomes import FindingsTable, Promise, promise_of
-from tandemlift.parts.compliance.following import FollowingState
+from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
 from tandemlift.parts.guidance.supervision import ALARM, PHASE, EventLog, SupervisionState
 from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.person.requests import RequestTable
@@ -197,8 +197,8 @@ def _refuted(m: Excess, longest: float, dt: float) -> Iterator[Finding]:
 
 
 def _cannot_follow(flight_state: FlightState, limit: float) -> Iterator[Finding]:
-    m = getattr(flight_state.memory.guidance, "following", None)
-    if isinstance(m, FollowingState) and m.most_urgent:
+    guidance = flight_state.memory.guidance
+    if isinstance(guidance, HandGuidanceState) and (m := guidance.following).most_urgent:
         reason = REASONS[int(m.most_urgent) - 1]
         lands = ", so that it lands" if m.longest_lost > limit else ""
         text = f"the vehicle cannot follow: {reason.text}, for {m.lasted:.3g} s{lands}"

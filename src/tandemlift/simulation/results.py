@@ -28,6 +28,8 @@ from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.touches import describe_contact
 
 DETECTION = ("rotor_failure_detections", "rotor_failure_detection_delay_s")  # metrics with detection of a lost rotor
+ONE_STEP = EMPTY._replace(steps=1.0)
+SHAPES = summary(ONE_STEP, ONE_STEP, 1.0)  # metrics that every flight has, with numbers in their place
 OF_ANY_FLIGHT = (  # metrics besides those of `summary`
     *("final_position_m", "final_reference_m", "command_at_start"),
     *("outcome", "findings", "failure", "steps", "wall_s", "events"),

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.vector import ZERO, Absent, Vec3
+from tandemlift.core.vector import Absent, Vec3
 from tandemlift.engines.touches import SurfaceTouches, Touches, TouchRecord
 from tandemlift.flight.record import Flight
-from tandemlift.parts.estimation.contact_detection import ContactEstimate
 from tandemlift.parts.guidance.contact_hold import BEAM, DIRECTIONS, HALF_PLACES, PLACES, code_of
 from tandemlift.simulation.loop.step import FlightState
 
@@ -30,8 +29,7 @@ def contact_codes(flight: Flight) -> list[int]:
     if "contact_part" not in flight:
         return []
     columns = zip(flight["contact_part"], flight["contact_along_beam"], flight["contact_normal"], strict=True)
-    contacts = [ContactEstimate(p, ZERO, ZERO, a, Vec3(*map(float, n)), 0.0, 0.0) for p, a, n in columns]
-    return [int(code_of(c)) if c.part else 0 for c in contacts]
+    return [int(code_of(part, Vec3(*map(float, normal)), along)) if part else 0 for part, along, normal in columns]
 
 
 class TouchReport(NamedTuple):

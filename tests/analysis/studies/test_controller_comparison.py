@@ -23,8 +23,8 @@ from tandemlift.analysis.studies.comparison_scores import (
 from tandemlift.apps.cli.main import main
 from tandemlift.missions import built_in, tables_of
 from tandemlift.parts.controllers import CONTROLLERS
-from tandemlift.pictures.report.comparison import write_comparison
-from tandemlift.pictures.report.comparison_figures import draw_errors, draw_thrusts
+from tandemlift.pictures.report.study.comparison import write_comparison
+from tandemlift.pictures.report.study.comparison_figures import draw_errors, draw_thrusts
 
 SHORT = ("--set", "mission.duration=0.6")
 WILD = ("lambda_1=0", "lambda_2=0", "xi=[4,2,11,0.1,0.1,0.1]")  # of nftsmc

@@ -7,7 +7,7 @@ import pytest
 from scipy import stats
 
 import tandemlift as tl
-from tandemlift.analysis.studies.quantities import quantile, share, upper_bound
+from tandemlift.analysis.studies.design.statistics import quantile, share, upper_bound
 
 
 @pytest.mark.parametrize(("count", "total"), [(0, 7), (1, 10), (3, 10), (10, 10), (17, 2_995), (2, 1_000_000)])

@@ -8,12 +8,6 @@ from tandemlift.core.phases import REASONS
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Absent, Vec3, each, vec3
 from tandemlift.parts.compliance.above_ground import GroundClearance, above_ground
-from tandemlift.parts.compliance.available import (
-    AvailableForce,
-    available_acceleration,
-    needed_force,
-    usable_thrust,
-)
 from tandemlift.parts.compliance.compliance import compliance_step
 from tandemlift.parts.compliance.following import (
     AT_REST,
@@ -22,6 +16,12 @@ from tandemlift.parts.compliance.following import (
     more_urgent,
     must_land,
     update_following,
+)
+from tandemlift.parts.guidance.available import (
+    AvailableForce,
+    available_acceleration,
+    needed_force,
+    usable_thrust,
 )
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import NoFaults, rotor_faults

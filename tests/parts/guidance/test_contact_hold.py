@@ -82,8 +82,8 @@ def test_the_code_of_a_contact_is_that_of_its_first_touch_until_another_part_tou
         )
 
     found = {round(t, 2): boundary.code for t, boundary in reacting(story, 2.5)[0]}
-    first, second = code_of(WALL), code_of(other_part)
-    assert len({first, second, code_of(other_side), 0.0}) == 4
+    first, second, third = (code_of(c.part, c.normal, c.along) for c in (WALL, other_part, other_side))
+    assert len({first, second, third, 0.0}) == 4
     assert found[0.0] == found[0.49] == found[0.5] == found[0.99] == first
     assert found[1.0] == found[1.49] == found[1.6] == second  # also while the boundary is left
     assert found[1.9] == 0.0

@@ -234,6 +234,37 @@ def frequency_response(model: LinearModel, frequencies: Array) -> NDArray[np.com
     return np.array([model.C @ np.linalg.solve(turn * unit - model.A, model.B) + model.D for turn in turns])
 
 
+LOWEST, HIGHEST, POINTS = 0.02, 0.45, 300  # Hz, of the sample rate; points of a drawn response
+
+
+def axis_responses(model: LinearModel, input: str, output: str) -> tuple[str, Array, dict[str, NDArray[np.complex128]]]:
+    """The responses of a group of outputs to one of inputs, each along its own axis.
+
+    Args:
+        model: the model.
+        input: beginning of the names of inputs, such as "push_force".
+        output: that of outputs, such as "position".
+
+    Returns:
+        The unit, frequencies (F,) [Hz], and the response (F,) of each axis by its label.
+    """
+    columns, rows = (
+        [i for i, v in enumerate(variables) if v.name.startswith(f"{name}_")]
+        for variables, name in ((model.inputs, input), (model.outputs, output))
+    )
+    frequencies = np.geomspace(LOWEST, HIGHEST / model.step, POINTS)
+    response, pairs = frequency_response(model, frequencies), list(zip(rows, columns, strict=False))
+    unit_in, unit_out = (v[at[0]].unit if at else "" for v, at in ((model.inputs, columns), (model.outputs, rows)))
+    labels = [f"{model.inputs[j].name[-1]} → {model.outputs[i].name[-1]}" for i, j in pairs]
+    curves = {label: response[:, i, j] for label, (i, j) in zip(labels, pairs, strict=True)}
+    return f"{unit_out}/{unit_in}", frequencies, curves
+
+
+def title_of(model: LinearModel) -> str:
+    """The mission, the modelled part, the time of the point and the sample time, in a line."""
+    return f"{model.mission}: the {model.of} at {model.time:g} s, sample time {model.step * 1e3:g} ms"
+
+
 def model_lines(model: LinearModel, connected: LinearModel, count: int) -> Iterator[str]:
     """A model in words: its size, its slowest modes, kinks and assumptions.
 
@@ -243,7 +274,7 @@ def model_lines(model: LinearModel, connected: LinearModel, count: int) -> Itera
         count: of the modes.
     """
     n, m, p = len(model.states), len(model.inputs), len(model.outputs)
-    yield f"{model.mission}: the {model.of} at {model.time:g} s, sample time {model.step * 1e3:g} ms"
+    yield title_of(model)
     yield f"  {n} states, of which {len(connected.states)} connect the {m} inputs with the {p} outputs at this point"
     if count:
         yield from _mode_lines(connected, count)

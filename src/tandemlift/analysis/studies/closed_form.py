@@ -12,9 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.types import Array
+from tandemlift.core.types import LN_20, Array
 from tandemlift.missions import Mission
-from tandemlift.parts.compliance.admittance import LN_20
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 AXES = ("x", "y", "z")

@@ -10,9 +10,8 @@ from tandemlift.analysis.studies.closed_form import YAW, AxisFeel
 from tandemlift.analysis.studies.standard_push import Answer, PushedAxis, pushed_axes
 from tandemlift.core.errors import FAILS, CheckResult, judged, noted
 from tandemlift.core.progress import progress_or_own
-from tandemlift.core.types import GRAVITY, Progress
+from tandemlift.core.types import GRAVITY, LN_20, Progress
 from tandemlift.missions import Mission
-from tandemlift.parts.compliance.admittance import LN_20
 from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.person.passage import least_room, passage_checks, places_of

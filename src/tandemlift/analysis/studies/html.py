@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from html import escape
 from typing import TYPE_CHECKING
 
-from tandemlift.analysis.studies.quantities import share
+from tandemlift.analysis.studies.design.statistics import share
 
 if TYPE_CHECKING:
     import pyarrow

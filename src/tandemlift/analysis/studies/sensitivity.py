@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.studies.quantities import CONFIDENCE, IntervalEstimate
+from tandemlift.analysis.studies.design.statistics import CONFIDENCE, IntervalEstimate
 from tandemlift.analysis.studies.study_rows import RowGroup, StudyRows
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array

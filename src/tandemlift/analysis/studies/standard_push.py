@@ -18,8 +18,6 @@ from tandemlift.core.types import Array, Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, merge, tables_of
 from tandemlift.missions.changes import Tables
-from tandemlift.parts.estimation.estimator_table import EstimatorTable
-from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.simulation.many import fly_each
 
@@ -103,7 +101,13 @@ def pushed_axes(m: Mission, progress: Progress | None = None) -> tuple[PushedAxi
     Raises:
         InputError: the mission cannot be flown without its surroundings.
     """
-    axes, start = axes_of(m), start_of(m.phases, m.compliance.spin_up_time, m.estimator)
+    axes, e = axes_of(m), m.estimator
+    start = m.phases.lift_start + m.phases.lift_duration + m.compliance.spin_up_time + SETTLING
+    if e.tare == "hover":
+        start = start + e.tare_duration + SETTLING
+    else:
+        tared = 0.0 if e.tare_start is None else e.tare_start + e.tare_duration
+        start = math.ceil(max(start, tared + SETTLING))
     end = start + 2.0 * max(map(hold_of, axes)) + LEAST_HOLD
     flights = fly_each([push_mission(m, k, start, end) for k in axes], keep="flights", progress=progress)
     return tuple(_measured(k, flight, start) for k, flight in zip(axes, flights, strict=True))
@@ -112,15 +116,6 @@ def pushed_axes(m: Mission, progress: Progress | None = None) -> tuple[PushedAxi
 def hold_of(k: AxisFeel) -> float:
     """The duration of the push along an axis [s]: until it has its final speed."""
     return min(max(LEAST_HOLD, HOLD * k.time), MOST_HOLD)
-
-
-def start_of(p: PhasesTable, spin_up_time: float, e: EstimatorTable) -> float:
-    """The time at which the vehicle hovers at rest after the tare [s]."""
-    lifted = p.lift_start + p.lift_duration + spin_up_time
-    if e.tare == "hover":
-        return lifted + SETTLING + e.tare_duration + SETTLING
-    tared = 0.0 if e.tare_start is None else e.tare_start + e.tare_duration
-    return math.ceil(max(lifted, tared) + SETTLING)
 
 
 def push_mission(m: Mission, k: AxisFeel, start: float, end: float) -> Mission:

@@ -20,9 +20,9 @@ from tandemlift.analysis.studies.design.keys import columns_of
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.sampling import points
 from tandemlift.analysis.studies.design.settings import REFUSED, StudySettings
+from tandemlift.analysis.studies.design.statistics import share
 from tandemlift.analysis.studies.execution.store import StudyFolder
 from tandemlift.analysis.studies.html import study_html
-from tandemlift.analysis.studies.quantities import share
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array

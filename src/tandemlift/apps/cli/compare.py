@@ -90,7 +90,7 @@ def compare(
       3   a flight crashed, diverged or did not lift: its row has the reason; everything is written; with --strict,
           also a flight with findings
     """
-    from tandemlift.pictures.report.comparison import write_comparison_files
+    from tandemlift.pictures.report.study.comparison import write_comparison_files
 
     if engines is not None and controllers is not None:
         raise InputError("--engines, --controllers: give only one of them")

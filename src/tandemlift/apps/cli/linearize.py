@@ -88,13 +88,15 @@ def _draw(connected: LinearModel, path: Path) -> None:
     Raises:
         InputError: it has too many states.
     """
-    from tandemlift.analysis.linearization.linear_model import MOST_STATES, modes_of
+    from tandemlift.analysis.linearization.linear_model import MOST_STATES, axis_responses, modes_of, title_of
     from tandemlift.pictures.figures.drawing.style import save
-    from tandemlift.pictures.figures.linear_model import draw
+    from tandemlift.pictures.figures.linear_model import Response, draw
 
     if len(connected.states) > MOST_STATES:
         raise InputError(f"--figure {path}: {len(connected.states)} states are too many to draw; at most {MOST_STATES}")
-    save(draw(connected, modes_of(connected), *DRAWN[connected.of]), path)
+    names = DRAWN[connected.of]
+    response = Response(" → ".join(names).replace("_", " "), *axis_responses(connected, *names))
+    save(draw(title_of(connected), [mode.s for mode in modes_of(connected).modes], response), path)
 
 
 @click.command()

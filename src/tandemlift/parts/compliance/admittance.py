@@ -18,11 +18,9 @@ from tandemlift.core.caching import cached
 from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import NonNegative3, Positive3, Table, is_number, key
 from tandemlift.core.law import choice, elementwise, law
-from tandemlift.core.types import Number
+from tandemlift.core.types import LN_20, Number
 from tandemlift.core.vector import Vec3, vec3
 from tandemlift.parts.mechanics.trajectories import Trajectory
-
-LN_20 = 2.995732273553991  # time constants until 95 %
 
 
 class Feel(NamedTuple):

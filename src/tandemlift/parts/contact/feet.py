@@ -23,18 +23,7 @@ from tandemlift.core.algebra import absolute, greatest, maximum, minimum, sqrt, 
 from tandemlift.core.arrays import array, largest, lengths
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import GRAVITY, Condition, Number, PerQuadrotor, number
-from tandemlift.core.vector import (
-    Absent,
-    Mat3,
-    Quarters,
-    Vec3,
-    apply,
-    apply_transposed,
-    cross,
-    dot,
-    spread,
-    vec3,
-)
+from tandemlift.core.vector import Absent, Mat3, Quarters, Vec3, apply, apply_transposed, cross, dot, spread, vec3
 from tandemlift.parts.contact.hull import MAX_ACCELERATION, MAX_ANGULAR_ACCELERATION, Ellipsoids, Hull
 from tandemlift.parts.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
 from tandemlift.parts.mechanics.loads import PartLoad, PartsLayout, add_to_each

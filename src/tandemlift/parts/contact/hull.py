@@ -26,19 +26,7 @@ from tandemlift.core.algebra import absolute, greatest, least, minimum, sqrt
 from tandemlift.core.arrays import array
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Array, Condition, Number, NumberSet, number
-from tandemlift.core.vector import (
-    ZERO,
-    Absent,
-    Mat3,
-    Vec3,
-    apply,
-    apply_transposed,
-    cross,
-    dot,
-    each,
-    quarters,
-    spread,
-)
+from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, dot, each, quarters, spread
 from tandemlift.parts.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
 from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each, sum_over_set
 from tandemlift.parts.mechanics.payload import ConvexHull

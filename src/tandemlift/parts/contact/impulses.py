@@ -21,17 +21,7 @@ from typing import Any, NamedTuple, TypeVar
 from tandemlift.core.algebra import chosen, greatest, least, maximum, minimum, sqrt, where
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, NumberSet
-from tandemlift.core.vector import (
-    Absent,
-    Vec3,
-    apply,
-    apply_transposed,
-    cross,
-    dot,
-    each,
-    is_set,
-    set_of,
-)
+from tandemlift.core.vector import Absent, Vec3, apply, apply_transposed, cross, dot, each, is_set, set_of
 from tandemlift.parts.contact.polyhedron import Polyhedron, PolyhedronContact
 from tandemlift.parts.contact.spheres import ContactPair, RotorSpheres, WallContact, inverse_root
 from tandemlift.parts.contact.walls import Beam, BeamContact, NearWallContact, Walls, loads_of_walls

@@ -107,12 +107,12 @@ def side_of(x: Number) -> Number:
 
 
 @law
-def code_of(c: ContactEstimate) -> Number:
+def code_of(part: Number, normal: Vec3, along: Number) -> Number:
     """Part, direction of the wall and place on the beam [cm] in a whole number; `simulation.touches` reads it."""
-    part = where(c.part < 0.0, BEAM, c.part)
-    direction = side_of(-c.normal.x) * 3.0 + side_of(-c.normal.y)
-    place = maximum(minimum(c.along * 100.0, 4000.0), -4000.0) + HALF_PLACES
-    return (part * DIRECTIONS + direction) * PLACES + ((place + ROUND) - ROUND)
+    counted = where(part < 0.0, BEAM, part)
+    direction = side_of(-normal.x) * 3.0 + side_of(-normal.y)
+    place = maximum(minimum(along * 100.0, 4000.0), -4000.0) + HALF_PLACES
+    return (counted * DIRECTIONS + direction) * PLACES + ((place + ROUND) - ROUND)
 
 
 @law(absent=("k", "m"))
@@ -130,7 +130,7 @@ def react_to_contact(
     holding = maximum(touching, where(free_time < k.recovery_time, m.holding, 0.0)) * aloft
     held_time = where(holding > 0.0, m.held_time + dt, maximum(m.held_time - dt, 0.0))
     other = begins * where(c.part == m.part, 1.0 - m.holding, 1.0)
-    code = where(other > 0.0, code_of(c), m.code) * holding
+    code = where(other > 0.0, code_of(c.part, c.normal, c.along), m.code) * holding
     arm = c.point - state.position
     lever = where(begins > 0.0, c.normal.y * arm.x - c.normal.x * arm.y, m.lever)
     part = where(touching > 0.0, c.part, m.part)

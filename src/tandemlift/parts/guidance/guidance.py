@@ -17,12 +17,7 @@ from tandemlift.core.vector import Vec3
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.trajectories import PhasesTable, Reference, Trajectory
-from tandemlift.parts.person.requests import (
-    NO_REQUEST,
-    UNKNOWN_STATUS,
-    OperatorRequest,
-    VehicleStatus,
-)
+from tandemlift.parts.person.requests import NO_REQUEST, UNKNOWN_STATUS, OperatorRequest, VehicleStatus
 
 M = TypeVar("M")
 Reading = Literal["truth", "measurement", "estimate"]

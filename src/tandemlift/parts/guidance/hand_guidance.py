@@ -10,12 +10,6 @@ from tandemlift.core.phases import CONTACT, IDLE, LAND, LIFT
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Vec3, apply, dot
 from tandemlift.parts.compliance.above_ground import GroundClearance, above_ground, has_floor
-from tandemlift.parts.compliance.available import (
-    AvailableForce,
-    available_acceleration,
-    needed_force,
-    usable_thrust,
-)
 from tandemlift.parts.compliance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
 from tandemlift.parts.compliance.energy_tank import EnergyTank, EnergyTankState, passivity_damping
 from tandemlift.parts.compliance.following import (
@@ -26,6 +20,7 @@ from tandemlift.parts.compliance.following import (
     update_following,
 )
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
+from tandemlift.parts.guidance.available import AvailableForce, available_acceleration, needed_force, usable_thrust
 from tandemlift.parts.guidance.contact_hold import (
     Boundary,
     ContactReaction,
@@ -38,13 +33,7 @@ from tandemlift.parts.guidance.contact_hold import (
     turning_out,
     without_wall,
 )
-from tandemlift.parts.guidance.guidance import (
-    Guidance,
-    PilotInput,
-    ThrustFraction,
-    checked_input,
-    guide,
-)
+from tandemlift.parts.guidance.guidance import Guidance, PilotInput, ThrustFraction, checked_input, guide
 from tandemlift.parts.guidance.phases import (
     PhaseOutput,
     PhaseSettings,
@@ -71,10 +60,7 @@ from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, wrap_angle
 from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
-from tandemlift.parts.person.requests import (
-    requests_until,
-    with_operator,
-)
+from tandemlift.parts.person.requests import requests_until, with_operator
 
 
 class HandGuidance(NamedTuple):

@@ -1,4 +1,4 @@
-"""Check of the room between walls on the path along which a person leads the vehicle.
+"""Checks of the path along which a person leads the vehicle: its duration, and the room between walls.
 
 The vehicle is assumed to follow exactly. The quadrotors' guards must stay clear of all walls. The heading is
 kept if one hand steers the centre of mass, and follows the path if two hands rotate the vehicle. If one end is pulled,
@@ -18,6 +18,7 @@ from tandemlift.core.errors import CheckResult, judged
 from tandemlift.core.types import Array
 from tandemlift.parts.contact.corridor import CorridorTable, WallTable
 from tandemlift.parts.mechanics.rigid_body import InitialTable
+from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.person.person_table import PersonTable, waypoints_from
 
@@ -72,6 +73,24 @@ def way_of(
         now = now if w.heading is None else w.heading
         headings.append(now)
     return np.array([start, *[w.point for w in waypoints]]), headings
+
+
+def way_checks(
+    p: PersonTable, corridor: CorridorTable, initial: InitialTable, phases: PhasesTable, landing: float, end: float
+) -> Iterator[CheckResult]:
+    """Check for a path that takes longer than the mission until its `end`, with `landing` [s], at the desired speed."""
+    points = [w.point for w in waypoints_from(p, corridor)]
+    if p.model not in ("pull", "steer", "two-hands") or not points:
+        return
+    length = sum(itertools.starmap(math.dist, itertools.pairwise([initial.position[:2], *points])))
+    length = max(length - abs(p.grip) - p.arrival_radius, 0.0)
+    begins = max(p.start_time, phases.lift_start + p.height_fraction * phases.lift_duration * 0.5)
+    least = begins + length / p.speed + sum(w.dwell for w in p.path) + landing
+    text = (
+        f"the person's path of {length:.3g} m at person.speed = {p.speed:g} m/s and the landing take until "
+        f"{least:.4g} s at the soonest, and mission.duration = {end:g} s: set it to more than {math.ceil(least)} s"
+    )
+    yield judged("schedule", least, end, "s", text, subject="person", near=0.1)
 
 
 def places_of(p: PersonTable, corridor: CorridorTable, initial: InitialTable, vehicle: Vehicle) -> Places | None:

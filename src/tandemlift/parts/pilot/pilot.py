@@ -21,15 +21,7 @@ from tandemlift.parts.estimation.disturbance_observer import (
     last_known,
     observer_step,
 )
-from tandemlift.parts.guidance.guidance import (
-    Guidance,
-    PilotInput,
-    checked_input,
-    guide,
-    running,
-    untouched,
-    with_wall,
-)
+from tandemlift.parts.guidance.guidance import Guidance, PilotInput, checked_input, guide, running, untouched, with_wall
 from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
 from tandemlift.parts.rotors.allocation import AllocationState, ConstrainedAllocation, Mixer, allocate

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from tandemlift.core.errors import CLOSE, FAILS, CheckResult, judged, noted
@@ -13,9 +13,7 @@ from tandemlift.parts.compliance.admittance import AdmittanceTable
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.guidance.compliance_table import ComplianceTable
 from tandemlift.parts.mechanics.push import PushTable
-from tandemlift.parts.mechanics.rigid_body import InitialTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
-from tandemlift.parts.person.person_table import PersonTable, WaypointTable
 from tandemlift.parts.rotors.hover import HoverFacts
 
 STEEPEST = 1.875  # of the quintic smooth step: its largest slope
@@ -156,21 +154,3 @@ def landing_checks(schedule: Schedule) -> Iterator[CheckResult]:
         f"{end:g} s: the flight ends in the air; set mission.duration to {math.ceil(over)} s or more, or land earlier"
     )
     yield judged("schedule", over, end, "s", text, subject="landing", near=0.0)
-
-
-def way_checks(
-    schedule: Schedule, p: PersonTable, waypoints: Sequence[WaypointTable], initial: InitialTable
-) -> Iterator[CheckResult]:
-    """Check for a person's path that takes longer than the mission, at the person's desired speed."""
-    points, phases, end = [w.point for w in waypoints], schedule.phases, schedule.end
-    if p.model not in ("pull", "steer", "two-hands") or not points:
-        return
-    length = sum(itertools.starmap(math.dist, itertools.pairwise([initial.position[:2], *points])))
-    length = max(length - abs(p.grip) - p.arrival_radius, 0.0)
-    begins = max(p.start_time, phases.lift_start + p.height_fraction * phases.lift_duration * 0.5)
-    least = begins + length / p.speed + sum(w.dwell for w in p.path) + schedule.landing_duration
-    text = (
-        f"the person's path of {length:.3g} m at person.speed = {p.speed:g} m/s and the landing take until "
-        f"{least:.4g} s at the soonest, and mission.duration = {end:g} s: set it to more than {math.ceil(least)} s"
-    )
-    yield judged("schedule", least, end, "s", text, subject="person", near=0.1)

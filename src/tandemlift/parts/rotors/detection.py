@@ -30,13 +30,7 @@ from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_
 from tandemlift.parts.mechanics.rigid_body import PushedState, apply_inertia, gyroscopic
 from tandemlift.parts.mechanics.rotation import body_z_axis
 from tandemlift.parts.rotors.allocation import Mixer, wrench
-from tandemlift.parts.rotors.decision import (
-    DecisionRules,
-    DecisionState,
-    decision_step,
-    share_gone,
-    support,
-)
+from tandemlift.parts.rotors.decision import DecisionRules, DecisionState, decision_step, share_gone, support
 
 FOUR = each(4)
 UPRIGHT = 0.3  # least cosine of the tilt

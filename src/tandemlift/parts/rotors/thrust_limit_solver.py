@@ -31,14 +31,7 @@ from tandemlift.core.types import Condition, Number, PerRotor
 from tandemlift.core.vector import each
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.rotors.allocation import AllocationState, Mixer
-from tandemlift.parts.rotors.normal_equations import (
-    GAMMA,
-    WrenchVector,
-    factored,
-    free_rotors,
-    solved,
-    summed_from,
-)
+from tandemlift.parts.rotors.normal_equations import GAMMA, WrenchVector, factored, free_rotors, solved, summed_from
 
 ACCURACY = 1e-9  # N, of every thrust, where the rounding of the given numbers allows it
 ROUNDING = 2.220446049250313e-16  # of a double

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
-from tandemlift.analysis.linearization.linear_model import LinearModel, Modes, frequency_response
+from tandemlift.core.types import Array
 from tandemlift.pictures.figures.drawing.style import (
     BLUE,
     COMPONENTS,
@@ -22,37 +23,40 @@ from tandemlift.pictures.figures.drawing.style import (
     styled,
 )
 
-LOWEST, HIGHEST, POINTS = 0.02, 0.45, 300  # Hz, of the sample rate; points of a curve
 LINEAR = 0.1  # 1/s, within which the axes of the poles are linear
 RATIOS = (0.1, 0.3, 0.7)  # damping ratios that are drawn
 ROOM = 2.0  # by how much the axes go beyond the poles
 SMALLEST = 1e-9  # of the largest response: a smaller one is rounding, and not drawn
 
 
-@styled
-def draw(model: LinearModel, modes: Modes, input: str, output: str) -> Figure:
-    """Draw a model.
+class Response(NamedTuple):
+    """How an input moves an output.
 
-    Args:
-        model: the model.
-        modes: its modes.
-        input: beginning of the names of inputs, such as "push_force".
-        output: that of outputs, such as "position"; input i is drawn to output i.
+    Attributes:
+        title: names both.
+        unit: of the curves' sizes.
+        frequencies: [Hz] (F).
+        curves: the response (F) along each axis, by its label.
     """
+
+    title: str
+    unit: str
+    frequencies: Array
+    curves: Mapping[str, NDArray[np.complexfloating]]
+
+
+@styled
+def draw(title: str, poles: Sequence[complex], response: Response) -> Figure:
+    """Draw the poles [1/s] of a model, and a response."""
     figure: StyledFigure = page_figure(3.1)
     grid = figure.add_gridspec(2, 2, width_ratios=(1.0, 1.15))
-    _poles(figure.add_subplot(grid[:, 0]), modes)
-    size, phase = figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1])
-    _response(size, phase, model, input, output)
-    figure.suptitle(
-        f"{model.mission}: the {model.of} at {model.time:g} s, sample time {model.step * 1e3:g} ms",
-        fontsize=points(9.5),
-    )
+    _poles(figure.add_subplot(grid[:, 0]), np.array(poles))
+    _response(figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1]), response)
+    figure.suptitle(title, fontsize=points(9.5))
     return figure
 
 
-def _poles(axes: Axes, modes: Modes) -> None:
-    s = np.array([mode.s for mode in modes.modes])
+def _poles(axes: Axes, s: NDArray[np.complexfloating]) -> None:
     far = ROOM * max(float(np.abs(s).max(initial=1.0)), 1.0)
     axes.set_xscale("symlog", linthresh=LINEAR)
     axes.set_yscale("symlog", linthresh=LINEAR)
@@ -75,22 +79,15 @@ def _poles(axes: Axes, modes: Modes) -> None:
     axes.set_title("modes, and lines of damping ratio")
 
 
-def _response(size: Axes, phase: Axes, model: LinearModel, input: str, output: str) -> None:
-    columns, rows = _named(model.inputs, input), _named(model.outputs, output)
-    frequencies = np.geomspace(LOWEST, HIGHEST / model.step, POINTS)
-    response = frequency_response(model, frequencies)
-    largest = max((np.abs(response[:, i, j]).max() for i, j in zip(rows, columns, strict=False)), default=0.0)
-    for i, j, style in zip(rows, columns, COMPONENTS, strict=False):
-        curve = np.where(np.abs(response[:, i, j]) > SMALLEST * largest, response[:, i, j], np.nan)
-        size.loglog(
-            frequencies, np.abs(curve), label=f"{model.inputs[j].name[-1]} → {model.outputs[i].name[-1]}", **style
-        )
+def _response(size: Axes, phase: Axes, response: Response) -> None:
+    frequencies = response.frequencies
+    largest = max((np.abs(values).max() for values in response.curves.values()), default=0.0)
+    for (label, values), style in zip(response.curves.items(), COMPONENTS, strict=False):
+        curve = np.where(np.abs(values) > SMALLEST * largest, values, np.nan)
+        size.loglog(frequencies, np.abs(curve), label=label, **style)
         phase.semilogx(frequencies, np.degrees(np.unwrap(np.angle(np.nan_to_num(curve)))), **style)
-    size.set_title(f"{input.replace('_', ' ')} → {output.replace('_', ' ')}")
-    unit_in, unit_out = (
-        named[at[0]].unit if at else "" for named, at in ((model.inputs, columns), (model.outputs, rows))
-    )
-    size.set_ylabel(f"size [{unit_out}/{unit_in}]")
+    size.set_title(response.title)
+    size.set_ylabel(f"size [{response.unit}]")
     phase.set_ylabel("phase [deg]")
     phase.set_xlabel("frequency [Hz]")
     size.tick_params(labelbottom=False)
@@ -98,7 +95,3 @@ def _response(size: Axes, phase: Axes, model: LinearModel, input: str, output: s
         axes.grid(True)
         axes.set_xlim(frequencies[0], frequencies[-1])
     size.legend(loc="lower left")
-
-
-def _named(variables: Sequence[Any], beginning: str) -> list[int]:
-    return [i for i, v in enumerate(variables) if v.name.startswith(f"{beginning}_")]

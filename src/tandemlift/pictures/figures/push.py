@@ -15,7 +15,6 @@ from matplotlib.patches import Patch
 
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.figures.drawing.overlay import over_time
@@ -59,7 +58,7 @@ BEYOND = 1.06  # half-lengths of the beam that the axis of the place shows to ea
 
 def places(flight: Flight) -> list[Array]:
     """The place of each push on body y (T) [m from the payload's origin], NaN while it is too small."""
-    least = EstimatorTable.model_validate(flight.mission.get("estimator", {})).min_force
+    least = flight.mission["estimator"]["min_force"]
     R = body_to_world(flight["attitude"])
     center = Vehicle.from_mission(flight.mission).center_of_mass[1]
     found = []
@@ -71,11 +70,12 @@ def places(flight: Flight) -> list[Array]:
     return found
 
 
-def _shadings(ax: Axes, flight: Flight, estimator: EstimatorTable) -> None:
+def _shadings(ax: Axes, flight: Flight) -> None:
+    estimator = flight.mission["estimator"]
     shade(ax, flight.time, flight["push_usable"] == 0.0)
-    if estimator.tare_start is not None:
-        end = estimator.tare_start + estimator.tare_duration
-        shade(ax, flight.time, (flight.time >= estimator.tare_start) & (flight.time < end), LIGHT_BLUE)
+    if "tare_start" in estimator:
+        end = estimator["tare_start"] + estimator["tare_duration"]
+        shade(ax, flight.time, (flight.time >= estimator["tare_start"]) & (flight.time < end), LIGHT_BLUE)
 
 
 def _force(ax: Axes, flight: Flight, axis: int) -> list[Any]:
@@ -128,7 +128,7 @@ def _disagreement(ax: Axes, flight: Flight, limit: float) -> None:
 @journal
 def draw(flight: Flight) -> Figure:
     """Draw the push [N, world axes] true, measured and estimated, where it acts [m], mass [kg] and disagreement [N]."""
-    estimator = EstimatorTable.model_validate(flight.mission.get("estimator", {}))
+    estimator = flight.mission["estimator"]
     figure = page_figure(6.6)
     grid = figure.add_gridspec(5, 2, height_ratios=ROWS)
     axes = [figure.add_subplot(grid[row, :]) for row in range(4)]
@@ -138,14 +138,14 @@ def draw(flight: Flight) -> Figure:
         handles = _force(ax, flight, axis)
     _place(axes[3], flight)
     _mass(below[0], flight)
-    _disagreement(below[1], flight, estimator.disagreement_limit)
+    _disagreement(below[1], flight, estimator["disagreement_limit"])
     for ax in (*axes, *below):
-        _shadings(ax, flight, estimator)
+        _shadings(ax, flight)
         time_axis(ax, flight, label=ax in (axes[3], *below))
     figure.align_ylabels([*axes, below[0]])
     names = ["true", "estimated", "measured", "threshold, limit", "estimate not usable"]
     handles.append(Patch(facecolor=PALE))
-    if estimator.tare_start is not None:
+    if "tare_start" in estimator:
         handles, names = [*handles, Patch(facecolor=LIGHT_BLUE)], [*names, "tare"]
     legend_above(figure, handles, names)
     return figure

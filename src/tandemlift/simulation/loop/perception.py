@@ -28,12 +28,7 @@ from tandemlift.parts.estimation.push_confirmation import (
     confirm,
     refuted_push,
 )
-from tandemlift.parts.estimation.push_estimate import (
-    PushEstimate,
-    PushEstimator,
-    PushEstimatorState,
-    estimate,
-)
+from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState, estimate
 from tandemlift.parts.guidance.contact_hold import contact_of
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
 from tandemlift.parts.guidance.phases import in_the_air, is_in

@@ -12,13 +12,7 @@ from tandemlift.core.types import NEVER
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.missions import Mission
 from tandemlift.parts.compliance.above_ground import GroundClearance
-from tandemlift.parts.compliance.admittance import (
-    AdmittanceState,
-    AdmittanceTable,
-    admittance_from,
-    gate_from,
-)
-from tandemlift.parts.compliance.available import start_available
+from tandemlift.parts.compliance.admittance import AdmittanceState, AdmittanceTable, admittance_from, gate_from
 from tandemlift.parts.compliance.compliance import start_compliance
 from tandemlift.parts.compliance.energy_tank import start_tank
 from tandemlift.parts.compliance.following import AT_REST, start_following
@@ -27,11 +21,10 @@ from tandemlift.parts.estimation.contact_table import start_contact_detection
 from tandemlift.parts.estimation.disturbance_observer import start_observer
 from tandemlift.parts.estimation.navigation import navigator_from, start_navigation
 from tandemlift.parts.estimation.off_center import off_center_at
-from tandemlift.parts.estimation.push_confirmation import (
-    start_confirmation,
-)
+from tandemlift.parts.estimation.push_confirmation import start_confirmation
 from tandemlift.parts.estimation.push_estimate import push_estimator, start_push
 from tandemlift.parts.estimation.wind_compensation import payload_drag_from
+from tandemlift.parts.guidance.available import start_available
 from tandemlift.parts.guidance.compliance_table import ComplianceTable, compliance_from, push_filters
 from tandemlift.parts.guidance.contact_hold import start_contact_hold
 from tandemlift.parts.guidance.guidance import running_from
@@ -46,10 +39,7 @@ from tandemlift.parts.mechanics.trajectories import PhasesTable, scheduled_phase
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.person.requests import RequestTable, start_requests
 from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters
-from tandemlift.parts.rotors.allocation import (
-    mixer_of,
-    start_allocation,
-)
+from tandemlift.parts.rotors.allocation import mixer_of, start_allocation
 from tandemlift.parts.rotors.detection_table import start_detection
 from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults, known_faults
 from tandemlift.parts.sensors.readings import Readings

@@ -25,7 +25,7 @@ from tandemlift.analysis.studies.tuning.source import MissionSource
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
-from tandemlift.simulation.loop.running_metrics import EMPTY, summary
+from tandemlift.simulation.results import SHAPES
 
 Values = tuple[Value, ...]
 FIRST = 4  # draws in which a candidate must not always fail to be flown on the others
@@ -109,7 +109,7 @@ def started(task: Task, draws: Sequence[Draw]) -> tuple[Task, Trial]:
     trial = task.judged(*fly_candidates(task.source, [{}], draws, task.threads))
     if all(outcome == REFUSED for outcome in trial.outcomes):
         raise InputError(f"no draw can be flown; the first is refused: {trial.reasons[0]}")
-    flown = [_shapes() | {k: v for k, v in m.items() if v is not None} for m in trial.metrics if m]
+    flown = [SHAPES | {k: v for k, v in m.items() if v is not None} for m in trial.metrics if m]
     fine = [metrics for metrics, bad in zip(trial.metrics, trial.bad, strict=True) if not bad]
     check_goals(task.goals, fine or flown)
     sizes = tuple(max(_size(goal, metrics) for metrics in flown) for goal in task.goals)
@@ -121,12 +121,6 @@ def started(task: Task, draws: Sequence[Draw]) -> tuple[Task, Trial]:
             "--minimize: with the present values every draw ends badly, so several goals need targets to compare"
         )
     return task._replace(sizes=sizes, scales=scales), trial
-
-
-def _shapes() -> dict[str, Any]:
-    """Metrics that every flight has, with numbers in the place of each."""
-    one = EMPTY._replace(steps=1.0)
-    return summary(one, one, 1.0)
 
 
 def _size(goal: Goal, metrics: Mapping[str, Any]) -> int:

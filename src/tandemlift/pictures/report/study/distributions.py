@@ -7,7 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from tandemlift.analysis.studies.quantities import Quantity, finite
+from tandemlift.analysis.studies.design.statistics import finite
+from tandemlift.analysis.studies.quantities import Quantity
 from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.core.types import Array
 from tandemlift.pictures.figures.drawing.figure import Caption

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.analysis.studies.design.settings import REFUSED
-from tandemlift.analysis.studies.quantities import Share, finite, share
+from tandemlift.analysis.studies.design.statistics import Share, finite, share
 from tandemlift.analysis.studies.study_rows import WHO, RowGroup, StudyRows
 from tandemlift.analysis.studies.worst import WorstRow, reasons, worst_rows
 from tandemlift.core.files import atomic_write

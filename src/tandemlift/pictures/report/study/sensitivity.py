@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tandemlift.analysis.studies.quantities import IntervalEstimate
+from tandemlift.analysis.studies.design.statistics import IntervalEstimate
 from tandemlift.analysis.studies.sensitivity import Sensitivity, influence
 from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.core.errors import InputError

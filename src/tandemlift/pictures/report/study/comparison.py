@@ -55,7 +55,7 @@ def write_comparison(found: MissionComparison, path: str | os.PathLike[str], fig
     Returns:
         The path.
     """
-    from tandemlift.pictures.report.comparison_figures import CAPTIONS, drawn_figures
+    from tandemlift.pictures.report.study.comparison_figures import CAPTIONS, drawn_figures
 
     first, controllers = next(iter(found.flights.values())), found.of == "controllers"
     return write_page(
