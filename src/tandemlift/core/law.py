@@ -10,7 +10,7 @@ no clock, no input or output, and no `math.*`. A loop over the parts of a value 
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple, TypeVar, overload
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -51,7 +51,7 @@ class Absent(NamedTuple):
 
 
 def _without(signature: Callable[..., Any], absent: Any) -> Callable[..., Any]:
-    """The law of a choice for `Absent`, from the argument `absent` of `choice`."""
+    """The law of a choice for a type whose result is given: for `Absent`, by the argument `absent` of `choice`."""
     code = signature.__code__
     names = code.co_varnames[: code.co_argcount]
     parts = absent if type(absent) is tuple else (absent,)
@@ -105,6 +105,7 @@ class Choice:
 
 
 REQUIRED = object()
+NOTHING: Mapping[type, Any] = {}
 
 
 @overload
@@ -112,29 +113,29 @@ def choice(signature: Callable[..., Any]) -> Choice: ...
 
 
 @overload
-def choice(*, absent: Any) -> Callable[[Callable[..., Any]], Choice]: ...
+def choice(*, absent: Any = ..., instead: Mapping[type, Any] = ...) -> Callable[[Callable[..., Any]], Choice]: ...
 
 
-def choice(signature: Callable[..., Any] | None = None, *, absent: Any = REQUIRED) -> Any:
+def choice(
+    signature: Callable[..., Any] | None = None, *, absent: Any = REQUIRED, instead: Mapping[type, Any] = NOTHING
+) -> Any:
     """Mark an empty function as the common signature of laws that are picked by type.
 
     Args:
         signature: the function: its arguments, and the type of the laws' results.
         absent: the result if the first argument is `Absent`: the name of an argument, a value, or a tuple of
             names and values. Without it, `Absent` is refused unless a law is registered for it.
+        instead: such results for first arguments of other types.
 
     Raises:
-        TypeError: `absent` names an argument that the function does not have.
+        TypeError: a result names an argument that the function does not have.
     """
     if signature is None:
-        return functools.partial(_choice, absent=absent)
-    return _choice(signature, absent)
-
-
-def _choice(signature: Callable[..., Any], absent: Any) -> Choice:
+        return functools.partial(choice, absent=absent, instead=instead)
     made = Choice(signature)
-    if absent is not REQUIRED:
-        made.register(Absent)(_without(signature, absent))
+    results = instead if absent is REQUIRED else {Absent: absent, **instead}
+    for kind, result in results.items():
+        made.register(kind)(_without(signature, result))
     return made
 
 
@@ -143,28 +144,31 @@ def law(function: F) -> F: ...
 
 
 @overload
-def law(*, absent: Any) -> Callable[[Callable[..., Any]], Choice]: ...
+def law(*, absent: Any = ..., instead: Mapping[type, Any] = ...) -> Callable[[Callable[..., Any]], Choice]: ...
 
 
-def law(function: Callable[..., Any] | None = None, *, absent: Any = REQUIRED) -> Any:
-    """Mark a pure function of values as a law. It is returned unchanged, unless `absent` is given.
+def law(
+    function: Callable[..., Any] | None = None, *, absent: Any = REQUIRED, instead: Mapping[type, Any] = NOTHING
+) -> Any:
+    """Mark a pure function of values as a law. It is returned unchanged, unless `absent` or `instead` is given.
 
     Args:
-        function: the law. With `absent`, its first argument is annotated with one type, by name.
+        function: the law. With `absent` or `instead`, its first argument is annotated with one type, by name.
         absent: the result if the first argument is `Absent`, as for `choice`: the law is then that of a part which a
-            flight may not have, and the same as a choice between these two types.
+            flight may not have, and the same as a choice between these types.
+        instead: such results for first arguments of other types.
 
     Raises:
-        TypeError: `absent` names an argument that the function does not have.
+        TypeError: a result names an argument that the function does not have.
     """
     if function is None:
-        return functools.partial(_optional, absent=absent)
+        return functools.partial(_optional, absent=absent, instead=instead)
     LAWS.append(function)
     return function
 
 
-def _optional(function: Callable[..., Any], absent: Any) -> Choice:
-    made = _choice(function, absent)
+def _optional(function: Callable[..., Any], absent: Any, instead: Mapping[type, Any]) -> Choice:
+    made: Choice = choice(absent=absent, instead=instead)(function)
     kind = function.__annotations__[function.__code__.co_varnames[0]]
     made.register(function.__globals__[kind] if isinstance(kind, str) else kind)(function)
     return made

@@ -100,33 +100,15 @@ def on_feet_only(plant: CompiledPlant) -> CompiledPlant:
     )
 
 
-@choice(absent="floor")
-def floor_loads(floor: Floor | DistantFloor | Absent, b: BodySurroundings, s: State) -> PartLoad | ZeroLoad | Absent:
+@law(absent="floor", instead={DistantFloor: ZeroLoad()})
+def floor_loads(floor: Floor, b: BodySurroundings, s: State) -> PartLoad:
     """Loads of the floor on the quadrotors, or `Absent`."""
-
-
-@floor_loads.register(DistantFloor)
-def _floor_out_of_reach(floor: DistantFloor, b: BodySurroundings, s: State) -> ZeroLoad:
-    return ZeroLoad()
-
-
-@floor_loads.register(Floor)
-def _floor(floor: Floor, b: BodySurroundings, s: State) -> PartLoad:
     return feet_load(floor, b.grip, b.plant.frame, s)
 
 
-@choice(absent="walls")
-def wall_loads(walls: Walls | DistantWalls | Absent, b: BodySurroundings, s: State) -> PartLoads | ZeroLoad | Absent:
+@law(absent="walls", instead={DistantWalls: ZeroLoad()})
+def wall_loads(walls: Walls, b: BodySurroundings, s: State) -> PartLoads:
     """Loads of the walls on all parts, or `Absent`."""
-
-
-@wall_loads.register(DistantWalls)
-def _walls_out_of_reach(walls: DistantWalls, b: BodySurroundings, s: State) -> ZeroLoad:
-    return ZeroLoad()
-
-
-@wall_loads.register(Walls)
-def _walls(walls: Walls, b: BodySurroundings, s: State) -> PartLoads:
     return near_wall_loads(walls, b.near, b.plant.frame, s)
 
 
@@ -153,34 +135,16 @@ def _struck(walls: Walls, b: BodySurroundings, s: State, u: Wrench, push: Push, 
     return impulses_of_walls(walls, contact, plant.frame, plant.body, s, free, sprung, dt)
 
 
-@choice(absent="floor")
-def hull_contact_with(floor: Floor | DistantFloor | Absent, s: State) -> HullContact | Absent:
+@law(absent="floor", instead={DistantFloor: Absent()})
+def hull_contact_with(floor: Floor, s: State) -> HullContact | Absent:
     """Contact of rotors, guards and beam with the floor; `Absent` where it is out of reach."""
-
-
-@hull_contact_with.register(DistantFloor)
-def _hull_out_of_reach(floor: DistantFloor, s: State) -> Absent:
-    return Absent()
-
-
-@hull_contact_with.register(Floor)
-def _hull(floor: Floor, s: State) -> HullContact | Absent:
     return contact_of_hull(floor.hull, floor, s)
 
 
-@choice(absent="hull")
-def contact_of_hull(hull: Hull | DistantHull | Absent, floor: Floor, s: State) -> HullContact | Absent:
+@law(absent="hull", instead={DistantHull: Absent()})
+def contact_of_hull(hull: Hull, floor: Floor, s: State) -> HullContact:
     """`hull_contact`, or `Absent` without a hull."""
-
-
-@contact_of_hull.register(Hull)
-def _with_floor(hull: Hull, floor: Floor, s: State) -> HullContact:
     return hull_contact(hull, floor.friction, floor.height, s, rotation_from_quaternion(s.attitude))
-
-
-@contact_of_hull.register(DistantHull)
-def _distant_hull(hull: DistantHull, floor: Floor, s: State) -> Absent:
-    return Absent()
 
 
 @law(absent="contact")
@@ -195,7 +159,7 @@ def hull_loads_in(b: BodySurroundings, s: State) -> PartLoads | Absent:
     return loads_of_hull(hull_contact_with(b.plant.floor, s), b.plant.frame, s)
 
 
-@choice(absent="load")
+@choice(absent="load", instead={ZeroLoad: NO_LOAD})
 def load_about_center(
     load: PartLoads | PartLoad | ZeroLoad | Absent, frame: PartsLayout, attitude: Quat
 ) -> PartLoad | Absent:
@@ -212,11 +176,6 @@ def _of_quadrotors(load: PartLoad, frame: PartsLayout, attitude: Quat) -> PartLo
     return resultant_of_quadrotors(frame, attitude, load) + NO_LOAD  # no zero of either sign but +0
 
 
-@load_about_center.register(ZeroLoad)
-def _of_no_contact(load: ZeroLoad, frame: PartsLayout, attitude: Quat) -> PartLoad:
-    return NO_LOAD
-
-
 @law(absent="rate")
 def with_load(load: PartLoad, body: RigidBody, attitude: Quat, rate: State) -> State:
     """The motion with a further load about the position."""
@@ -225,24 +184,10 @@ def with_load(load: PartLoad, body: RigidBody, attitude: Quat, rate: State) -> S
     return State(rate.position, velocity, rate.attitude, rate.rates + turned)
 
 
-@choice(absent="loads")
-def quadrotor_loads(loads: PartLoads | PartLoad | ZeroLoad | Absent) -> PartLoad | ZeroLoad | Absent:
+@law(absent="loads", instead={PartLoad: "loads", ZeroLoad: "loads"})
+def quadrotor_loads(loads: PartLoads) -> PartLoad:
     """The part of loads that acts on the quadrotors, or `Absent`."""
-
-
-@quadrotor_loads.register(PartLoads)
-def _of_parts(loads: PartLoads) -> PartLoad:
     return loads.quadrotors
-
-
-@quadrotor_loads.register(PartLoad)
-def _of_quadrotors_alone(loads: PartLoad) -> PartLoad:
-    return loads
-
-
-@quadrotor_loads.register(ZeroLoad)
-def _of_zero(loads: ZeroLoad) -> ZeroLoad:
-    return loads
 
 
 @readings_with_load.register(ZeroLoad)
@@ -263,18 +208,7 @@ def with_contact_force(load: PartLoad, readings: PerfectReadings) -> PerfectRead
     )
 
 
-@choice(absent="grip")
-def grip_after(
-    floor: Floor | DistantFloor | Absent, grip: Quarters[FootGrip] | Absent, s: State
-) -> Quarters[FootGrip] | Absent:
+@law(absent="grip", instead={DistantFloor: "grip"})
+def grip_after(floor: Floor, grip: Quarters[FootGrip], s: State) -> Quarters[FootGrip]:
     """The feet's grip at the end of a step."""
-
-
-@grip_after.register(DistantFloor)
-def _in_the_air(floor: DistantFloor, grip: Quarters[FootGrip], s: State) -> Quarters[FootGrip]:
-    return grip
-
-
-@grip_after.register(Floor)
-def _feet(floor: Floor, grip: Quarters[FootGrip], s: State) -> Quarters[FootGrip]:
     return grips_after_step(floor, grip, s)

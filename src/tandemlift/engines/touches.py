@@ -97,20 +97,9 @@ class ContactLog:
 # ---- The compiled body: which parts touch floor and walls at the start of a step
 
 
-@choice(absent="walls")
-def wall_contact_with(
-    walls: Walls | DistantWalls | Absent, near: NearWalls | Absent, frame: PartsLayout, s: State
-) -> NearWallContact | Absent:
+@law(absent="walls", instead={DistantWalls: Absent()})
+def wall_contact_with(walls: Walls, near: NearWalls, frame: PartsLayout, s: State) -> NearWallContact:
     """Contact with the near walls; `Absent` where they are out of reach."""
-
-
-@wall_contact_with.register(DistantWalls)
-def _untouched_walls(walls: DistantWalls, near: NearWalls, frame: PartsLayout, s: State) -> Absent:
-    return Absent()
-
-
-@wall_contact_with.register(Walls)
-def _near_walls(walls: Walls, near: NearWalls, frame: PartsLayout, s: State) -> NearWallContact:
     return near_wall_contact(walls, near, frame, s)
 
 

@@ -216,7 +216,7 @@ def _remembered(gains, memory, x):
     return memory + dot(gains, gains), gains.x, x * gains.y
 
 
-@law(absent="x")
+@law(absent="x", instead={int: 0.0})
 def passed(gains: Vec3, x):
     """What is left of x."""
     return x * gains.y
@@ -230,8 +230,8 @@ def test_a_choice_says_what_stands_for_an_absent_part():
 
 
 def test_the_law_of_an_optional_part_is_a_choice_between_the_part_and_its_absence():
-    assert passed(Vec3(1.0, 2.0, 0.0), 5.0) == 10.0
-    with pytest.raises(TypeError, match=r"passed\(\) has no law for float; it knows Absent, Vec3"):
+    assert (passed(Vec3(1.0, 2.0, 0.0), 5.0), passed(7, 5.0)) == (10.0, 0.0)
+    with pytest.raises(TypeError, match=r"passed\(\) has no law for float; it knows Absent, Vec3, int"):
         passed(1.0, 5.0)
 
 

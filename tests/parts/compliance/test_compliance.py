@@ -20,7 +20,6 @@ from tandemlift.parts.guidance.phases import PhaseOutput
 from tandemlift.parts.guidance.yaw_compliance import yaw_step
 from tandemlift.parts.mechanics.trajectories import SmoothStep
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.rotors.rotor_faults import NoFaults
 from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
 
 H = 1e-3
@@ -44,7 +43,7 @@ def guided(changes=None):
     mission = tl.load_mission(
         "one-push", {"pilot.guidance": "interactive", "admittance.gate": "soft", **(changes or {})}
     )
-    return start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), NoFaults())
+    return start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), Absent())
 
 
 def motion(push, seconds, changes=None, across=100.0):

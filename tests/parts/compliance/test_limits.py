@@ -24,7 +24,7 @@ from tandemlift.parts.guidance.available import (
     usable_thrust,
 )
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.rotors.rotor_faults import NoFaults, rotor_faults
+from tandemlift.parts.rotors.rotor_faults import rotor_faults
 from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
 
 H = 1e-3
@@ -92,7 +92,7 @@ def available(known):
 
 
 def test_the_thrust_that_may_be_used_is_that_of_the_rotors_that_are_known_to_work():
-    assert usable_thrust(available(NoFaults()), 9.0) == 50.0
+    assert usable_thrust(available(Absent()), 9.0) == 50.0
     lost = rotor_faults(8, [(1, 2, 5.0, 0.0), (2, 4, 6.0, 0.5)])
     assert usable_thrust(available(lost), 4.0) == pytest.approx(50.0)
     assert usable_thrust(available(lost), 5.5) == pytest.approx(50.0 * 7.0 / 8.0)
@@ -100,7 +100,7 @@ def test_the_thrust_that_may_be_used_is_that_of_the_rotors_that_are_known_to_wor
 
 
 def test_forces_are_those_of_statics():
-    k = available(NoFaults())
+    k = available(Absent())
     assert needed_force(k, Vec3(1.0, -2.0, -5.0)) == Vec3(-1.0, 2.0, 3.0 * GRAVITY + 5.0)
     weight = 3.0 * GRAVITY
     assert available_acceleration(k, ZERO, 100.0) == pytest.approx(np.tan(0.5) * GRAVITY)
@@ -112,7 +112,7 @@ def lowest(clearance, push, start=1.0, seconds=8.0):
     """The height of the reference above the ground at every step under a push F(t) [N]."""
     changes = {"pilot.guidance": "interactive", "admittance.gate": "soft"}
     mission = tl.load_mission("one-push", changes)
-    g, m = start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), NoFaults())
+    g, m = start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), Absent())
     m, heights = m.compliance, []
     for i in range(round(seconds / H)):
         k = above_ground(clearance, g.compliance, m, m.position.z + start)

@@ -16,11 +16,10 @@ from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.trajectories import SmoothStep, Trajectory
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.rotors.rotor_faults import NoFaults
 from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
 
 MISSION = tl.load_mission("iris", {"supervision.model": "on"})
-GUIDANCE, MEMORY = start_hand_guidance(MISSION, Vehicle.from_settings(MISSION.vehicle), NoFaults())
+GUIDANCE, MEMORY = start_hand_guidance(MISSION, Vehicle.from_settings(MISSION.vehicle), Absent())
 SUPERVISION, SEEN = GUIDANCE.supervision, MEMORY.supervision
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
 STATE = State(Vec3(1.0, 2.0, 3.0), Vec3(0.1, 0.2, 0.3), LEVEL, Vec3(0.3, 0.2, 0.1))
@@ -70,7 +69,7 @@ def test_on_the_ground_the_reference_stays_with_the_vehicle_at_rest_and_in_the_a
 
 def test_the_heading_yields_to_the_moment_about_the_vertical_however_the_vehicle_is_tilted():
     mission = tl.load_mission("one-push", {"pilot.guidance": "interactive", "compliance.yaw.model": "compliant"})
-    g, m = start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), NoFaults())
+    g, m = start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), Absent())
     tilted, moment = Rotation.from_euler("zxy", [0.7, 0.3, -0.2]), [0.5, -0.3, 0.8]
     state = STATE._replace(attitude=Quat(*tilted.as_quat(scalar_first=True).tolist()))
     pilot_input = PilotInput(state, ZERO, vec3(moment), 0.0, Absent())

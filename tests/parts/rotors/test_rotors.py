@@ -12,9 +12,9 @@ from tandemlift.missions import load_mission
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import wrench_scale
-from tandemlift.parts.rotors.ground_effect import FreeAir, ground_effect_ratio
-from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults
-from tandemlift.parts.rotors.rotors import IdealRotors, RotorState, ground_effect_from, rotors_from, rotors_step
+from tandemlift.parts.rotors.ground_effect import ground_effect_ratio
+from tandemlift.parts.rotors.rotor_faults import RotorFaults
+from tandemlift.parts.rotors.rotors import RotorState, ground_effect_from, rotors_from, rotors_step
 
 VEHICLE = Vehicle.from_settings(load_mission("paper").vehicle)
 UP, DOWN, CONSTANT, MOST = 0.0125, 0.025, 5.84e-6, 5.84e-6 * 1100.0**2
@@ -25,7 +25,7 @@ EIGHT = each(8)
 def rotors(step=0.001, *, late=False, faults=None, surface=None):
     scale = wrench_scale(VEHICLE.effect)
     return rotors_from(
-        VEHICLE, step, delayed=late, faults=faults or NoFaults(), surface=surface or FreeAir(), wrench_scale=scale
+        VEHICLE, step, delayed=late, faults=faults or Absent(), surface=surface or Absent(), wrench_scale=scale
     )
 
 
@@ -129,4 +129,4 @@ def test_each_rotor_of_a_tilted_vehicle_gains_by_its_own_height():
 
 def test_ideal_rotors_give_any_thrust_at_once():
     command = EIGHT(-3.0, 0.0, 100.0, *(1.0,) * 5)
-    assert rotors_step(IdealRotors(), Absent(), command, LEVEL, 0.0) == (command, Absent())
+    assert rotors_step(Absent(), Absent(), command, LEVEL, 0.0) == (command, Absent())

@@ -10,7 +10,6 @@ from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.parts.guidance.guidance import ThrustFraction
 from tandemlift.parts.rotors.allocation import mixer_from
-from tandemlift.parts.rotors.rotors import IdealRotors
 from tandemlift.simulation.loop.detectors import (
     ASLEEP,
     FindingLimits,
@@ -170,7 +169,7 @@ def detected(sample, seconds=3.0, running=1.0):
     output = SimpleNamespace(decision=decision, estimates=Absent())
     for k in range(round(seconds / DT)):
         state = SimpleNamespace(detectors=memory, memory=SimpleNamespace(detection=Absent()))
-        model = SimpleNamespace(finding_limits=FOUND, flight_state=state, pilot=pilot, rotors=IdealRotors())
+        model = SimpleNamespace(finding_limits=FOUND, flight_state=state, pilot=pilot, rotors=Absent())
         memory = detect(model, output, SimpleNamespace(**{**CALM, **sample(k * DT)}), k * DT, DT)
     return memory
 

@@ -18,7 +18,7 @@ from pydantic import Field
 
 from tandemlift.core.errors import CheckResult, warned
 from tandemlift.core.keys import AtLeastOne6, NonNegative6, Positive6, Table, Tilt, key
-from tandemlift.core.law import choice, law
+from tandemlift.core.law import law
 from tandemlift.core.types import GRAVITY, Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.parts.controllers.attitude_reference import (
@@ -159,19 +159,10 @@ class NFTSMC(NamedTuple):
     feedforward: Number
 
 
-@choice
-def euler_rates(kind: ExactRates | BodyRates, e: Euler, rates: Vec3) -> Vec3:
+@law(instead={BodyRates: "rates"})
+def euler_rates(kind: ExactRates, e: Euler, rates: Vec3) -> Vec3:
     """(φ̇, θ̇, ψ̇) for the attitude law, from body rates [rad/s]."""
-
-
-@euler_rates.register(ExactRates)
-def _exact(kind: ExactRates, e: Euler, rates: Vec3) -> Vec3:
     return euler_rates_from_rates(e, rates)
-
-
-@euler_rates.register(BodyRates)
-def _body(kind: BodyRates, e: Euler, rates: Vec3) -> Vec3:
-    return rates
 
 
 @law

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.algebra import maximum, sqrt, tan, where
-from tandemlift.core.law import choice, law
+from tandemlift.core.law import law
 from tandemlift.core.types import GRAVITY, Number, PerRotor
-from tandemlift.core.vector import Vec3, each, total
+from tandemlift.core.vector import Absent, Vec3, each, total
 from tandemlift.parts.mechanics.rigid_body import UP
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at
+from tandemlift.parts.rotors.rotor_faults import RotorFaults, efficiency_at
 
 
 class AvailableForce(NamedTuple):
@@ -23,21 +23,12 @@ class AvailableForce(NamedTuple):
     max_thrust: Number
     tangent: Number
     limits: PerRotor
-    known: NoFaults | RotorFaults
+    known: RotorFaults | Absent
 
 
-@choice
-def remaining_fraction(known: NoFaults | RotorFaults, limits: PerRotor, t: Number) -> Number:
+@law(absent=1.0)
+def remaining_fraction(known: RotorFaults, limits: PerRotor, t: Number) -> Number:
     """The fraction of the largest thrust that rotors with known faults have at time t [s]; `limits` [N] of each."""
-
-
-@remaining_fraction.register(NoFaults)
-def _all(known: NoFaults, limits: PerRotor, t: Number) -> Number:
-    return 1.0
-
-
-@remaining_fraction.register(RotorFaults)
-def _remaining(known: RotorFaults, limits: PerRotor, t: Number) -> Number:
     return total(limits * efficiency_at(known, t)) / total(limits)
 
 
@@ -65,7 +56,7 @@ def available_acceleration(k: AvailableForce, disturbance: Vec3, max_thrust: Num
 
 
 def start_available(
-    vehicle: Vehicle, thrust_fraction: Number, max_tilt: Number, known: NoFaults | RotorFaults
+    vehicle: Vehicle, thrust_fraction: Number, max_tilt: Number, known: RotorFaults | Absent
 ) -> AvailableForce:
     """The available thrust and tilt, by a fraction of the thrust and a largest tilt [rad]; `known`: rotor faults."""
     rotors = each(vehicle.rotor_count)

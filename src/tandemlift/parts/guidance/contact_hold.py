@@ -90,14 +90,9 @@ class Boundary(NamedTuple):
     on_beam: Number
 
 
-@choice
+@choice(absent=NO_CONTACT)
 def contact_of(sensed: object) -> ContactEstimate:
     """`ContactEstimate` from readings and estimates."""
-
-
-@contact_of.register(Absent)
-def _without_sensors(sensed: Absent) -> ContactEstimate:
-    return NO_CONTACT
 
 
 @law

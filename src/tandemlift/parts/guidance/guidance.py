@@ -96,10 +96,6 @@ class LoadOfWall(NamedTuple):
     touching: Number
 
 
-class AlwaysRunning(NamedTuple):
-    """Rotors always run."""
-
-
 class RunningInFlight(NamedTuple):
     """Rotors run from the `start` [s] of the lift to the end of the landing at `stop` [s]."""
 
@@ -127,7 +123,7 @@ class Guidance(NamedTuple):
     reference: Reference
     push: Vec3
     moment: Vec3
-    running: AlwaysRunning | ThrustFraction
+    running: ThrustFraction | Absent
     flying: Number
     learning: Number
     channels: object
@@ -174,55 +170,28 @@ def untouched(wall: LoadOfWall) -> Number:
     return 1.0 - wall.touching
 
 
-@choice
-def running(rotors: AlwaysRunning | ThrustFraction, thrusts: PerRotor) -> PerRotor:
+@law(absent="thrusts")
+def running(rotors: ThrustFraction, thrusts: PerRotor) -> PerRotor:
     """Thrusts [N] as commanded while the rotors run, or none while they are stopped."""
-
-
-@running.register(AlwaysRunning)
-def _always(rotors: AlwaysRunning, thrusts: PerRotor) -> PerRotor:
-    return thrusts
-
-
-@running.register(ThrustFraction)
-def _fraction(rotors: ThrustFraction, thrusts: PerRotor) -> PerRotor:
     return thrusts * rotors.value
 
 
-@choice
-def thrust_fraction(rotors: AlwaysRunning | ThrustFraction) -> Number:
+@law(absent=1.0)
+def thrust_fraction(rotors: ThrustFraction) -> Number:
     """The fraction of every thrust that is commanded."""
-
-
-@thrust_fraction.register(AlwaysRunning)
-def _whole(rotors: AlwaysRunning) -> Number:
-    return 1.0
-
-
-@thrust_fraction.register(ThrustFraction)
-def _value(rotors: ThrustFraction) -> Number:
     return rotors.value
 
 
-@choice
-def run(rotors: AlwaysRunning | RunningInFlight, t: Number) -> AlwaysRunning | ThrustFraction:
-    """`AlwaysRunning` or a `ThrustFraction`, for `running`: whether rotors run at time t [s]."""
-
-
-@run.register(AlwaysRunning)
-def _run_always(rotors: AlwaysRunning, t: Number) -> AlwaysRunning:
-    return rotors
-
-
-@run.register(RunningInFlight)
-def _run_in_flight(rotors: RunningInFlight, t: Number) -> ThrustFraction:
+@law(absent="rotors")
+def run(rotors: RunningInFlight, t: Number) -> ThrustFraction:
+    """`Absent` or a `ThrustFraction`, for `running`: whether rotors run at time t [s]."""
     return ThrustFraction(where(t < rotors.start, 0.0, where(t < rotors.stop, 1.0, 0.0)))
 
 
-def running_from(p: PhasesTable) -> AlwaysRunning | RunningInFlight:
+def running_from(p: PhasesTable) -> RunningInFlight | Absent:
     """The times at which the rotors turn."""
     if p.rotors == "always":
-        return AlwaysRunning()
+        return Absent()
     return RunningInFlight(p.lift_start, NEVER if p.land_start is None else p.land_start + p.land_duration)
 
 

@@ -18,7 +18,6 @@ from tandemlift.parts.compliance.admittance import (
 )
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.guidance import (
-    AlwaysRunning,
     Guidance,
     PilotInput,
     RunningInFlight,
@@ -36,7 +35,7 @@ class ScheduledGuidance(NamedTuple):
     admittance: Admittance
     phases: ScheduledPhases
     yaw: Number
-    rotors: AlwaysRunning | RunningInFlight
+    rotors: RunningInFlight | Absent
 
 
 @checked_input.register(ScheduledGuidance)

@@ -13,7 +13,7 @@ from tandemlift.core.algebra import maximum, where
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.phases import HOLD, IDLE, STOPPED
 from tandemlift.core.types import Number, NumberSet, PerRotor
-from tandemlift.core.vector import Vec3, total
+from tandemlift.core.vector import Absent, Vec3, total
 from tandemlift.parts.guidance.fault_detection import (
     HOLDS,
     LANDS,
@@ -38,7 +38,7 @@ from tandemlift.parts.guidance.preflight_checks import (
     sensor_status,
 )
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at
+from tandemlift.parts.rotors.rotor_faults import RotorFaults, efficiency_at
 
 TOUCHDOWN_TIME = 0.2  # s, after which a vehicle above its landing's reference is assumed to stand on something
 CONTACT, PHASE, ALARM = 1e8, 1e6, 1e2  # factors in the code of an event: contact, phase, alarm, failed check
@@ -56,7 +56,7 @@ class Supervision(NamedTuple):
     mass: Number
     payload: Number
     limits: PerRotor
-    known: NoFaults | RotorFaults
+    known: RotorFaults | Absent
     checks: PreflightChecks
     fence: Fence
     bounds: SupervisionLimits

@@ -25,7 +25,7 @@ from tandemlift.parts.guidance.supervision import EventLog, Supervision, Supervi
 from tandemlift.parts.mechanics.rigid_body import InitialTable, State
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults
+from tandemlift.parts.rotors.rotor_faults import RotorFaults
 from tandemlift.parts.sensors.watchdog import WatchTable
 
 
@@ -106,7 +106,7 @@ def _limits(table: SupervisionTable) -> SupervisionLimits:
 
 
 def start_supervision(
-    table: SupervisionTable, vehicle: Vehicle, initial: InitialTable, known: NoFaults | RotorFaults
+    table: SupervisionTable, vehicle: Vehicle, initial: InitialTable, known: RotorFaults | Absent
 ) -> tuple[Supervision, SupervisionState] | tuple[Absent, Absent]:
     """The supervision before its first sample, and its memory; or `Absent`.
 

@@ -16,7 +16,7 @@ from tandemlift.core.types import Number, PerRotor, number
 from tandemlift.core.vector import Absent, Vec3, dot, each
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at
+from tandemlift.parts.rotors.rotor_faults import RotorFaults, efficiency_at
 
 Priorities = Annotated[tuple[Scale, Scale, Scale, Scale], PerAxis(4)]
 
@@ -87,7 +87,7 @@ class ConstrainedAllocation(NamedTuple):
     rows: Mixer
     weights: Wrench
     limits: PerRotor
-    known: NoFaults | RotorFaults
+    known: RotorFaults | Absent
 
 
 class AllocationState(NamedTuple):
@@ -213,7 +213,7 @@ def _weighted(vehicle: Vehicle, priorities: tuple[float, ...]) -> tuple[Mixer, W
 
 
 def start_allocation(
-    table: AllocationTable, vehicle: Vehicle, known: NoFaults | RotorFaults
+    table: AllocationTable, vehicle: Vehicle, known: RotorFaults | Absent
 ) -> tuple[Mixer, Absent] | tuple[ConstrainedAllocation, AllocationState]:
     """The allocation and its memory before the first sample; `known`: the known rotor faults.
 

@@ -8,16 +8,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.algebra import maximum
-from tandemlift.core.law import choice, elementwise
+from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import Vec3
 from tandemlift.parts.mechanics.rigid_body import State
 
 MIN_HEIGHT = 0.5  # rotor radii: the theory of ground effect holds no nearer to the floor
-
-
-class FreeAir(NamedTuple):
-    """Thrust does not depend on the height."""
 
 
 class GroundEffect(NamedTuple):
@@ -26,16 +22,6 @@ class GroundEffect(NamedTuple):
     rotors: Vec3
     quarter_radius: PerRotor
     floor: Number
-
-
-@choice
-def ground_effect_ratio(surface: FreeAir | GroundEffect, state: State) -> PerRotor:
-    """Thrust near the floor over thrust in free air."""
-
-
-@ground_effect_ratio.register(FreeAir)
-def _free(surface: FreeAir, state: State) -> Number:
-    return 1.0
 
 
 @elementwise
@@ -52,8 +38,9 @@ def height_above(offset: Number, z: Number) -> Number:
     return offset + z
 
 
-@ground_effect_ratio.register(GroundEffect)
-def _near(surface: GroundEffect, state: State) -> PerRotor:
+@law(absent=1.0)
+def ground_effect_ratio(surface: GroundEffect, state: State) -> PerRotor:
+    """Thrust near the floor over thrust in free air."""
     q, r = state.attitude, surface.rotors
     up = Vec3(2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y))
     offset = r.x * up.x + r.y * up.y + r.z * up.z

@@ -11,9 +11,9 @@ from pydantic import Field
 from tandemlift.core.algebra import minimum, where
 from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.keys import NonNegative, Share, Table, key
-from tandemlift.core.law import choice, elementwise
+from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import NEVER, Number, PerRotor
-from tandemlift.core.vector import each
+from tandemlift.core.vector import Absent, each
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
@@ -33,25 +33,11 @@ class FaultTable(Table):
     )
 
 
-class NoFaults(NamedTuple):
-    """No rotor fails."""
-
-
 class RotorFaults(NamedTuple):
     """From `time` [s] on, the fraction of its thrust that each rotor has left; sets."""
 
     time: PerRotor
     efficiency: PerRotor
-
-
-@choice
-def efficiency_at(faults: NoFaults | RotorFaults, t: Number) -> PerRotor:
-    """The fraction of its thrust that each rotor has at time t [s]."""
-
-
-@efficiency_at.register(NoFaults)
-def _without_faults(faults: NoFaults, t: Number) -> Number:
-    return 1.0
 
 
 @elementwise
@@ -60,16 +46,17 @@ def efficiency_after(time: Number, efficiency: Number, t: Number) -> Number:
     return where(t >= time, efficiency, 1.0)
 
 
-@efficiency_at.register(RotorFaults)
-def _failing(faults: RotorFaults, t: Number) -> PerRotor:
+@law(absent=1.0)
+def efficiency_at(faults: RotorFaults, t: Number) -> PerRotor:
+    """The fraction of its thrust that each rotor has at time t [s]."""
     return efficiency_after(faults.time, faults.efficiency, t)
 
 
-def rotor_faults(count: int, failures: Iterable[tuple[int, int, float, float]]) -> NoFaults | RotorFaults:
+def rotor_faults(count: int, failures: Iterable[tuple[int, int, float, float]]) -> RotorFaults | Absent:
     """The faults of `count` rotors, from (quadrotor, rotor, time [s], fraction of the thrust left), numbers from 1."""
     failures = tuple(failures)
     if not failures:
-        return NoFaults()
+        return Absent()
     times, efficiency = [NEVER] * count, [1.0] * count
     for quadrotor, rotor, time, fraction in failures:
         i = 4 * (quadrotor - 1) + rotor - 1
@@ -78,12 +65,12 @@ def rotor_faults(count: int, failures: Iterable[tuple[int, int, float, float]]) 
     return RotorFaults(cls(*times), cls(*efficiency))
 
 
-def real_faults(tables: Sequence[FaultTable], vehicle: Vehicle) -> NoFaults | RotorFaults:
+def real_faults(tables: Sequence[FaultTable], vehicle: Vehicle) -> RotorFaults | Absent:
     """The rotor faults as they happen."""
     return rotor_faults(vehicle.rotor_count, [(f.quadrotor, f.rotor, f.time, f.efficiency) for f in tables])
 
 
-def known_faults(tables: Sequence[FaultTable], vehicle: Vehicle) -> NoFaults | RotorFaults:
+def known_faults(tables: Sequence[FaultTable], vehicle: Vehicle) -> RotorFaults | Absent:
     """The rotor faults known to the pilot, each from the time at which it becomes known."""
     known = [math.inf if f.known_after is None else f.time + f.known_after for f in tables]
     failures = [(f.quadrotor, f.rotor, minimum(t, NEVER), f.efficiency) for f, t in zip(tables, known, strict=True)]

@@ -10,14 +10,14 @@ from typing import Literal, NamedTuple
 from tandemlift.core.algebra import clip, maximum, minimum, sqrt
 from tandemlift.core.caching import cached
 from tandemlift.core.keys import Delay, Table, key
-from tandemlift.core.law import choice
+from tandemlift.core.law import law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import Absent, each, spread
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import wrench_scale
-from tandemlift.parts.rotors.ground_effect import FreeAir, GroundEffect, ground_effect_ratio
-from tandemlift.parts.rotors.rotor_faults import FaultTable, NoFaults, RotorFaults, efficiency_at, real_faults
+from tandemlift.parts.rotors.ground_effect import GroundEffect, ground_effect_ratio
+from tandemlift.parts.rotors.rotor_faults import FaultTable, RotorFaults, efficiency_at, real_faults
 from tandemlift.parts.rotors.rotor_lag import Lag, lag, lag_step
 
 
@@ -47,10 +47,6 @@ class ActuatorsTable(Table):
     )
 
 
-class IdealRotors(NamedTuple):
-    """The command acts at once and exactly, within no limits."""
-
-
 class Rotors(NamedTuple):
     """Limits [N], k [N/(rad/s)²], 1/k and lags as sets; faults, ground effect; `delayed`: 1 if commands are, else 0.
 
@@ -62,8 +58,8 @@ class Rotors(NamedTuple):
     per_constant: PerRotor
     up: Lag
     down: Lag
-    faults: NoFaults | RotorFaults
-    surface: FreeAir | GroundEffect
+    faults: RotorFaults | Absent
+    surface: GroundEffect | Absent
     delayed: Number
     wrench_scale: Wrench
 
@@ -75,20 +71,11 @@ class RotorState(NamedTuple):
     arriving: PerRotor
 
 
-@choice
+@law(absent=("command", "memory"))
 def rotors_step(
-    rotors: IdealRotors | Rotors, memory: RotorState | Absent, command: PerRotor, state: State, t: Number
-) -> tuple[PerRotor, RotorState | Absent]:
+    r: Rotors, memory: RotorState, command: PerRotor, state: State, t: Number
+) -> tuple[PerRotor, RotorState]:
     """(thrust of each rotor [N] over the step from time t [s], the new memory) under a command [N]."""
-
-
-@rotors_step.register(IdealRotors)
-def _ideal(rotors: IdealRotors, memory: Absent, command: PerRotor, state: State, t: Number) -> tuple[PerRotor, Absent]:
-    return command, memory
-
-
-@rotors_step.register(Rotors)
-def _real(r: Rotors, memory: RotorState, command: PerRotor, state: State, t: Number) -> tuple[PerRotor, RotorState]:
     arrived = memory.arriving * r.delayed + command * (1.0 - r.delayed)
     commanded_speed = sqrt(clip(arrived, 0.0, r.max_thrust) * r.per_constant)
     mean_of_square, speed = lag_step(r.up, r.down, memory.speed, commanded_speed)
@@ -119,8 +106,8 @@ def rotors_from(
     step: float,
     *,
     delayed: bool,
-    faults: NoFaults | RotorFaults,
-    surface: FreeAir | GroundEffect,
+    faults: RotorFaults | Absent,
+    surface: GroundEffect | Absent,
     wrench_scale: Wrench,
 ) -> Rotors:
     """The real rotors of a vehicle, for steps of `step` [s]."""
@@ -148,7 +135,7 @@ def start_rotors(
     weights: tuple[tuple[float, ...], ...],
     floor: Number | None,
     delayed: bool,
-) -> tuple[Rotors, RotorState, PerRotor] | tuple[IdealRotors, Absent, PerRotor]:
+) -> tuple[Rotors, RotorState, PerRotor] | tuple[Absent, Absent, PerRotor]:
     """The rotors, their state and thrusts [N] at t = 0.
 
     Args:
@@ -162,7 +149,7 @@ def start_rotors(
     """
     hover = hover_thrusts(vehicle, weights)
     if table.model == "ideal":
-        return IdealRotors(), Absent(), hover
+        return Absent(), Absent(), hover
     rotors = _real_rotors(vehicle, step, delayed, faults, floor)
     return rotors, *_start(hover, rotors, table.start == "hover")
 
@@ -177,7 +164,7 @@ def _real_rotors(
         step,
         delayed=delayed,
         faults=real_faults(faults, vehicle),
-        surface=FreeAir() if floor is None else ground_effect_from(vehicle, floor),
+        surface=Absent() if floor is None else ground_effect_from(vehicle, floor),
         wrench_scale=wrench_scale(vehicle.effect),
     )
 

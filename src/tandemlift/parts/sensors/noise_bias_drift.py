@@ -109,7 +109,7 @@ D = TypeVar("D", Number, Vec3, Absent)
 V = TypeVar("V", Number, Vec3)
 
 
-@choice
+@choice(instead={NoError: "truth"})
 def read(model: ChannelModel, drift: Drift, truth: S, normals: Drift) -> S:
     """A sample of `truth` with the drift so far; `normals`: independent standard normals, laid out like the sample."""
 
@@ -139,12 +139,7 @@ def _read_attitude(k: AttitudeNoise, drift: Absent, truth: Quat, normals: Vec3) 
     return rotated_by(truth, normals * k.sigma)
 
 
-@read.register(NoError)
-def _copy(k: NoError, drift: Absent, truth: Quat, normals: Absent) -> Quat:
-    return truth
-
-
-@choice
+@choice(instead={WhiteNoise: "drift", AttitudeNoise: "drift", NoError: "drift"})
 def next_drift(model: ChannelModel, drift: D, normals: Drift, fresh: Number) -> D:
     """The drift after a sample (`fresh` 1), or as it was (0)."""
 
@@ -153,13 +148,6 @@ def next_drift(model: ChannelModel, drift: D, normals: Drift, fresh: Number) -> 
 @next_drift.register(ScalarSensorModel)
 def _random_walk(k: ScalarSensorModel | SensorModel, drift: V, normals: V, fresh: Number) -> V:
     return drift + normals * (k.walk * fresh)
-
-
-@next_drift.register(WhiteNoise)
-@next_drift.register(AttitudeNoise)
-@next_drift.register(NoError)
-def _no_walk(k: AttitudeNoise | NoError | WhiteNoise, drift: Absent, normals: Vec3 | Absent, fresh: Number) -> Absent:
-    return drift
 
 
 def no_drift(count: int | None = None) -> Vec3:

@@ -113,7 +113,7 @@ def faulty_number(
     return where(step < start, x, where(step < end, wrong, x))
 
 
-@choice
+@choice(instead={NoFault: "x"})
 def faulty(fault: ChannelFault, x: S, given: S, step: Number) -> S:
     """A reading x under a fault at a step; `given`: the last one that was passed on."""
 
@@ -144,11 +144,6 @@ def _faulty_attitude(k: AttitudeFault, x: Quat, given: Quat, step: Number) -> Qu
         faulty_number(q.y, given.y, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
         faulty_number(q.z, given.z, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
     )
-
-
-@faulty.register(NoFault)
-def _no_fault(f: NoFault, x: Quat, given: Quat, step: Number) -> Quat:
-    return x
 
 
 @law

@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra import absolute, maximum, where
-from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import GRAVITY, Number, PerRotor
 from tandemlift.core.vector import Absent, Vec3, dot, total
 from tandemlift.parts.estimation.push_confirmation import refuted_push
@@ -19,7 +19,7 @@ from tandemlift.parts.guidance.guidance import thrust_fraction
 from tandemlift.parts.mechanics.rotation import body_z_axis, wrap_angle
 from tandemlift.parts.rotors.allocation import ConstrainedAllocation, Mixer, limits_at
 from tandemlift.parts.rotors.detection import left_of
-from tandemlift.parts.rotors.rotors import IdealRotors, Rotors
+from tandemlift.parts.rotors.rotors import Rotors
 from tandemlift.simulation.loop.excess import NO_EXCESS, Excess, exceed
 from tandemlift.simulation.loop.log_sample import Sample
 from tandemlift.simulation.loop.oscillation import (
@@ -119,29 +119,10 @@ ASLEEP = Detectors(
 )
 
 
-@choice
-def usable_rotors(how: Mixer | ConstrainedAllocation, left: Number, t: Number) -> Number:
+@law(instead={Mixer: 1.0})
+def usable_rotors(how: ConstrainedAllocation, left: Number, t: Number) -> PerRotor:
     """Above 0 for rotors usable at time t [s]: a number for all, or a set; `left`: of a detected loss."""
-
-
-@usable_rotors.register(Mixer)
-def _all(how: Mixer, left: Number, t: Number) -> Number:
-    return 1.0
-
-
-@usable_rotors.register(ConstrainedAllocation)
-def _not_failed(how: ConstrainedAllocation, left: Number, t: Number) -> PerRotor:
     return limits_at(how, left, t)
-
-
-@choice
-def rotors_at_limit(rotors: IdealRotors | Rotors, commands: PerRotor, usable: Number) -> Number:
-    """The number of usable rotors that are commanded to a limit or beyond."""
-
-
-@rotors_at_limit.register(IdealRotors)
-def _without_limits(rotors: IdealRotors, commands: PerRotor, usable: Number) -> Number:
-    return 0.0
 
 
 @elementwise
@@ -150,8 +131,9 @@ def counted(at_its_limit: Number, usable: Number) -> Number:
     return where(usable > 0.0, at_its_limit, 0.0)
 
 
-@rotors_at_limit.register(Rotors)
-def _with_limits(rotors: Rotors, commands: PerRotor, usable: Number) -> Number:
+@law(absent=0.0)
+def rotors_at_limit(rotors: Rotors, commands: PerRotor, usable: Number) -> Number:
+    """The number of usable rotors that are commanded to a limit or beyond."""
     return total(counted(at_limit(commands, rotors.max_thrust), usable))
 
 

@@ -24,7 +24,7 @@ from tandemlift.parts.mechanics.rotation import euler_from_quaternion
 from tandemlift.parts.person.outside_push import total_force, total_moment
 from tandemlift.parts.rotors.allocation import Mixer, achieved_fraction, wrench
 from tandemlift.parts.rotors.detection import DetectionState, RotorLossDetection
-from tandemlift.parts.rotors.rotors import IdealRotors, Rotors
+from tandemlift.parts.rotors.rotors import Rotors
 from tandemlift.simulation.loop.estimate_channels import (
     EstimatedChannels,
     MeasuredChannels,
@@ -120,20 +120,9 @@ def detection_channels(detection: RotorLossDetection, memory: DetectionState) ->
     return DetectionChannels(failed_rotor=dot(memory.verdict.lost, detection.numbers))
 
 
-@choice
-def actuator_channels(
-    rotors: IdealRotors | Rotors, effect: Mixer, command: Wrench, commands: PerRotor
-) -> ActuatorChannels | Absent:
+@law(absent=Absent())
+def actuator_channels(rotors: Rotors, effect: Mixer, command: Wrench, commands: PerRotor) -> ActuatorChannels:
     """The channels of rotors with commanded thrusts [N], for a commanded wrench."""
-
-
-@actuator_channels.register(IdealRotors)
-def _ideal(rotors: IdealRotors, effect: Mixer, command: Wrench, commands: PerRotor) -> Absent:
-    return Absent()
-
-
-@actuator_channels.register(Rotors)
-def _limited(rotors: Rotors, effect: Mixer, command: Wrench, commands: PerRotor) -> ActuatorChannels:
     thrusts = clip(commands, 0.0, rotors.max_thrust)
     given = wrench(effect, thrusts)
     return ActuatorChannels(

@@ -103,18 +103,9 @@ def _sensed(
     return sense(sensors, memory, state, perfect, believed, noise)
 
 
-@choice
-def tare_begun(tare: TareAtTime | TareInHover, guidance: AdmittanceState | HandGuidanceState, t: Number) -> Number:
+@law(instead={TareAtTime: "t"})
+def tare_begun(tare: TareInHover, guidance: HandGuidanceState, t: Number) -> Number:
     """The time [s] on the clock of the tare; `guidance`: its memory."""
-
-
-@tare_begun.register(TareAtTime)
-def _by_clock(tare: TareAtTime, guidance: AdmittanceState | HandGuidanceState, t: Number) -> Number:
-    return t
-
-
-@tare_begun.register(TareInHover)
-def _in_hover(tare: TareInHover, guidance: HandGuidanceState, t: Number) -> Number:
     return guidance.phase.hover_time
 
 

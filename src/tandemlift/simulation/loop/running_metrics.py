@@ -16,7 +16,7 @@ from tandemlift.parts.mechanics.rotation import wrap_angle
 from tandemlift.parts.person.outside_push import OutsidePush, held_by_anyone
 from tandemlift.parts.person.person import PersonState
 from tandemlift.parts.person.virtual_hand import VirtualHandState
-from tandemlift.parts.rotors.rotors import IdealRotors, Rotors
+from tandemlift.parts.rotors.rotors import Rotors
 from tandemlift.simulation.loop.log_sample import Sample
 
 
@@ -187,24 +187,15 @@ def _numbers(value: Number | tuple[Any, ...]) -> list[float]:
     return [n for part in value for n in _numbers(part)] if isinstance(value, tuple) else [float(value)]
 
 
-@choice
-def saturated(rotors: IdealRotors | Rotors, commands: PerRotor) -> Number:
-    """1 if any rotor is commanded to a limit or beyond, else 0."""
-
-
-@saturated.register(IdealRotors)
-def _never(rotors: IdealRotors, commands: PerRotor) -> Number:
-    return 0.0
-
-
 @elementwise
 def at_limit(command: Number, most: Number) -> Number:
     """1 where a thrust [N] is at 0 or at its maximum `most`, or beyond; else 0."""
     return where(command > 0.0, where(command < most, 0.0, 1.0), 1.0)
 
 
-@saturated.register(Rotors)
-def _any_at_limit(rotors: Rotors, commands: PerRotor) -> Number:
+@law(absent=0.0)
+def saturated(rotors: Rotors, commands: PerRotor) -> Number:
+    """1 if any rotor is commanded to a limit or beyond, else 0."""
     return minimum(total(at_limit(commands, rotors.max_thrust)), 1.0)
 
 

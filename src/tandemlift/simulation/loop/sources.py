@@ -81,14 +81,9 @@ class EstimatedFlight(Protocol):
         """The contact, if it is estimated."""
 
 
-@choice
+@choice(instead={TruthSource: "true"})
 def read_state(reads: Source, true: State, readings: Readings | Absent, known: EstimatedFlight | Absent) -> State:
     """The state that the pilot uses."""
-
-
-@read_state.register(TruthSource)
-def _true_state(reads: TruthSource, true: State, readings: Readings | Absent, known: EstimatedFlight | Absent) -> State:
-    return true
 
 
 @read_state.register(MeasurementSource)

@@ -38,7 +38,7 @@ from tandemlift.parts.pilot.pilot import (
     last_thrusts,
     with_thrusts,
 )
-from tandemlift.parts.rotors.rotors import IdealRotors, Rotors, RotorState, rotors_step
+from tandemlift.parts.rotors.rotors import Rotors, RotorState, rotors_step
 from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState
 from tandemlift.simulation.loop.delays import DelayLines
 from tandemlift.simulation.loop.detectors import Detectors, FindingLimits, detect
@@ -104,7 +104,7 @@ class FlightModel(NamedTuple):
     flight_state: FlightState
     pilot: PilotParameters
     plant: CompiledPlant
-    rotors: IdealRotors | Rotors
+    rotors: Rotors | Absent
     wind: WindModel | Absent
     sensors: Sensors | FaultySensors | Absent
     estimator: WatchedEstimators | Estimators | Absent

@@ -41,7 +41,7 @@ from tandemlift.parts.person.requests import RequestTable, start_requests
 from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters
 from tandemlift.parts.rotors.allocation import mixer_of, start_allocation
 from tandemlift.parts.rotors.detection_table import start_detection
-from tandemlift.parts.rotors.rotor_faults import NoFaults, RotorFaults, known_faults
+from tandemlift.parts.rotors.rotor_faults import RotorFaults, known_faults
 from tandemlift.parts.sensors.readings import Readings
 from tandemlift.parts.sensors.sensors_table import steps_of
 from tandemlift.simulation.loop.perception import Estimators, EstimatorState, TareAtTime, TareInHover
@@ -95,7 +95,7 @@ def phase_settings(p: PhasesTable, c: ComplianceTable, requests: Sequence[Reques
 
 
 def start_hand_guidance(
-    mission: Mission, vehicle: Vehicle, known: NoFaults | RotorFaults
+    mission: Mission, vehicle: Vehicle, known: RotorFaults | Absent
 ) -> tuple[HandGuidance, HandGuidanceState]:
     """Interactive guidance before its first sample, and its memory; `known`: the known rotor faults."""
     c, of_controller = mission.compliance, getattr(mission.controller, "max_tilt", None)
