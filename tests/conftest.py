@@ -54,8 +54,11 @@ def _controllers_of_a_module():
     yield from forgetting_controllers()
 
 
-def free_memory():
-    """Give back what a module's tests made, to the system too."""
+def free_memory(module):
+    """Give back what a module's tests made and what its functions cached, to the system too."""
+    for value in vars(module).values():
+        if hasattr(value, "cache_clear") and value.__module__ == module.__name__:
+            value.cache_clear()
     LOOP_CODE.clear()
     GRAPHS.clear()
     if "jax" in sys.modules:
@@ -66,9 +69,9 @@ def free_memory():
 
 
 @pytest.fixture(autouse=True, scope="module")
-def _memory_of_a_module():
+def _memory_of_a_module(request):
     yield
-    free_memory()
+    free_memory(request.module)
 
 
 @pytest.fixture(autouse=True)
