@@ -11,6 +11,7 @@ import hypothesis
 import pytest
 from quick import Quick
 
+from tandemlift.analysis.linearization.step_graph import GRAPHS
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.simulation.plan import LOOP_CODE
 
@@ -18,7 +19,7 @@ if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # of a job in the backgro
     signal.signal(signal.SIGINT, lambda *_: None)
 os.environ.setdefault("TANDEMLIFT_OPTIMISE", "0")  # hundreds of variants fly once each: what is tested is asked for
 LIBC = ctypes.CDLL(None) if os.name == "posix" else None
-MANY_VARIANTS = 10  # of compiled flights that a module keeps in memory
+LOOP_CODE.most = 10  # a process tests hundreds of variants, and seldom one again
 SLOW = hypothesis.HealthCheck.too_slow
 hypothesis.settings.register_profile("tandemlift", deadline=None, suppress_health_check=[SLOW], derandomize=True)
 hypothesis.settings.load_profile("tandemlift")
@@ -53,9 +54,13 @@ def _controllers_of_a_module():
     yield from forgetting_controllers()
 
 
-def free_compiled_code():
-    """Free what tests compiled: of hundreds of variants, each takes megabytes."""
+def free_memory(module):
+    """Give back what a module's tests made and what its functions cached, to the system too."""
+    for value in vars(module).values():
+        if hasattr(value, "cache_clear") and value.__module__ == module.__name__:
+            value.cache_clear()
     LOOP_CODE.clear()
+    GRAPHS.clear()
     if "jax" in sys.modules:
         sys.modules["jax"].clear_caches()
     gc.collect()
@@ -64,16 +69,14 @@ def free_compiled_code():
 
 
 @pytest.fixture(autouse=True, scope="module")
-def _memory_of_a_module():
+def _memory_of_a_module(request):
     yield
-    free_compiled_code()
+    free_memory(request.module)
 
 
 @pytest.fixture(autouse=True)
 def _controllers_of_a_test():
     yield from forgetting_controllers()
-    if len(LOOP_CODE) > MANY_VARIANTS:
-        free_compiled_code()
 
 
 @pytest.fixture(scope="session")

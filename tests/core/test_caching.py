@@ -2,7 +2,7 @@
 
 import math
 
-from tandemlift.core.caching import KEPT, cached
+from tandemlift.core.caching import KEPT, LastUsed, cached
 from tandemlift.core.vector import Absent, vec3
 from tandemlift.missions import load_mission
 
@@ -56,3 +56,11 @@ def test_only_the_last_results_are_kept():
     for i in (*range(KEPT + 1), 0):
         same(float(i))
     assert len(calls) == KEPT + 2
+
+
+def test_what_was_used_last_is_kept_and_no_more():
+    made, kept = [], LastUsed(2)
+    for key in "abacab":  # c pushes out b, and b then c
+        assert kept.of(key, lambda key=key: made.append(key) or key.upper()) == key.upper()
+    assert made == ["a", "b", "c", "b"]
+    assert list(kept) == ["a", "b"]

@@ -7,56 +7,58 @@ import pytest
 from code_rules import asserting_helpers, copies_by_position, hidden_imports, logic, public_classes, without_docstring
 from house import PACKAGE, TESTS, assert_none, python_files
 
-TREES = {name: tree for name, (_, tree) in python_files(PACKAGE).items()}
 FACE = "src/tandemlift/__init__.py"  # which loads what is asked for
-NAMES = {
-    name: name.removeprefix("src/").removesuffix(".py").removesuffix("/__init__").replace("/", ".") for name in TREES
-}
+FILES = [path.relative_to(PACKAGE.parent) for path in PACKAGE.rglob("*.py")]
+NAMES = {f"src/{file.as_posix()}": ".".join(file.with_suffix("").parts).removesuffix(".__init__") for file in FILES}
 MODULES = set(NAMES.values())
 
 
+def trees(folder=PACKAGE):
+    return {name: tree for name, (_, tree) in python_files(folder).items()}
+
+
 def test_no_public_class_has_the_name_of_another():
-    named = Counter(name for tree in TREES.values() for name in public_classes(tree))
+    named = Counter(name for tree in trees().values() for name in public_classes(tree))
     assert named
     assert [name for name, count in named.items() if count > 1] == [], "say by the name what each of them is"
 
 
 def test_an_init_file_holds_no_logic():
-    found = [name for name, tree in TREES.items() if name.endswith("__init__.py") and name != FACE and logic(tree)]
+    found = [name for name, tree in trees().items() if name.endswith("__init__.py") and name != FACE and logic(tree)]
     assert_none(found, "an __init__.py imports and says __all__: move the rest to a module beside it")
 
 
 def test_what_the_package_loads_when_asked_is_what_type_checkers_are_told_and_all_that_it_lists():
-    said = {ast.unparse(n.targets[0]): n.value for n in TREES[FACE].body if isinstance(n, ast.Assign)}
+    said = {ast.unparse(n.targets[0]): n.value for n in trees()[FACE].body if isinstance(n, ast.Assign)}
     assert sorted(said) == ["_HOMES", "__all__"]
-    (checked,) = [node for node in TREES[FACE].body if isinstance(node, ast.If)]
+    (checked,) = [node for node in trees()[FACE].body if isinstance(node, ast.If)]
     assert ast.unparse(checked.test) == "TYPE_CHECKING"
     imported = {alias.name: node.module for node in checked.body for alias in node.names}
     homes = ast.literal_eval(said["_HOMES"])
     assert {name: f"tandemlift.{home}" for name, home in homes.items()} == imported, "one home for each name"
     assert ast.literal_eval(said["__all__"]) == sorted(homes)
-    assert {node.name for node in TREES[FACE].body if isinstance(node, ast.FunctionDef)} == {"__getattr__", "__dir__"}
+    assert {node.name for node in trees()[FACE].body if isinstance(node, ast.FunctionDef)} == {"__getattr__", "__dir__"}
 
 
 def test_no_import_is_hidden_in_a_string():
-    found = [name for name, tree in TREES.items() if name != FACE and hidden_imports(tree, MODULES, NAMES[name])]
+    found = [name for name, tree in trees().items() if name != FACE and hidden_imports(tree, MODULES, NAMES[name])]
     advice = "import it by an import statement, in the function if it is seldom needed"
     assert_none(found, advice)
 
 
 def test_nothing_is_copied_field_by_field():
-    found = [f"{name}: {called}" for name, tree in TREES.items() for called in copies_by_position(tree)]
+    found = [f"{name}: {called}" for name, tree in trees().items() for called in copies_by_position(tree)]
     advice = "six or more arguments by position, half of them of one value: use _replace, or name the arguments"
     assert_none(found, advice)
 
 
 def test_every_public_module_function_and_class_has_a_docstring():
-    found = {name: lacking for name, tree in TREES.items() if (lacking := without_docstring(tree))}
+    found = {name: lacking for name, tree in trees().items() if (lacking := without_docstring(tree))}
     assert found == {}, "say in a docstring what it is for, with shapes, units, frames and errors"
 
 
 def test_a_helper_of_tests_that_asserts_says_so_by_its_name():
-    tests = {name: tree for name, (_, tree) in python_files(TESTS).items() if "/support/" not in name}
+    tests = {name: tree for name, tree in trees(TESTS).items() if "/support/" not in name}
     assert tests
     found = [f"{name}: {helper}" for name, tree in tests.items() for helper in asserting_helpers(tree)]
     assert_none(found, "name it assert_… or check_…, or raise where it only guards itself")

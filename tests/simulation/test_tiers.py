@@ -9,6 +9,7 @@ from patience import COMPILING
 
 import tandemlift as tl
 from tandemlift.compiler.machine_code import code, store
+from tandemlift.core.caching import LastUsed
 from tandemlift.core.types import leaves
 from tandemlift.simulation import fly, plan
 from tandemlift.simulation.plan import FlightPlan
@@ -19,7 +20,7 @@ from tandemlift.simulation.preparation import LANES, FlightMemory
 def empty(tmp_path, monkeypatch):
     """No code on disk and none in this process; none is optimised unless it is asked for."""
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setattr(plan, "LOOP_CODE", {})
+    monkeypatch.setattr(plan, "LOOP_CODE", LastUsed(8))
     monkeypatch.setenv("TANDEMLIFT_OPTIMISE", "0")
 
 

@@ -7,6 +7,7 @@ therefore has its own cache, which is discarded with it.
 from __future__ import annotations
 
 import functools
+import threading
 from collections import OrderedDict
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -16,6 +17,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel
 
 F = TypeVar("F", bound=Callable[..., Any])
+Made = TypeVar("Made")
 KEPT = 64  # results of a function
 PLAIN = {float, int, bool, str, tuple, type(None)}
 
@@ -49,6 +51,30 @@ def cached(function: F) -> F:
         return found[0]
 
     return call  # type: ignore[return-value]
+
+
+class LastUsed(OrderedDict[Any, Made]):
+    """What is costly to make, by key; a process that needs many keeps only those that it used last.
+
+    Args:
+        most: number of those that are kept.
+    """
+
+    def __init__(self, most: int) -> None:
+        super().__init__()
+        self.most, self._lock = most, threading.Lock()
+
+    def of(self, key: Any, make: Callable[[], Made]) -> Made:
+        """The one of a key, made if none is kept."""
+        with self._lock:
+            found = self.get(key)
+        made = make() if found is None else found
+        with self._lock:  # another thread may have made it meanwhile
+            found = self.setdefault(key, made)
+            self.move_to_end(key)
+            while len(self) > self.most:
+                self.popitem(last=False)
+        return found
 
 
 class _Said:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift.core.caching import LastUsed
 from tandemlift.core.types import layout_and_numbers
 from tandemlift.core.vector import ZERO, each, layout
 from tandemlift.engines.registry import engine_named
@@ -23,7 +24,7 @@ from tandemlift.simulation.preparation.traced_assembly import assembled_by_graph
 
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second
 
-LOOP_CODE: dict[Any, LoopCode] = {}
+LOOP_CODE = LastUsed[LoopCode](32)  # of some megabytes each
 
 
 class FlightPlan:
@@ -95,11 +96,7 @@ class FlightPlan:
     @cached_property
     def loop_code(self) -> LoopCode:
         """The compiled loops of this variant."""
-        found = LOOP_CODE.get(self.variant)
-        if found is None:  # another thread may have made them meanwhile
-            made = LoopCode(self.model, self.given, fuses=self.mission.mission.fma)
-            found = LOOP_CODE.setdefault(self.variant, made)
-        return found
+        return LOOP_CODE.of(self.variant, lambda: LoopCode(self.model, self.given, fuses=self.mission.mission.fma))
 
     def start(self) -> FlightStart:
         """The flight at its first step, as input of a compiled loop."""

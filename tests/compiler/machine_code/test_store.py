@@ -21,6 +21,7 @@ from patience import PATIENCE
 
 import tandemlift as tl
 from tandemlift.compiler.machine_code import code, machine, store
+from tandemlift.core.caching import LastUsed
 from tandemlift.simulation import plan
 
 CHANGES = {"mission.duration": 0.5}
@@ -37,7 +38,7 @@ def cache(tmp_path, monkeypatch):
     """An empty cache, for this process and others, and no code in this process; nothing is optimised unasked."""
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
     monkeypatch.setenv("TANDEMLIFT_OPTIMISE", "0")
-    monkeypatch.setattr(plan, "LOOP_CODE", {})
+    monkeypatch.setattr(plan, "LOOP_CODE", LastUsed(8))
     return tmp_path / "cache"
 
 

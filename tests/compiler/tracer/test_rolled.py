@@ -9,9 +9,9 @@ import tandemlift as tl
 from tandemlift.compiler.machine_code.functions import compiled
 from tandemlift.compiler.machine_code.machine import BEST, QUICK
 from tandemlift.core.algebra import absolute, clip, exp, greatest, maximum, sqrt, tanh, where
+from tandemlift.core.caching import LastUsed
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.vector import Vec3, cross, dot, each, quarters, set_of, total
-from tandemlift.simulation.plan import LOOP_CODE
 from tandemlift.simulation.preparation import traced_step
 
 ROWS = 13
@@ -112,13 +112,8 @@ def test_many_quadrotors_fly_alike_in_loops_and_written_out(mission, count, monk
     assert same(alone[1], together[7])
     monkeypatch.setattr(traced_step, "MANY", 1000)
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path))
-    known = dict(LOOP_CODE)
-    LOOP_CODE.clear()
-    try:
-        assert same(tl.fly(missions[7]), together[7])
-    finally:
-        LOOP_CODE.clear()
-        LOOP_CODE.update(known)
+    monkeypatch.setattr("tandemlift.simulation.plan.LOOP_CODE", LastUsed(8))
+    assert same(tl.fly(missions[7]), together[7])
 
 
 def test_sixty_four_quadrotors_fly_alone_and_in_a_block():

@@ -6,6 +6,7 @@ import pytest
 from flights import different
 
 import tandemlift as tl
+from tandemlift.core.caching import LastUsed
 from tandemlift.simulation import plan
 from tandemlift.simulation.preparation import compiled_flight
 from tandemlift.simulation.preparation.loops import LoopWriter
@@ -21,7 +22,7 @@ def test_a_step_in_pieces_has_the_bits_of_the_step_in_one(mission, largest, tmp_
         return writers[-1]
 
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path))
-    monkeypatch.setattr(plan, "LOOP_CODE", {})
+    monkeypatch.setattr(plan, "LOOP_CODE", LastUsed(8))
     monkeypatch.setattr(compiled_flight, "LoopWriter", in_pieces)
     assert different(tl.fly(mission), whole) == []
     pieces = re.findall(r"(?ms)^define [^\n]*@(?:acting|end)\d+_part.*?^}", writers[0].module.text)

@@ -12,6 +12,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from tandemlift.analysis.linearization.derivative import smooth_arguments
+from tandemlift.core.caching import LastUsed
 from tandemlift.core.types import is_value, leaves
 from tandemlift.core.vector import ZERO, Absent, Mat3
 from tandemlift.parts.mechanics.push import PointPush, PushSamples
@@ -187,7 +188,7 @@ class StepGraph:
             numbers |= more
 
 
-GRAPHS: dict[Any, StepGraph] = {}
+GRAPHS = LastUsed[StepGraph](4)  # of tens of megabytes each
 
 
 def step_graph(p: FlightPlan) -> StepGraph:
@@ -196,6 +197,4 @@ def step_graph(p: FlightPlan) -> StepGraph:
     Raises:
         TraceError: a law cannot be traced.
     """
-    if p.variant not in GRAPHS:
-        GRAPHS[p.variant] = StepGraph(p)
-    return GRAPHS[p.variant]
+    return GRAPHS.of(p.variant, lambda: StepGraph(p))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
+import weakref
 from functools import cache
 from types import ModuleType
 from typing import Any
@@ -69,6 +70,7 @@ class Studio:
     def __init__(self, stage: FlightStage, size: tuple[int, int]) -> None:
         self._stage, self._size, self._pv = stage, size, pyvista()
         self._plotter = self._pv.Plotter(off_screen=True, window_size=[FINE * n for n in size], lighting="none")
+        weakref.finalize(self, self._plotter.close)  # pyvista keeps a plotter, of tens of megabytes, until it is closed
         for direction, strength in ((SUN, 0.72), (SUN * [-1.0, -1.0, 0.4], 0.25)):  # the sun, and what the sky sends
             light = self._pv.Light(position=100.0 * direction, light_type="scene light", intensity=strength)
             light.positional = False

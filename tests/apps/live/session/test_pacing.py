@@ -1,10 +1,12 @@
-"""Steps that are due by the clock."""
+"""Steps that are due by the clock, and garbage that waits for their end."""
 
+import gc
+from contextlib import ExitStack
 from types import SimpleNamespace
 
 import pytest
 
-from tandemlift.apps.live.session.pacing import MOST_BEHIND, Pacer
+from tandemlift.apps.live.session.pacing import MOST_BEHIND, NEVER, WITHOUT_FULL_COLLECTIONS, Pacer
 
 
 @pytest.fixture
@@ -38,3 +40,14 @@ def test_the_factor_is_time_flown_over_time_passed(clock):
         pacer.due()
         pacer.flew(5)
     assert pacer.factor == pytest.approx(0.5, rel=0.02)
+
+
+def test_the_collector_is_as_before_once_the_last_of_several_flights_has_ended():
+    before = gc.get_threshold()
+    first, second = ExitStack(), ExitStack()
+    first.enter_context(WITHOUT_FULL_COLLECTIONS)
+    second.enter_context(WITHOUT_FULL_COLLECTIONS)
+    first.close()
+    assert gc.get_threshold()[2] == NEVER
+    second.close()
+    assert gc.get_threshold() == before

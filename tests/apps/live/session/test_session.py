@@ -11,6 +11,7 @@ import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.apps.live.session.page_messages import PAGE_MESSAGES, PingMessage
 from tandemlift.apps.live.session.session import Session
+from tandemlift.core.caching import LastUsed
 
 
 def test_a_flight_that_is_over_says_so_and_changes_no_more(session):
@@ -110,7 +111,7 @@ def test_a_session_that_still_compiles_is_stopped_at_once(tmp_path, monkeypatch)
 
 def test_optimised_code_takes_over_while_it_flies(tmp_path, monkeypatch):
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setattr("tandemlift.simulation.plan.LOOP_CODE", {})
+    monkeypatch.setattr("tandemlift.simulation.plan.LOOP_CODE", LastUsed(8))
     one = unprepared(tmp_path)
     one.start()
     until(lambda: one.is_ready and one.flight._stepper.code.is_best, patience=4 * PATIENCE)

@@ -7,8 +7,7 @@ import sys
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 
 MOST_BEHIND = 0.1  # s of flight; what is due beyond is dropped, and the flight is late for good
 WINDOW = 1.0  # s, over which the pace is measured
@@ -107,7 +106,7 @@ class RealTimeThread:
         sys.setswitchinterval(SWITCH_INTERVAL)
         try:
             if self._prepare():
-                with without_full_collections():
+                with WITHOUT_FULL_COLLECTIONS:
                     self._keep_pace()
         finally:
             sys.setswitchinterval(interval)
@@ -121,15 +120,28 @@ class RealTimeThread:
             time.sleep(PAUSE if steps < BATCH else YIELD)
 
 
-@contextmanager
-def without_full_collections() -> Iterator[None]:
-    """Leave out full garbage collections, which would stop the flight for 10 to 100 ms."""
-    young, middle, _ = before = gc.get_threshold()
-    gc.collect()
-    gc.freeze()
-    gc.set_threshold(young, middle, NEVER)
-    try:
-        yield
-    finally:
-        gc.set_threshold(*before)
-        gc.unfreeze()
+class WithoutFullCollections:
+    """Within, full garbage collections are left out, which would stop a flight for 10 to 100 ms.
+
+    Several flights may be within at once; the collector is as before when the last one has left.
+    """
+
+    def __init__(self) -> None:
+        self._lock, self._within, self._before = threading.Lock(), 0, gc.get_threshold()
+
+    def __enter__(self) -> None:
+        with self._lock:
+            if not self._within:
+                self._before = gc.get_threshold()
+                gc.collect()
+                gc.set_threshold(*self._before[:2], NEVER)
+            self._within += 1
+
+    def __exit__(self, *_: object) -> None:
+        with self._lock:
+            self._within -= 1
+            if not self._within:
+                gc.set_threshold(*self._before)
+
+
+WITHOUT_FULL_COLLECTIONS = WithoutFullCollections()
