@@ -19,7 +19,7 @@ def write_page(app: Any, error: Exception | None) -> None:
     """Write the page when everything else is written."""
     if error is None and app.builder.format == "html" and not app.tags.has("quick"):
         log.info("compiling the page that flies ...")
-        flights = packed_flights(MISSIONS, lambda name: log.info("  %s", name))
+        flights = packed_flights(MISSIONS, progress=lambda done, total: log.info("  %d of %d", done, total))
         (Path(app.outdir) / "fly.html").write_text(offline_html(flights, page_files()), "utf-8")
 
 

@@ -126,7 +126,9 @@ def test_its_functions_are_short_allocate_nothing_and_name_their_laws(name):
 def test_a_controller_in_plain_python_is_refused(tmp_path):
     path = tmp_path / "mine.py"
     path.write_text(LAW.replace("@control.register(Gains)", "@control.register(Gains, compiled=False)"))
-    with pytest.raises(tl.InputError, match=r"controller.name = '.*': is plain Python, of which no other machine"):
+    with pytest.raises(
+        tl.InputError, match=r"controller.name = '.*': .* line \d+, is plain Python, of which no other machine"
+    ):
         write_c(tl.load_mission("hover", controller=load_controller(path)), tmp_path / "out")
     assert not (tmp_path / "out").exists()
 

@@ -22,13 +22,14 @@ from tandemlift.compiler.machine_code.wasm_linker import linked
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import __version__, atomic_write
 from tandemlift.core.keys import description_of
-from tandemlift.core.types import leaves
+from tandemlift.core.types import flat, leaves
 from tandemlift.flight.channels import channel_of
-from tandemlift.missions import Mission, MissionLike, mission_of
+from tandemlift.missions import Mission, MissionLike, mission_of, tables_of
 from tandemlift.missions.schema import schema_of
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.parameter_changes import hand_place
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation.assemble import assemble
 from tandemlift.simulation.preparation.memory import POINTERS, WORDS
 from tandemlift.simulation.preparation.traced_assembly import TracedAssembly, trace_assembly
 from tandemlift.simulation.results import channels_of
@@ -82,6 +83,31 @@ def module_of(mission: Mission, target: str, functions: Functions = _nothing_mor
         **manifest_of(plan, traced, entry.about),
     }
     return MissionModule(entry.code, manifest)
+
+
+def kept(mission: Mission, what: str, make: Callable[[], bytes] = bytes) -> bytes:
+    """What is made of a mission by this package alone: from the cache, or else made, and kept there.
+
+    The key has the mission with all numbers of its flight, which a controller may compute from other files, and the
+    sources of this package and of the controller.
+
+    Args:
+        mission: from `load_mission`.
+        what: it is, in a word.
+        make: makes it; by default nothing is made, and b"" returned, which is not kept.
+
+    Raises:
+        InputError: no other machine can fly the mission.
+    """
+    built = assemble(portable_mission(mission))
+    numbers = [np.array(flat(built.model)), *built.tables, built.delays, built.seeds]
+    facts = tables_of(mission), hashlib.sha256(b"".join(n.tobytes() for n in numbers)).hexdigest()
+    files = [*store.PACKAGE.rglob("*.py"), *store.sources(built.model)]
+    key = store.key_of(built.model, what, facts, files=files)
+    entry = store.read(key) or store.StoredCode({}, make())
+    if entry.code:
+        store.write(key, entry)
+    return entry.code
 
 
 def _identity(traced: TracedAssembly) -> str:

@@ -28,6 +28,7 @@ from tandemlift.missions.checking import Layer, as_checked, check
 from tandemlift.missions.mission import Mission
 from tandemlift.missions.recording import unpacked_recording
 from tandemlift.parts.controllers import CONTROLLERS, Controller
+from tandemlift.parts.controllers import controller as controller_named
 
 MAX_FILE = 1_000_000  # bytes
 _parsed = functools.lru_cache(maxsize=32)(toml_tables)  # cached for sweeps of one mission; must not be modified
@@ -143,8 +144,8 @@ def load_mission(
         name: name of a built-in mission, or path of a TOML file.
         changes: values by dotted key, such as {"mission.duration": 5.0, "pushes.0.force": [1.0, 0.0, 0.0]}; tables
             merge into what is there.
-        controller: fly this controller, with the settings that the mission, or one that it extends, has for it; if
-            there are none, with its own defaults.
+        controller: fly this controller (loaded, or its name or .py file), with the settings that the mission, or one
+            that it extends, has for it; if there are none, with its own defaults.
 
     Raises:
         InputError: the mission does not exist, cannot be read or is invalid; the message has the allowed values.
@@ -270,10 +271,10 @@ def read_tables(
     folded = list(itertools.accumulate(layers, _laid_over, initial=Tables()))
     tables = folded[-1]
     if controller is not None:
-        chosen = controller if isinstance(controller, str) else controller.name
-        if not isinstance(controller, str) and CONTROLLERS.get(chosen) is not controller:
-            raise InputError(f"controller {chosen!r} is not the one registered last by that name; load it again")
-        tables = {**tables, "controller": _last_said_of(chosen, folded)}
+        chosen = controller_named(controller) if isinstance(controller, str) else controller
+        if CONTROLLERS.get(chosen.name) is not chosen:
+            raise InputError(f"controller {chosen.name!r} is not the one registered last by that name; load it again")
+        tables = {**tables, "controller": _last_said_of(chosen.name, folded)}
     return tables, layers
 
 

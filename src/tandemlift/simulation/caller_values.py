@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -30,10 +31,13 @@ def portable_mission(mission: Mission) -> Mission:
     portable = changed(mission, "mission.fma", False) if mission.mission.fma else mission
     if portable.admittance.feel:
         portable = changed(portable, "admittance.feel", None)
-    if type(pilot_at_start(portable).parameters.controller) in control.interpreted:
-        name = mission.controller.name
+    gains = type(pilot_at_start(portable).parameters.controller)
+    if gains in control.interpreted:
+        code, name = control.table[gains].__code__, mission.controller.name
+        place = f"{code.co_name}() in {Path(code.co_filename).name}, line {code.co_firstlineno},"
         way = "register it as a law, without compiled=False"
-        raise InputError(f"controller.name = {name!r}: is plain Python, of which no other machine has code; {way}")
+        text = f"controller.name = {name!r}: {place} is plain Python, of which no other machine has code; {way}"
+        raise InputError(text)
     return portable
 
 

@@ -96,9 +96,9 @@ def chosen_controller(given: str) -> Controller:
     Raises:
         InputError: there is no such controller, or the file defines none.
     """
-    from tandemlift.parts.controllers import controller, load_controller
+    from tandemlift.parts.controllers import controller
 
-    return load_controller(given) if given.endswith(".py") or "/" in given else controller(given)
+    return controller(given)
 
 
 def load(mission: str, settings: tuple[str, ...], controller: Controller | str | None = None) -> Mission:
@@ -109,8 +109,7 @@ def load(mission: str, settings: tuple[str, ...], controller: Controller | str |
     """
     from tandemlift.missions import load_mission
 
-    chosen = chosen_controller(controller) if isinstance(controller, str) else controller
-    return load_mission(mission, dict(map(parse_setting, settings)), controller=chosen)
+    return load_mission(mission, dict(map(parse_setting, settings)), controller=controller)
 
 
 # the files of a flight

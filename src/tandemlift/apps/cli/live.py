@@ -167,18 +167,20 @@ def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
 @click.argument("missions", nargs=-1, shell_complete=MISSIONS)
 @click.option("--out", metavar="DIR", help="Write the page as files for a web server.")
 @click.option("--html", metavar="FILE", help="Write the page as one file, which works from disk.")
-def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:
+@controller_option("Controller to fly all of them")
+def page(missions: tuple[str, ...], out: str | None, html: str | None, controller: str | None) -> None:
     """Write a page that flies in the browser, without a server.
 
     The page flies by itself, and is pushed by hand. MISSIONS are those of its menu, the first of which it begins with:
-    hover, zigzag, iris, doorway, rotor-loss, or some of them. The default is all. A flight saved in the page can be
-    flown again by `tandemlift run`.
+    built-in missions, or the paths of .toml files. The default is hover, zigzag, iris, doorway and rotor-loss. A flight
+    saved in the page can be flown again by `tandemlift run`. What is compiled is kept for the next time.
 
     \b
     Examples:
       tandemlift page --html tandemlift.html
       tandemlift page --out out/page
-      tandemlift page zigzag doorway --html corridor.html
+      tandemlift page zigzag mine.toml --html corridor.html
+      tandemlift page hover --controller my_pd.py --html mine.html
 
     \b
     Exit code:
@@ -191,20 +193,11 @@ def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:
     if out and Path(out).is_file():
         raise InputError(f"--out {out}: is a file, not a folder")
     from tandemlift.apps.live import page_modules, pages
-    from tandemlift.apps.live.page_files import page_files
 
-    files = page_files()
-    names = dict.fromkeys(missions or page_modules.MISSIONS)
-    flights = page_modules.packed_flights(names, lambda name: echo(f"{name} …"))
-    if out:
-        folder, written = Path(out), pages.offline_files(flights, files)
-        for name, content in written.items():
-            write_file(folder / name, content)
-        size = sum(map(len, written.values()))
-        echo(f"{folder}: {len(written)} files, {size / 1e6:.1f} MB; for a web server, such as: python -m http.server")
-    if one_file is not None:
-        write_file(one_file, pages.offline_html(flights, files))
-        echo(f"{one_file}: {one_file.stat().st_size / 1e6:.1f} MB; open it in a browser")
+    with progress_bar("Compiling", "missions", shown=sys.stderr.isatty()) as progress:
+        flights = page_modules.packed_flights(missions or page_modules.MISSIONS, controller, progress)
+    for line in pages.write_page(flights, Path(out) if out else None, one_file):
+        echo(line)
 
 
 @click.command()

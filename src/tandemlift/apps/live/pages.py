@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Mapping, Sequence
-from functools import cache
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
-from tandemlift.apps.live.page_files import data_element, in_one_file, page_text, text_element, with_data, with_policy
+from tandemlift.apps.live.page_files import (
+    data_element,
+    in_one_file,
+    page_files,
+    page_text,
+    text_element,
+    with_data,
+    with_policy,
+)
 from tandemlift.apps.live.page_modules import ENDING, FORMAT, PackedFlight
 from tandemlift.apps.live.replay import replay_element
-from tandemlift.core.files import __version__
+from tandemlift.codegen.mission_module import kept
+from tandemlift.core.files import __version__, write_file
+from tandemlift.missions import load_mission
 
 FOLDER = "flights"  # beside the page's other files
 SHOWN_INSTEAD = "one-push"  # mission of the flight that a browser without WebAssembly plays
@@ -18,7 +28,7 @@ EVERY = 6  # frames of that flight, of which one is kept
 ONLY_SERVER = (
     "another controller or gate, chosen in flight",
     "sensors tared anew",
-    "every other mission, your own among them, and the engines MuJoCo and Gazebo",
+    "missions that are not in this page, and the engines MuJoCo and Gazebo",
     "several people at one flight",
     "findings during the flight, with time and place",
     "saving into a folder, with the log of the flight; from here, `tandemlift run` makes that log of a saved file",
@@ -52,6 +62,24 @@ def offline_html(flights: Sequence[PackedFlight], files: Mapping[str, bytes]) ->
     return in_one_file(html, files, IN_ONE_FILE)
 
 
+def write_page(flights: Sequence[PackedFlight], folder: Path | None, one_file: Path | None) -> Iterator[str]:
+    """Write a page as files for a web server, as one file, or both; yields a line about each.
+
+    Raises:
+        InputError: the page was not built, or a file cannot be written.
+    """
+    files = page_files()
+    if folder is not None:
+        written = offline_files(flights, files)
+        for name, content in written.items():
+            write_file(folder / name, content)
+        size = sum(map(len, written.values())) / 1e6
+        yield f"{folder}: {len(written)} files, {size:.1f} MB; for a web server, such as: python -m http.server"
+    if one_file is not None:
+        write_file(one_file, offline_html(flights, files))
+        yield f"{one_file}: {one_file.stat().st_size / 1e6:.1f} MB; open it in a browser"
+
+
 def _entry(flight: PackedFlight) -> dict[str, Any]:
     return {"name": flight.name, "title": flight.title, "sha256": flight.sha256}
 
@@ -69,10 +97,9 @@ def _with_flights(html: str, entries: list[dict[str, Any]]) -> str:
     return with_data(html, data_element("flights", index) + _replay())
 
 
-@cache
 def _replay() -> str:
     """The flight that is shown where none can be flown."""
-    from tandemlift.missions import load_mission
     from tandemlift.simulation.fly import fly
 
-    return replay_element(fly(load_mission(SHOWN_INSTEAD)), EVERY)
+    mission = load_mission(SHOWN_INSTEAD)
+    return kept(mission, "replay", lambda: replay_element(fly(mission), EVERY).encode()).decode()

@@ -169,7 +169,7 @@ class Function(GraphText):
             at = self.sets.places[args[0]]
             self._values[node] = self.load(at.base, self.integer("add", at.first, int(op[4:]) * at.stride))
         else:
-            uniform = self.is_uniform(node)
+            uniform = self.lanes > 1 and self.is_uniform(node)
             operands = [self._operand(a, not uniform) for a in args]
             self._values[node] = self.op(self.instruction(node, lambda t: self._kind(t, uniform), operands))
 

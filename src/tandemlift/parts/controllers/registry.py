@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tandemlift.core.errors import InputError, unknown
+from tandemlift.core.errors import InputError
 from tandemlift.parts.controllers.interface import ControllerTable
 from tandemlift.parts.controllers.trial_run import check_started, error_text, form
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -61,18 +61,6 @@ def register(name: str, settings: type[ControllerTable]) -> Callable[[Start], St
 def file_of(controller: Controller) -> str:
     """The file that registered a controller."""
     return inspect.unwrap(controller.start).__code__.co_filename
-
-
-def controller(name: str) -> Controller:
-    """The registered controller of that name.
-
-    Raises:
-        InputError: there is none; a user's controller must be loaded first.
-    """
-    if name not in CONTROLLERS:
-        error = unknown("controller", name, sorted(CONTROLLERS))
-        raise InputError(f"{error} One of your own must be loaded first, as with --controller FILE.")
-    return CONTROLLERS[name]
 
 
 def _checked(name: str, settings: type[ControllerTable], start: Start) -> Start:

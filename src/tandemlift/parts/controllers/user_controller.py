@@ -1,4 +1,4 @@
-"""Loading of a user's controller from a Python file."""
+"""Controllers by name or file; loading of a user's controller from a Python file."""
 
 from __future__ import annotations
 
@@ -10,13 +10,27 @@ from importlib.util import decode_source
 from pathlib import Path
 from types import FunctionType, ModuleType
 
-from tandemlift.core.errors import InputError
+from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.law import LAWS
 from tandemlift.core.vector import dot
 from tandemlift.parts.controllers.registry import CONTROLLERS, Controller, file_of
 from tandemlift.parts.controllers.trial_run import error_text
 
 _loaded: dict[str, Controller] = {}  # by their modules
+
+
+def controller(given: str) -> Controller:
+    """The registered controller of that name, or the one of a Python file.
+
+    Raises:
+        InputError: there is no such controller, or the file defines none.
+    """
+    if given.endswith(".py") or "/" in given:
+        return load_controller(given)
+    if given not in CONTROLLERS:
+        error = unknown("controller", given, sorted(CONTROLLERS))
+        raise InputError(f"{error} One of your own must be loaded first, as with --controller FILE.")
+    return CONTROLLERS[given]
 
 
 def load_controller(path: str | Path) -> Controller:

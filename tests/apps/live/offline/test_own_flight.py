@@ -3,18 +3,21 @@
 import gzip
 import html.parser
 import json
+import shutil
 import zipfile
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
 from own_flight import INDEX, OwnFlight
+from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.apps.live import page_modules, pages
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.page_manifest import page_manifest
+from tandemlift.core.files import DATA
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation.traced_assembly import trace_assembly
 from tandemlift.simulation.stepping import fly_stepwise
@@ -150,6 +153,10 @@ def test_a_flight_that_diverged_is_saved_and_diverges_again_at_the_same_step(tmp
 # the page's files
 
 
+HOVER_FILE = str(DATA / "missions" / "hover.toml")
+LISTINGS = ROOT / "docs" / "reference" / "listings"
+
+
 class Elements(html.parser.HTMLParser):
     """Elements of a page by their id, and its policy."""
 
@@ -206,8 +213,13 @@ def test_the_verb_writes_both_forms(tmp_path):
     [
         ([], "give the place of the page: --html FILE for one file, --out DIR for a web server"),
         (["--html", "page.txt"], "--html page.txt: must end in .html"),
-        (["hoover", "--html", "a.html"], "unknown mission of a page 'hoover'"),
-        (["paper", "--html", "a.html"], "there are hover, zigzag, iris, doorway, rotor-loss"),
+        (["hoover", "--html", "a.html"], "unknown mission 'hoover'"),
+        (["hover", HOVER_FILE, "--html", "a.html"], "mission.name = 'hover': two missions of the page have it"),
+        (
+            ["hover", "--controller", str(LISTINGS / "my_pd_plain.py"), "--html", "a.html"],
+            "my_pd() in my_pd_plain.py, line 39, is plain Python, of which no other machine has code; register it as a "
+            "law, without compiled=False. A page flies compiled code only; `tandemlift live hover --controller",
+        ),
     ],
 )
 def test_what_the_verb_cannot_do_is_refused(arguments, text, tmp_path, monkeypatch):
@@ -216,6 +228,46 @@ def test_what_the_verb_cannot_do_is_refused(arguments, text, tmp_path, monkeypat
     assert isinstance(done.exception, tl.InputError)
     assert text in str(done.exception)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_controller_that_branches_on_data_is_refused_with_the_line_and_what_flies_it(tmp_path):
+    law = (LISTINGS / "my_pd.py").read_text("utf-8")
+    branching = law.replace("    e, de = ", "    if state.position.x > 0.0:\n        pass\n    e, de = ")
+    file = tmp_path / "branching.py"
+    file.write_text(branching, "utf-8")
+    line = 1 + branching.splitlines().index("    if state.position.x > 0.0:")
+    with pytest.raises(tl.InputError) as refused:
+        page_modules.packed_flight("hover", str(file))
+    assert f"branching.py, line {line}: my_pd() branches on data" in str(refused.value)
+    assert f"`tandemlift live hover --controller {file}` also flies" in str(refused.value)
+
+
+def test_what_was_made_is_kept_until_mission_or_controller_change(tmp_path, monkeypatch):
+    mission, controller = tmp_path / "mine.toml", tmp_path / "my_pd.py"
+    mission.write_text('extends = "hover"\n[mission]\nname = "mine"\n', "utf-8")
+    shutil.copy(LISTINGS / "my_pd.py", controller)
+    monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(page_modules, "flight_manifest", lambda mission: ({"of": mission.mission.name}, b"code"))
+    given = str(mission), str(controller)
+    assert page_modules.PageFlight(*given).ready is None
+    made = page_modules.packed_flight(*given)
+    assert page_modules.PageFlight(*given).ready == made
+    mission.write_text(mission.read_text("utf-8") + "[vehicle.payload]\nmass = 0.6\n", "utf-8")
+    assert page_modules.PageFlight(*given).ready is None
+    page_modules.packed_flight(*given)
+    controller.write_text(controller.read_text("utf-8") + "\n# another\n", "utf-8")
+    assert page_modules.PageFlight(*given).ready is None
+
+
+def test_several_missions_are_made_by_processes_as_each_alone(hover, tmp_path, monkeypatch):
+    mine = tmp_path / "mine.toml"
+    mine.write_text('extends = "hover"\n[mission]\nname = "mine"\n', "utf-8")
+    monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
+    counts = []
+    flights = page_modules.packed_flights(["hover", str(mine)], progress=lambda *count: counts.append(count))
+    assert counts == [(0, 2), (1, 2), (2, 2)]
+    assert [flight.name for flight in flights] == ["hover", "mine"]
+    assert flights[0] == hover
 
 
 # the modules

@@ -6,9 +6,12 @@ import zipfile
 import numpy as np
 import pytest
 from chromium import MS, SIZE, launched, middle_of_the_beam, opened, panel
+from click.testing import CliRunner
 from patience import until
+from repository import ROOT
 
 import tandemlift as tl
+from tandemlift.apps.cli.main import cli
 from tandemlift.apps.live import pages
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.simulation.plan import FlightPlan
@@ -42,13 +45,8 @@ def save(page, folder):
     return download.value.suggested_filename
 
 
-def test_a_recording_made_by_a_real_mouse_flies_again_in_python_to_the_last_bit(browser, address, tmp_path):
-    page = opened(browser, address)
-    until(lambda: seconds_flown(page) > 6.0, "a flight at its height")
-    entry = panel(page, "person.stiffness").locator("input[type=number]")
-    entry.fill("9")
-    entry.press("Enter")
-    page.click("#show-panel")
+def pull_and_push(page):
+    """Pull the beam by the mouse, then push it by a key."""
     x, y = middle_of_the_beam(page)
     page.mouse.move(x, y)
     page.mouse.down()
@@ -60,19 +58,51 @@ def test_a_recording_made_by_a_real_mouse_flies_again_in_python_to_the_last_bit(
     page.keyboard.down("KeyD")
     time.sleep(0.6)
     page.keyboard.up("KeyD")
+
+
+def assert_flown_again_to_the_last_bit(folder):
+    """The recording in a folder, flown by Python, ends as the page's flight did."""
+    plan = FlightPlan(tl.load_mission(folder / "recorded.toml"))
+    again = fly_stepwise(plan, plan.steps + 1, 1)
+    last = np.load(folder / "last_sample.npy")
+    np.testing.assert_array_equal(again.last.view(np.int64), last.view(np.int64))
+
+
+def test_a_recording_made_by_a_real_mouse_flies_again_in_python_to_the_last_bit(browser, address, tmp_path):
+    page = opened(browser, address)
+    until(lambda: seconds_flown(page) > 6.0, "a flight at its height")
+    entry = panel(page, "person.stiffness").locator("input[type=number]")
+    entry.fill("9")
+    entry.press("Enter")
+    page.click("#show-panel")
+    pull_and_push(page)
     assert save(page, tmp_path) == "by-hand.zip"
     assert page.wrong == []
     page.close()
-    mission = tl.load_mission(tmp_path / "recorded.toml")
-    plan = FlightPlan(mission)
-    again = fly_stepwise(plan, plan.steps + 1, 1)
-    last = np.load(tmp_path / "last_sample.npy")
-    np.testing.assert_array_equal(again.last.view(np.int64), last.view(np.int64))
+    assert_flown_again_to_the_last_bit(tmp_path)
     hand = np.load(tmp_path / "hand.npz")["hand"]
     assert hand[:, 0].max() == 1.0
     assert len(np.unique(hand[:, 4:7], axis=0)) > 10  # targets
     assert np.linalg.norm(hand[:, 7:10], axis=1).max() == pytest.approx(3.0)  # the key's force
-    assert [(c.key, c.value) for c in mission.changes] == [("person.stiffness", 9.0)]
+    changes = tl.load_mission(tmp_path / "recorded.toml").changes
+    assert [(c.key, c.value) for c in changes] == [("person.stiffness", 9.0)]
+
+
+def test_an_own_mission_with_an_own_controller_flies_from_the_file_that_the_command_wrote(browser, tmp_path):
+    mission, controller = tmp_path / "mine.toml", ROOT / "docs" / "reference" / "listings" / "my_pd.py"
+    mission.write_text('extends = "hover"\n[mission]\nname = "mine"\n[vehicle.payload]\nmass = 0.7\n', "utf-8")
+    page_of = ["page", str(mission), "--controller", str(controller), "--html", str(tmp_path / "mine.html")]
+    done = CliRunner().invoke(cli, page_of, standalone_mode=False)
+    assert done.exception is None
+    page = opened(browser, (tmp_path / "mine.html").as_uri())
+    assert page.locator("#missions option").all_inner_texts() == ["mine"]
+    until(lambda: seconds_flown(page) > 4.0, "a flight at its height")
+    pull_and_push(page)
+    save(page, tmp_path)
+    assert page.wrong == []
+    page.close()
+    assert tl.load_mission(tmp_path / "recorded.toml").controller.name == "my-pd"
+    assert_flown_again_to_the_last_bit(tmp_path)
 
 
 def test_a_link_is_read_and_written_and_the_menu_flies_another_flight(browser, address):
