@@ -11,7 +11,6 @@ import {
   type FlightScene,
   type PageMessage,
   type ParameterValue,
-  type Phase,
   type StatusMessage,
   THRESHOLD,
 } from "../wire/messages.generated.ts";
@@ -23,16 +22,17 @@ import { timedName } from "./file_names.ts";
 import { helpDialog } from "./help.ts";
 import { EndedCard } from "./ended_card.ts";
 import { Findings } from "./findings.ts";
-import { SPAN } from "./history.ts";
+import { hintOf } from "./hint.ts";
+import { History } from "./history.ts";
 import { MissionChoice } from "./mission_choice.ts";
 import { Notices } from "./notices.ts";
 import { Panel } from "./panel.ts";
-import { isAirborne } from "./phases.ts";
 import { Plots } from "./plots.ts";
 import { Question } from "./question.ts";
 import { SaveDialog } from "./save_dialog.ts";
 import { StatusBar } from "./status_bar.ts";
 import type { ThemeChoice } from "./theme.ts";
+import { TimeWindow } from "./time_window.ts";
 import { Timeline } from "./timeline.ts";
 import { VideoRecorder } from "./video_recorder.ts";
 
@@ -73,6 +73,11 @@ export class Shell {
   private readonly findings: Findings;
   private readonly video = new VideoRecorder();
   private plots: Plots | null = null;
+  private history: History | null = null;
+  private readonly window = new TimeWindow(
+    () => this.history!.flown,
+    () => this.page.current?.scalar("time") ?? NaN,
+  );
   private dock: Dock | null = null;
   private timeline: Timeline | null = null;
   private readonly question = new Question();
@@ -117,7 +122,7 @@ export class Shell {
     [this.mission, this.floor] = [scene.mission, scene.floor];
     this.bar.scene(scene);
     this.panel.scene(scene);
-    this.plots = new Plots(scene, byId("plots"), this.page.graphics);
+    this.makePlots(scene);
     this.missions.scene(scene);
     this.dock?.reset(this.missions.open);
     if (!this.page.replay || !scene.replay) return;
@@ -127,8 +132,7 @@ export class Shell {
   }
 
   frame(frame: Frame): void {
-    const jumped = this.plots?.add(frame) ?? false;
-    if (jumped && this.page.replay) for (const past of this.page.replay.before(SPAN)) this.plots?.add(past);
+    if (!this.page.replay && this.history?.add(frame)) this.window.cut(frame.scalar("time"));
     if (frame.scalar("held") > 0) this.pulled = true;
   }
 
@@ -197,6 +201,22 @@ export class Shell {
     if (page.current) this.panel.showThrusts(page.current.list("thrusts"));
   }
 
+  /** Plots of what was flown: of the whole of a replay, else what frames show from now on. */
+  private makePlots(scene: FlightScene): void {
+    const { replay, graphics } = this.page;
+    if (!this.history?.continues(scene)) this.history = new History(scene);
+    if (replay) for (const frame of replay.frames()) this.history.add(frame);
+    const chose = (time: number): void => this.choose(time);
+    this.plots = new Plots(scene, byId("plots"), graphics, this.history, this.window, chose);
+  }
+
+  /** A moment is chosen, in a plot or on the timeline. */
+  private choose(time: number): void {
+    this.window.choose(time);
+    this.plots!.point();
+    this.page.replay?.seek(time);
+  }
+
   private makeDock(): void {
     const { page } = this;
     this.dock = new Dock(byId("dock"), page.send.bind(page), this.question, {
@@ -255,17 +275,6 @@ export class Shell {
     }
     return keys;
   }
-}
-
-const HELD: Phase[] = ["hold", "contact", "limited"]; // phases in which a pilot does not follow, and says why
-
-function hintOf({ phase, preparing, refusals, holder, tare_left_s: tare }: StatusMessage, pulled: boolean): string {
-  if (preparing?.failure) return `The flight cannot be flown: ${preparing.failure}`;
-  if (preparing) return `Preparing the flight: ${preparing.step} \u2026`;
-  if (tare > 0 && isAirborne(phase)) return `Do not touch: ${tare.toFixed(1)} s of tare left`;
-  if (phase === "idle") return refusals.lift ? "" : "Press Lift to take off.";
-  if (HELD.includes(phase)) return holder === "none" ? refusals.push : ""; // else it is said at the hand
-  return phase === "guided" && !pulled ? "Drag the beam to pull it." : "";
 }
 
 /** Lets a button show and hide a part of the page. */
