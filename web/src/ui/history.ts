@@ -18,7 +18,6 @@ export class History {
     const rotors = scene.vehicle.quadrotors.flatMap((q) => q.rotors).length;
     const names = [
       "time",
-      "phase",
       ...vectors.flatMap((name) => [0, 1, 2].map((i) => `${name}${i}`)),
       ...Array.from({ length: rotors }, (_, i) => `thrusts${i}`),
     ];
@@ -92,7 +91,7 @@ function grown(column: Float64Array): Float64Array {
 }
 
 function valueOf(frame: Frame, name: string): number {
-  if (name === "time" || name === "phase") return frame.scalar(name);
+  if (name === "time") return frame.scalar(name);
   const cut = name.search(/\d+$/);
   const field = name.slice(0, cut) as FrameFieldName;
   return frame.layout.has(field) ? frame.values[frame.layout.place(field).start + Number(name.slice(cut))] : NaN;

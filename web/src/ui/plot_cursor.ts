@@ -60,5 +60,6 @@ export function nearest(ascending: ArrayLike<number>, value: number): number {
 
 function textOf(value: number | null | undefined): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return "\u2013";
-  return value.toFixed(Math.abs(value) < 100 ? 2 : 0).replace("-", "\u2212");
+  const digits = Math.abs(value) < 100 ? 2 : 0;
+  return (Number(value.toFixed(digits)) + 0).toFixed(digits).replace("-", "\u2212"); // no −0
 }

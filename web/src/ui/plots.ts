@@ -8,6 +8,7 @@ import type { FlightScene, Vector } from "../wire/messages.generated.ts";
 import type { ColorName } from "./colors.ts";
 import { choice } from "./dom.ts";
 import type { History } from "./history.ts";
+import type { Marks } from "./marks.ts";
 import { phaseTint } from "./phases.ts";
 import { band, type Curve, level, Plot, type PlotOptions } from "./plot.ts";
 import type { TimeWindow } from "./time_window.ts";
@@ -40,6 +41,7 @@ export class Plots {
     private readonly graphics: Graphics,
     private readonly history: History,
     private readonly window: TimeWindow,
+    private readonly marks: Marks,
     private readonly chose: (time: number) => void,
   ) {
     this.threshold = scene.threshold;
@@ -122,7 +124,7 @@ export class Plots {
   private disturbance(): PlotWithData {
     const curves = along((label) => ({ label }));
     const under = (plot: uPlot): void => {
-      for (const { from, to, phase } of this.phases()) {
+      for (const { from, to, phase } of this.marks.phases) {
         const name = this.scene.phases[phase];
         band(plot, from, to, phaseTint(name), name);
       }
@@ -130,17 +132,5 @@ export class Plots {
     const look = { title: "Disturbance, phase", unit: "N", curves, least: 1, under, rows: 3 };
     const plot = this.plot({ ...look, headroom: 0.3 }); // for the names
     return { plot, columns: () => this.vector("disturbance") };
-  }
-
-  /** Stretches of time with one phase each. */
-  private phases(): { from: number; to: number; phase: number }[] {
-    const [times, phases] = [this.history.column("time"), this.history.column("phase")];
-    const found: { from: number; to: number; phase: number }[] = [];
-    times.forEach((time, i) => {
-      const last = found.at(-1);
-      if (last) last.to = time;
-      if (last?.phase !== phases[i]) found.push({ from: time, to: time, phase: phases[i] });
-    });
-    return found;
   }
 }
