@@ -5,6 +5,7 @@ import "./style/buttons.css";
 import "./style/bar.css";
 import "./style/picture.css";
 import "./style/plots.css";
+import "./style/timeline.css";
 import "./style/panel.css";
 import "./style/dialogs.css";
 import "./style/own_flight.css";

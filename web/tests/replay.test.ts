@@ -64,16 +64,6 @@ test("time passes at the pace that was set, and stops at the end", () => {
   assert.equal(seen.frame().scalar("time"), 10);
 });
 
-test("the past of a time are the frames up to it", () => {
-  const recorded = flight();
-  watched(recorded);
-  recorded.seek(11.2);
-  assert.deepEqual(
-    recorded.before(1).map((frame) => frame.scalar("time")),
-    [10, 11],
-  );
-});
-
 test("base64 holds the bytes that were put in", () => {
   assert.deepEqual([...new Uint8Array(bytes(Buffer.from([0, 128, 255]).toString("base64")))], [0, 128, 255]);
 });

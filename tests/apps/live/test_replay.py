@@ -100,7 +100,8 @@ def test_frames_are_the_channels_of_the_flight_to_the_last_bit_of_float32(flight
 def test_there_are_sixty_frames_a_second_at_most_and_they_span_the_flight(flight):
     scene, frames = scene_and_frames(flight)
     assert np.diff(frames[:, 0]).min() > 1.0 / 60.0
-    assert scene["replay"] == {"start": 0.0, "end": pytest.approx(16.0, abs=0.02), "speed": 1, "ending": None}
+    span = {"start": 0.0, "end": pytest.approx(16.0, abs=0.02), "speed": 1, "ending": None}
+    assert scene["replay"] == span | {"findings": [], "changes": []}
     assert frames[-1, 0] == np.float32(scene["replay"]["end"])
 
 

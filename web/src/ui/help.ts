@@ -14,6 +14,14 @@ const FINGERS: Line[] = [
 ];
 const MOUSE_VIEW: Line = ["Drag elsewhere \u00b7 wheel \u00b7 right button", "turn the view \u00b7 zoom \u00b7 shift"];
 const FINGERS_VIEW: Line = ["Drag elsewhere \u00b7 two fingers", "turn the view \u00b7 zoom and shift"];
+const MOUSE_PLOTS: Line = [
+  "Plots: point \u00b7 drag or wheel \u00b7 double click",
+  "values there \u00b7 zoom in time \u00b7 the last 20 s again",
+];
+const FINGERS_PLOTS: Line = [
+  "Plots: tap \u00b7 two fingers \u00b7 double tap",
+  "values there \u00b7 zoom in time \u00b7 the last 20 s again",
+];
 const KEYS: Line[] = [
   ["Arrows or W A S D", "push level; the force is set under Settings \u2192 hand"],
   ["E, Q or Page Up, Page Down", "push up, down"],
@@ -36,8 +44,8 @@ const LEGEND: [string, string, string][] = [
 /** What a person can do, gestures first: of fingers where they are what the page is used with, else of a mouse. */
 export function helpLines(replay: boolean, touch: boolean): Line[] {
   const pull = touch ? FINGERS : MOUSE;
-  const look = touch ? FINGERS_VIEW : MOUSE_VIEW;
-  return replay ? [look, ...REPLAY_KEYS, VIEW_KEYS] : [...pull, look, ...KEYS, VIEW_KEYS];
+  const look = touch ? [FINGERS_VIEW, FINGERS_PLOTS] : [MOUSE_VIEW, MOUSE_PLOTS];
+  return replay ? [...look, ...REPLAY_KEYS, VIEW_KEYS] : [...pull, ...look, ...KEYS, VIEW_KEYS];
 }
 
 export function helpDialog(replay: boolean): HTMLDialogElement {

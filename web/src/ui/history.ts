@@ -1,69 +1,97 @@
-// The last seconds of the flight, in columns for the plots.
+// The flight so far, in columns for the plots.
 
 import type { Frame } from "../wire/frames.ts";
 import type { FlightScene, FrameFieldName } from "../wire/messages.generated.ts";
+import type { Stretch } from "./time_window.ts";
 
-export const SPAN = 20; // s
 const RATE = 20; // samples/s that are kept
-const CAPACITY = SPAN * RATE + 2;
+const FIRST_SIZE = 1024; // samples, doubled when they are taken
+const LOST = 2; // s without a frame, as after a lost connection: what is older is forgotten
 
 export class History {
-  readonly names: string[];
   private readonly columns = new Map<string, Float64Array>();
-  private first = 0;
-  private end = 0;
+  private length = 0;
+  private shown: Stretch = [0, 0]; // of indices
 
-  constructor(scene: FlightScene) {
+  constructor(private readonly scene: FlightScene) {
     const vectors = ["push", "pilot_push", "position", "reference", "disturbance"];
     const rotors = scene.vehicle.quadrotors.flatMap((q) => q.rotors).length;
-    this.names = [
+    const names = [
       "time",
-      "phase",
       ...vectors.flatMap((name) => [0, 1, 2].map((i) => `${name}${i}`)),
       ...Array.from({ length: rotors }, (_, i) => `thrusts${i}`),
     ];
-    for (const name of this.names) this.columns.set(name, new Float64Array(2 * CAPACITY));
+    for (const name of names) this.columns.set(name, new Float64Array(FIRST_SIZE));
   }
 
-  get latest(): number {
-    return this.end > this.first ? this.columns.get("time")![this.end - 1] : NaN;
+  /** Whether frames of a scene continue this flight. */
+  continues(scene: FlightScene): boolean {
+    return scene.mission === this.scene.mission && String(scene.fields) === String(this.scene.fields);
   }
 
-  clear(): void {
-    this.first = this.end = 0;
+  /** First and last time [s]. */
+  get flown(): Stretch {
+    const times = this.columns.get("time")!;
+    return this.length ? [times[0], times[this.length - 1]] : [NaN, NaN];
   }
 
-  /** Keeps a frame if it is due; a jump of time clears the history. True if there was a jump. */
+  /**
+   * Keeps a frame if it is due. What is later than it is forgotten, and all if much is missing before it; true if
+   * anything is.
+   */
   add(frame: Frame): boolean {
     const time = frame.scalar("time");
-    const step = time - this.latest;
-    const jumped = step < -1e-4 || step > 2;
-    if (jumped) this.clear();
-    if (!jumped && step < 1 / RATE - 1e-3) return false;
+    const step = time - this.flown[1];
+    const jumped = step > LOST || step < -1e-4;
+    if (jumped) this.length = step > 0 ? 0 : this.index(time);
+    else if (step < 1 / RATE - 1e-3) return false;
     this.write(frame);
     return jumped;
   }
 
+  /** Lets columns be those of a stretch of time, and one sample more at either end. */
+  show([from, to]: Stretch): void {
+    this.shown = [Math.max(this.index(from) - 1, 0), Math.min(this.index(to) + 1, this.length)];
+  }
+
   column(name: string): Float64Array {
-    return this.columns.get(name)!.subarray(this.first, this.end);
+    return this.columns.get(name)!.subarray(...this.shown);
+  }
+
+  /** The first sample that is not before a time. */
+  private index(time: number): number {
+    return indexOf(this.columns.get("time")!.subarray(0, this.length), time);
   }
 
   private write(frame: Frame): void {
-    if (this.end === 2 * CAPACITY) {
-      for (const column of this.columns.values()) column.copyWithin(0, this.first, this.end);
-      this.end -= this.first;
-      this.first = 0;
+    for (const [name, column] of this.columns) {
+      const roomy = this.length < column.length ? column : grown(column);
+      roomy[this.length] = valueOf(frame, name);
+      this.columns.set(name, roomy);
     }
-    for (const [name, column] of this.columns) column[this.end] = valueOf(frame, name);
-    this.end += 1;
-    if (this.end - this.first > CAPACITY) this.first += 1;
-    const times = this.columns.get("time")!;
-    while (times[this.end - 1] - times[this.first] > SPAN) this.first += 1;
+    this.length += 1;
   }
 }
 
+/** The first of ascending numbers that is not below a value; their count if all are. */
+export function indexOf(ascending: ArrayLike<number>, value: number): number {
+  let [low, high] = [0, ascending.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (ascending[middle] < value) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+function grown(column: Float64Array): Float64Array {
+  const larger = new Float64Array(2 * column.length);
+  larger.set(column);
+  return larger;
+}
+
 function valueOf(frame: Frame, name: string): number {
-  if (name === "time" || name === "phase") return frame.scalar(name);
+  if (name === "time") return frame.scalar(name);
   const cut = name.search(/\d+$/);
   const field = name.slice(0, cut) as FrameFieldName;
   return frame.layout.has(field) ? frame.values[frame.layout.place(field).start + Number(name.slice(cut))] : NaN;

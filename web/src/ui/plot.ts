@@ -1,13 +1,16 @@
-// One plot of the last seconds, with its title, unit, legend, and a choice where there is one.
+// One plot over time, with its title, unit, legend, and a choice where there is one.
 
 import uPlot from "uplot";
 
 import { color, type ColorName } from "./colors.ts";
 import { el } from "./dom.ts";
 import type { Graphics } from "../view/graphics.ts";
-import { SPAN } from "./history.ts";
+import { PlotCursor } from "./plot_cursor.ts";
+import { listen, type PlotListener, selecting } from "./plot_gestures.ts";
+import type { TimeWindow } from "./time_window.ts";
 
 export interface Curve {
+  name: string; // in the list of values
   color: ColorName;
   label?: string; // in the legend
   dash?: number[];
@@ -23,6 +26,7 @@ export interface PlotOptions {
   headroom?: number; // above the curves, as a fraction of the span
   under?: (plot: uPlot) => void; // drawn below the curves
   more?: HTMLElement;
+  rows: number; // of values that stand below one another
 }
 
 const FONT = "10px system-ui, sans-serif";
@@ -35,26 +39,43 @@ export class Plot {
   readonly card: HTMLElement;
   private readonly body = el("div", { class: "canvas" });
   private readonly plot: uPlot;
+  private readonly cursor: PlotCursor;
   private dirty = true;
 
-  constructor(look: PlotOptions, graphics: Graphics) {
+  constructor(
+    look: PlotOptions,
+    graphics: Graphics,
+    private readonly window: TimeWindow,
+    listener: PlotListener,
+  ) {
     const keys = look.curves.flatMap((curve) => (curve.label ? [key(curve, curve.label)] : []));
     const head = el("header", {}, el("b", {}, look.title), look.more ?? el("small", {}, look.unit));
     head.append(el("span", { class: "keys" }, ...keys));
     this.card = el("article", { class: "plot" }, head, this.body);
-    const make = () => new uPlot(options(look), [[], ...look.curves.map(() => [])], this.body);
+    const all = { ...options(look), ...selecting(window, listener) };
+    if (look.under) all.hooks!.drawAxes = [look.under];
+    const make = () => new uPlot(all, [[], ...look.curves.map(() => [])], this.body);
     this.plot = graphics === "light" ? onProcessor(make) : make();
+    this.cursor = new PlotCursor(this.plot, look.curves, look.rows);
+    listen(this.plot, window, listener);
     new ResizeObserver(() => {
       this.fit();
     }).observe(this.body);
   }
 
-  update(now: number, columns: Float64Array[]): void {
+  update(columns: uPlot.AlignedData): void {
     if (this.dirty) this.fit();
+    const [min, max] = this.window.shown;
     this.plot.batch(() => {
       this.plot.setData(columns, false);
-      this.plot.setScale("x", { min: now - SPAN, max: now });
+      this.plot.setScale("x", { min, max });
     });
+    this.point();
+  }
+
+  /** Shows the values at the cursor. */
+  point(): void {
+    this.cursor.show(this.window.cursor);
   }
 
   private fit(): void {
@@ -91,7 +112,6 @@ function options(look: PlotOptions): uPlot.Options {
     width: 200,
     height: 100,
     legend: { show: false },
-    cursor: { show: false },
     padding: [6, (plot) => Math.ceil(textWidth(plot, [LAST_TIME]) / 2) + 1, 0, 0],
     scales: { x: { time: false }, y: { range: (_, low, high) => span(low, high, look) } },
     axes: [
@@ -107,7 +127,6 @@ function options(look: PlotOptions): uPlot.Options {
       { stroke: INK, font: FONT, grid: HAIR, ticks: { show: false }, size: axisSize, gap: 3, space: 22 },
     ],
     series: [{}, ...look.curves.map(({ color, dash, width }) => series(color, dash, width))],
-    hooks: look.under ? { drawAxes: [look.under] } : {},
   };
 }
 
@@ -130,7 +149,7 @@ function series(name: ColorName, dash: number[] | undefined, width = 1.5): uPlot
   return { stroke: () => color(name), width, points: { show: false }, ...(dash && { dash }) };
 }
 
-const seconds = (value: number): string => (value < 0 ? "" : `${value} s`);
+const seconds = (value: number): string => (value < 0 ? "" : `${Number(value.toFixed(3))} s`);
 
 /** The range to show: all values, with some room, and at least `least`, so that noise does not fill the plot. */
 function span(low: number | null, high: number | null, options: PlotOptions): [number, number] {

@@ -4,16 +4,18 @@ import type uPlot from "uplot";
 
 import { ahead } from "../view/rotors.ts";
 import type { Graphics } from "../view/graphics.ts";
-import type { Frame } from "../wire/frames.ts";
 import type { FlightScene, Vector } from "../wire/messages.generated.ts";
 import type { ColorName } from "./colors.ts";
 import { choice } from "./dom.ts";
-import { History } from "./history.ts";
+import type { History } from "./history.ts";
+import type { Marks } from "./marks.ts";
 import { phaseTint } from "./phases.ts";
-import { band, level, Plot } from "./plot.ts";
+import { band, type Curve, level, Plot, type PlotOptions } from "./plot.ts";
+import type { TimeWindow } from "./time_window.ts";
 
 const AXES: ColorName[] = ["--axis-x", "--axis-y", "--axis-z"];
 const NAMES = ["x", "y", "z"];
+const DASHED = { dash: [4, 3], width: 1 };
 const FRONTS: ColorName[] = ["--front-1", "--front-2", "--front-3", "--front-4"];
 const REARS: ColorName[] = ["--rear-1", "--rear-2", "--rear-3", "--rear-4"];
 
@@ -23,8 +25,11 @@ interface PlotWithData {
   columns: () => Float64Array[];
 }
 
+/** A curve for each axis. */
+const along = (look: (name: string, i: number) => Partial<Curve>): Curve[] =>
+  AXES.map((color, i) => ({ name: NAMES[i], color, ...look(NAMES[i], i) }));
+
 export class Plots {
-  readonly history: History;
   threshold: Vector;
   private readonly all: PlotWithData[];
   private asError = false;
@@ -34,23 +39,33 @@ export class Plots {
     private readonly scene: FlightScene,
     private readonly place: HTMLElement,
     private readonly graphics: Graphics,
+    private readonly history: History,
+    private readonly window: TimeWindow,
+    private readonly marks: Marks,
+    private readonly chose: (time: number) => void,
   ) {
-    this.history = new History(scene);
     this.threshold = scene.threshold;
     this.all = [this.pushes(), this.tracking(), this.thrusts(), this.disturbance()];
     place.replaceChildren(...this.all.map(({ plot }) => plot.card));
   }
 
-  add(frame: Frame): boolean {
-    return this.history.add(frame);
-  }
-
   /** Draws the plot whose turn it is, so that no picture waits for all of them. */
   draw(): void {
-    if (this.place.hidden || !Number.isFinite(this.history.latest)) return;
+    if (this.place.hidden || !Number.isFinite(this.history.flown[1])) return;
     this.turn = (this.turn + 1) % this.all.length;
     const { plot, columns } = this.all[this.turn];
-    plot.update(this.history.latest, [this.history.column("time"), ...columns()]);
+    this.history.show(this.window.shown);
+    plot.update([this.history.column("time"), ...columns()]);
+  }
+
+  /** Shows the values at the cursor in all plots. */
+  point(): void {
+    for (const { plot } of this.all) plot.point();
+  }
+
+  private plot(look: PlotOptions): Plot {
+    const looked = (): void => this.point();
+    return new Plot(look, this.graphics, this.window, { looked, chose: this.chose });
   }
 
   private vector(field: string): Float64Array[] {
@@ -58,27 +73,25 @@ export class Plots {
   }
 
   private pushes(): PlotWithData {
-    const actual = AXES.map((color, i) => ({ color, label: NAMES[i] }));
-    const pilot = AXES.map((color, i) => ({ color, dash: [4, 3], width: 1, ...(i === 2 && { label: "pilot" }) }));
+    const pilot = along((name, i) => ({ ...DASHED, name: `pilot ${name}`, ...(i === 2 && { label: "pilot" }) }));
+    const actual = along((label) => ({ label }));
     const under = (plot: uPlot): void => {
       for (const limit of new Set(this.threshold)) {
         level(plot, limit, "--level");
         level(plot, -limit, "--level");
       }
     };
-    const look = { title: "Push", unit: "N", curves: [...pilot, ...actual], least: 1.2, under };
-    const plot = new Plot(look, this.graphics);
+    const plot = this.plot({ title: "Push", unit: "N", curves: [...pilot, ...actual], least: 1.2, under, rows: 3 });
     return { plot, columns: () => [...this.vector("pilot_push"), ...this.vector("push")] };
   }
 
   private tracking(): PlotWithData {
-    const reference = AXES.map((color, i) => ({ color, dash: [4, 3], width: 1, ...(i === 2 && { label: "ref." }) }));
-    const actual = AXES.map((color, i) => ({ color, label: NAMES[i] }));
+    const reference = along((name, i) => ({ ...DASHED, name: `ref. ${name}`, ...(i === 2 && { label: "ref." }) }));
+    const actual = along((label) => ({ label }));
     const more = choice("What is shown", { position: "m", error: "\u0394 cm" }, "position", (value) => {
       this.asError = value === "error";
     });
-    const curves = [...reference, ...actual];
-    const plot = new Plot({ title: "Position", unit: "", curves, least: 0.5, more }, this.graphics);
+    const plot = this.plot({ title: "Position", unit: "", curves: [...reference, ...actual], least: 0.5, more, rows: 3 });
     const positions = () => [...this.vector("reference"), ...this.vector("position")];
     return { plot, columns: () => (this.asError ? this.error() : positions()) };
   }
@@ -93,7 +106,7 @@ export class Plots {
   private thrusts(): PlotWithData {
     const { quadrotors } = this.scene.vehicle;
     const curves = quadrotors.flatMap((q, n) =>
-      q.rotors.map((_, i) => ({ color: (ahead(q, i) ? FRONTS : REARS)[n % 4], width: 1.2 })),
+      q.rotors.map((_, i) => ({ name: `${4 * n + i + 1}`, color: (ahead(q, i) ? FRONTS : REARS)[n % 4], width: 1.2 })),
     );
     const limits = new Set(quadrotors.flatMap((q) => q.rotors.map((r) => r.max_thrust)));
     const under = (plot: uPlot): void => {
@@ -104,33 +117,20 @@ export class Plots {
       ...(i === 0 && { label: "front" }),
       ...(i === 1 && { label: "rear" }),
     }));
-    const look = { title: "Thrusts", unit: "N", curves: labelled, least: 4, fromZero: true, under };
-    const plot = new Plot(look, this.graphics);
+    const plot = this.plot({ title: "Thrusts", unit: "N", curves: labelled, least: 4, fromZero: true, under, rows: 4 });
     return { plot, columns: () => curves.map((_, i) => this.history.column(`thrusts${i}`)) };
   }
 
   private disturbance(): PlotWithData {
-    const curves = AXES.map((color, i) => ({ color, label: NAMES[i] }));
+    const curves = along((label) => ({ label }));
     const under = (plot: uPlot): void => {
-      for (const { from, to, phase } of this.phases()) {
+      for (const { from, to, phase } of this.marks.phases) {
         const name = this.scene.phases[phase];
         band(plot, from, to, phaseTint(name), name);
       }
     };
-    const look = { title: "Disturbance, phase", unit: "N", curves, least: 1, headroom: 0.3, under }; // for the names
-    const plot = new Plot(look, this.graphics);
+    const look = { title: "Disturbance, phase", unit: "N", curves, least: 1, under, rows: 3 };
+    const plot = this.plot({ ...look, headroom: 0.3 }); // for the names
     return { plot, columns: () => this.vector("disturbance") };
-  }
-
-  /** Stretches of time with one phase each. */
-  private phases(): { from: number; to: number; phase: number }[] {
-    const [times, phases] = [this.history.column("time"), this.history.column("phase")];
-    const found: { from: number; to: number; phase: number }[] = [];
-    times.forEach((time, i) => {
-      const last = found.at(-1);
-      if (last) last.to = time;
-      if (last?.phase !== phases[i]) found.push({ from: time, to: time, phase: phases[i] });
-    });
-    return found;
   }
 }

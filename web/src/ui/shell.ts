@@ -11,11 +11,8 @@ import {
   type FlightScene,
   type PageMessage,
   type ParameterValue,
-  type Phase,
   type StatusMessage,
-  THRESHOLD,
 } from "../wire/messages.generated.ts";
-import { perAxis } from "../wire/parameters.ts";
 import type { Replay } from "../wire/replay.ts";
 import { Dock } from "./dock.ts";
 import { byId, choice, toggle } from "./dom.ts";
@@ -23,21 +20,19 @@ import { timedName } from "./file_names.ts";
 import { helpDialog } from "./help.ts";
 import { EndedCard } from "./ended_card.ts";
 import { Findings } from "./findings.ts";
-import { SPAN } from "./history.ts";
+import { hintOf } from "./hint.ts";
+import { Laboratory } from "./laboratory.ts";
 import { MissionChoice } from "./mission_choice.ts";
 import { Notices } from "./notices.ts";
 import { Panel } from "./panel.ts";
-import { isAirborne } from "./phases.ts";
-import { Plots } from "./plots.ts";
 import { Question } from "./question.ts";
+import { ReplayDock } from "./replay_dock.ts";
 import { SaveDialog } from "./save_dialog.ts";
 import { StatusBar } from "./status_bar.ts";
 import type { ThemeChoice } from "./theme.ts";
-import { Timeline } from "./timeline.ts";
 import { VideoRecorder } from "./video_recorder.ts";
 
 const TEXT_EVERY = 200; // ms
-const PLOT_EVERY = { full: 30, light: 110 }; // ms; each of the four plots is drawn at a fourth of this rate
 const VIEWS: Record<View, string> = { behind: "behind", side: "side", above: "above" };
 const NARROW = 900; // pixels: below it the panel starts closed
 const LOW = 380; // pixels of height: below it the plots start closed
@@ -72,15 +67,14 @@ export class Shell {
   private readonly missions: MissionChoice;
   private readonly findings: Findings;
   private readonly video = new VideoRecorder();
-  private plots: Plots | null = null;
+  private readonly laboratory: Laboratory;
   private dock: Dock | null = null;
-  private timeline: Timeline | null = null;
+  private player: ReplayDock | null = null;
   private readonly question = new Question();
   private mission = "flight";
   private floor = 0; // m
   private pulled = false;
   private texts = 0;
-  private drawn = 0;
 
   constructor(private readonly page: ShellPage) {
     this.notices = new Notices(() => {
@@ -90,6 +84,7 @@ export class Shell {
     this.missions = new MissionChoice(page.send.bind(page), this.notices, this.question);
     this.bar = new StatusBar(page.replay !== null);
     this.panel = new Panel(byId("panel"), page);
+    this.laboratory = new Laboratory(page);
     this.help = helpDialog(page.replay !== null);
     this.saving = new SaveDialog((name) => {
       page.send({ type: "save", name });
@@ -117,18 +112,16 @@ export class Shell {
     [this.mission, this.floor] = [scene.mission, scene.floor];
     this.bar.scene(scene);
     this.panel.scene(scene);
-    this.plots = new Plots(scene, byId("plots"), this.page.graphics);
+    this.laboratory.show(scene);
     this.missions.scene(scene);
     this.dock?.reset(this.missions.open);
     if (!this.page.replay || !scene.replay) return;
-    this.timeline = new Timeline(byId("dock"), scene.replay, this.page.replay, () => {
-      this.toggleVideo();
-    });
+    const { element } = this.laboratory.timeline;
+    this.player = new ReplayDock(byId("dock"), scene.replay, this.page.replay, element, () => this.toggleVideo());
   }
 
   frame(frame: Frame): void {
-    const jumped = this.plots?.add(frame) ?? false;
-    if (jumped && this.page.replay) for (const past of this.page.replay.before(SPAN)) this.plots?.add(past);
+    this.laboratory.frame(frame);
     if (frame.scalar("held") > 0) this.pulled = true;
   }
 
@@ -139,11 +132,12 @@ export class Shell {
     this.panel.markFailed(status.failed_rotors);
     this.hint(status);
     this.findings.status(status.findings ?? []);
+    this.laboratory.status(status);
   }
 
   changed(key: string, value: ParameterValue, duration: number): void {
     this.panel.changed(key, value, duration);
-    if (this.plots && key === THRESHOLD) this.plots.threshold = perAxis(value);
+    this.laboratory.changed(key, value);
   }
 
   refused(what: string, reason: string): void {
@@ -186,11 +180,8 @@ export class Shell {
   /** After each picture. */
   tick(now: number): void {
     const { page } = this;
-    if (now - this.drawn > PLOT_EVERY[page.graphics]) {
-      this.plots?.draw();
-      this.drawn = now;
-    }
-    if (page.replay && page.current) this.timeline?.update(page.current.scalar("time"));
+    this.laboratory.tick(now);
+    if (page.current) this.player?.update(page.current.scalar("time"));
     if (now - this.texts < TEXT_EVERY) return;
     this.texts = now;
     this.bar.update(page.current, page.latency.median, page.frameRate.rate);
@@ -240,14 +231,14 @@ export class Shell {
   };
 
   private keys(): Map<string, () => void> {
-    const { timeline } = this;
+    const { player } = this;
     const views = [...byId("views").querySelectorAll<HTMLElement>("button, input")];
     const names = ["Digit1", "Digit2", "Digit3", "KeyF"];
     const keys = new Map(names.map((name, i) => [name, () => views[i].click()]));
-    if (timeline) {
-      keys.set("KeyP", () => timeline.toggle());
-      keys.set("ArrowLeft", () => timeline.step(-1));
-      keys.set("ArrowRight", () => timeline.step(1));
+    if (player) {
+      keys.set("KeyP", () => player.toggle());
+      keys.set("ArrowLeft", () => player.step(-1));
+      keys.set("ArrowRight", () => player.step(1));
     } else {
       keys.set("KeyP", () => this.dock?.togglePause());
       keys.set("KeyL", () => this.dock?.ask("lift"));
@@ -255,17 +246,6 @@ export class Shell {
     }
     return keys;
   }
-}
-
-const HELD: Phase[] = ["hold", "contact", "limited"]; // phases in which a pilot does not follow, and says why
-
-function hintOf({ phase, preparing, refusals, holder, tare_left_s: tare }: StatusMessage, pulled: boolean): string {
-  if (preparing?.failure) return `The flight cannot be flown: ${preparing.failure}`;
-  if (preparing) return `Preparing the flight: ${preparing.step} \u2026`;
-  if (tare > 0 && isAirborne(phase)) return `Do not touch: ${tare.toFixed(1)} s of tare left`;
-  if (phase === "idle") return refusals.lift ? "" : "Press Lift to take off.";
-  if (HELD.includes(phase)) return holder === "none" ? refusals.push : ""; // else it is said at the hand
-  return phase === "guided" && !pulled ? "Drag the beam to pull it." : "";
 }
 
 /** Lets a button show and hide a part of the page. */

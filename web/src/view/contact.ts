@@ -34,6 +34,11 @@ export class ContactMark {
     this.place.set(...point);
     this.mark.show(this.place);
     this.arrow.show(this.place, normal);
-    this.text = part < 0 ? "the beam touches" : `guard ${part} touches`;
+    this.text = touching(part);
   }
+}
+
+/** What touches, by its number in a frame. */
+export function touching(part: number): string {
+  return part < 0 ? "the beam touches" : `guard ${part} touches`;
 }

@@ -148,12 +148,27 @@ export interface SceneEnding {
   place: Vector | null; // of the vehicle; null if that is not known
 }
 
+/** Something that went badly in the flight so far. */
+export interface StatusFinding {
+  kind: string; // as in docs/reference/outcomes.md
+  time: number; // when it began; s
+  text: string;
+}
+
+/** A setting that was changed in flight. */
+export interface SceneChange {
+  time: number; // s
+  text: string; // key and value
+}
+
 /** A span of time. */
 export interface SceneReplay {
   start: number; // s
   end: number; // s
   speed: number; // flight time over wall time
   ending: SceneEnding | null; // why it was stopped before its end; null unless it was
+  findings?: StatusFinding[];
+  changes?: SceneChange[];
 }
 
 /** Everything about a flight that does not change from frame to frame. */
@@ -183,13 +198,6 @@ export interface StatusRefusals {
   lift: string;
   land: string;
   push: string; // why a push is not followed
-}
-
-/** Something that went badly in the flight so far. */
-export interface StatusFinding {
-  kind: string; // as in docs/reference/outcomes.md
-  time: number; // when it began; s
-  text: string;
 }
 
 /** The preparation of a flight. */

@@ -87,11 +87,9 @@ export class Replay implements FlightSource {
     this.show();
   }
 
-  /** The frames of the last `span` seconds, oldest first. */
-  before(span: number): Frame[] {
-    const last = this.index(this.time);
-    const first = this.index(this.time - span);
-    return Array.from({ length: last - first + 1 }, (_, i) => this.frameAt(first + i));
+  /** All frames, oldest first. */
+  frames(): Frame[] {
+    return Array.from({ length: this.count }, (_, i) => this.frameAt(i));
   }
 
   private show(): void {

@@ -23,8 +23,9 @@ from tandemlift.apps.live.session.frames import (
     phase_times,
 )
 from tandemlift.apps.live.session.scene_builder import scene_of_tables
-from tandemlift.apps.live.session.server_messages import FlightScene, SceneReplay
-from tandemlift.apps.live.session.status import scene_ending
+from tandemlift.apps.live.session.server_messages import FlightScene, SceneChange, SceneReplay
+from tandemlift.apps.live.session.status import scene_ending, told
+from tandemlift.core.errors import shown
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.rendering.stage import FlightStage
@@ -51,7 +52,15 @@ def scene_and_frames(flight: Flight) -> tuple[FlightScene, NDArray[np.float32]]:
     scene = scene_of_tables(flight.mission, stage.vehicle, flight.version.get("engine", ""), stage.floor)
     start, end = (float(flight.time[shown[i]]) for i in (0, -1))
     ending = scene_ending(flight.ending, flight["position"][shown[-1]])
-    scene["replay"] = SceneReplay(start=start, end=end, speed=1, ending=ending)
+    changes = flight.mission.get("changes", ())
+    scene["replay"] = SceneReplay(
+        start=start,
+        end=end,
+        speed=1,
+        ending=ending,
+        findings=told(flight.findings),
+        changes=[SceneChange(time=c["time"], text=f"{c['key']} = {shown(c['value'])}") for c in changes],
+    )
     return scene, frames
 
 

@@ -143,6 +143,21 @@ class SceneEnding(TypedDict):
     place: Annotated[WorldPosition | None, "of the vehicle; null if that is not known"]
 
 
+class StatusFinding(TypedDict):
+    """Something that went badly in the flight so far."""
+
+    kind: Annotated[str, "as in docs/reference/outcomes.md"]
+    time: Annotated[Seconds, "when it began"]
+    text: str
+
+
+class SceneChange(TypedDict):
+    """A setting that was changed in flight."""
+
+    time: Seconds
+    text: Annotated[str, "key and value"]
+
+
 class SceneReplay(TypedDict):
     """A span of time."""
 
@@ -150,6 +165,8 @@ class SceneReplay(TypedDict):
     end: Seconds
     speed: Annotated[float, "flight time over wall time"]
     ending: Annotated[SceneEnding | None, "why it was stopped before its end; null unless it was"]
+    findings: NotRequired[list[StatusFinding]]
+    changes: NotRequired[list[SceneChange]]
 
 
 class FlightScene(TypedDict):
@@ -189,14 +206,6 @@ class StatusRefusals(TypedDict):
     lift: str
     land: str
     push: Annotated[str, "why a push is not followed"]
-
-
-class StatusFinding(TypedDict):
-    """Something that went badly in the flight so far."""
-
-    kind: Annotated[str, "as in docs/reference/outcomes.md"]
-    time: Annotated[Seconds, "when it began"]
-    text: str
 
 
 class FlightStatus(TypedDict):

@@ -19,6 +19,7 @@ from tandemlift.apps.live.session.server_messages import (
     StatusRefusals,
 )
 from tandemlift.core.faults import ALARM_TEXTS
+from tandemlift.core.findings import Finding
 from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.core.refusals import Refusals, refusals_for
 from tandemlift.core.types import Array
@@ -84,8 +85,13 @@ class FlightFindings:
         flight, numbers = self._of, self._numbers
         if flight and numbers is not None:
             self._numbers = None
-            self._found = [StatusFinding(kind=f.kind, time=f.time, text=f.text) for f in flight.findings(numbers)]
+            self._found = told(flight.findings(numbers))
         return self._found
+
+
+def told(findings: Iterable[Finding]) -> list[StatusFinding]:
+    """Findings in the form of a page's message."""
+    return [StatusFinding(kind=f.kind, time=f.time, text=f.text) for f in findings]
 
 
 def phase_of(flight: RecordedFlight, number: int, failed: bool) -> str:

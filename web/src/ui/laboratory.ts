@@ -1,0 +1,113 @@
+// The flight over time: plots, a timeline with what happened, and the moment that a person chose.
+
+import type { Graphics } from "../view/graphics.ts";
+import type { Frame } from "../wire/frames.ts";
+import type { FlightScene, ParameterValue, StatusMessage } from "../wire/messages.generated.ts";
+import { THRESHOLD } from "../wire/messages.generated.ts";
+import { perAxis } from "../wire/parameters.ts";
+import type { Replay } from "../wire/replay.ts";
+import { button, byId, el } from "./dom.ts";
+import { History } from "./history.ts";
+import { Marks } from "./marks.ts";
+import { formatNumber } from "./numbers.ts";
+import { Plots } from "./plots.ts";
+import { TimeWindow } from "./time_window.ts";
+import { Timeline } from "./timeline.ts";
+
+const PLOT_EVERY = { full: 30, light: 110 }; // ms; each of the four plots is drawn at a fourth of this rate
+const TIMELINE_EVERY = 100; // ms
+
+/** What the laboratory needs of the page. */
+export interface LaboratoryPage {
+  readonly replay: Replay | null;
+  readonly graphics: Graphics;
+  readonly current: Frame | null;
+}
+
+export class Laboratory {
+  readonly timeline: Timeline;
+  private readonly window: TimeWindow;
+  private scene: FlightScene | null = null;
+  private history: History | null = null;
+  private plots: Plots | null = null;
+  private marks = new Marks();
+  private drawn = 0; // ms
+  private told = 0; // ms
+  private readonly clock = el("output", {});
+  private readonly back: HTMLButtonElement;
+
+  constructor(private readonly page: LaboratoryPage) {
+    this.window = new TimeWindow(
+      () => this.history!.flown,
+      () => page.current?.scalar("time") ?? NaN,
+    );
+    this.timeline = new Timeline((time) => {
+      this.choose(time);
+    });
+    this.back = button("back", "Now", "The last seconds, and no chosen moment", () => {
+      this.window.follow();
+      this.choose(null);
+    });
+    if (!page.replay) byId("time").replaceChildren(this.clock, this.timeline.element, this.back);
+  }
+
+  /** Plots of what was flown: of the whole of a replay, else what frames show from now on. */
+  show(scene: FlightScene): void {
+    const { replay, graphics } = this.page;
+    this.scene = scene;
+    if (!this.history?.continues(scene)) [this.history, this.marks] = [new History(scene), new Marks()];
+    if (replay) for (const frame of replay.frames()) this.keep(frame);
+    this.marks.findings(scene.replay?.findings ?? []);
+    for (const { time, text } of scene.replay?.changes ?? []) this.marks.setting(time, text);
+    const chose = (time: number): void => this.choose(time);
+    this.plots = new Plots(scene, byId("plots"), graphics, this.history, this.window, this.marks, chose);
+  }
+
+  frame(frame: Frame): void {
+    if (!this.page.replay) this.keep(frame);
+  }
+
+  status({ findings }: StatusMessage): void {
+    if (findings) this.marks.findings(findings);
+  }
+
+  changed(key: string, value: ParameterValue): void {
+    const { page, scene, plots } = this;
+    if (plots && key === THRESHOLD) plots.threshold = perAxis(value);
+    const parameter = scene?.parameters.find((one) => one.key === key);
+    const words = [value].flat().map((one) => (typeof one === "number" ? formatNumber(one) : String(one)));
+    const text = `${parameter?.label ?? key} \u2192 ${words.join(", ")} ${parameter?.unit ?? ""}`;
+    if (page.current) this.marks.setting(page.current.scalar("time"), text.trim());
+  }
+
+  /** After each picture. */
+  tick(now: number): void {
+    const { page, window, scene, history } = this;
+    if (now - this.drawn > PLOT_EVERY[page.graphics]) {
+      this.plots?.draw();
+      this.drawn = now;
+    }
+    if (now - this.told < TIMELINE_EVERY || !page.current || !scene || !history) return;
+    this.told = now;
+    const present = page.current.scalar("time");
+    const value = page.replay ? present : (window.moment ?? present);
+    this.timeline.update(history.flown, window.shown, value, this.marks, scene.phases);
+    this.clock.textContent = `${value.toFixed(2)} s`;
+    this.back.hidden = window.moment === null && !window.isZoomed;
+  }
+
+  /** A moment is chosen, in a plot or on the timeline. */
+  private choose(time: number | null): void {
+    if (time !== null) this.page.replay?.seek(time);
+    this.window.choose(time);
+    this.plots?.point();
+  }
+
+  private keep(frame: Frame): void {
+    if (this.history!.add(frame)) {
+      this.window.cut(frame.scalar("time"));
+      this.marks.cut(frame.scalar("time"));
+    }
+    this.marks.frame(frame);
+  }
+}
