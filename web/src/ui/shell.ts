@@ -4,7 +4,6 @@ import { typing } from "../hand/force_input.ts";
 import type { HandOptions } from "../hand/options.ts";
 import type { ChaseCamera, View } from "../view/camera.ts";
 import type { FrameRate, Graphics, GraphicsChoice } from "../view/graphics.ts";
-import type { Overlays } from "../view/picture.ts";
 import type { Frame } from "../wire/frames.ts";
 import type { Latency } from "../wire/latency.ts";
 import {
@@ -18,7 +17,7 @@ import {
 import { perAxis } from "../wire/parameters.ts";
 import type { Replay } from "../wire/replay.ts";
 import { Dock } from "./dock.ts";
-import { byId, choice, toggle } from "./dom.ts";
+import { byId, choice } from "./dom.ts";
 import { timedName } from "./file_names.ts";
 import { helpDialog } from "./help.ts";
 import { EndedCard } from "./ended_card.ts";
@@ -31,6 +30,8 @@ import { isAirborne } from "./phases.ts";
 import { Plots } from "./plots.ts";
 import { Question } from "./question.ts";
 import { SaveDialog } from "./save_dialog.ts";
+import { SensesOfFlight } from "./senses.ts";
+import { type Shown, ShowMenu } from "./show_menu.ts";
 import { StatusBar } from "./status_bar.ts";
 import type { ThemeChoice } from "./theme.ts";
 import { Timeline } from "./timeline.ts";
@@ -38,7 +39,7 @@ import { VideoRecorder } from "./video_recorder.ts";
 
 const TEXT_EVERY = 200; // ms
 const PLOT_EVERY = { full: 30, light: 110 }; // ms; each of the four plots is drawn at a fourth of this rate
-const VIEWS: Record<View, string> = { behind: "behind", side: "side", above: "above" };
+const VIEWS: Record<View, string> = { behind: "behind", side: "side", above: "above", board: "on board" };
 const NARROW = 900; // pixels: below it the panel starts closed
 const LOW = 380; // pixels of height: below it the plots start closed
 
@@ -47,7 +48,7 @@ export interface ShellPage {
   readonly replay: Replay | null;
   readonly extra: readonly HTMLElement[]; // at the end of the panel
   readonly hand: HandOptions;
-  readonly overlays: Overlays;
+  readonly shown: Shown;
   readonly camera: ChaseCamera;
   readonly canvas: HTMLCanvasElement;
   readonly graphics: Graphics;
@@ -72,6 +73,8 @@ export class Shell {
   private readonly missions: MissionChoice;
   private readonly findings: Findings;
   private readonly video = new VideoRecorder();
+  private readonly senses: SensesOfFlight;
+  private readonly show: ShowMenu;
   private plots: Plots | null = null;
   private dock: Dock | null = null;
   private timeline: Timeline | null = null;
@@ -100,6 +103,8 @@ export class Shell {
     });
     foldable("show-panel", "panel", window.innerWidth >= NARROW && page.replay === null);
     foldable("show-plots", "plots", window.innerHeight >= LOW);
+    this.senses = new SensesOfFlight(page.shown);
+    this.show = new ShowMenu(page.shown, (on) => (page.camera.following = on));
     this.makeViews();
     if (!page.replay) this.makeDock();
     this.ended = new EndedCard(() => {
@@ -119,6 +124,7 @@ export class Shell {
     this.panel.scene(scene);
     this.plots = new Plots(scene, byId("plots"), this.page.graphics);
     this.missions.scene(scene);
+    this.senses.begin(scene);
     this.dock?.reset(this.missions.open);
     if (!this.page.replay || !scene.replay) return;
     this.timeline = new Timeline(byId("dock"), scene.replay, this.page.replay, () => {
@@ -190,6 +196,7 @@ export class Shell {
       this.plots?.draw();
       this.drawn = now;
     }
+    if (page.current && this.plots) this.senses.update(page.current, this.plots.threshold, now);
     if (page.replay && page.current) this.timeline?.update(page.current.scalar("time"));
     if (now - this.texts < TEXT_EVERY) return;
     this.texts = now;
@@ -212,8 +219,7 @@ export class Shell {
     const views = choice("View", VIEWS, "behind", (view) => {
       page.look(view);
     });
-    const follow = toggle("follow", true, (on) => (page.camera.following = on));
-    byId("views").replaceChildren(views, follow);
+    byId("views").replaceChildren(views, this.show.button);
   }
 
   private toggleVideo(): void {
@@ -241,9 +247,9 @@ export class Shell {
 
   private keys(): Map<string, () => void> {
     const { timeline } = this;
-    const views = [...byId("views").querySelectorAll<HTMLElement>("button, input")];
-    const names = ["Digit1", "Digit2", "Digit3", "KeyF"];
-    const keys = new Map(names.map((name, i) => [name, () => views[i].click()]));
+    const views = [...byId("views").querySelectorAll<HTMLElement>(".choice button")];
+    const keys = new Map(views.map((one, i) => [`Digit${i + 1}`, () => one.click()]));
+    keys.set("KeyF", () => this.show.follow.click());
     if (timeline) {
       keys.set("KeyP", () => timeline.toggle());
       keys.set("ArrowLeft", () => timeline.step(-1));

@@ -28,6 +28,7 @@ export type FrameFieldName =
   | "reference_yaw"
   | "push"
   | "push_point"
+  | "push_moment"
   | "pilot_push"
   | "disturbance"
   | "wind"
@@ -36,6 +37,7 @@ export type FrameFieldName =
   | "contact_part"
   | "contact_point"
   | "contact_normal"
+  | "contact_force"
   | "held"
   | "hand_point"
   | "hand_target"
@@ -73,6 +75,7 @@ export interface SceneRotor {
   spin: number; // 1 or -1: sign of its reaction torque about body z
   radius: number; // m
   max_thrust: number; // N
+  max_speed: number; // at that thrust, rad/s
   blades: SceneShape; // as it stands still
   disc: SceneShape; // as it turns, transparent
 }

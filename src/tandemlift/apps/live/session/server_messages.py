@@ -59,6 +59,7 @@ class SceneRotor(TypedDict):
     spin: Annotated[int, "1 or -1: sign of its reaction torque about body z"]
     radius: Metres
     max_thrust: Newtons
+    max_speed: Annotated[float, "at that thrust, rad/s"]
     blades: Annotated[SceneShape, "as it stands still"]
     disc: Annotated[SceneShape, "as it turns, transparent"]
 
