@@ -210,6 +210,7 @@ export class App implements FlightListener, ShellPage {
   private draw(frame: Frame, picture: Picture, now: number, passed: number): void {
     picture.update(frame, this.grab.hand, this.shown, this.remarks.now(frame));
     picture.showEnding(this.end ? `${this.end.outcome} here, ${this.end.time.toFixed(2)} s` : "", this.end?.place ?? null);
+    picture.rival.show(this.shell.challenge.rival);
     this.camera.update(picture.vehicle.group, this.grab.pulling, passed);
     this.grab.flush();
     this.force.flush(this.grab.pulling);

@@ -16,6 +16,7 @@ import {
 } from "../wire/messages.generated.ts";
 import { perAxis } from "../wire/parameters.ts";
 import type { Replay } from "../wire/replay.ts";
+import { Challenge } from "./challenge.ts";
 import { Dock } from "./dock.ts";
 import { byId, choice } from "./dom.ts";
 import { timedName } from "./file_names.ts";
@@ -73,6 +74,7 @@ export class Shell {
   private readonly missions: MissionChoice;
   private readonly findings: Findings;
   private readonly video = new VideoRecorder();
+  readonly challenge: Challenge;
   private readonly senses: SensesOfFlight;
   private readonly show: ShowMenu;
   private plots: Plots | null = null;
@@ -106,6 +108,7 @@ export class Shell {
     this.senses = new SensesOfFlight(page.shown);
     this.show = new ShowMenu(page.shown, (on) => (page.camera.following = on));
     this.makeViews();
+    this.challenge = new Challenge((name) => this.saving.open(name), () => page.send({ type: "reset" }));
     if (!page.replay) this.makeDock();
     this.ended = new EndedCard(() => {
       page.send({ type: "reset" });
@@ -125,6 +128,7 @@ export class Shell {
     this.plots = new Plots(scene, byId("plots"), this.page.graphics);
     this.missions.scene(scene);
     this.senses.begin(scene);
+    this.challenge.begin(scene);
     this.dock?.reset(this.missions.open);
     if (!this.page.replay || !scene.replay) return;
     this.timeline = new Timeline(byId("dock"), scene.replay, this.page.replay, () => {
@@ -135,11 +139,13 @@ export class Shell {
   frame(frame: Frame): void {
     const jumped = this.plots?.add(frame) ?? false;
     if (jumped && this.page.replay) for (const past of this.page.replay.before(SPAN)) this.plots?.add(past);
+    this.challenge.frame(frame);
     if (frame.scalar("held") > 0) this.pulled = true;
   }
 
   status(status: StatusMessage): void {
     this.bar.status(status);
+    this.challenge.status(status);
     this.dock?.status(status);
     if (!this.page.replay) this.ended.status(status);
     this.panel.markFailed(status.failed_rotors);
@@ -149,6 +155,7 @@ export class Shell {
 
   changed(key: string, value: ParameterValue, duration: number): void {
     this.panel.changed(key, value, duration);
+    this.challenge.changed(key, value);
     if (this.plots && key === THRESHOLD) this.plots.threshold = perAxis(value);
   }
 
@@ -200,6 +207,7 @@ export class Shell {
     if (page.replay && page.current) this.timeline?.update(page.current.scalar("time"));
     if (now - this.texts < TEXT_EVERY) return;
     this.texts = now;
+    this.challenge.tick();
     this.bar.update(page.current, page.latency.median, page.frameRate.rate);
     if (page.current) this.panel.showThrusts(page.current.list("thrusts"));
   }
@@ -212,6 +220,8 @@ export class Shell {
       save: () => this.saving.open(timedName(this.mission)),
       film: () => this.toggleVideo(),
     });
+    byId("dock").prepend(this.challenge.element);
+    byId("dock").lastElementChild!.append(this.challenge.button);
   }
 
   private makeViews(): void {

@@ -43,6 +43,7 @@ export class Picture {
   private readonly root = new Group();
   private readonly world: World;
   private readonly ghost: Ghost;
+  readonly rival: Ghost;
   private readonly shadow: FlatShadow;
   private readonly push = new PushMark();
   private readonly wind = new Arrow(palette.wind, 0.014, 0.14, 0.1);
@@ -62,6 +63,8 @@ export class Picture {
     this.vehicle = new Vehicle(scene, stage.graphics);
     this.world = new World(scene, stage.graphics);
     this.ghost = new Ghost(this.vehicle.outline);
+    this.rival = new Ghost(this.vehicle.outline, palette.contact);
+    this.rival.show(null);
     this.shadow = new FlatShadow(this.vehicle.outline, scene.floor);
     this.plumb = new Plumb(scene.floor);
     this.threshold = scene.threshold;
@@ -72,7 +75,7 @@ export class Picture {
     this.shadow.mesh.visible = scene.ground && stage.graphics === "light";
     const arrows = [this.push.group, this.wind.group, this.hold.group, this.end.group, this.contact.group];
     const lines = [this.trails.group, this.plumb.line];
-    const bodies = [this.vehicle.group, this.ghost.group, this.person.mesh];
+    const bodies = [this.vehicle.group, this.ghost.group, this.rival.group, this.person.mesh];
     this.root.add(this.world.group, this.shadow.mesh, ...bodies, ...arrows, ...lines);
     stage.scene.add(this.root);
   }

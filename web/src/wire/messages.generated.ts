@@ -195,6 +195,18 @@ export interface StatusFinding {
   text: string;
 }
 
+/** The score so far of a flight through a corridor by hand, as `tandemlift score` computes it. */
+export interface StatusScore {
+  start: number; // of the first push; s
+  finished: boolean; // whether the end of the corridor was reached; then nothing changes any more
+  refused: string; // why it is not ranked; empty unless that is so
+  time: number; // since the first push; s
+  touches: number; // of walls
+  effort: number; // N s
+  jerk: number; // logarithm of the dimensionless jerk
+  score: number; // s
+}
+
 /** The preparation of a flight. */
 export interface PreparationStatus {
   step: string; // what is being done
@@ -217,6 +229,7 @@ export interface FlightStatus {
   refusals: StatusRefusals; // why a request would be refused right now, and what to do
   ending: SceneEnding | null; // why the flight was stopped before its end; null unless it was
   findings?: StatusFinding[]; // what went badly so far; a server forms it once a second
+  score?: StatusScore; // in a corridor, once somebody pushed
   preparing?: PreparationStatus; // before the first step
 }
 

@@ -9,12 +9,15 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from own_flight import INDEX, OwnFlight
+from sessions import GUIDED
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.apps.live import page_modules, pages
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.page_manifest import page_manifest
+from tandemlift.apps.live.page_modules import packed_mission, page_mission
+from tandemlift.apps.live.session.challenge import score_of
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation.traced_assembly import trace_assembly
 from tandemlift.simulation.stepping import fly_stepwise
@@ -230,3 +233,25 @@ def test_every_setting_and_every_rotor_of_a_page_is_a_number_that_its_module_tak
     assert keys
     for key in keys:
         assert any(one == key or one.startswith(f"{key}.") for one in taken), key
+
+
+# the challenge
+
+
+def test_a_flight_through_a_corridor_has_the_score_of_its_saved_file(tmp_path):
+    corridor = {"corridor.centreline": [[-1.0, 0.0], [0.4, 0.0], [1.0, 0.3]], "corridor.width": 3.4}
+    flight = OwnFlight(packed_mission(page_mission("hover", GUIDED | corridor), "a corridor"))
+    flight.fly(6.0)
+    assert "score" not in flight.status()
+    for force, seconds in (([1.0, 1.4, 0.0], 3.0), ([-0.5, -1.0, 0.0], 1.5), ([2.0, 0.0, 0.0], 4.0)):
+        flight.say("force", force=force, point=[0.0, 0.0, 0.0])
+        flight.fly(seconds)
+    shown = flight.status()["score"]
+    flight.saved(tmp_path)
+    flight.close()
+    score = score_of(tl.fly(tl.load_mission(tmp_path / "recorded.toml")))
+    assert shown["finished"]
+    assert shown["refused"] == ""
+    assert shown["touches"] == score.touches > 0
+    got = [shown["time"], shown["effort"], shown["jerk"], shown["score"]]
+    np.testing.assert_allclose(got, [score.time, score.effort, score.jerk, score.total], rtol=1e-9)
