@@ -9,12 +9,13 @@ import { Remarks } from "./hand/remarks.ts";
 import { forgetColors } from "./ui/colors.ts";
 import { byId } from "./ui/dom.ts";
 import { Shell, type ShellPage } from "./ui/shell.ts";
+import { rememberedShown } from "./ui/show_menu.ts";
 import { type ThemeChoice, ThemeSwitch } from "./ui/theme.ts";
 import { ChaseCamera, type View } from "./view/camera.ts";
 import { FrameRate, type Graphics, type GraphicsChoice, suitableGraphics } from "./view/graphics.ts";
 import { Label } from "./view/labels.ts";
 import { setPalette, type Theme } from "./view/palette.ts";
-import { type Labels, type Overlays, Picture } from "./view/picture.ts";
+import { type Labels, Picture } from "./view/picture.ts";
 import { Stage } from "./view/stage.ts";
 import { beamAxis } from "./view/vehicle.ts";
 import type { Frame } from "./wire/frames.ts";
@@ -36,7 +37,7 @@ const REDRAW_AFTER = 100; // ms: overlays may have been switched although nothin
 
 export class App implements FlightListener, ShellPage {
   readonly hand: HandOptions = { at: "point", plane: "facing", force: 3, directions: "view" };
-  readonly overlays: Overlays = { push: true, zone: true, ghost: true, thrust: true, wind: true, trail: true };
+  readonly shown = rememberedShown();
   readonly latency = new Latency();
   readonly frameRate = new FrameRate();
   readonly camera: ChaseCamera;
@@ -49,7 +50,7 @@ export class App implements FlightListener, ShellPage {
   private readonly force: ForceInput;
   private readonly shell: Shell;
   private readonly remarks = new Remarks();
-  private readonly labels: Labels = { push: label("push"), wind: label("wind"), refusal: label("refusal"), ending: label("ending"), contact: label("contact") };
+  private readonly labels: Labels = { push: label("push"), moment: label("moment"), wind: label("wind"), refusal: label("refusal"), ending: label("ending"), contact: label("contact") };
   private picture: Picture | null = null;
   private choice: GraphicsChoice = "auto";
   private last = 0;
@@ -57,6 +58,7 @@ export class App implements FlightListener, ShellPage {
   private drawnAt = 0;
   private readonly eye = new Matrix4();
   private end: SceneEnding | null = null;
+  private seat = -1; // the quadrotor on whose board the camera was last
 
   constructor(
     private readonly source: FlightSource,
@@ -112,7 +114,14 @@ export class App implements FlightListener, ShellPage {
   }
 
   look(view: View): void {
-    if (this.picture) this.camera.look(view, this.picture.center, this.picture.reach);
+    if (!this.picture) return;
+    const { center, reach, scene } = this.picture;
+    if (view !== "board") {
+      this.camera.look(view, center, reach);
+      return;
+    }
+    this.seat = (this.seat + 1) % scene.vehicle.quadrotors.length;
+    this.camera.board(scene.vehicle.quadrotors[this.seat].position);
   }
 
   setGraphics(choice: GraphicsChoice): void {
@@ -135,7 +144,8 @@ export class App implements FlightListener, ShellPage {
     this.grab.release();
     this.current = null;
     this.picture?.remove();
-    this.picture = new Picture(scene, this.stage, this.labels);
+    const paths = this.picture?.scene.mission === scene.mission ? this.picture.trails : undefined;
+    this.picture = new Picture(scene, this.stage, this.labels, paths);
     this.shell.scene(scene);
     if (!first) return;
     // where the vehicle stands is known with the first frame; until then, near the origin
@@ -198,9 +208,10 @@ export class App implements FlightListener, ShellPage {
   };
 
   private draw(frame: Frame, picture: Picture, now: number, passed: number): void {
-    picture.update(frame, this.grab.hand, this.overlays, this.remarks.now(frame));
+    picture.update(frame, this.grab.hand, this.shown, this.remarks.now(frame));
     picture.showEnding(this.end ? `${this.end.outcome} here, ${this.end.time.toFixed(2)} s` : "", this.end?.place ?? null);
-    this.camera.update(picture.center, this.grab.pulling, passed);
+    picture.rival.show(this.shell.challenge.rival);
+    this.camera.update(picture.vehicle.group, this.grab.pulling, passed);
     this.grab.flush();
     this.force.flush(this.grab.pulling);
     // the same picture again would keep the processor from receiving what is new
@@ -236,9 +247,9 @@ export class App implements FlightListener, ShellPage {
   /** Makes the picture anew, of the same scene. */
   private repaint(): void {
     if (!this.picture) return;
-    const { scene, threshold, stiffness } = this.picture;
+    const { scene, threshold, stiffness, trails } = this.picture;
     this.picture.remove();
-    this.picture = new Picture(scene, this.stage, this.labels);
+    this.picture = new Picture(scene, this.stage, this.labels, trails);
     Object.assign(this.picture, { threshold, stiffness });
     this.drawn = null;
   }

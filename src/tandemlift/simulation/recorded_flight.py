@@ -175,6 +175,12 @@ class RecordedFlight:
         """The reason if it was stopped as crashed, diverged or interrupted, or None."""
         return ending_of(self._p, self._flight_state(), self.step, self.interruption) if self.lost else None
 
+    def logged(self) -> tuple[Array, Array]:
+        """Times [s] and rows of the log so far; rows that are written are never written again."""
+        rows = self._log[: (self.step - 1) // self._p.every + 1]
+        times = np.arange(len(rows), dtype=np.float64) * (self._p.every * self._p.dt)
+        return times, rows
+
     def numbers(self) -> Array:
         """A copy of the numbers of its state."""
         return self._stepper.a[: leaves(self._like)].copy()

@@ -4,6 +4,7 @@ import { sha256 } from "@noble/hashes/sha2.js";
 import { bytesToHex } from "@noble/hashes/utils.js";
 
 import type { FlightScene, Phase, SceneParameter, StatusRefusals } from "../wire/messages.generated.ts";
+import type { ChallengeManifest } from "./corridor_run.ts";
 
 /** The tables of a mission. */
 export interface Tables {
@@ -111,6 +112,7 @@ export interface PageManifest {
   guidance: Span[]; // the pilot's guidance and its memory, of which `refusals` is a function
   ending: Span[]; // what `ending` is a function of, and the time
   frame: [field: string, count: number][]; // what `frame` returns
+  challenge: ChallengeManifest;
   phase_times: number[]; // s
   touch_rule: number[];
   ramp: number; // s

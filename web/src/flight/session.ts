@@ -10,6 +10,7 @@ import type {
   StatusRefusals,
 } from "../wire/messages.generated.ts";
 import { Layout } from "../wire/frames.ts";
+import { CorridorRun } from "./corridor_run.ts";
 import { Flight } from "./flight.ts";
 import { HandControl, type Message } from "./hand_control.ts";
 import type { FlightManifest, Tables } from "./manifest.ts";
@@ -41,6 +42,7 @@ export class Session {
   private hand!: HandControl;
   private parameters!: ParameterControl;
   private start!: Tables;
+  private run: CorridorRun | null = null;
   private failed = false;
   private lastGrab = 0;
   private readonly layout: Layout;
@@ -63,7 +65,7 @@ export class Session {
     try {
       while (this.flight.step < before + steps && !this.flight.over && !this.failed) {
         this.hand.expireRequests();
-        this.flight.advance();
+        this.advance();
       }
     } catch (error) {
       this.failed = true; // until a reset
@@ -105,6 +107,7 @@ export class Session {
     const ending = endingOf(this.module, this.manifest.page, flight);
     const behind = pacer.mostBehind;
     pacer.mostBehind = 0;
+    const score = this.run?.score;
     return {
       type: "status",
       phase: this.phase(ending),
@@ -122,6 +125,7 @@ export class Session {
       viewers: 1,
       holder: this.held ? "you" : "none",
       last_grab: this.lastGrab,
+      ...(score && { score }),
     };
   }
 
@@ -217,7 +221,20 @@ export class Session {
     this.start = structuredClone(start.tables);
     this.hand = new HandControl(this.flight, this.module, this.manifest.page);
     this.failed = false;
+    this.run = this.newRun();
+    this.advance();
+  }
+
+  private newRun(): CorridorRun | null {
+    const { challenge, scene } = this.manifest.page;
+    if (!scene.corridor || !challenge.columns.contact_force) return null;
+    return new CorridorRun(scene.corridor, challenge, challenge.every * this.module.manifest.dt);
+  }
+
+  private advance(): void {
+    const { step, time } = this.flight;
     this.flight.advance();
+    if (step % this.manifest.page.challenge.every === 0) this.run?.add(time, this.flight.sample);
   }
 
   private saved(name: string): SavedFile {

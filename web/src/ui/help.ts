@@ -32,9 +32,11 @@ const REPLAY_KEYS: Line[] = [
   ["P", "play or pause"],
   ["Left, Right", "one second back, on"],
 ];
-const VIEW_KEYS: Line = ["1 2 3 \u00b7 F", "view from behind, the side, above \u00b7 follow the vehicle"];
+const VIEW_KEYS: Line = ["1 2 3 4 \u00b7 F", "view from behind, the side, above, on board \u00b7 follow the vehicle"];
 const LEGEND: [string, string, string][] = [
-  ["push", "red arrow", "true push on the beam"],
+  ["best", "amber shape", "your best run, in a challenge"],
+  ["push", "red arrow", "true push on the beam; the curved one is its moment about the centre of mass"],
+  ["hand", "violet hoop", "the admittance's threshold: a push whose arrow does not pass it moves nothing"],
   ["hand", "violet box and spring", "the hand; inside the box a pull is below the threshold and moves nothing"],
   ["thrust", "green to red arrows", "thrust of each rotor; red is near its maximum"],
   ["path", "blue shape and line", "the reference, where the vehicle is off it; the path flown"],

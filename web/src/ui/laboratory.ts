@@ -2,7 +2,7 @@
 
 import type { Graphics } from "../view/graphics.ts";
 import type { Frame } from "../wire/frames.ts";
-import type { FlightScene, ParameterValue, StatusMessage } from "../wire/messages.generated.ts";
+import type { FlightScene, ParameterValue, StatusMessage, Vector } from "../wire/messages.generated.ts";
 import { THRESHOLD } from "../wire/messages.generated.ts";
 import { perAxis } from "../wire/parameters.ts";
 import type { Replay } from "../wire/replay.ts";
@@ -49,6 +49,11 @@ export class Laboratory {
       this.choose(null);
     });
     if (!page.replay) byId("time").replaceChildren(this.clock, this.timeline.element, this.back);
+  }
+
+  /** The threshold of pushes along each axis [N]; null before the first scene. */
+  get threshold(): Vector | null {
+    return this.plots?.threshold ?? null;
   }
 
   /** Plots of what was flown: of the whole of a replay, else what frames show from now on. */

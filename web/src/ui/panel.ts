@@ -2,7 +2,6 @@
 
 import type { HandOptions } from "../hand/options.ts";
 import type { GraphicsChoice } from "../view/graphics.ts";
-import type { Overlay, Overlays } from "../view/picture.ts";
 import {
   type FlightScene,
   MAX_FORCE,
@@ -10,25 +9,15 @@ import {
   type ParameterValue,
   type SceneParameter,
 } from "../wire/messages.generated.ts";
-import { choice, el, icon, toggle } from "./dom.ts";
+import { choice, el, icon } from "./dom.ts";
 import { handRows, type LimitedForce, row } from "./hand_rows.ts";
 import { ParameterEditor } from "./parameter_editor.ts";
 import { RotorMap } from "./rotor_map.ts";
 import type { ThemeChoice } from "./theme.ts";
 
-const OVERLAYS: Record<Overlay, string> = {
-  push: "push",
-  zone: "threshold zone",
-  ghost: "reference",
-  thrust: "thrusts",
-  wind: "wind",
-  trail: "path flown",
-};
-
 /** What the panel needs of the page. */
 export interface PanelPage {
   readonly hand: HandOptions;
-  readonly overlays: Overlays;
   readonly extra: readonly HTMLElement[];
   send(message: PageMessage): void;
   readonly theme: ThemeChoice;
@@ -114,9 +103,6 @@ export class Panel {
   }
 
   private picture(): HTMLElement[] {
-    const { overlays } = this.page;
-    const names = Object.keys(OVERLAYS) as Overlay[];
-    const toggles = names.map((name) => toggle(OVERLAYS[name], overlays[name], (on) => (overlays[name] = on)));
     const graphics = choice("Graphics", { auto: "auto", full: "full", light: "light" }, "auto", (value) => {
       this.page.setGraphics(value);
     });
@@ -124,7 +110,7 @@ export class Panel {
     const colours = choice("Colours", themes, this.page.theme, (value) => {
       this.page.setTheme(value);
     });
-    return [el("div", { class: "toggles-list" }, ...toggles), row("Graphics", graphics), row("Colours", colours)];
+    return [row("Graphics", graphics), row("Colours", colours)];
   }
 
   private restoreAll(): HTMLElement {

@@ -4,7 +4,6 @@ import { typing } from "../hand/force_input.ts";
 import type { HandOptions } from "../hand/options.ts";
 import type { ChaseCamera, View } from "../view/camera.ts";
 import type { FrameRate, Graphics, GraphicsChoice } from "../view/graphics.ts";
-import type { Overlays } from "../view/picture.ts";
 import type { Frame } from "../wire/frames.ts";
 import type { Latency } from "../wire/latency.ts";
 import {
@@ -14,8 +13,9 @@ import {
   type StatusMessage,
 } from "../wire/messages.generated.ts";
 import type { Replay } from "../wire/replay.ts";
+import { Challenge } from "./challenge.ts";
 import { Dock } from "./dock.ts";
-import { byId, choice, toggle } from "./dom.ts";
+import { byId, choice } from "./dom.ts";
 import { timedName } from "./file_names.ts";
 import { helpDialog } from "./help.ts";
 import { EndedCard } from "./ended_card.ts";
@@ -28,12 +28,14 @@ import { Panel } from "./panel.ts";
 import { Question } from "./question.ts";
 import { ReplayDock } from "./replay_dock.ts";
 import { SaveDialog } from "./save_dialog.ts";
+import { SensesOfFlight } from "./senses.ts";
+import { type Shown, ShowMenu } from "./show_menu.ts";
 import { StatusBar } from "./status_bar.ts";
 import type { ThemeChoice } from "./theme.ts";
 import { VideoRecorder } from "./video_recorder.ts";
 
 const TEXT_EVERY = 200; // ms
-const VIEWS: Record<View, string> = { behind: "behind", side: "side", above: "above" };
+const VIEWS: Record<View, string> = { behind: "behind", side: "side", above: "above", board: "on board" };
 const NARROW = 900; // pixels: below it the panel starts closed
 const LOW = 380; // pixels of height: below it the plots start closed
 
@@ -42,7 +44,7 @@ export interface ShellPage {
   readonly replay: Replay | null;
   readonly extra: readonly HTMLElement[]; // at the end of the panel
   readonly hand: HandOptions;
-  readonly overlays: Overlays;
+  readonly shown: Shown;
   readonly camera: ChaseCamera;
   readonly canvas: HTMLCanvasElement;
   readonly graphics: Graphics;
@@ -68,6 +70,9 @@ export class Shell {
   private readonly findings: Findings;
   private readonly video = new VideoRecorder();
   private readonly laboratory: Laboratory;
+  readonly challenge: Challenge;
+  private readonly senses: SensesOfFlight;
+  private readonly show: ShowMenu;
   private dock: Dock | null = null;
   private player: ReplayDock | null = null;
   private readonly question = new Question();
@@ -95,7 +100,10 @@ export class Shell {
     });
     foldable("show-panel", "panel", window.innerWidth >= NARROW && page.replay === null);
     foldable("show-plots", "plots", window.innerHeight >= LOW);
+    this.senses = new SensesOfFlight(page.shown);
+    this.show = new ShowMenu(page.shown, (on) => (page.camera.following = on));
     this.makeViews();
+    this.challenge = new Challenge((name) => this.saving.open(name), () => page.send({ type: "reset" }));
     if (!page.replay) this.makeDock();
     this.ended = new EndedCard(() => {
       page.send({ type: "reset" });
@@ -114,6 +122,8 @@ export class Shell {
     this.panel.scene(scene);
     this.laboratory.show(scene);
     this.missions.scene(scene);
+    this.senses.begin(scene);
+    this.challenge.begin(scene);
     this.dock?.reset(this.missions.open);
     if (!this.page.replay || !scene.replay) return;
     const { element } = this.laboratory.timeline;
@@ -122,11 +132,13 @@ export class Shell {
 
   frame(frame: Frame): void {
     this.laboratory.frame(frame);
+    this.challenge.frame(frame);
     if (frame.scalar("held") > 0) this.pulled = true;
   }
 
   status(status: StatusMessage): void {
     this.bar.status(status);
+    this.challenge.status(status);
     this.dock?.status(status);
     if (!this.page.replay) this.ended.status(status);
     this.panel.markFailed(status.failed_rotors);
@@ -138,6 +150,7 @@ export class Shell {
   changed(key: string, value: ParameterValue, duration: number): void {
     this.panel.changed(key, value, duration);
     this.laboratory.changed(key, value);
+    this.challenge.changed(key, value);
   }
 
   refused(what: string, reason: string): void {
@@ -181,9 +194,12 @@ export class Shell {
   tick(now: number): void {
     const { page } = this;
     this.laboratory.tick(now);
+    const { threshold } = this.laboratory;
+    if (page.current && threshold) this.senses.update(page.current, threshold, now);
     if (page.current) this.player?.update(page.current.scalar("time"));
     if (now - this.texts < TEXT_EVERY) return;
     this.texts = now;
+    this.challenge.tick();
     this.bar.update(page.current, page.latency.median, page.frameRate.rate);
     if (page.current) this.panel.showThrusts(page.current.list("thrusts"));
   }
@@ -196,6 +212,8 @@ export class Shell {
       save: () => this.saving.open(timedName(this.mission)),
       film: () => this.toggleVideo(),
     });
+    byId("dock").prepend(this.challenge.element);
+    byId("dock").lastElementChild!.append(this.challenge.button);
   }
 
   private makeViews(): void {
@@ -203,8 +221,7 @@ export class Shell {
     const views = choice("View", VIEWS, "behind", (view) => {
       page.look(view);
     });
-    const follow = toggle("follow", true, (on) => (page.camera.following = on));
-    byId("views").replaceChildren(views, follow);
+    byId("views").replaceChildren(views, this.show.button);
   }
 
   private toggleVideo(): void {
@@ -232,9 +249,9 @@ export class Shell {
 
   private keys(): Map<string, () => void> {
     const { player } = this;
-    const views = [...byId("views").querySelectorAll<HTMLElement>("button, input")];
-    const names = ["Digit1", "Digit2", "Digit3", "KeyF"];
-    const keys = new Map(names.map((name, i) => [name, () => views[i].click()]));
+    const views = [...byId("views").querySelectorAll<HTMLElement>(".choice button")];
+    const keys = new Map(views.map((one, i) => [`Digit${i + 1}`, () => one.click()]));
+    keys.set("KeyF", () => this.show.follow.click());
     if (player) {
       keys.set("KeyP", () => player.toggle());
       keys.set("ArrowLeft", () => player.step(-1));

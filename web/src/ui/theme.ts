@@ -1,6 +1,7 @@
 // Light or dark: what the person chose, which the browser keeps, or what the system prefers.
 
 import type { Theme } from "../view/palette.ts";
+import { keep, kept } from "./storage.ts";
 
 export type ThemeChoice = "auto" | Theme;
 
@@ -20,7 +21,7 @@ export function themeOf(choice: ThemeChoice, prefersDark: boolean): Theme {
 /** Sets the theme of the style sheet, now and whenever choice or system change, and calls `changed` each time. */
 export class ThemeSwitch {
   private readonly system = window.matchMedia("(prefers-color-scheme: dark)");
-  private kept = readChoice(storage()?.getItem(KEPT_AS) ?? null);
+  private chosen = readChoice(kept(KEPT_AS));
 
   constructor(private readonly changed: (theme: Theme) => void) {
     this.system.addEventListener("change", this.apply);
@@ -28,27 +29,18 @@ export class ThemeSwitch {
   }
 
   get choice(): ThemeChoice {
-    return this.kept;
+    return this.chosen;
   }
 
   choose(choice: ThemeChoice): void {
-    this.kept = choice;
-    storage()?.setItem(KEPT_AS, choice);
+    this.chosen = choice;
+    keep(KEPT_AS, choice);
     this.apply();
   }
 
   private readonly apply = (): void => {
-    const theme = themeOf(this.kept, this.system.matches);
+    const theme = themeOf(this.chosen, this.system.matches);
     document.documentElement.dataset["theme"] = theme;
     this.changed(theme);
   };
-}
-
-/** The browser's storage; null where it is refused, as on pages without an origin. */
-function storage(): Storage | null {
-  try {
-    return window.localStorage;
-  } catch {
-    return null;
-  }
 }

@@ -5,6 +5,8 @@ export type Theme = "light" | "dark";
 const LIGHT = {
   push: "#d5281b",
   contact: "#c47a00",
+  moment: "#b4551c",
+  person: "#b3bdc9",
   hand: "#7a3fb5",
   path: "#1f5fbf",
   wind: "#2a93b8",
@@ -22,6 +24,8 @@ const LIGHT = {
 const DARK: typeof LIGHT = {
   push: "#ff5f52",
   contact: "#ffb938",
+  moment: "#ff9a5c",
+  person: "#76869a",
   hand: "#c08cff",
   path: "#6ea8ff",
   wind: "#4fc3e8",

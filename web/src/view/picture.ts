@@ -11,20 +11,22 @@ import { HandMarker } from "./hand.ts";
 import { Label } from "./labels.ts";
 import { Mark } from "./mark.ts";
 import { palette } from "./palette.ts";
+import { Person } from "./person.ts";
+import { PushMark, thresholdAlong } from "./push.ts";
 import { FlatShadow } from "./shadow.ts";
 import type { Stage } from "./stage.ts";
-import { Plumb, Trail } from "./trail.ts";
+import { Plumb, Trails } from "./trail.ts";
 import { Ghost, Vehicle } from "./vehicle.ts";
 import { World } from "./world.ts";
 
-export type Overlay = "push" | "zone" | "ghost" | "thrust" | "wind" | "trail";
+export type Overlay = "push" | "zone" | "ghost" | "thrust" | "wind" | "trail" | "trails" | "person";
 export type Overlays = Record<Overlay, boolean>;
 
 /** The hand of this page as it is drawn: none, over the beam, or pulling. */
 export type HandView =
   { kind: "none" } | { kind: "offer"; point: Vector } | { kind: "pull"; point: Vector; target: Vector };
 
-export type Labels = Record<"push" | "wind" | "refusal" | "ending" | "contact", Label>;
+export type Labels = Record<"push" | "moment" | "wind" | "refusal" | "ending" | "contact", Label>;
 
 /** A sentence at a point of the body: why what a person does there has no effect. */
 export interface Remark {
@@ -41,13 +43,14 @@ export class Picture {
   private readonly root = new Group();
   private readonly world: World;
   private readonly ghost: Ghost;
+  readonly rival: Ghost;
   private readonly shadow: FlatShadow;
-  private readonly push = new Arrow(palette.push, 0.02, 0.22, 0.05);
+  private readonly push = new PushMark();
   private readonly wind = new Arrow(palette.wind, 0.014, 0.14, 0.1);
   private readonly hold = new HandMarker();
   private readonly end = new Mark(palette.push);
   private readonly contact = new ContactMark();
-  private readonly trail = new Trail();
+  private readonly person: Person;
   private readonly plumb: Plumb;
   private time = NaN;
 
@@ -55,24 +58,31 @@ export class Picture {
     readonly scene: FlightScene,
     private readonly stage: Stage,
     private readonly labels: Labels,
+    readonly trails = new Trails(),
   ) {
     this.vehicle = new Vehicle(scene, stage.graphics);
     this.world = new World(scene, stage.graphics);
     this.ghost = new Ghost(this.vehicle.outline);
+    this.rival = new Ghost(this.vehicle.outline, palette.contact);
+    this.rival.show(null);
     this.shadow = new FlatShadow(this.vehicle.outline, scene.floor);
     this.plumb = new Plumb(scene.floor);
     this.threshold = scene.threshold;
     this.stiffness = scene.spring.stiffness;
     this.reach = reachOf(scene);
+    this.person = new Person(scene.floor, this.reach, stage.graphics);
+    this.trails.begin();
     this.shadow.mesh.visible = scene.ground && stage.graphics === "light";
     const arrows = [this.push.group, this.wind.group, this.hold.group, this.end.group, this.contact.group];
-    const lines = [this.trail.line, this.plumb.line];
-    this.root.add(this.world.group, this.shadow.mesh, this.vehicle.group, this.ghost.group, ...arrows, ...lines);
+    const lines = [this.trails.group, this.plumb.line];
+    const bodies = [this.vehicle.group, this.ghost.group, this.rival.group, this.person.mesh];
+    this.root.add(this.world.group, this.shadow.mesh, ...bodies, ...arrows, ...lines);
     stage.scene.add(this.root);
   }
 
   remove(): void {
     this.stage.scene.remove(this.root);
+    this.trails.group.removeFromParent(); // the next picture may go on with it
     this.root.traverse((part) => {
       if (!(part instanceof Mesh || part instanceof Line)) return;
       const drawn = part as Mesh;
@@ -85,15 +95,18 @@ export class Picture {
   update(frame: Frame, hand: HandView, shown: Overlays, remark: Remark | null): void {
     const time = frame.scalar("time");
     const passed = Math.min(Math.max(time - this.time, 0), 0.1) || 0;
-    if (time < this.time - 0.001 || time > this.time + 1) this.trail.clear();
+    if (time < this.time - 0.001 || time > this.time + 1) this.trails.begin();
     const position = frame.vector("position");
     this.vehicle.place(position, frame.attitude);
     this.vehicle.group.updateMatrixWorld();
     this.center.set(...position);
     this.vehicle.rotors.update(frame.list("thrusts"), passed);
     this.vehicle.rotors.arrows.visible = shown.thrust;
-    if (time !== this.time) this.trail.add(position);
-    this.trail.line.visible = this.plumb.line.visible = shown.trail;
+    this.trails.stay = shown.trails;
+    if (time !== this.time) this.trails.add(position);
+    this.trails.group.visible = this.plumb.line.visible = shown.trail;
+    this.person.mesh.visible = shown.person;
+    if (shown.person) this.person.accompany(this.center);
     this.plumb.place(position);
     this.shadow.place(this.vehicle.group);
     this.showReference(frame, position, shown.ghost);
@@ -135,13 +148,19 @@ export class Picture {
 
   private showForces(frame: Frame, shown: Overlays): void {
     const [push, wind] = [frame.vector("push"), frame.vector("wind")];
-    this.push.show(this.inWorld(frame.vector("push_point")), shown.push ? push : [0, 0, 0]);
+    const moment = new Vector3(...frame.vector("push_moment")).applyQuaternion(this.vehicle.group.quaternion);
+    this.push.group.visible = shown.push;
+    this.push.show(this.inWorld(frame.vector("push_point")), push, moment, shown.zone ? this.threshold : null);
     const above = this.center.clone().add(new Vector3(0, 0, 0.55 + 0.1 * this.reach));
     const half = new Vector3(...wind).multiplyScalar(0.07);
     this.wind.show(above.sub(half), shown.wind ? wind : [0, 0, 0]);
     const camera = this.stage.camera;
-    if (this.push.visible) this.labels.push.show(`${size(push).toFixed(1)} N`, this.push.tip, camera);
+    const { arrow, moment: curved } = this.push;
+    if (shown.push && arrow.visible) this.labels.push.show(pushText(push, this.threshold), arrow.tip, camera);
     else this.labels.push.hide();
+    const turning = shown.push && curved.group.visible;
+    if (turning) this.labels.moment.show(`${moment.length().toFixed(1)} N m`, curved.tip, camera);
+    else this.labels.moment.hide();
     if (this.wind.visible) this.labels.wind.show(`wind ${size(wind).toFixed(1)} m/s`, this.wind.tip, camera);
     else this.labels.wind.hide();
   }
@@ -167,6 +186,13 @@ export class Picture {
     if (this.stiffness <= 0) return null;
     return new Vector3(...this.threshold).divideScalar(this.stiffness).clampScalar(0.003, 2);
   }
+}
+
+/** Its strength, and the threshold that it does not reach. */
+function pushText(push: Vector, threshold: Vector): string {
+  const [strength, limit] = [size(push), thresholdAlong(push, threshold)];
+  const value = strength.toFixed(strength < 1 ? 2 : 1);
+  return strength > limit ? `${value} N` : `${value} of ${limit.toFixed(limit < 1 ? 2 : 1)} N`;
 }
 
 function reachOf(scene: FlightScene): number {

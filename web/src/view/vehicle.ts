@@ -51,17 +51,32 @@ export class Vehicle {
   }
 }
 
-/** The reference pose: transparent, and visible only where it is off the vehicle. */
+export interface Pose {
+  position: Vector;
+  attitude: Quaternion;
+}
+
+/** The reference pose, or that of the best run: transparent, and visible only where it is off the vehicle. */
 export class Ghost {
   readonly group = new Group();
-  private readonly veil = new MeshBasicMaterial({ color: palette.path, transparent: true, depthWrite: false });
+  private readonly veil: MeshBasicMaterial;
 
-  constructor(outline: BufferGeometry) {
+  constructor(outline: BufferGeometry, tint = palette.path) {
+    this.veil = new MeshBasicMaterial({ color: tint, transparent: true, opacity: 0.35, depthWrite: false });
     const depth = new Mesh(outline, new MeshBasicMaterial({ colorWrite: false, transparent: true }));
     const color = new Mesh(outline, this.veil);
     depth.renderOrder = 5;
     color.renderOrder = 6;
     this.group.add(depth, color);
+  }
+
+  /** Shows a pose, if there is one. */
+  show(pose: Pose | null): void {
+    this.group.visible = pose !== null;
+    if (!pose) return;
+    const [w, x, y, z] = pose.attitude;
+    this.group.position.set(...pose.position);
+    this.group.quaternion.set(x, y, z, w).normalize();
   }
 
   place(position: Vector, yaw: number, gap: number): void {

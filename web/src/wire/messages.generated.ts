@@ -28,6 +28,7 @@ export type FrameFieldName =
   | "reference_yaw"
   | "push"
   | "push_point"
+  | "push_moment"
   | "pilot_push"
   | "disturbance"
   | "wind"
@@ -36,6 +37,7 @@ export type FrameFieldName =
   | "contact_part"
   | "contact_point"
   | "contact_normal"
+  | "contact_force"
   | "held"
   | "hand_point"
   | "hand_target"
@@ -73,6 +75,7 @@ export interface SceneRotor {
   spin: number; // 1 or -1: sign of its reaction torque about body z
   radius: number; // m
   max_thrust: number; // N
+  max_speed: number; // at that thrust, rad/s
   blades: SceneShape; // as it stands still
   disc: SceneShape; // as it turns, transparent
 }
@@ -200,6 +203,18 @@ export interface StatusRefusals {
   push: string; // why a push is not followed
 }
 
+/** The score so far of a flight through a corridor by hand, as `tandemlift score` computes it. */
+export interface StatusScore {
+  start: number; // of the first push; s
+  finished: boolean; // whether the end of the corridor was reached; then nothing changes any more
+  refused: string; // why it is not ranked; empty unless that is so
+  time: number; // since the first push; s
+  touches: number; // of walls
+  effort: number; // N s
+  jerk: number; // logarithm of the dimensionless jerk
+  score: number; // s
+}
+
 /** The preparation of a flight. */
 export interface PreparationStatus {
   step: string; // what is being done
@@ -222,6 +237,7 @@ export interface FlightStatus {
   refusals: StatusRefusals; // why a request would be refused right now, and what to do
   ending: SceneEnding | null; // why the flight was stopped before its end; null unless it was
   findings?: StatusFinding[]; // what went badly so far; a server forms it once a second
+  score?: StatusScore; // in a corridor, once somebody pushed
   preparing?: PreparationStatus; // before the first step
 }
 

@@ -229,7 +229,7 @@ def score(folder: Path, mission: str, free: tuple[str, ...], settings: tuple[str
       2   bad input: one message, nothing is flown
       3   some were refused
     """
-    from tandemlift.apps.live.session.challenge import ranked
+    from tandemlift.apps.live.ranking import ranked
 
     with progress_bar("Flying", "flights", shown=sys.stderr.isatty()) as progress:
         table, refused = ranked(folder, load(mission, settings), free, progress)

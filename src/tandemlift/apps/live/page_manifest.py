@@ -8,8 +8,8 @@ from __future__ import annotations
 from typing import Any, get_args, get_origin
 
 from tandemlift.apps.live.page_functions import ENDING_PARTS, frame_fields
-from tandemlift.apps.live.session import checks, pacing
-from tandemlift.apps.live.session.frames import ECHO, FRESH, RATE, phase_times
+from tandemlift.apps.live.session import challenge, checks, pacing
+from tandemlift.apps.live.session.frames import ECHO, FRESH, RATE, channel_columns, phase_times
 from tandemlift.apps.live.session.hand_control import REQUEST_TIME
 from tandemlift.apps.live.session.interactive_mission import NEVER
 from tandemlift.apps.live.session.page_messages import NAME_PATTERN, NAME_RULE, PAGE_MESSAGES, SILENT, NumberedMessage
@@ -109,6 +109,7 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
         "guidance": [leaf_offset(plan.model, *path) for path in (("pilot", "guidance"), GUIDANCE_MEMORY)],
         "ending": [leaf_offset(plan.model, *path) for path in ENDING_PARTS],
         "frame": frame_fields(plan),
+        "challenge": _challenge(plan),
         "phase_times": list(phase_times(tables["phases"])),
         "touch_rule": list(rule),
         "ramp": RAMP,
@@ -118,6 +119,17 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
         "rules": message_rules(),
         "save_name": name_rule()[0],
         "files": {"mission": MISSION, "hand": HAND},
+    }
+
+
+def _challenge(plan: FlightPlan) -> dict[str, Any]:
+    """How the page scores a flight through a corridor: steps of a row of the log, and the columns in a sample."""
+    columns = channel_columns(plan.sample)
+    return {
+        "every": plan.every,
+        "columns": {name: columns[name].tolist() for name in challenge.SCORED if name in columns},
+        "rules": {name.lower(): getattr(challenge, name) for name in ("TOUCH", "EFFORT", "JERK", "PRESSED", "APART")},
+        "left": challenge.LEFT,
     }
 
 

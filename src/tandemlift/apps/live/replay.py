@@ -25,7 +25,6 @@ from tandemlift.apps.live.session.frames import (
 from tandemlift.apps.live.session.scene_builder import scene_of_tables
 from tandemlift.apps.live.session.server_messages import FlightScene, SceneChange, SceneReplay
 from tandemlift.apps.live.session.status import scene_ending, told
-from tandemlift.core.errors import shown
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.rendering.stage import FlightStage

@@ -11,12 +11,15 @@ import pytest
 from click.testing import CliRunner
 from own_flight import INDEX, OwnFlight
 from repository import ROOT
+from sessions import GUIDED
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.apps.live import page_modules, pages
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.page_manifest import page_manifest
+from tandemlift.apps.live.page_modules import packed_mission, page_mission
+from tandemlift.apps.live.session.challenge import score_of
 from tandemlift.core.files import DATA
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation.traced_assembly import trace_assembly
@@ -276,9 +279,31 @@ def test_several_missions_are_made_by_processes_as_each_alone(hover, tmp_path, m
 @pytest.mark.targets
 @pytest.mark.parametrize("name", page_modules.MISSIONS)
 def test_every_setting_and_every_rotor_of_a_page_is_a_number_that_its_module_takes(name):
-    mission = page_modules.page_mission(name)
+    mission = page_mission(name)
     taken, manifest = trace_assembly(mission).keys, page_manifest(FlightPlan(mission))
     keys = [key for one in manifest["parameters"] for key in one["keys"]] + [one["key"] for one in manifest["rotors"]]
     assert keys
     for key in keys:
         assert any(one == key or one.startswith(f"{key}.") for one in taken), key
+
+
+# the challenge
+
+
+def test_a_flight_through_a_corridor_has_the_score_of_its_saved_file(tmp_path):
+    corridor = {"corridor.centreline": [[-1.0, 0.0], [0.4, 0.0], [1.0, 0.3]], "corridor.width": 3.4}
+    flight = OwnFlight(packed_mission(page_mission("hover", GUIDED | corridor), "a corridor"))
+    flight.fly(6.0)
+    assert "score" not in flight.status()
+    for force, seconds in (([1.0, 1.4, 0.0], 3.0), ([-0.5, -1.0, 0.0], 1.5), ([2.0, 0.0, 0.0], 4.0)):
+        flight.say("force", force=force, point=[0.0, 0.0, 0.0])
+        flight.fly(seconds)
+    shown = flight.status()["score"]
+    flight.saved(tmp_path)
+    flight.close()
+    score = score_of(tl.fly(tl.load_mission(tmp_path / "recorded.toml")))
+    assert shown["finished"]
+    assert shown["refused"] == ""
+    assert shown["touches"] == score.touches > 0
+    got = [shown["time"], shown["effort"], shown["jerk"], shown["score"]]
+    np.testing.assert_allclose(got, [score.time, score.effort, score.jerk, score.total], rtol=1e-9)

@@ -1,4 +1,4 @@
-"""The challenge: a corridor flown by hand, scored from the flight that its recording flies again.
+"""The challenge: the score of a corridor flown by hand.
 
 The score is a time [s], and the lowest wins:
 
@@ -13,28 +13,28 @@ reach, more for a movement in many pieces.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.apps.live.session.interactive_mission import interactive_mission
-from tandemlift.core.errors import InputError, shown, without_flight_warnings
+from tandemlift.apps.live.session.frames import channel_columns
+from tandemlift.apps.live.session.server_messages import StatusScore
+from tandemlift.core.errors import InputError
 from tandemlift.core.files import write_file
-from tandemlift.core.types import Array, Progress
+from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.missions import Mission, load_mission, tables_of
-from tandemlift.missions.recording import MISSION_FILE
 from tandemlift.parts.contact.corridor import CorridorTable
-from tandemlift.simulation.fly import fly
+from tandemlift.simulation.recorded_flight import RecordedFlight
 
 SCORE_FILE = "score.json"
 TOUCH, EFFORT, JERK = 5.0, 0.2, 1.0  # s a touch, s per N s, s per unit
 PRESSED = 0.5  # N, of a horizontal contact force: a touch
 APART = 0.5  # s without one between two touches
-FREE = ("mission.name", "mission.duration", "person.recording", "mission.fma")  # of each flight; rounding, of its page
-EQUAL = 1e-6  # s: scores are the same
+LEFT = "left the corridor at {time:.2f} s"
+MINIMUM = 4  # rows, of which a jerk can be formed
+SCORED = ("position", "velocity", "push_force", "contact_force")  # channels
 
 
 class CorridorScore(NamedTuple):
@@ -51,12 +51,13 @@ class CorridorScore(NamedTuple):
         return self.time + TOUCH * self.touches + EFFORT * self.effort + JERK * self.jerk
 
 
-class HandedIn(NamedTuple):
-    """What a participant handed in: name, and its score, or the reason for which it has none."""
+class CorridorRun(NamedTuple):
+    """A run from the first push on [s]: whether it has reached the end, when it left the corridor, its score so far."""
 
-    name: str
-    score: CorridorScore | None
-    refused: str = ""
+    start: float
+    finished: bool
+    left: float | None
+    score: CorridorScore
 
 
 def score_of(flight: Flight) -> CorridorScore:
@@ -68,24 +69,56 @@ def score_of(flight: Flight) -> CorridorScore:
     corridor = CorridorTable.model_validate(flight.mission.get("corridor", {}))
     if not corridor.centreline:
         raise InputError(f"{flight.name}: has no [corridor], so it has no score")
-    pushed = np.flatnonzero(np.linalg.norm(flight["push_force"], axis=1) > 0.0)
-    if not len(pushed):
+    run = _run(corridor, flight.time, {name: flight[name] for name in SCORED})
+    if run is None:
         raise InputError(f"{flight.name}: nobody pushed")
-    past = np.flatnonzero(_beyond(corridor, flight["position"]) & (flight.time > flight.time[pushed[0]]))
-    if not len(past):
+    if not run.finished:
         raise InputError(f"{flight.name}: the end of the corridor was not reached")
-    span = slice(pushed[0], past[0] + 1)
-    time, position = flight.time[span], flight["position"][span]
-    outside = np.flatnonzero(_outside(corridor, position))
-    if len(outside):
-        raise InputError(f"{flight.name}: left the corridor at {time[outside[0]]:.2f} s")
-    push = np.linalg.norm(flight["push_force"][span], axis=1)
-    return CorridorScore(
-        float(time[-1] - time[0]),
-        count_touches(time, flight["contact_force"][span]),
-        float(np.trapezoid(push, time)),
-        log_dimensionless_jerk(time, flight["velocity"][span]),
+    if run.left is not None:
+        raise InputError(f"{flight.name}: {LEFT.format(time=run.left)}")
+    return run.score
+
+
+def score_so_far(flight: RecordedFlight) -> StatusScore | None:
+    """The score of a flight in progress; None without a corridor, or until somebody pushed."""
+    corridor, columns = flight.start.corridor, channel_columns(flight.layout)
+    if not corridor.centreline or not columns.keys() >= set(SCORED):
+        return None
+    time, rows = flight.logged()
+    run = _run(corridor, time, {name: rows[:, columns[name]] for name in SCORED})
+    if run is None:
+        return None
+    refused = "" if run.left is None else LEFT.format(time=run.left)
+    seconds, touches, effort, jerk = run.score
+    return StatusScore(
+        start=run.start,
+        finished=run.finished,
+        refused=refused,
+        time=seconds,
+        touches=touches,
+        effort=effort,
+        jerk=jerk,
+        score=run.score.total,
     )
+
+
+def _run(corridor: CorridorTable, time: Array, channels: Mapping[str, Array]) -> CorridorRun | None:
+    """The run of the channels `SCORED` (n, 3) at times [s]; None if nobody pushed."""
+    pushed = np.flatnonzero(np.linalg.norm(channels["push_force"], axis=1) > 0.0)
+    if not len(pushed) or pushed[0] + MINIMUM > len(time):
+        return None
+    first = int(pushed[0])
+    past = np.flatnonzero(_beyond(corridor, channels["position"][first + 1 :]))
+    span = slice(first, first + 2 + int(past[0]) if len(past) else None)
+    time, position, velocity, push, contact = time[span], *(channels[name][span] for name in SCORED)
+    outside = np.flatnonzero(_outside(corridor, position))
+    score = CorridorScore(
+        float(time[-1] - time[0]),
+        count_touches(time, contact),
+        float(np.trapezoid(np.linalg.norm(push, axis=1), time)),
+        log_dimensionless_jerk(time, velocity),
+    )
+    return CorridorRun(float(time[0]), len(past) > 0, float(time[outside[0]]) if len(outside) else None, score)
 
 
 def count_touches(time: Array, force: Array) -> int:
@@ -126,92 +159,3 @@ def write_score(flight: Flight, folder: Path) -> None:
     except InputError:
         return
     write_file(folder / SCORE_FILE, json.dumps({**score._asdict(), "score": score.total}, indent=1))
-
-
-def handed_in(folder: Path) -> list[Path]:
-    """The saved flights in a folder, in the order of their names: a folder or a .zip each, as pages save them.
-
-    Raises:
-        InputError: there are none.
-    """
-    found = sorted(p for p in folder.glob("*") if p.suffix == ".zip" or (p / MISSION_FILE).exists())
-    if not found:
-        raise InputError(f"{folder}: must hold flights that a page saved, a folder or a .zip each; there are none")
-    return found
-
-
-def scored(path: Path, challenge: Mission, free: tuple[str, ...]) -> HandedIn:
-    """A saved flight, flown again and scored.
-
-    Args:
-        path: its folder or .zip.
-        challenge: the mission that all were to fly, as a page flies it.
-        free: keys, or tables of keys, that may differ from it.
-    """
-    try:
-        return HandedIn(path.stem, _score_again(path, challenge, free))
-    except InputError as error:
-        return HandedIn(path.stem, None, str(error))
-
-
-def _score_again(path: Path, challenge: Mission, free: tuple[str, ...]) -> CorridorScore:
-    with without_flight_warnings():
-        mission = load_mission(path if path.suffix == ".zip" else path / MISSION_FILE)
-        if mission.person.recording is None:
-            raise InputError(f"{path.name}: has no recording of a hand")
-        _check_unchanged(mission, challenge, free)
-        score = score_of(fly(mission))
-    if (path / SCORE_FILE).exists():
-        try:
-            claimed = float(json.loads((path / SCORE_FILE).read_text("utf-8"))["score"])
-        except (ValueError, KeyError, TypeError):
-            raise InputError(f"{path / SCORE_FILE}: is no score") from None
-        if abs(claimed - score.total) > EQUAL:
-            raise InputError(f"{SCORE_FILE} says {claimed:.2f} s, but the recording flies {score.total:.2f} s")
-    return score
-
-
-def _check_unchanged(mission: Mission, challenge: Mission, free: tuple[str, ...]) -> None:
-    """Raise an InputError that names the first key that a participant changed and was not free to."""
-    theirs, ours = dict(_keys_of(tables_of(mission))), dict(_keys_of(tables_of(challenge)))
-    theirs |= {change["key"]: change["value"] for change in theirs.pop("changes", [])}
-    for key in sorted({*theirs, *ours} - {"changes"}):
-        if theirs.get(key) != ours.get(key) and not any(key == f or key.startswith(f"{f}.") for f in free):
-            raise InputError(f"{key} = {shown(theirs.get(key))}: the challenge has {shown(ours.get(key))}")
-
-
-def _keys_of(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
-    for name, value in tables.items():
-        if isinstance(value, Mapping):
-            yield from _keys_of(value, f"{above}{name}.")
-        else:
-            yield above + name, value
-
-
-def ranked(
-    folder: Path, challenge: Mission, free: Iterable[str] = (), progress: Progress | None = None
-) -> tuple[list[str], int]:
-    """The table of what was handed in, best first, as lines of text; and how many were refused.
-
-    Args:
-        folder: holds a folder or a .zip for each participant.
-        challenge: the mission that all were to fly by hand.
-        free: keys, or tables of keys, that participants may change.
-        progress: called with (flights flown, flights in all).
-
-    Raises:
-        InputError: nothing was handed in.
-    """
-    paths, results, flown = handed_in(folder), list[HandedIn](), interactive_mission(challenge)
-    for path in paths:
-        results.append(scored(path, flown, (*FREE, *free)))
-        if progress:
-            progress(len(results), len(paths))
-    width = max(len(one.name) for one in results)
-    scores = sorted([(one.name, one.score) for one in results if one.score], key=lambda row: row[1].total)
-    rows = [f"rank  {'name':{width}}   score    time  touches     effort  jerk"] if scores else []
-    for rank, (name, score) in enumerate(scores, 1):
-        cells = f"{score.total:6.1f} s {score.time:5.1f} s {score.touches:8d} {score.effort:6.1f} N s {score.jerk:5.1f}"
-        rows.append(f"{rank:4d}  {name:{width}} {cells}")
-    refused = [f"   –  {one.name:{width}} refused: {one.refused}" for one in results if not one.score]
-    return [*rows, *refused], len(refused)

@@ -49,6 +49,7 @@ FRAME_FIELDS = (
     FrameField("reference_yaw", 1, "rad"),
     FrameField("push", 3, "true push of all hands, N"),
     FrameField("push_point", 3, "where the push acts, m, body axes"),
+    FrameField("push_moment", 3, "moment of the push about the centre of mass, N m, body axes"),
     FrameField("pilot_push", 3, "push that the pilot acts on: filtered, estimated, or the true one, N"),
     FrameField("disturbance", 3, "disturbance force as the pilot estimates it, N"),
     FrameField("wind", 3, "wind velocity, m/s"),
@@ -59,6 +60,7 @@ FRAME_FIELDS = (
     ),
     FrameField("contact_point", 3, "where it touches, as the pilot estimates it, m", jumps=True),
     FrameField("contact_normal", 3, "unit vector out of that wall", jumps=True),
+    FrameField("contact_force", 3, "force of floor and walls on the vehicle, N"),
     FrameField("held", 1, "1 while a page holds the beam, else 0", jumps=True),
     FrameField("hand_point", 3, "where the hand holds, m, body axes"),
     FrameField("hand_target", 3, "where the hand pulls to, m"),
@@ -110,6 +112,7 @@ CHANNELS = {  # of each field: the channels that it may come from, the best firs
     "velocity": ("velocity",),
     "reference": ("reference_position",),
     "push": ("push_force",),
+    "push_moment": ("push_moment",),
     "pilot_push": ("push_filtered", "push_estimate", "push_force"),
     "disturbance": ("disturbance_force",),
     "wind": ("wind_velocity",),
@@ -117,9 +120,10 @@ CHANNELS = {  # of each field: the channels that it may come from, the best firs
     "contact_part": ("contact_part",),
     "contact_point": ("contact_point_estimate",),
     "contact_normal": ("contact_normal",),
+    "contact_force": ("contact_force",),
     "thrusts": ("rotor_thrusts",),
 }
-USED = {"reference_euler", "push_moment", "phase"}.union(*CHANNELS.values())
+USED = {"reference_euler", "phase"}.union(*CHANNELS.values())
 
 Components = tuple[Any, ...]  # of a channel or of a field: numbers, arrays (T,) or symbols
 

@@ -123,6 +123,7 @@ def _quadrotor(quadrotor: Quadrotor, center: Array, shapes: Sequence[tuple[Scene
             spin=int(spin),
             radius=quadrotor.rotor_radius,
             max_thrust=quadrotor.max_thrust,
+            max_speed=quadrotor.max_speed,
             blades=blades,
             disc=disc,
         )

@@ -59,6 +59,7 @@ class SceneRotor(TypedDict):
     spin: Annotated[int, "1 or -1: sign of its reaction torque about body z"]
     radius: Metres
     max_thrust: Newtons
+    max_speed: Annotated[float, "at that thrust, rad/s"]
     blades: Annotated[SceneShape, "as it stands still"]
     disc: Annotated[SceneShape, "as it turns, transparent"]
 
@@ -208,6 +209,19 @@ class StatusRefusals(TypedDict):
     push: Annotated[str, "why a push is not followed"]
 
 
+class StatusScore(TypedDict):
+    """The score so far of a flight through a corridor by hand, as `tandemlift score` computes it."""
+
+    start: Annotated[Seconds, "of the first push"]
+    finished: Annotated[bool, "whether the end of the corridor was reached; then nothing changes any more"]
+    refused: Annotated[str, "why it is not ranked; empty unless that is so"]
+    time: Annotated[Seconds, "since the first push"]
+    touches: Annotated[int, "of walls"]
+    effort: Annotated[float, "N s"]
+    jerk: Annotated[float, "logarithm of the dimensionless jerk"]
+    score: Seconds
+
+
 class FlightStatus(TypedDict):
     """The state of a flight in words, and how it keeps up with the clock."""
 
@@ -224,6 +238,7 @@ class FlightStatus(TypedDict):
     refusals: Annotated[StatusRefusals, "why a request would be refused right now, and what to do"]
     ending: Annotated[SceneEnding | None, "why the flight was stopped before its end; null unless it was"]
     findings: NotRequired[Annotated[list[StatusFinding], "what went badly so far; a server forms it once a second"]]
+    score: NotRequired[Annotated[StatusScore, "in a corridor, once somebody pushed"]]
     preparing: NotRequired[Annotated[PreparationStatus, "before the first step"]]
 
 

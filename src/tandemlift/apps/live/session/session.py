@@ -165,7 +165,7 @@ class Session:
             vehicle = self._frames.scene["vehicle"]
             status = status_of(self._flight, self.pacer, self._values(), vehicle, self._failed)
             self._findings.look(self._flight)
-        status["findings"] = self._findings.formed()
+        self._findings.add_to(status)
         return status
 
     @property

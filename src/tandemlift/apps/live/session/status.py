@@ -7,6 +7,7 @@ import time
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from tandemlift.apps.live.session.challenge import score_so_far
 from tandemlift.apps.live.session.checks import failed_rotors, tare_left
 from tandemlift.apps.live.session.pacing import Pacer
 from tandemlift.apps.live.session.server_messages import (
@@ -80,8 +81,13 @@ class FlightFindings:
             self._of, self._due = flight, flight.step + round(FINDINGS_EVERY / flight.dt)
             self._numbers = flight.numbers()
 
-    def formed(self) -> list[StatusFinding]:
-        """The findings at the last update; the flight may continue meanwhile."""
+    def add_to(self, status: FlightStatus) -> None:
+        """Add the findings at the last update, and the score so far; the flight may continue meanwhile."""
+        status["findings"] = self._formed()
+        if self._of and (score := score_so_far(self._of)):
+            status["score"] = score
+
+    def _formed(self) -> list[StatusFinding]:
         flight, numbers = self._of, self._numbers
         if flight and numbers is not None:
             self._numbers = None

@@ -1,0 +1,116 @@
+"""The ranking of a challenge: flights that participants handed in, flown again from their recordings."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tandemlift.apps.live.session.challenge import SCORE_FILE, CorridorScore, score_of
+from tandemlift.apps.live.session.interactive_mission import interactive_mission
+from tandemlift.core.errors import InputError, shown, without_flight_warnings
+from tandemlift.core.types import Progress
+from tandemlift.missions import Mission, load_mission, tables_of
+from tandemlift.missions.recording import MISSION_FILE
+from tandemlift.simulation.fly import fly
+
+FREE = ("mission.name", "mission.duration", "person.recording", "mission.fma")  # of each flight; rounding, of its page
+EQUAL = 1e-6  # s: scores are the same
+
+
+class HandedIn(NamedTuple):
+    """What a participant handed in: name, and its score, or the reason for which it has none."""
+
+    name: str
+    score: CorridorScore | None
+    refused: str = ""
+
+
+def handed_in(folder: Path) -> list[Path]:
+    """The saved flights in a folder, in the order of their names: a folder or a .zip each, as pages save them.
+
+    Raises:
+        InputError: there are none.
+    """
+    found = sorted(p for p in folder.glob("*") if p.suffix == ".zip" or (p / MISSION_FILE).exists())
+    if not found:
+        raise InputError(f"{folder}: must hold flights that a page saved, a folder or a .zip each; there are none")
+    return found
+
+
+def scored(path: Path, challenge: Mission, free: tuple[str, ...]) -> HandedIn:
+    """A saved flight, flown again and scored.
+
+    Args:
+        path: its folder or .zip.
+        challenge: the mission that all were to fly, as a page flies it.
+        free: keys, or tables of keys, that may differ from it.
+    """
+    try:
+        return HandedIn(path.stem, _score_again(path, challenge, free))
+    except InputError as error:
+        return HandedIn(path.stem, None, str(error))
+
+
+def _score_again(path: Path, challenge: Mission, free: tuple[str, ...]) -> CorridorScore:
+    with without_flight_warnings():
+        mission = load_mission(path if path.suffix == ".zip" else path / MISSION_FILE)
+        if mission.person.recording is None:
+            raise InputError(f"{path.name}: has no recording of a hand")
+        _check_unchanged(mission, challenge, free)
+        score = score_of(fly(mission))
+    if (path / SCORE_FILE).exists():
+        try:
+            claimed = float(json.loads((path / SCORE_FILE).read_text("utf-8"))["score"])
+        except (ValueError, KeyError, TypeError):
+            raise InputError(f"{path / SCORE_FILE}: is no score") from None
+        if abs(claimed - score.total) > EQUAL:
+            raise InputError(f"{SCORE_FILE} says {claimed:.2f} s, but the recording flies {score.total:.2f} s")
+    return score
+
+
+def _check_unchanged(mission: Mission, challenge: Mission, free: tuple[str, ...]) -> None:
+    """Raise an InputError that names the first key that a participant changed and was not free to."""
+    theirs, ours = dict(_keys_of(tables_of(mission))), dict(_keys_of(tables_of(challenge)))
+    theirs |= {change["key"]: change["value"] for change in theirs.pop("changes", [])}
+    for key in sorted({*theirs, *ours} - {"changes"}):
+        if theirs.get(key) != ours.get(key) and not any(key == f or key.startswith(f"{f}.") for f in free):
+            raise InputError(f"{key} = {shown(theirs.get(key))}: the challenge has {shown(ours.get(key))}")
+
+
+def _keys_of(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
+    for name, value in tables.items():
+        if isinstance(value, Mapping):
+            yield from _keys_of(value, f"{above}{name}.")
+        else:
+            yield above + name, value
+
+
+def ranked(
+    folder: Path, challenge: Mission, free: Iterable[str] = (), progress: Progress | None = None
+) -> tuple[list[str], int]:
+    """The table of what was handed in, best first, as lines of text; and how many were refused.
+
+    Args:
+        folder: holds a folder or a .zip for each participant.
+        challenge: the mission that all were to fly by hand.
+        free: keys, or tables of keys, that participants may change.
+        progress: called with (flights flown, flights in all).
+
+    Raises:
+        InputError: nothing was handed in.
+    """
+    paths, results, flown = handed_in(folder), list[HandedIn](), interactive_mission(challenge)
+    for path in paths:
+        results.append(scored(path, flown, (*FREE, *free)))
+        if progress:
+            progress(len(results), len(paths))
+    width = max(len(one.name) for one in results)
+    scores = sorted([(one.name, one.score) for one in results if one.score], key=lambda row: row[1].total)
+    rows = [f"rank  {'name':{width}}   score    time  touches     effort  jerk"] if scores else []
+    for rank, (name, score) in enumerate(scores, 1):
+        cells = f"{score.total:6.1f} s {score.time:5.1f} s {score.touches:8d} {score.effort:6.1f} N s {score.jerk:5.1f}"
+        rows.append(f"{rank:4d}  {name:{width}} {cells}")
+    refused = [f"   –  {one.name:{width}} refused: {one.refused}" for one in results if not one.score]
+    return [*rows, *refused], len(refused)
