@@ -24,6 +24,14 @@ async function page() {
     legalComments: "none",
     footer: { js: await licences("@noble/hashes", "fflate", "smol-toml") },
   });
+  await build({
+    ...SHARED,
+    entryPoints: { report: "src/report.ts" },
+    outdir: PAGE,
+    minify: true,
+    legalComments: "none",
+    footer: { js: await licences("uplot") },
+  });
   await copyFile("src/index.html", `${PAGE}/index.html`);
 }
 

@@ -5,7 +5,8 @@
     out/zigzag/picture.png: The vehicle at its strongest push.
     ```
 
-runs the command when the site is built, and shows it with the pictures. A figure of a flight has its own caption.
+runs the command when the site is built, and shows it with the pictures. A figure of a flight has its own caption. A
+film (.mp4) is loaded when it is played, and shows its middle until then.
 With -t quick nothing is run: those pictures are shown that an earlier build has drawn.
 """
 
@@ -17,6 +18,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import imageio_ffmpeg
 from docutils import nodes
 from PIL import Image
 from sphinx.util.docutils import SphinxDirective
@@ -52,11 +54,29 @@ class Drawn(SphinxDirective):
                 raise self.error(f"drawn: {command}: exit code {ended.returncode}: {ended.stderr}")
         return [block, *(self._figure(name, caption) for name, caption in pictures)]
 
+    def _film(self, film: Path) -> nodes.raw:
+        poster = film.with_name(f"{film.stem}-poster.webp")
+        reader = imageio_ffmpeg.read_frames(str(film))
+        details = next(reader)
+        pictures = list(reader)
+        Image.frombytes("RGB", details["size"], pictures[len(pictures) // 2]).save(poster, quality=80)
+        up = "../" * self.env.docname.count("/")
+        source, still = (
+            f"{up}_downloads/{self.env.dlfiles.add_file(self.env.docname, str(f))}" for f in (film, poster)
+        )
+        look = "controls loop muted playsinline preload='none'"
+        width, height = details["size"]
+        return nodes.raw(
+            "", f"<video {look} width={width} height={height} poster='{still}' src='{source}'></video>", format="html"
+        )
+
     def _figure(self, name: str, caption: str) -> nodes.figure:
         drawn = FOLDER / name
         caption = caption or captions()[drawn.stem].text
         if not drawn.is_file():
             raise self.error(f"drawn: {self.arguments[0]} wrote no {name}")
+        if drawn.suffix == ".mp4":
+            return nodes.figure("", self._film(drawn), nodes.caption("", "", *self.parse_inline(caption)[0]))
         uri = "/../" + _for_the_page(drawn).relative_to(FOLDER.parents[1]).as_posix()
         image = nodes.image(uri=uri, alt=caption)
         text, _ = self.parse_inline(caption)

@@ -44,6 +44,9 @@ function watch(sentence: string): void {
   const replay = embeddedReplay();
   const app = new App(replay ?? new Connection(socketAddress(window.location)), replay);
   app.start();
+  window.addEventListener("message", ({ source, data }: MessageEvent<{ seek?: number }>) => {
+    if (source === window.parent && typeof data.seek === "number") replay?.seek(data.seek); // a report's plot was clicked
+  });
   if (sentence) app.explain(sentence);
 }
 

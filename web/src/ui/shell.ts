@@ -99,7 +99,7 @@ export class Shell {
       this.help.scrollTop = 0; // the focus is at its end
     });
     foldable("show-panel", "panel", window.innerWidth >= NARROW && page.replay === null);
-    foldable("show-plots", "plots", window.innerHeight >= LOW);
+    foldable("show-plots", "plots", window.innerHeight >= LOW && window.parent === window); // a page around it has its own
     this.senses = new SensesOfFlight(page.shown);
     this.show = new ShowMenu(page.shown, (on) => (page.camera.following = on));
     this.makeViews();

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 FIGURES = "figures"  # folder of the figures among results
 DRAWINGS = (".png", ".pdf", ".svg")  # endings of a figure on its own
 HTML = (".html", ".htm")
+REPLAYED = 3000  # frames of a flight in its report, at most
 FILES = ("mission.toml", FLIGHT_FILE, "metrics.json", "metrics.csv", "metrics.tex", "findings.json", "report.html")
 FAILED = 3  # exit code of a flight that crashed, diverged or did not lift; with --strict also of one with findings
 
@@ -119,8 +120,19 @@ def write_flight(flight: Flight, folder: Path, *, figures: bool, photographs: Se
     """Write the files of a flight into the folder, with a progress bar for the figures."""
     from tandemlift.pictures.report.flight_report import write_flight_files
 
+    replay = _replay(flight) if figures else None
     with progress_bar("Drawing", "figures", shown=figures and sys.stderr.isatty()) as progress:
-        write_flight_files(flight, folder, figures=figures, photographs=photographs, progress=progress)
+        write_flight_files(flight, folder, figures=figures, photographs=photographs, progress=progress, replay=replay)
+
+
+def _replay(flight: Flight) -> str | None:
+    """The page that plays a flight in its report; None if nothing of the flight can be shown."""
+    from tandemlift.apps.live.page_files import page_files
+    from tandemlift.apps.live.replay import replay_html
+
+    with suppress(InputError):
+        return replay_html(flight, page_files(), REPLAYED)
+    return None
 
 
 def flight_file(given: str) -> tuple[Path, Path | None]:

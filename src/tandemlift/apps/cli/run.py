@@ -12,6 +12,7 @@ import click
 from tandemlift.apps.cli.completion import MISSIONS, names
 from tandemlift.apps.cli.console import echo, progress_bar
 from tandemlift.apps.cli.flying import (
+    FIGURES,
     FILES,
     after_crash_option,
     chosen_controller,
@@ -86,7 +87,7 @@ def run(
       findings.json  findings with time, place, number and remedy
       figures/       reference, path, tracking, inputs, interaction, joints; and push, disturbance, rotors,
                      surroundings, corridor where the mission has such parts (PNG and PDF)
-      report.html    all of it on one page that needs no network
+      report.html    all of it on one page that needs no network; it opens with the flight in three dimensions
 
     \b
     Exit code:
@@ -171,5 +172,7 @@ def write_results(
         echo(line)
     if recording is not None:  # so that the folder can be flown anywhere
         write_file(folder / Path(recording).name, recording_bytes(recording))
+    if figures:
+        echo(f"  drawing: {folder / FIGURES}")
     write_flight(flight, folder, figures=figures, photographs=photographs)
     echo(f"  report: {folder / 'report.html'} ({time.perf_counter() - began:.2f} s in all)")

@@ -39,7 +39,8 @@ def page_files(folder: Path | None = None) -> dict[str, bytes]:
         raise InputError(
             f"{folder}: the page is not there; it is built from web/ and ships with an installed tandemlift"
         )
-    found = {f"/{f.relative_to(folder).as_posix()}": f.read_bytes() for f in folder.rglob("*") if f.is_file()}
+    files = (f for f in folder.rglob("*") if f.is_file() and f.stem != "report")  # which a report of a flight has in it
+    found = {f"/{f.relative_to(folder).as_posix()}": f.read_bytes() for f in files}
     return {"/": found["/index.html"], **found}
 
 

@@ -69,14 +69,15 @@ def replay_files(flight: Flight, files: Mapping[str, bytes]) -> dict[str, bytes]
     return {**files, "/": html, "/index.html": html}
 
 
-def replay_html(flight: Flight, files: Mapping[str, bytes]) -> str:
-    """One self-contained page that plays a flight; its policy allows it no network."""
-    return in_one_file(with_data(page_text(files, "/index.html"), replay_element(flight)), files, OFFLINE)
+def replay_html(flight: Flight, files: Mapping[str, bytes], most: int = MAX_FRAMES) -> str:
+    """One self-contained page that plays a flight, of `most` frames; its policy allows it no network."""
+    return in_one_file(with_data(page_text(files, "/index.html"), replay_element(flight, most=most)), files, OFFLINE)
 
 
-def replay_element(flight: Flight, every: int = 1) -> str:
-    """The element with scene and frames; `every`: n of 'every n-th frame'."""
+def replay_element(flight: Flight, every: int = 1, most: int = MAX_FRAMES) -> str:
+    """The element with scene and frames; `every`: n of 'every n-th frame', at least so many that no more are left."""
     scene, frames = scene_and_frames(flight)
+    every = max(every, math.ceil(len(frames) / most))
     return data_element("flight", {"scene": scene, "frames": base64.b64encode(frames[::every].tobytes()).decode()})
 
 

@@ -103,7 +103,7 @@ class Film:
         view = self.view(time)
         distance = view.distance
         cell = 1.0 if distance < 30.0 else 10.0 ** np.floor(np.log10(distance / 3.0))
-        image = Image.fromarray(self._studio.picture(time, view, cell))
+        image = self._studio.picture(time, view, cell)
         push = float(np.linalg.norm(self.stage.push(time)))
         notes = [self.stage.name, f"{time:.2f} s{note}", f"grid {cell:g} m"]
         notes += [f"push {push:.1f} N"] if self.stage.is_push_shown(push) else []

@@ -11,7 +11,7 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from PIL import Image
 
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
@@ -71,6 +71,8 @@ class Studio:
         self._stage, self._size, self._pv = stage, size, pyvista()
         self._plotter = self._pv.Plotter(off_screen=True, window_size=[FINE * n for n in size], lighting="none")
         weakref.finalize(self, self._plotter.close)  # pyvista keeps a plotter, of tens of megabytes, until it is closed
+        self._plotter.render_window.SetMultiSamples(0)  # FINE smooths the edges; both would take twice the time
+        self._shown: dict[str, Any] = {}  # meshes that change from picture to picture
         for direction, strength in ((SUN, 0.72), (SUN * [-1.0, -1.0, 0.4], 0.25)):  # the sun, and what the sky sends
             light = self._pv.Light(position=100.0 * direction, light_type="scene light", intensity=strength)
             light.positional = False
@@ -89,18 +91,16 @@ class Studio:
         for wall in stage.walls:
             self._add_wall(wall)
 
-    def picture(self, time: float, view: View, cell: float) -> NDArray[np.uint8]:
-        """The picture (H, W, 3) at a time [s]; `cell` is the size of a grid cell [m]."""
+    def picture(self, time: float, view: View, cell: float) -> Image.Image:
+        """The picture at a time [s]; `cell` is the size of a grid cell [m]."""
         self._move(time, view)
         self._paint_surroundings(view, cell)
-        camera, (width, height) = self._plotter.camera, self._size
+        camera, height = self._plotter.camera, self._size[1]
         camera.position, camera.focal_point, camera.up = view.eye, view.target, view.up
         camera.view_angle = 2.0 * np.degrees(np.arctan(height / 2.0 / view.focal))
         camera.clipping_range = (NEAR, 2.0 * ground.DOME * ground.EDGE * view.distance)
         self._plotter.render()
-        fine = self._plotter.screenshot(None, return_img=True).reshape(height, FINE, width, FINE, 3)
-        picture: NDArray[np.uint8] = fine.mean(axis=(1, 3)).round().astype(np.uint8)
-        return picture
+        return Image.fromarray(self._plotter.screenshot(None, return_img=True)).reduce(FINE)
 
     def _move(self, time: float, view: View) -> None:
         """Put vehicle, shadow, path and push where they are at a time."""
@@ -120,14 +120,14 @@ class Studio:
         self._draw_arrow(stage.arrow(time))
 
     def _draw_arrow(self, arrow: tuple[Array, Array] | None) -> None:
-        self._plotter.remove_actor("push", reset_camera=False, render=False)
+        mesh = self._pv.PolyData()
         if arrow:
             start, tip = arrow
             length = float(np.linalg.norm(tip - start))
             radii = {"tip_length": 7.0 * SHAFT, "tip_radius": 2.6 * SHAFT, "shaft_radius": SHAFT}
             parts = {name: value / length for name, value in radii.items()}
             mesh = self._pv.Arrow(start=start, direction=tip - start, scale=length, **parts)
-            self._add(mesh, name="push", color=PUSH_COLOR, ambient=0.35)
+        self._show("push", mesh, color=PUSH_COLOR, ambient=0.35)
 
     def _paint_surroundings(self, view: View, cell: float) -> None:
         """Floor, grid and sky, as they are seen from the camera."""
@@ -142,13 +142,20 @@ class Studio:
         """Add a surface, or lines of a width [pixels], in place of one with the same name."""
         mesh = self._pv.PolyData(painted.points, **{"lines" if width else "faces": painted.cells})
         mesh["colors"] = painted.colors.round().astype(np.uint8)
-        self._add_coloured(mesh, name=name, lighting=False, line_width=self._dots(width or 1.0))
+        mesh.set_active_scalars("colors")
+        self._show(name, mesh, scalars="colors", rgb=True, lighting=False, line_width=self._dots(width or 1.0))
 
     def _draw_line(self, name: str, points: Array, color: str, width: float) -> None:
-        self._plotter.remove_actor(name, reset_camera=False, render=False)
-        if len(points) > 1:
-            look = {"name": name, "color": color, "line_width": self._dots(width), "lighting": False}
-            self._add(self._pv.lines_from_points(points), **look)
+        mesh = self._pv.lines_from_points(points) if len(points) > 1 else self._pv.PolyData()
+        self._show(name, mesh, color=color, line_width=self._dots(width), lighting=False)
+
+    def _show(self, name: str, mesh: Any, **look: Any) -> None:
+        """Show a mesh, which may be empty, in place of the one with the same name; its look is that of the first."""
+        if name in self._shown:
+            self._shown[name].shallow_copy(mesh)
+        elif mesh.n_points:
+            self._add(mesh, **look)
+            self._shown[name] = mesh
 
     def _add_wall(self, wall: dict[str, Any]) -> None:
         foot = [np.array([*wall[end], self._stage.floor]) for end in ("start", "end")]

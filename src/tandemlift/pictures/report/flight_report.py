@@ -5,6 +5,8 @@ Captions stand with their figures in `pictures.figures`.
 
 from __future__ import annotations
 
+import base64
+import gzip
 import json
 import math
 import os
@@ -147,6 +149,7 @@ def write_report(
     flight: Flight,
     figures: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
     path: str | os.PathLike[str],
+    replay: str | None = None,
 ) -> Path:
     """Write the report of a flight atomically as one HTML file without references.
 
@@ -155,6 +158,7 @@ def write_report(
         figures: the folder that `save_figures` wrote to, or the files; what is not there, or is not this flight's, is
             left out.
         path: of the HTML file; its folder is made if it does not exist.
+        replay: a page that plays the flight; the report opens with it, and with plots of the whole flight that zoom.
 
     Returns:
         The path.
@@ -166,6 +170,7 @@ def write_report(
         "flight",
         name=flight.name,
         about=html(_engine(flight)),
+        packed=replay and base64.b64encode(gzip.compress(replay.encode(), mtime=0)).decode(),
         verdict=html(_verdict(flight) + html_findings(flight)),
         setup=html(html_setup(flight)),
         figures=html("\n".join(shown)),
@@ -183,6 +188,7 @@ def write_flight_files(
     figures: bool = True,
     photographs: Sequence[tuple[str, bytes]] = (),
     progress: Progress | None = None,
+    replay: str | None = None,
 ) -> None:
     """Write the files of a flight, and its figures and report; figures of an earlier flight are removed.
 
@@ -192,6 +198,7 @@ def write_flight_files(
         figures: whether to draw the figures.
         photographs: title and JPEG of each photograph of a flight in Gazebo.
         progress: called after each figure with (figures written, figures in all).
+        replay: a page that plays the flight, for the report.
     """
     with atomic_write(folder / "mission.toml") as partial:
         partial.write_text(format_toml(flight.mission), "utf-8")
@@ -211,4 +218,4 @@ def write_flight_files(
         save_figures(flight, folder / "figures", progress)
     if photographs:
         save_photographs(photographs, folder / "figures")
-    write_report(flight, folder / "figures", folder / "report.html")
+    write_report(flight, folder / "figures", folder / "report.html", replay)

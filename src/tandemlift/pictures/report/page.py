@@ -63,10 +63,15 @@ def write_page(path: str | os.PathLike[str], template: str, **values: object) ->
     Returns:
         The path.
     """
-    text = _environment().get_template(f"{template}.html").render(values)
+    text = _environment().get_template(f"{template}.html").render(values, bundle=_bundle)
     with atomic_write(Path(path)) as partial:
         partial.write_text(text, "utf-8")
     return Path(path)
+
+
+def _bundle(name: str) -> Markup:
+    """A file that is built from web/, to stand in a page."""
+    return Markup((DATA / "page" / name).read_text("utf-8"))
 
 
 def number(value: object) -> str:

@@ -1,0 +1,72 @@
+"""The report of `tandemlift run`, opened from disk in a browser without a network: its flight plays, its plots zoom."""
+
+import pytest
+from patience import until
+
+import tandemlift as tl
+from tandemlift.apps.cli.flying import _replay
+from tandemlift.pictures.report.flight_report import write_report
+
+pytest.importorskip("playwright")
+SIZES = {"desktop": (1280, 900), "phone": (390, 844)}
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory):
+    flight = tl.fly(tl.load_mission("one-push"))
+    return write_report(flight, (), tmp_path_factory.mktemp("flown") / "report.html", _replay(flight))
+
+
+@pytest.fixture(scope="module")
+def browser():
+    from chromium import launched
+
+    with launched() as one:
+        yield one
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_flight_plays_and_a_click_in_a_plot_takes_it_to_that_time(browser, path, size):
+    width, height = SIZES[size]
+    page = browser.new_page(viewport={"width": width, "height": height})
+    wrong, asked = [], []
+    page.on("pageerror", lambda error: wrong.append(str(error)))
+    page.on("request", lambda request: asked.append(request.url))
+    page.goto(path.as_uri())
+    page.wait_for_selector("#flight[data-shown]")
+    replay = page.frames[1]
+    clock = replay.locator("output b")
+    until(lambda: float(clock.inner_text()) > 0.5, "a flight that moves by itself")
+    replay.locator(".timeline button").first.click()
+    over = page.locator(".u-over").first
+    over.scroll_into_view_if_needed()
+    box = over.bounding_box()
+    over.click(position={"x": 0.5 * box["width"], "y": 20})
+    end = tl.load_mission("one-push").mission.duration
+    until(lambda: abs(float(clock.inner_text()) - end / 2) < 0.02 * end, "the time of the click")
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    assert wrong == []
+    assert [url for url in asked if not url.startswith(("file:", "blob:", "data:", "about:"))] == []
+    page.close()
+
+
+def test_a_drag_across_a_plot_zooms_all_plots_and_a_double_click_shows_all_again(browser, path):
+    page = browser.new_page(viewport={"width": 1280, "height": 900})
+    page.goto(path.as_uri())
+    page.wait_for_selector("#flight[data-shown]")
+    canvases = page.locator("#plots canvas")
+    whole = [canvases.nth(i).evaluate("c => c.toDataURL()") for i in (0, 1)]
+    over = page.locator(".u-over").first
+    over.scroll_into_view_if_needed()
+    box = over.bounding_box()
+    page.mouse.move(box["x"] + 0.3 * box["width"], box["y"] + 30)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 30, steps=4)
+    page.mouse.up()
+    page.mouse.move(5, 5)
+    page.wait_for_function("w => document.querySelector('#plots canvas').toDataURL() !== w", arg=whole[0])
+    assert canvases.nth(1).evaluate("c => c.toDataURL()") != whole[1], "the other plots zoom with it"
+    over.dblclick()
+    page.mouse.move(5, 5)
+    page.wait_for_function("w => document.querySelector('#plots canvas').toDataURL() === w", arg=whole[0])
+    page.close()
