@@ -33,7 +33,8 @@ from tandemlift.engines.models.visuals import FRONT, REAR
 
 @pytest.fixture(scope="module")
 def flight():
-    changes = {"pushes.0.point": [0.3, -0.7, 0.1], "mission.duration": 16.0}
+    later = {"time": 15.5, "key": "admittance.damping", "value": 9.0}
+    changes = {"pushes.0.point": [0.3, -0.7, 0.1], "mission.duration": 16.0, "changes": [later]}
     return tl.fly(tl.load_mission("one-push", changes))
 
 
@@ -101,7 +102,7 @@ def test_there_are_sixty_frames_a_second_at_most_and_they_span_the_flight(flight
     scene, frames = scene_and_frames(flight)
     assert np.diff(frames[:, 0]).min() > 1.0 / 60.0
     span = {"start": 0.0, "end": pytest.approx(16.0, abs=0.02), "speed": 1, "ending": None}
-    assert scene["replay"] == span | {"findings": [], "changes": []}
+    assert scene["replay"] == span | {"findings": [], "changes": [{"time": 15.5, "text": "admittance.damping = 9.0"}]}
     assert frames[-1, 0] == np.float32(scene["replay"]["end"])
 
 

@@ -25,6 +25,7 @@ from tandemlift.apps.live.session.frames import (
 from tandemlift.apps.live.session.scene_builder import scene_of_tables
 from tandemlift.apps.live.session.server_messages import FlightScene, SceneChange, SceneReplay
 from tandemlift.apps.live.session.status import scene_ending, told
+from tandemlift.core.errors import shown
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.rendering.stage import FlightStage
@@ -43,14 +44,14 @@ def scene_and_frames(flight: Flight) -> tuple[FlightScene, NDArray[np.float32]]:
         InputError: nothing of the flight can be shown.
     """
     stage = FlightStage(flight)
-    shown = np.flatnonzero(np.isin(flight.time, stage.time))
-    shown = shown[:: _stride(flight.time[shown])]
-    channels = {name: components_of(flight[name][shown]) for name in flight.channels}
-    values = arrays_of(field_values(channels, flight.time[shown], phase_times(flight.mission["phases"])))
-    frames = pack_frames(layout_for(stage.vehicle.rotor_count), values, len(shown))
+    kept = np.flatnonzero(np.isin(flight.time, stage.time))
+    kept = kept[:: _stride(flight.time[kept])]
+    channels = {name: components_of(flight[name][kept]) for name in flight.channels}
+    values = arrays_of(field_values(channels, flight.time[kept], phase_times(flight.mission["phases"])))
+    frames = pack_frames(layout_for(stage.vehicle.rotor_count), values, len(kept))
     scene = scene_of_tables(flight.mission, stage.vehicle, flight.version.get("engine", ""), stage.floor)
-    start, end = (float(flight.time[shown[i]]) for i in (0, -1))
-    ending = scene_ending(flight.ending, flight["position"][shown[-1]])
+    start, end = (float(flight.time[kept[i]]) for i in (0, -1))
+    ending = scene_ending(flight.ending, flight["position"][kept[-1]])
     changes = flight.mission.get("changes", ())
     scene["replay"] = SceneReplay(
         start=start,
