@@ -11,7 +11,7 @@ from tandemlift.core.types import Array
 from tandemlift.core.vector import Quat
 from tandemlift.engines.models.visuals import vehicle_shapes
 from tandemlift.flight.record import Flight
-from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion, world_z_in_body
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 ARROW, SHORTEST = 0.9, 0.18  # m, length of the arrow for the strongest push of the flight, and for the faintest
@@ -62,8 +62,9 @@ class FlightStage:
         if standing and ground.get("height") is not None:
             return float(ground["height"])
         shown = slice(0, 1) if standing else slice(None)
-        down = np.array([_rotation(q)[2] for q in self._attitudes[shown]])
-        return float((self.path[shown, 2, None] + down @ np.array(soles).T).min())
+        unit = self._attitudes[shown] / np.linalg.norm(self._attitudes[shown], axis=1)[:, None]
+        up = np.stack(world_z_in_body(Quat(*unit.T)), axis=1)
+        return float((self.path[shown, 2, None] + up @ np.array(soles).T).min())
 
     def _at(self, time: float, values: Array) -> Array:
         """Values (n) of a channel (T, n), interpolated at a time [s]."""
