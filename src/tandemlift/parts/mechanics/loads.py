@@ -10,11 +10,13 @@ from tandemlift.core.types import GRAVITY, Number, PerQuadrotor, PerRotor
 from tandemlift.core.vector import (
     ZERO,
     Absent,
+    Mat3,
     Quarters,
     Quat,
     Vec3,
     apply_transposed,
     cross,
+    dot,
     linear,
     plus,
     quarters,
@@ -58,15 +60,16 @@ class PartsLayout(NamedTuple):
     """Places and masses of the parts, which determine the loads of the joints. Body axes.
 
     From the system's centre of mass [m]: `payload`, its origin, and `quadrotors`, their centres of mass; `joints`: from
-    each of these to its joint [m]. `mass` [kg] and `inertia` [kg·m², diagonal] of each quadrotor. Of rotor j of every
-    quadrotor, from that quadrotor's centre of mass: `x` and `y` [m], and `torque` about z over thrust [m].
+    each of these to its joint [m]. `mass` [kg] and `inertia` [kg·m²] of each quadrotor, a Vec3 where it is diagonal. Of
+    rotor j of every quadrotor, from that quadrotor's centre of mass: `x` and `y` [m], and `torque` about z over thrust
+    [m].
     """
 
     payload: Vec3
     quadrotors: Vec3
     joints: Vec3
     mass: PerQuadrotor
-    inertia: Vec3
+    inertia: Vec3 | Mat3
     x: Quarters[PerQuadrotor]
     y: Quarters[PerQuadrotor]
     torque: Quarters[PerQuadrotor]
@@ -147,6 +150,21 @@ def specific_force_at(s: State, a: Acceleration, r: Vec3) -> Vec3:
     return Vec3(add_to_each(turn.x, g.x), add_to_each(turn.y, g.y), add_to_each(turn.z, g.z))
 
 
+@choice
+def angular_momenta(J: Vec3 | Mat3, w: Vec3) -> Vec3:
+    """J w [N·m·s] of every quadrotor, a vector of sets."""
+
+
+@angular_momenta.register(Vec3)
+def _diagonal(J: Vec3, w: Vec3) -> Vec3:
+    return Vec3(J.x * w.x, J.y * w.y, J.z * w.z)
+
+
+@angular_momenta.register(Mat3)
+def _full(J: Mat3, w: Vec3) -> Vec3:
+    return Vec3(dot(J.x, w), dot(J.y, w), dot(J.z, w))
+
+
 @law
 def perfect_readings(frame: PartsLayout, s: State, a: Acceleration, thrusts: PerRotor) -> PerfectReadings:
     """The readings in state `s` under an acceleration and thrusts [N], without loads on the quadrotors."""
@@ -154,9 +172,8 @@ def perfect_readings(frame: PartsLayout, s: State, a: Acceleration, thrusts: Per
     rotors = quadrotor_wrenches(frame, thrusts)
     inertial = specific_force_at(s, a, frame.quadrotors) * Vec3(frame.mass, frame.mass, frame.mass)
     force = Vec3(-inertial.x, -inertial.y, rotors.thrust - inertial.z)
-    J, w = frame.inertia, s.rates
-    turning = Vec3(J.x * a.angular.x, J.y * a.angular.y, J.z * a.angular.z)
-    spinning = cross(w, Vec3(J.x * w.x, J.y * w.y, J.z * w.z))
+    turning = angular_momenta(frame.inertia, a.angular)
+    spinning = cross(s.rates, angular_momenta(frame.inertia, s.rates))
     couple = rotors.moment - turning - spinning
     return PerfectReadings(specific_force_at(s, a, frame.payload), force, couple - cross(frame.joints, force), ZERO)
 

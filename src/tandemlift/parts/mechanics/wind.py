@@ -166,7 +166,7 @@ def air_drag_from(vehicle: Vehicle, density: float) -> AirDrag:
     payload, quadrotors = vehicle.payload, vehicle.quadrotors
     return AirDrag(
         vec3(payload.areas) * (0.5 * density * payload.drag_coefficient),
-        spread([[a * (0.5 * density * q.drag_coefficient) for a in q.drag_area] for q in quadrotors]),
+        spread([[a * (0.5 * density * q.drag_coefficient) for a in q.areas] for q in quadrotors]),
     )
 
 

@@ -7,6 +7,7 @@ on any machine: each product and each sum is rounded separately. Results that de
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, NamedTuple, TypeVar
 
@@ -83,6 +84,8 @@ def _fixed_always(mission: Mission) -> dict[str, str]:
     fixed = {**FIXED, **dict.fromkeys(counts_of_mission(mission), WHOLE)}
     numbers = numbers_of_mission(mission)
     fixed |= {key: "determines the faces of the payload" for key in numbers if key.startswith(SHAPE)}
+    turned = re.compile(r"vehicle\.quadrotors\.\d+\.heading").fullmatch
+    fixed |= {key: "determines the axes of a quadrotor" for key in numbers if turned(key)}
     return fixed | {key: SCHEDULED for key in numbers if key.startswith("changes.")}
 
 
