@@ -17,10 +17,10 @@ from numpy.typing import ArrayLike
 
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.engines.models.mujoco_contact import (
-    HULL,
     add_floor,
     add_vehicle_shapes,
     add_walls,
+    hull_name,
     set_contact_stiffness,
 )
 from tandemlift.engines.models.mujoco_import import mujoco
@@ -100,9 +100,8 @@ def _add_payload(spec: Any, vehicle: Vehicle) -> None:
     body = spec.worldbody.add_body(name="payload", iquat=quat, **_placeholder_inertia(vehicle.payload_center))
     body.add_joint(name="free", type=mujoco.mjtJoint.mjJNT_FREE, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
     body.add_site(name="payload", pos=vehicle.origin)
-    hull = vehicle.payload.hull
-    if hull is not None:
-        spec.add_mesh(name=HULL, uservert=hull.corners.ravel(), userface=hull.triangles.ravel())
+    for k, hull in enumerate(vehicle.payload.hulls):
+        spec.add_mesh(name=hull_name(k), uservert=hull.corners.ravel(), userface=hull.triangles.ravel())
 
 
 def _add_quadrotor(spec: Any, name: str, quadrotor: Quadrotor, center: Array) -> None:

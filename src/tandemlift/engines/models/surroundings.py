@@ -61,6 +61,6 @@ def _walls(vehicle: Vehicle, friction: float, mass_scale: float, step: float) ->
         friction=friction,
         rotors=rotor_spheres(vehicle.lever_arms, hubs, [q.rotor_radius for q in fleet], guards),
         beam=vehicle.beam,
-        body=vehicle.payload.hull,
+        bodies=vehicle.payload.hulls,
         payload=vehicle.origin,
     )

@@ -16,7 +16,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.core.types import Array
-from tandemlift.parts.mechanics.payload import ConvexHull, Payload
+from tandemlift.core.vector import vec3
+from tandemlift.parts.mechanics.bodies import ConvexHull
+from tandemlift.parts.mechanics.payload import Payload
+from tandemlift.parts.mechanics.rotation import rotation_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 
@@ -93,14 +96,31 @@ def hull_shapes(hull: ConvexHull, *, solid: bool) -> list[VisualShape]:
     return [piece for k, (a, b) in ends for piece in cylinder(f"edge_{k}", a, b, EDGE_RADIUS, WOOD)]
 
 
+def body_shapes(payload: Payload, *, solid: bool) -> list[VisualShape]:
+    """Each of several bodies: a rod, a box, or any other as by `hull_shapes`; their names begin with their number."""
+    shapes = list[VisualShape]()
+    for k, body in enumerate(payload.bodies, 1):
+        if body.ends is not None and body.radius is not None:
+            own = cylinder("rod", *body.ends, body.radius, WOOD)
+        elif body.size is not None:
+            axes = np.array(rotation_from_euler(vec3(body.euler)))
+            own = [_box("box", body.position, body.size, WOOD)._replace(axes=axes)]
+        else:
+            own = hull_shapes(body.hull, solid=solid)
+        shapes += [shape._replace(name=f"body_{k}_{shape.name}") for shape in own]
+    return shapes
+
+
 def payload_shapes(payload: Payload, quadrotors: tuple[Quadrotor, ...], *, solid: bool = True) -> list[VisualShape]:
     """The payload about its origin: a beam with end caps, a box or a hull, and struts to joints that lie beside it.
 
     Not `solid`: a hull is drawn as its edges.
     """
     low, high = payload.box
-    if payload.hull is not None and payload.size is None:
-        shapes = hull_shapes(payload.hull, solid=solid)
+    if payload.bodies:
+        shapes = body_shapes(payload, solid=solid)
+    elif payload.hulls and payload.size is None:
+        shapes = hull_shapes(payload.hulls[0], solid=solid)
     elif payload.size is not None:
         shapes = [_box("payload", np.zeros(3), payload.size, WOOD)]
     elif not payload.length:

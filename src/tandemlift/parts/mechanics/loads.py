@@ -16,7 +16,6 @@ from tandemlift.core.vector import (
     Vec3,
     apply_transposed,
     cross,
-    dot,
     linear,
     plus,
     quarters,
@@ -24,7 +23,7 @@ from tandemlift.core.vector import (
     total,
 )
 from tandemlift.parts.mechanics.parts import Acceleration
-from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench
+from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench, apply_inertia
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 
@@ -150,21 +149,6 @@ def specific_force_at(s: State, a: Acceleration, r: Vec3) -> Vec3:
     return Vec3(add_to_each(turn.x, g.x), add_to_each(turn.y, g.y), add_to_each(turn.z, g.z))
 
 
-@choice
-def angular_momenta(J: Vec3 | Mat3, w: Vec3) -> Vec3:
-    """J w [N·m·s] of every quadrotor, a vector of sets."""
-
-
-@angular_momenta.register(Vec3)
-def _diagonal(J: Vec3, w: Vec3) -> Vec3:
-    return Vec3(J.x * w.x, J.y * w.y, J.z * w.z)
-
-
-@angular_momenta.register(Mat3)
-def _full(J: Mat3, w: Vec3) -> Vec3:
-    return Vec3(dot(J.x, w), dot(J.y, w), dot(J.z, w))
-
-
 @law
 def perfect_readings(frame: PartsLayout, s: State, a: Acceleration, thrusts: PerRotor) -> PerfectReadings:
     """The readings in state `s` under an acceleration and thrusts [N], without loads on the quadrotors."""
@@ -172,8 +156,8 @@ def perfect_readings(frame: PartsLayout, s: State, a: Acceleration, thrusts: Per
     rotors = quadrotor_wrenches(frame, thrusts)
     inertial = specific_force_at(s, a, frame.quadrotors) * Vec3(frame.mass, frame.mass, frame.mass)
     force = Vec3(-inertial.x, -inertial.y, rotors.thrust - inertial.z)
-    turning = angular_momenta(frame.inertia, a.angular)
-    spinning = cross(s.rates, angular_momenta(frame.inertia, s.rates))
+    turning = apply_inertia(frame.inertia, a.angular)
+    spinning = cross(s.rates, apply_inertia(frame.inertia, s.rates))
     couple = rotors.moment - turning - spinning
     return PerfectReadings(specific_force_at(s, a, frame.payload), force, couple - cross(frame.joints, force), ZERO)
 

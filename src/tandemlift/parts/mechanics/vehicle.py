@@ -158,7 +158,7 @@ class Vehicle:
             "radii": [q.rotor_radius for q in self.quadrotors],
             "guards": [q.guard_radius for q in self.quadrotors],
             "beam": self.beam,
-            "body": self.payload.hull,
+            "bodies": self.payload.hulls,
             "payload": self.origin,
         }
 

@@ -24,7 +24,8 @@ from tandemlift.core.keys import (
     must,
 )
 from tandemlift.core.types import Array
-from tandemlift.parts.mechanics.payload import Areas, Inertia, Metre, Payload, Place
+from tandemlift.parts.mechanics.bodies import Metre, Place
+from tandemlift.parts.mechanics.payload import Areas, Inertia, Payload
 
 Corner = Annotated[tuple[Metre, Metre], PerAxis(2, single=False)]
 Turns = Literal[-1, 1]

@@ -31,7 +31,7 @@ FIXED = {
     "mission.step": "determines the number of steps, and the steps of every time",
     "mission.log_interval": "determines the steps between rows of the log",
 }
-SHAPE = ("vehicle.payload.size.", "vehicle.payload.corners.")
+SHAPE = ("vehicle.payload.size.", "vehicle.payload.corners.", "vehicle.payload.bodies.")
 SCHEDULED = "belongs to a change in flight, which becomes a mission of its own"
 WHOLE = "is a whole number, on which the layout of the flight may depend"
 UNTRACED = ("controller.", "vehicle.")  # tables that a controller's start reads

@@ -92,14 +92,14 @@ def _lowest(height: float, vehicle: Vehicle) -> float:
 def _vehicle(vehicle: Vehicle) -> SceneVehicle:
     payload = vehicle.payload
     low, high = payload.box
-    if payload.hull is not None:
+    if payload.hulls:
         width, length, height = high - low
     elif payload.length:
         length, width = payload.length, 2.0 * (payload.radius or BEAM_RADIUS)
         height = width
     else:
         length, width, height = SHAPELESS, SHAPELESS, SHAPELESS
-    middle = vehicle.origin if payload.hull is None else vehicle.origin + 0.5 * (low + high)
+    middle = vehicle.origin + 0.5 * (low + high) if payload.hulls else vehicle.origin
     shapes = vehicle_shapes(vehicle)
     blades, discs = ([_shape(s) for s in shapes if s.name.startswith(name)] for name in TURNING)
     turning = list(zip(blades, discs, strict=True))
