@@ -43,14 +43,14 @@ def scene_and_frames(flight: Flight) -> tuple[FlightScene, NDArray[np.float32]]:
         InputError: nothing of the flight can be shown.
     """
     stage = FlightStage(flight)
-    shown = np.flatnonzero(np.isin(flight.time, stage.time))
-    shown = shown[:: _stride(flight.time[shown])]
-    channels = {name: components_of(flight[name][shown]) for name in flight.channels}
-    values = arrays_of(field_values(channels, flight.time[shown], phase_times(flight.mission["phases"])))
-    frames = pack_frames(layout_for(stage.vehicle.rotor_count), values, len(shown))
+    samples = np.flatnonzero(np.isin(flight.time, stage.time))
+    samples = samples[:: _stride(flight.time[samples])]
+    channels = {name: components_of(flight[name][samples]) for name in flight.channels}
+    values = arrays_of(field_values(channels, flight.time[samples], phase_times(flight.mission["phases"])))
+    frames = pack_frames(layout_for(stage.vehicle.rotor_count), values, len(samples))
     scene = scene_of_tables(flight.mission, stage.vehicle, flight.version.get("engine", ""), stage.floor)
-    start, end = (float(flight.time[shown[i]]) for i in (0, -1))
-    ending = scene_ending(flight.ending, flight["position"][shown[-1]])
+    start, end = (float(flight.time[samples[i]]) for i in (0, -1))
+    ending = scene_ending(flight.ending, flight["position"][samples[-1]])
     changes = flight.mission.get("changes", ())
     scene["replay"] = SceneReplay(
         start=start,

@@ -51,19 +51,13 @@ class FlightStage:
 
     def _floor_of(self, mission: dict[str, Any], vehicle: Vehicle) -> float:
         """Height of the floor [m]; where the mission gives none, that of the lowest foot."""
-        soles = [
-            center + np.array([x * q.feet_spread, y * q.feet_spread, -q.feet_depth])
-            for q, center in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True)
-            for x in (1.0, -1.0)
-            for y in (1.0, -1.0)
-        ]
         ground = mission.get("ground", {})
         standing = ground.get("model", "none") != "none"
         if standing and ground.get("height") is not None:
             return float(ground["height"])
         shown = slice(0, 1) if standing else slice(None)
         down = np.array([_rotation(q)[2] for q in self._attitudes[shown]])
-        return float((self.path[shown, 2, None] + down @ np.array(soles).T).min())
+        return float((self.path[shown, 2, None] + down @ vehicle.soles.reshape(-1, 3).T).min())
 
     def _at(self, time: float, values: Array) -> Array:
         """Values (n) of a channel (T, n), interpolated at a time [s]."""
