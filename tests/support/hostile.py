@@ -29,6 +29,7 @@ GOOD = [
     {"type": "save", "seq": 17, "name": "mine-1.0"},
     {"type": "ping", "seq": 18, "t": 1.5},
     {"type": "fly", "seq": 19, "mission": "mine.toml", "toml": "x = 1"},
+    {"type": "turn", "seq": 20, "what": "give"},
 ]
 LITERALS = [
     *("NaN", "Infinity", "-Infinity", "1e999", "-1e999", "1e308", "-1e5", "9" * 400, "-" + "9" * 3000, "1e-400", "0.5"),

@@ -177,6 +177,7 @@ export class Session {
       save: ({ name }) => this.answer(this.saved(name)),
       tare: (message) => this.refuse(message),
       fly: (message) => this.refuse(message),
+      turn: (message) => this.refuse(message),
       ping: () => undefined,
       pause: ({ on }) => (this.pacer.paused = on),
       speed: ({ factor }) => (this.pacer.speed = factor),

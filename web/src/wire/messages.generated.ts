@@ -222,6 +222,12 @@ export interface PreparationStatus {
   failure: string; // why the mission cannot be flown; empty unless that is so
 }
 
+/** Turns of the pages at one flight. */
+export interface TurnStatus {
+  number: number; // of this page, from 1 on
+  queue: readonly number[]; // numbers of the pages that take turns; the first has the hand
+}
+
 /** The state of a flight in words, and how it keeps up with the clock. */
 export interface FlightStatus {
   phase: Phase; // of the flight; before it `preparing`; at its end `over`, `crashed`, `diverged`, `failed`
@@ -252,6 +258,7 @@ export interface StatusMessage extends FlightStatus {
   viewers: number; // pages that are connected
   holder: "you" | "other" | "none"; // who holds the beam
   last_grab: number; // `seq` of this page's last `grab` that came before the status; 0 if none did
+  turns?: TurnStatus; // whose turn it is, at a server
 }
 
 /** To all: a parameter goes to a value within a duration. */
@@ -374,6 +381,12 @@ export interface SaveMessage {
   name: string; // 1 to 64 letters, digits, `.`, `_` or `-`; the first a letter or a digit
 }
 
+/** Ask for the hand, which the other pages then wait for; or give it, or the place in the queue, away. */
+export interface TurnMessage {
+  type: "turn";
+  what: "ask" | "give";
+}
+
 /** Ask for a `pong`; a page that holds the beam says something every 2 s at least. */
 export interface PingMessage {
   type: "ping";
@@ -404,4 +417,5 @@ export type PageMessage =
   | ResetMessage
   | FlyMessage
   | SaveMessage
+  | TurnMessage
   | PingMessage;

@@ -183,6 +183,13 @@ class SaveMessage(NumberedMessage):
     name: SaveName
 
 
+class TurnMessage(NumberedMessage):
+    """Ask for the hand, which the other pages then wait for; or give it, or the place in the queue, away."""
+
+    type: Literal["turn"] = "turn"
+    what: Literal["ask", "give"]
+
+
 class PingMessage(NumberedMessage):
     """Ask for a `pong`; a page that holds the beam says something every 2 s at least."""
 
@@ -204,6 +211,7 @@ PageMessage = (
     | ResetMessage
     | FlyMessage
     | SaveMessage
+    | TurnMessage
     | PingMessage
 )
 PAGE_MESSAGES: dict[str, type[NumberedMessage]] = {
