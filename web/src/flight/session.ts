@@ -12,7 +12,7 @@ import type {
 import { Layout } from "../wire/frames.ts";
 import { Flight } from "./flight.ts";
 import { HandControl, type Message } from "./hand_control.ts";
-import type { FlightManifest, Tables } from "./manifest.ts";
+import type { FlightManifest } from "./manifest.ts";
 import { checkMessage } from "./message_rules.ts";
 import { MissionNumbers } from "./mission_numbers.ts";
 import type { FlightModule } from "./module.ts";
@@ -40,7 +40,7 @@ export class Session {
   private flight!: Flight;
   private hand!: HandControl;
   private parameters!: ParameterControl;
-  private start!: Tables;
+  private start!: MissionNumbers;
   private failed = false;
   private lastGrab = 0;
   private readonly layout: Layout;
@@ -170,6 +170,7 @@ export class Session {
       restore: ({ key }) => answerAll(this.parameters.restore(this.flight, key)),
       kill: ({ rotor }) => this.parameters.stopRotor(this.flight, rotor),
       reset: () => this.reset(),
+      rewind: ({ time }) => this.rewind(time),
       save: ({ name }) => this.answer(this.saved(name)),
       tare: (message) => this.refuse(message),
       fly: (message) => this.refuse(message),
@@ -202,6 +203,23 @@ export class Session {
     this.answer({ type: "scene", ...this.scene });
   }
 
+  /** Flies again to a time with what was pushed and changed until then, and stands still there. */
+  private rewind(time: number): void {
+    const { flight: past, parameters } = this;
+    const steps = Math.min(Math.round(time / this.module.manifest.dt) + 1, past.step);
+    this.pacer.paused = true;
+    this.begin(this.start);
+    const hands = new Map(past.recorded.map(({ step, hand }) => [step, hand]));
+    while (this.flight.step < steps) {
+      this.parameters.repeat(this.flight, parameters.changes);
+      const hand = hands.get(this.flight.step);
+      if (hand) this.flight.hold(hand);
+      this.flight.advance();
+    }
+    this.hand.open();
+    this.answer({ type: "scene", ...this.scene });
+  }
+
   private refusals(): StatusRefusals {
     const { module, manifest, flight } = this;
     const { refused_at_end: ended } = manifest.page.texts;
@@ -214,14 +232,14 @@ export class Session {
     this.module.free();
     this.flight = new Flight(this.module, this.manifest.page, start.numbers);
     this.parameters = new ParameterControl(this.manifest, start);
-    this.start = structuredClone(start.tables);
+    this.start = start;
     this.hand = new HandControl(this.flight, this.module, this.manifest.page);
     this.failed = false;
     this.flight.advance();
   }
 
   private saved(name: string): SavedFile {
-    const bytes = recordedFlight(name, this.flight, this.manifest.page, this.start, this.parameters.changes);
+    const bytes = recordedFlight(name, this.flight, this.manifest.page, this.start.tables, this.parameters.changes);
     return { type: "saved", name: `${name}.zip`, bytes };
   }
 

@@ -46,6 +46,7 @@ export class Panel {
   constructor(
     private readonly place: HTMLElement,
     private readonly page: PanelPage,
+    private readonly undo: HTMLElement,
   ) {}
 
   scene(scene: FlightScene): void {
@@ -65,7 +66,7 @@ export class Panel {
     this.place.replaceChildren(
       ...(live ? [this.group("hand", this.hand(scene), true)] : []),
       ...groups,
-      ...(groups.length ? [this.restoreAll()] : []),
+      ...(groups.length ? [this.undo, this.restoreAll()] : []),
       ...(this.rotors ? [this.group("rotors", [this.rotors.element])] : []),
       this.group("picture", this.picture(), !live),
       ...this.page.extra,

@@ -30,6 +30,7 @@ import { ReplayDock } from "./replay_dock.ts";
 import { SaveDialog } from "./save_dialog.ts";
 import { StatusBar } from "./status_bar.ts";
 import type { ThemeChoice } from "./theme.ts";
+import { Undo } from "./undo.ts";
 import { VideoRecorder } from "./video_recorder.ts";
 
 const TEXT_EVERY = 200; // ms
@@ -68,6 +69,7 @@ export class Shell {
   private readonly findings: Findings;
   private readonly video = new VideoRecorder();
   private readonly laboratory: Laboratory;
+  private readonly undo: Undo;
   private dock: Dock | null = null;
   private player: ReplayDock | null = null;
   private readonly question = new Question();
@@ -83,8 +85,9 @@ export class Shell {
     this.findings = new Findings(this.notices);
     this.missions = new MissionChoice(page.send.bind(page), this.notices, this.question);
     this.bar = new StatusBar(page.replay !== null);
-    this.panel = new Panel(byId("panel"), page);
-    this.laboratory = new Laboratory(page);
+    this.undo = new Undo(page.send.bind(page));
+    this.panel = new Panel(byId("panel"), page, this.undo.element);
+    this.laboratory = new Laboratory(page, (text) => this.notices.show(text, "done"));
     this.help = helpDialog(page.replay !== null);
     this.saving = new SaveDialog((name) => {
       page.send({ type: "save", name });
@@ -113,6 +116,7 @@ export class Shell {
     this.bar.scene(scene);
     this.panel.scene(scene);
     this.laboratory.show(scene);
+    this.undo.scene(scene.parameters);
     this.missions.scene(scene);
     this.dock?.reset(this.missions.open);
     if (!this.page.replay || !scene.replay) return;
@@ -138,6 +142,7 @@ export class Shell {
   changed(key: string, value: ParameterValue, duration: number): void {
     this.panel.changed(key, value, duration);
     this.laboratory.changed(key, value);
+    this.undo.changed(key, value, performance.now());
   }
 
   refused(what: string, reason: string): void {
@@ -225,6 +230,7 @@ export class Shell {
   }
 
   private readonly key = (event: KeyboardEvent): void => {
+    if (this.undo.key(event)) event.preventDefault();
     if (typing(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.repeat && !event.code.startsWith("Arrow")) return;
     this.keys().get(event.code)?.();
@@ -241,6 +247,7 @@ export class Shell {
       keys.set("ArrowRight", () => player.step(1));
     } else {
       keys.set("KeyP", () => this.dock?.togglePause());
+      keys.set("KeyR", () => this.laboratory.rewind());
       keys.set("KeyL", () => this.dock?.ask("lift"));
       keys.set("KeyK", () => this.dock?.ask("land"));
     }
