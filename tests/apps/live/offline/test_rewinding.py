@@ -43,7 +43,7 @@ def do(session, moves):
         fly(session, seconds)
 
 
-def do_own(flight, moves):
+def check_done(flight, moves):
     for kind, what, seconds in moves:
         said = flight.say(kind, **what)
         assert not [one for one in said if one["type"] == "refused"]
@@ -79,16 +79,16 @@ def test_a_session_stands_at_the_chosen_time_as_it_was_and_what_is_saved_is_the_
 
 
 def test_a_page_without_a_server_does_the_same(flight, tmp_path):
-    do_own(flight, PAST)
+    check_done(flight, PAST)
     before = flight.seen()
-    do_own(flight, FUTURE)
+    check_done(flight, FUTURE)
     (scene,) = flight.say("rewind", time=float(before["time"][0]))
     assert [one["value"] for one in scene["parameters"] if one["key"] == "admittance.mass"] == [[2.5, 2.5, 2.5]]
     flight.fly(0.1)
     check_stands_as_before(flight.seen(), before)
     assert flight.status()["paused"]
     flight.say("pause", on=False)
-    do_own(flight, ANEW)
+    check_done(flight, ANEW)
     last = flight.saved(tmp_path / "page")
     check_flies_again(tmp_path / "page" / "recorded.toml", last)
 

@@ -16,7 +16,6 @@ from tandemlift.core.algebra import Number, sqrt, where
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, PHASE_NAMES
 from tandemlift.core.vector import ZERO, Vec3, dot
-from tandemlift.engines.registry import engine_named
 from tandemlift.missions import Mission
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
@@ -33,6 +32,7 @@ FAILED_ALREADY = "rotor = {rotor}: fails at {time:g} s already"
 BESIDE_TEXT = "point = {point}: must be on the vehicle, within {reach:.3g} m of its centre of mass"
 TARED_IN_HOVER_TEXT = "hands off until the force sensors are tared, in steady hover"
 TARED_UNTIL_TEXT = "hands off until {end:g} s: the force sensors are tared in hover"
+REPEATABLE = ("compiled", "mujoco")  # engines whose bodies only the flight pushes
 NOT_REPEATABLE = "rewind: others may push the body in {engine}, so that its flights cannot be flown again"
 NO_REQUESTS = "{what}: mission {mission} is scheduled and takes no requests"
 
@@ -134,7 +134,7 @@ def check_repeatable(engine: str) -> None:
     Raises:
         InputError: it does not.
     """
-    if engine_named(engine).pushable:
+    if engine not in REPEATABLE:
         raise InputError(NOT_REPEATABLE.format(engine=engine))
 
 
