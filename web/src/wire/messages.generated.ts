@@ -58,6 +58,7 @@ export const MAX_SIZE = 65536;
 export const LIMITS = {
   kill: { rotor: { min: 0, max: 255 } },
   speed: { factor: { min: 0.1, max: 1 } },
+  rewind: { time: { min: 0, max: 100000 } },
 } as const;
 
 /** A part of the vehicle as drawn. */
@@ -368,6 +369,12 @@ export interface ResetMessage {
   type: "reset";
 }
 
+/** Fly again to a time with what was pushed and changed until then, and stand still there. */
+export interface RewindMessage {
+  type: "rewind";
+  time: number; // s
+}
+
 /** Fly another mission: a built-in one, or that of a file, which may extend a built-in one only. */
 export interface FlyMessage {
   type: "fly";
@@ -415,6 +422,7 @@ export type PageMessage =
   | PauseMessage
   | SpeedMessage
   | ResetMessage
+  | RewindMessage
   | FlyMessage
   | SaveMessage
   | TurnMessage

@@ -17,6 +17,7 @@ from tandemlift.apps.live.session.page_messages import (
     Refusal,
     ResetMessage,
     RestoreMessage,
+    RewindMessage,
     SaveMessage,
     SetMessage,
     TareMessage,
@@ -38,6 +39,7 @@ SLOW = (
     TareMessage,
     KillMessage,
     ResetMessage,
+    RewindMessage,
     FlyMessage,
     SaveMessage,
 )  # may compile or write

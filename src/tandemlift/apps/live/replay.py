@@ -25,6 +25,7 @@ from tandemlift.apps.live.session.frames import (
 from tandemlift.apps.live.session.scene_builder import scene_of_tables
 from tandemlift.apps.live.session.server_messages import FlightScene, SceneChange, SceneReplay
 from tandemlift.apps.live.session.status import scene_ending, told
+from tandemlift.core import errors
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.rendering.stage import FlightStage
@@ -58,7 +59,7 @@ def scene_and_frames(flight: Flight) -> tuple[FlightScene, NDArray[np.float32]]:
         speed=1,
         ending=ending,
         findings=told(flight.findings),
-        changes=[SceneChange(time=c["time"], text=f"{c['key']} = {shown(c['value'])}") for c in changes],
+        changes=[SceneChange(time=c["time"], text=f"{c['key']} = {errors.shown(c['value'])}") for c in changes],
     )
     return scene, frames
 

@@ -168,6 +168,13 @@ class ResetMessage(NumberedMessage):
     type: Literal["reset"] = "reset"
 
 
+class RewindMessage(NumberedMessage):
+    """Fly again to a time with what was pushed and changed until then, and stand still there."""
+
+    type: Literal["rewind"] = "rewind"
+    time: Annotated[float, Field(ge=0.0, le=1e5), "s"]
+
+
 class FlyMessage(NumberedMessage):
     """Fly another mission: a built-in one, or that of a file, which may extend a built-in one only."""
 
@@ -209,6 +216,7 @@ PageMessage = (
     | PauseMessage
     | SpeedMessage
     | ResetMessage
+    | RewindMessage
     | FlyMessage
     | SaveMessage
     | TurnMessage
