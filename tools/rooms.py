@@ -12,7 +12,7 @@ import ast
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import NamedTuple
 
@@ -69,6 +69,7 @@ class Drawing:
         return sorted({room} | {r for r in self.below[room] if room in self.below[r]})
 
 
+@cache
 def draw(package: Path = PACKAGE) -> Drawing:
     """The drawing of a package in a folder."""
     modules = dict(_modules(package))

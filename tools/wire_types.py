@@ -32,6 +32,7 @@ from tandemlift.apps.live.session.server_messages import (
     FlightScene,
     FlightStatus,
     OneOf,
+    StatusMessage,
 )
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -184,7 +185,7 @@ def page_types() -> str:
     texts += [f'export const {name} = "{key}";' for name, key in SHOWN_PARAMETERS.items()]
     texts.append(f"/** Size of a message, at most [bytes]. */\nexport const MAX_SIZE = {MAX_SIZE};\n")
     texts.append(limits())
-    kinds = dict.fromkeys([*parts_of(FlightScene), FlightScene, *parts_of(FlightStatus), FlightStatus])
+    kinds = dict.fromkeys([*parts_of(FlightScene), FlightScene, *parts_of(StatusMessage), FlightStatus])
     kinds |= dict.fromkeys([*SERVER_MESSAGES.values(), *PAGE_MESSAGES.values()])
     texts += [interface(kind) for kind in kinds]
     for name, messages in (("ServerMessage", SERVER_MESSAGES), ("PageMessage", PAGE_MESSAGES)):

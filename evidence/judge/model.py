@@ -58,7 +58,7 @@ def body_of(mission: dict[str, Any]) -> Body:
     for (i, j), product in zip(((0, 1), (0, 2), (1, 2)), payload["products"], strict=True):
         inertia[i, j] = inertia[j, i] = product
     for q in fleet:
-        inertia = inertia + np.diag(q["inertia"])
+        inertia = inertia + turn_of(q) @ np.diag(q["inertia"]) @ turn_of(q).T
     for mass, d in zip(masses, places - center, strict=True):
         inertia = inertia + mass * (d @ d * np.eye(3) - np.outer(d, d))
     root = np.diag(np.sqrt(plant["inertia_scale"]))
@@ -77,16 +77,24 @@ def moments_of_payload(payload: dict[str, Any]) -> list[float]:
 def rotors_of(q: dict[str, Any]) -> list[tuple[float, float]]:
     """The places of a quadrotor's rotors [m], from its centre."""
     if q.get("rotor_positions") is not None:
-        return [tuple(p) for p in q["rotor_positions"]]
-    start = 0.0 if q["layout"] == "+" else math.pi / 4.0
-    angles = [start + i * math.pi / 2.0 for i in range(4)]
-    return [(q["arm"] * math.cos(a), q["arm"] * math.sin(a)) for a in angles]
+        own = q["rotor_positions"]
+    else:
+        start = 0.0 if q["layout"] == "+" else math.pi / 4.0
+        angles = [start + i * math.pi / 2.0 for i in range(4)]
+        own = [(q["arm"] * math.cos(a), q["arm"] * math.sin(a)) for a in angles]
+    return [tuple(turn_of(q)[:2, :2] @ place) for place in own]
+
+
+def turn_of(q: dict[str, Any]) -> np.ndarray:
+    """The rotation of a quadrotor about body z, 3 x 3."""
+    c, s = math.cos(q["heading"]), math.sin(q["heading"])
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def soles_of(mission: dict[str, Any], body: Body) -> np.ndarray:
     """The feet's soles from the centre of mass [m], 4 N x 3."""
     corners = [
-        np.add(place, [x * q["feet_spread"], y * q["feet_spread"], -q["feet_depth"]])
+        np.add(place, turn_of(q) @ [x * q["feet_spread"], y * q["feet_spread"], -q["feet_depth"]])
         for q, place in zip(mission["vehicle"]["quadrotors"], body.quadrotors, strict=True)
         for x, y in ((1, 1), (-1, 1), (-1, -1), (1, -1))
     ]

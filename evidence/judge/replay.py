@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 
-from judge.model import GRAVITY, Model, model_of
+from judge.model import GRAVITY, Model, model_of, turn_of
 
 LOST = 1e5  # m/s, rad/s, beyond which the flight has diverged and is not followed
 EVERY = 0.01  # s between comparisons of the replay with the record
@@ -222,7 +222,10 @@ def drag_of(mission: dict[str, Any]) -> np.ndarray:
         length, radius = payload.get("length") or 0.0, payload.get("radius") or 0.0
         area = [2.0 * radius * length, np.pi * radius**2, 2.0 * radius * length]
     parts = [np.multiply(area, payload["drag_coefficient"])]
-    parts += [np.multiply(q["drag_area"], q["drag_coefficient"]) for q in mission["vehicle"]["quadrotors"]]
+    parts += [
+        np.diag(turn_of(q) @ np.diag(q["drag_area"]) @ turn_of(q).T) * q["drag_coefficient"]
+        for q in mission["vehicle"]["quadrotors"]
+    ]
     return 0.5 * mission["wind"]["density"] * np.array(parts)
 
 

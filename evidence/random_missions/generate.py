@@ -24,7 +24,7 @@ Changes = dict[str, Any]
 MOST_KEYS, MOST_FLIPS = 12, 3
 UNPUSHED = 1000  # from this number on, a family has no pushes
 TRIES = 40  # of keys for one mission; many changes do not load
-OTHER_BODIES = "shape", "size", "mesh", "density", "corners"  # of a payload that is no beam
+OTHER_BODIES = "shape", "size", "mesh", "density", "corners", "bodies"  # of a payload that is no beam
 FIXED = (
     *("mission.name", "mission.fma", "mission.log_interval", "person.recording", "changes", "admittance.feel"),
     *("plant.center_of_mass_offset", *(f"vehicle.payload.{key}" for key in OTHER_BODIES)),  # the judge has none of them

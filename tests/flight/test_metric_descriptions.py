@@ -3,6 +3,7 @@
 import re
 
 import pytest
+from for_all import for_all
 
 import tandemlift as tl
 from tandemlift.flight.metric_descriptions import ANGLES, METRIC_GROUPS, METRICS, metric_of
@@ -27,7 +28,7 @@ def test_every_metric_of_every_mission_is_described_and_nothing_else_is(names):
     assert metric_of("no_such_metric").meaning == ""
 
 
-@pytest.mark.parametrize("name", METRICS)
+@for_all(METRICS)
 def test_the_unit_is_the_one_that_the_name_ends_with(name):
     end = re.search(f"_({'|'.join(sorted(ENDS, key=len, reverse=True))})$", name)
     if end:

@@ -21,6 +21,7 @@ from tandemlift.missions.changes import value_at
 from tandemlift.missions.keys import is_of_the_package, plain, sections
 from tandemlift.missions.reference import explained, index, key_tables, plain_name, template_text
 from tandemlift.parts.contact.standing import standing_on
+from tandemlift.parts.mechanics.bodies import Body
 
 LEVEL = {"initial.euler": 0.0, "ground.model": "floor"}
 KEYS = [key for s in sections() if is_of_the_package(s.controller) for key in s.keys]
@@ -173,6 +174,10 @@ def resolved(key, value):
     place = tuple(int(part) if part.isdigit() else part for part in key.split("."))
     if place[0] == "controller":
         return value_at(tables_of(load_mission("paper", {key: value})), place)
+    if place[:3] == ("vehicle", "payload", "bodies"):  # of a payload that is no beam
+        return Body.model_validate({"mass": 1.0, "size": [1.0] * 3, place[-1]: value}).model_dump(mode="json")[
+            place[-1]
+        ]
     tables = merge(tables_of(load_mission("iris", EVERYTHING)), BEYOND) | {"controller": {"name": "nftsmc"}}
     value_at(tables, place[:-1])[place[-1]] = value
     return value_at(Mission.model_validate(tables).model_dump(mode="json"), place)
@@ -202,7 +207,7 @@ def test_the_template_is_a_mission_with_all_that_it_keeps_out_as_well():
     tables |= {"actuators": {"model": "rotors"}, "ground": tables["ground"] | {"model": "floor"}}
     tables["wind"]["model"], tables["allocation"]["method"] = "air", "constrained"
     tables["initial"]["euler"] = 0.0
-    for name in ("size", "mesh", "density", "corners"):  # of other shapes than the beam
+    for name in ("size", "mesh", "density", "corners", "bodies"):  # of other shapes than the beam
         del tables["vehicle"]["payload"][name]
     del tables["person"]["recording"]  # no such file
     tables["pilot"]["guidance"], tables["sensors"]["model"] = "interactive", "simulated"

@@ -103,8 +103,8 @@ def required_keys():
             yield place
 
 
-@pytest.mark.parametrize("place", list(required_keys()), ids=lambda place: ".".join(map(str, place)))
-def test_a_missing_key_is_named(place, mine):
+@for_all(list(required_keys()))
+def test_a_missing_key_is_named(mine, place):
     tables = tables_of(load_mission("iris", EVERYTHING))
     tables["admittance"].pop("feel")  # which stands in for mass and damping
     del value_at(tables, place[:-1])[place[-1]]

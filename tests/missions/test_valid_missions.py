@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import tomli_w
 from as_toml import to_toml
+from for_all import for_all
 from mission_schema import EVERYTHING, SCHEMA
 from patience import completed
 
@@ -173,8 +174,9 @@ def test_every_leaf_that_the_design_gives_per_axis_is_one():
     )
 
 
-@pytest.mark.parametrize(("key", "count"), AXES.items(), ids=AXES)
-def test_one_number_serves_all_axes_and_whole_numbers_are_numbers(key, count):
+@for_all(list(AXES.items()))
+def test_one_number_serves_all_axes_and_whole_numbers_are_numbers(axes):
+    key, count = axes
     place = tuple(int(part) if part.isdigit() else part for part in key.split("."))
     name, entries = ("iris", EVERYTHING) if place[0] == "sensor_faults" else ("paper", {})
     entries = {**entries, "vehicle.payload.shape": "box"} if key == "vehicle.payload.size" else entries

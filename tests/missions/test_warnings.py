@@ -2,8 +2,10 @@
 
 import math
 import warnings
+from itertools import product
 
 import pytest
+from for_all import for_all
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -159,8 +161,7 @@ WITHOUT = {"detection.model": "none", "supervision.model": "none"}
 
 
 @pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning")
-@pytest.mark.parametrize("changes", [{}, {"wind.model": "air"}, UNLIMITED, WITHOUT], ids=str)
-@pytest.mark.parametrize("name", built_in())
-def test_the_size_of_a_logged_sample_is_that_of_the_log(name, changes):
-    mission = load_mission(name, changes)
+@for_all(list(product(built_in(), [{}, {"wind.model": "air"}, UNLIMITED, WITHOUT])))
+def test_the_size_of_a_logged_sample_is_that_of_the_log(case):
+    mission = load_mission(*case)
     assert mission.sample_size == 8 * (leaves(FlightPlan(mission).sample) + 1)  # and its time

@@ -9,6 +9,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+from for_all import for_all
 from repository import ROOT
 
 from tandemlift.pictures.report.errata import errata
@@ -138,8 +139,9 @@ def test_the_list_of_labels_is_the_papers():
     assert printed == LABELS
 
 
-@pytest.mark.parametrize(("label", "cell"), [(label, cell) for label, cell, _ in labelled()])
-def test_the_named_functions_exist_and_carry_the_label(label, cell):
+@for_all([(label, cell) for label, cell, _ in labelled()])
+def test_the_named_functions_exist_and_carry_the_label(row):
+    label, cell = row
     functions = named(cell, SOURCE)
     assert bool(functions) != (label in STEPS)
     for file, name in functions:
@@ -147,7 +149,7 @@ def test_the_named_functions_exist_and_carry_the_label(label, cell):
         assert label in labels_beside(definitions(file)[name])
 
 
-@pytest.mark.parametrize("row", rows(), ids=[row[0].strip("`") for row in rows()])
+@for_all(rows(), lambda row: row[0])
 def test_every_row_is_proven_by_a_test_that_exists(row):
     proofs = named(row[3], TESTS)
     assert proofs

@@ -1,4 +1,4 @@
-"""One source everywhere, law by law: also the laws that no flight needs."""
+"""One source everywhere, law by law: those that the steps of `test_one_source.py` do not need, or need in part."""
 
 from __future__ import annotations
 
@@ -10,29 +10,23 @@ import pytest
 from law_values import flat, rebuilt, record
 from machine_code import answers
 
-from tandemlift.core.algebra import power
 from tandemlift.core.vector import (
     Absent,
     Mat3,
     Quarters,
     Quat,
     Vec3,
-    apply,
-    apply_transposed,
-    cross,
     each,
-    hamilton,
     outer,
 )
-from tandemlift.parts.compliance import admittance
 from tandemlift.parts.contact import feet as contact
 from tandemlift.parts.contact import hull, impulses, spheres, touches, walls
 from tandemlift.parts.controllers import equations_of_motion, sliding_surface
 from tandemlift.parts.estimation import wind_compensation
 from tandemlift.parts.guidance import guidance
-from tandemlift.parts.mechanics import loads, low_pass, parts, rotation, trajectories
+from tandemlift.parts.mechanics import loads, low_pass, parts, rotation
 from tandemlift.parts.mechanics.push import PointPush
-from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench, gyroscopic, motion
+from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench, motion
 from tandemlift.parts.mechanics.wall_geometry import Wall
 from tandemlift.parts.rotors import allocation, ground_effect, rotor_faults, rotor_lag, rotors
 from tandemlift.parts.rotors import decision as rotor_loss_decision
@@ -95,33 +89,15 @@ CONSTRAINED = allocation.ConstrainedAllocation(
 )
 
 LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
-    "cross": (cross, (V, V)),
-    "apply": (apply, (M, V)),
-    "apply transposed": (apply_transposed, (M, V)),
     "outer": (outer, (V, V)),
-    "hamilton": (hamilton, (Q, Q)),
-    "power": (power, (0.0, 0.0)),
-    "rotation from Euler": (rotation.rotation_from_euler, (V,)),
-    "quaternion from Euler": (rotation.quaternion_from_euler, (V,)),
-    "rotation from quaternion": (rotation.rotation_from_quaternion, (Q,)),
     "rates from Euler rates": (rotation.rates_from_euler_rates, (EULER, V)),
-    "Euler rates from rates": (rotation.euler_rates_from_rates, (EULER, V)),
-    "quaternion rate": (rotation.quaternion_rate, (Q, V)),
-    "gyroscopic, full": (gyroscopic, (M, V)),
     "point on body": (parts.point_on_body, (parts.Point(V, V, V), M, V, V, V)),
     "quadrotor acceleration": (parts.quadrotor_acceleration, (0.0, V, V, 0.0, V, V, JOINT)),
     "joint wrench, full": (parts.joint_wrench, (0.0, M, V, 0.0, V, V, parts.Acceleration(V, V))),
     "joint on payload": (parts.joint_on_payload, (M, V, JOINT)),
     "payload acceleration": (parts.payload_acceleration, (0.0, V, V, JOINT)),
     "virtual inputs": (rotation.virtual_inputs, (EULER, 0.0)),
-    "total thrust": (rotation.total_thrust, (EULER, V)),
-    "tilt, exact": (rotation.desired_orientation, (rotation.TiltZXY(), V, EULER, 0.0)),
-    "tilt, printed": (rotation.desired_orientation, (rotation.TiltPrinted(), V, EULER, 0.0)),
-    "smooth step": (trajectories.smoothstep, (0.0, 0.0, 0.0)),
-    "soft gate": (admittance.gate, (admittance.SoftGate(V), V)),
-    "sliding surface": (sliding_surface.sliding_surface, (SURFACE, V, V)),
     "surface rate": (sliding_surface.surface_rate, (SURFACE, V, V, V)),
-    "wanted acceleration": (sliding_surface.wanted_acceleration, (SURFACE, V, V)),
     "Lyapunov": (sliding_surface.lyapunov, (V,)),
     "Lyapunov rate": (sliding_surface.lyapunov_rate, (V, V)),
     "bound of the Lyapunov rate": (sliding_surface.lyapunov_rate_bound, (V, V, V, V)),
@@ -139,9 +115,7 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
         (wind_compensation.PayloadDrag(0.0, 0.0, LOW), BLOWN, TWO, TWO, 1.0, 0.0, 0.0),
     ),
     "share of a wrench": (allocation.achieved_fraction, (MIXER, Wrench(0.0, V), Wrench(0.0, V), EIGHT)),
-    "what joints feel": (loads.perfect_readings, (FRAME, STATE, parts.Acceleration(V, V), EIGHT)),
     "what joints pass on": (loads.readings_with_load, (LOADS.quadrotors, FRAME, Q, FELT)),
-    "loads together": (loads.resultant, (FRAME, Q, LOADS)),
     "feet on the floor": (contact.feet_load, (FLOOR, GRIP, FRAME, STATE)),
     "feet that slip": (contact.grips_after_step, (FLOOR, GRIP, STATE)),
     "rotors, guards and beam on the floor": (hull.hull_contact, (HULL, 0.0, 0.0, STATE, M)),
@@ -158,8 +132,8 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "nearest walls": (walls.nearest_with, (WALLS, UPRIGHT, NEAR, FRAME, STATE)),
     "motion, pushed at points": (motion, (BODY, State(V, V, Q, V), Wrench(0.0, V), PointPush(V, M))),
 }
-POSITIVE = {"power", "smooth step", "soft gate", "sliding surface", "surface rate", "wanted acceleration"}
-POSITIVE |= {
+POSITIVE = {
+    "surface rate",
     "watching for a lost rotor",
     "thrusts of rotors",
     "commands to weak rotors",

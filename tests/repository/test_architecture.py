@@ -4,6 +4,7 @@ import importlib
 import re
 
 import pytest
+from for_all import for_all
 from repository import ROOT
 
 import tandemlift as tl
@@ -26,12 +27,12 @@ def found(name):
         return getattr(importlib.import_module(".".join(modules)), last)
 
 
-@pytest.mark.parametrize("name", DOTTED)
+@for_all(DOTTED)
 def test_each_dotted_name_exists(name):
     assert found(name) is not None
 
 
-@pytest.mark.parametrize("path", PATHS)
+@for_all(PATHS)
 def test_each_file_exists(path):
     assert (PACKAGE / path).is_file()
 

@@ -5,7 +5,7 @@ import re
 import subprocess
 from fnmatch import fnmatch
 
-import pytest
+from for_all import for_all
 from repository import ROOT
 
 DOCS = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").rglob("*.md"))
@@ -53,7 +53,7 @@ def test_a_commit_is_checked_by_the_targets_of_the_makefile_and_by_nothing_else(
     assert re.search(r"^test: lint types imports tests ", (ROOT / "Makefile").read_text("utf-8"), flags=re.M)
 
 
-@pytest.mark.parametrize("document", ["CONTRIBUTING.md", "SECURITY.md", "README.md", *DOCS])
+@for_all(["CONTRIBUTING.md", "SECURITY.md", "README.md", *DOCS])
 def test_targets_and_paths_that_a_document_names_exist(document):
     text, makefile = (ROOT / document).read_text("utf-8"), (ROOT / "Makefile").read_text("utf-8")
     for targets in re.findall(r"\bmake ((?:[a-z][a-z-]+ ?)+)(?=[`\n#;&]|  )", text):

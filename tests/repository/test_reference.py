@@ -4,6 +4,7 @@ import importlib
 import re
 
 import pytest
+from for_all import for_all
 from reference_tables.settings import tables, value_types
 from repository import ROOT
 
@@ -35,7 +36,7 @@ def rows(markdown):
             yield list(zip(head, cells, strict=True))
 
 
-@pytest.mark.parametrize("name", MADE)
+@for_all(MADE)
 def test_every_table_is_made_and_says_all_that_it_should(name):
     module, _, function = name.rpartition(".")
     found = list(rows(getattr(importlib.import_module(module), function)()))

@@ -113,8 +113,8 @@ def test_a_mesh_weighs_and_turns_as_in_mujoco_and_its_corners_are_those_of_its_h
     assert payload.mass == pytest.approx(body.mass[0], rel=1e-6)
     assert payload.center_of_mass == pytest.approx(body.ipos, abs=1e-6)
     assert np.linalg.eigvalsh(payload.tensor) == pytest.approx(np.sort(body.inertia), rel=1e-5)
-    assert len(payload.hull.corners) == 8
-    assert len(payload.hull.faces) == 6
+    assert len(payload.hulls[0].corners) == 8
+    assert len(payload.hulls[0].faces) == 6
 
 
 def test_a_mission_with_a_mesh_needs_its_file_no_longer_once_it_is_loaded(brick, tmp_path):
@@ -176,7 +176,7 @@ def test_a_body_of_many_corners_is_led_through_a_corridor(tmp_path):
     mesh.export(tmp_path / "pod.ply")
     pod = {"vehicle.payload.shape": "mesh", "vehicle.payload.mesh": str(tmp_path / "pod.ply")}
     mission = tl.load_mission("narrow", pod | {"vehicle.payload.mass": 0.5, "mission.duration": 16.0})
-    assert len(mission.vehicle.payload.hull.corners) == 32
+    assert len(mission.vehicle.payload.hulls[0].corners) == 32
     flight = tl.fly(mission)
     assert flight.findings == ()
     assert np.linalg.norm(flight["velocity"], axis=1).max() > 0.1

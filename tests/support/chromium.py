@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -175,6 +176,21 @@ def panel(page, key):
     if group.get_attribute("open") is None:
         group.locator("summary").click()
     return box
+
+
+def seconds_flown(page):
+    """The time of the flight that the page shows [s]."""
+    return float(page.inner_text("#meters .time dd").removesuffix("s").replace("–", "-1"))
+
+
+def save(page, folder):
+    """Save a page's own flight by its dialog, unpacked into a folder; the name of the file."""
+    page.click("#dock button:has-text('Save')")
+    page.fill("#save-name", "by-hand")
+    with page.expect_download(timeout=MS) as download:
+        page.click("#saving button[type=submit]")
+    zipfile.ZipFile(download.value.path()).extractall(folder)
+    return download.value.suggested_filename
 
 
 def grabbed(page, live):

@@ -26,9 +26,11 @@ GOOD = [
     {"type": "pause", "seq": 14, "on": True},
     {"type": "speed", "seq": 15, "factor": 0.5},
     {"type": "reset", "seq": 16},
+    {"type": "rewind", "seq": 16, "time": 12.5},
     {"type": "save", "seq": 17, "name": "mine-1.0"},
     {"type": "ping", "seq": 18, "t": 1.5},
     {"type": "fly", "seq": 19, "mission": "mine.toml", "toml": "x = 1"},
+    {"type": "turn", "seq": 20, "what": "give"},
 ]
 LITERALS = [
     *("NaN", "Infinity", "-Infinity", "1e999", "-1e999", "1e308", "-1e5", "9" * 400, "-" + "9" * 3000, "1e-400", "0.5"),

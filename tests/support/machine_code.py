@@ -25,10 +25,12 @@ def fused_copy(function: Callable[..., Any]) -> Callable[..., Any]:
     return fused(function) if isinstance(function, FunctionType) else function
 
 
-def answers(function: Callable[..., Any], arguments: tuple[Any, ...], rows: Any = None, lanes: int = 1) -> np.ndarray:
+def answers(
+    function: Callable[..., Any], arguments: tuple[Any, ...], rows: Any = None, lanes: int = 1, level: Level = BEST
+) -> np.ndarray:
     """Results of a function's machine code for rows of numbers (rows × numbers); without rows, for the arguments."""
     table = np.array([[x for a in arguments for x in flat(a)]] if rows is None else rows, dtype=float)
-    return compiled(fused_copy(function), *arguments, lanes=lanes)(table)
+    return compiled(fused_copy(function), *arguments, lanes=lanes, level=level)(table)
 
 
 class Loop:

@@ -61,7 +61,7 @@ test("a chosen moment comes into view, is shown unless the mouse is elsewhere, a
   window.hovered = 7;
   assert.equal(window.cursor, 7);
   window.hovered = null;
-  window.cut(4);
+  window.restart();
   assert.equal(window.cursor, null);
   assert.equal(window.isZoomed, false);
 });

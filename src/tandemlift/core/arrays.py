@@ -18,6 +18,8 @@ import numpy as np
 from tandemlift.core.algebra import absolute, greatest, sqrt, where
 from tandemlift.core.types import is_symbol
 
+FLAT = 1e-6  # of the extent of points: those as near to a plane as this lie in it
+SLIVER = 1e-5  # of the square of the extent: a smaller triangle determines no plane
 SWEEPS = 6  # of Jacobi's method, which converges quadratically: enough for 6 × 6 to the last digits
 
 
@@ -162,3 +164,32 @@ def largest_eigenvalue(M: Any, K: Any) -> Any:
             root[i, column] = (float(i == column) - np.sum(L[i, :i] * root[:i, column])) / L[i, i]
     values, _ = eigenvectors(root @ K @ root.T, vectors=False)
     return greatest(tuple(values))
+
+
+def convex_faces(points: Any) -> tuple[Any, Any, list[tuple[int, ...]]]:
+    """Normals (f, 3), offsets (f) and corners of the planes of points (n, 3) with no point above them.
+
+    The corners of a face are counterclockwise, seen from outside.
+    """
+    extent = float(np.ptp(points, axis=0).max())
+    triples = np.array(list(itertools.combinations(range(len(points)), 3))).reshape(-1, 3)
+    a, b, c = points[triples].transpose(1, 0, 2)
+    normals = np.cross(b - a, c - a)
+    sizes = np.linalg.norm(normals, axis=1)
+    wide = sizes > SLIVER * extent * extent
+    normals, a = normals[wide] / sizes[wide, None], a[wide]
+    normals, a = np.vstack([normals, -normals]), np.vstack([a, a])
+    offsets = np.sum(normals * a, axis=1)
+    above, planes = normals @ points.T - offsets[:, None], dict[frozenset[int], int]()
+    for i in np.flatnonzero(above.max(axis=1, initial=-np.inf) <= FLAT * extent).tolist():
+        planes.setdefault(frozenset(np.flatnonzero(above[i] >= -FLAT * extent).tolist()), i)
+    outer = [i for on, i in planes.items() if not any(on < other for other in planes)]
+    faces = [_around(points, np.flatnonzero(above[i] >= -FLAT * extent).tolist(), normals[i]) for i in outer]
+    return normals[outer], offsets[outer], faces
+
+
+def _around(points: Any, face: list[int], normal: Any) -> tuple[int, ...]:
+    """The corners of a face, counterclockwise about its normal."""
+    away = points[face] - points[face].mean(axis=0)
+    turn = np.arctan2(away @ np.cross(normal, away[0]), away @ away[0])
+    return tuple(face[i] for i in np.argsort(turn))

@@ -101,6 +101,7 @@ def without_old_shape(tables: Tables, changes: Tables) -> Tables:
         return tables
     same = new.get("shape", old.get("shape", "beam")) == old.get("shape", "beam")
     replaced = {"density" if name == "mass" else "mass" for name in ("mass", "density") if name in new}
+    replaced |= {"mass"} if "bodies" in new else set()
     kept = {name: value for name, value in old.items() if (same or name == "mass") and name not in replaced}
     return tables if kept == old else {**tables, "vehicle": {**tables["vehicle"], "payload": kept}}
 

@@ -15,6 +15,7 @@ from tandemlift.missions.flight_checks import worst_failures
 from tandemlift.missions.mission import Mission
 from tandemlift.missions.refusals import Problem, problems_in
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
+from tandemlift.parts.pilot.payload_bodies import with_bodies
 from tandemlift.parts.pilot.payload_mesh import with_mesh
 
 MAX_PROBLEMS = 8  # reported at once
@@ -93,7 +94,7 @@ def _mission_of(tables: Tables, known: Checked | None) -> tuple[Any, list[Proble
     payload = value_at(checked, ("vehicle", "payload"))
     if isinstance(payload, dict):
         try:
-            checked["vehicle"] = {**checked["vehicle"], "payload": with_mesh(payload)}
+            checked["vehicle"] = {**checked["vehicle"], "payload": with_bodies(with_mesh(payload))}
         except InputError as error:
             return None, [*problems, Problem(("vehicle", "payload", "mesh"), f"vehicle.payload.{error}")]
     mission, more = _validated(Mission, checked, tables, ())

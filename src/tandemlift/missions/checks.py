@@ -24,13 +24,12 @@ from tandemlift.parts.estimation.disturbance_observer import observer_checks
 from tandemlift.parts.estimation.wind_compensation import compensation_checks
 from tandemlift.parts.guidance import supervision_table as supervision
 from tandemlift.parts.guidance.guidance import reading_checks
-from tandemlift.parts.mechanics.push import point_checks
-from tandemlift.parts.mechanics.trajectories import phase_checks, phase_warnings
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
-from tandemlift.parts.mechanics.wind import wind_warnings
 from tandemlift.parts.person.person_table import PersonTable, person_checks, person_warnings
 from tandemlift.parts.person.requests import request_checks
+from tandemlift.parts.pilot.push_checks import on_vehicle_checks
+from tandemlift.parts.pilot.schedule_checks import phase_checks, phase_warnings, wind_warnings
 from tandemlift.parts.pilot.vehicle_checks import vehicle_checks
 from tandemlift.parts.rotors import lift_checks as lifts
 from tandemlift.parts.rotors.detection_table import detection_checks
@@ -81,7 +80,7 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from supervision.watchdog_checks(m.supervision, intervals, step)
     yield from sensors.sensor_fault_checks(m.sensor_faults, s, count)
     for i, push in enumerate(m.pushes):
-        yield from point_checks(f"pushes.{i}.point", push.point, Vehicle.from_settings(m.vehicle))
+        yield from on_vehicle_checks(f"pushes.{i}.point", push.point, Vehicle.from_settings(m.vehicle))
     yield from person_checks(m.person, m.corridor, m.vehicle.payload.box)
     yield from recording_checks(m.person, m.vehicle)
     yield from outcomes.crash_checks(m.crash, m.initial)
@@ -156,7 +155,7 @@ def recording_checks(person: PersonTable, table: VehicleTable) -> Iterator[Check
         yield refused(str(error))
         return
     for grip in grips:
-        yield from point_checks(f"person.recording: a grip in {path}", grip, Vehicle.from_settings(table))
+        yield from on_vehicle_checks(f"person.recording: a grip in {path}", grip, Vehicle.from_settings(table))
 
 
 def _delays(actuators: ActuatorsTable, sensors: SensorsTable, person: PersonTable) -> dict[str, float]:

@@ -248,6 +248,17 @@ class RecordedFlight:
             self._hand.pop()
         self._hand.append((self.step, numbers))
 
+    def repeat(self, past: RecordedFlight, steps: int) -> None:
+        """Fly so many steps with hand and changes of another flight of the same mission, bit-identically."""
+        hands, changes = dict(past._hand), [(round(c["time"] / self.dt), c) for c in past._changes]
+        while self.step < steps:
+            for _, c in [one for one in changes if one[0] == self.step]:
+                key, value, duration = c["key"], c["value"], c["duration"]
+                self.change(self.prepare(key, value, duration), key, value, duration)
+            if self.step in hands:
+                self.hold(unflat(hands[self.step], HAND_RELEASED))
+            self.advance()
+
     def prepare(self, key: str, value: Any, duration: float = 0.0) -> ScheduledChange:
         """Prepare a change, which may take long; the flight may continue meanwhile.
 

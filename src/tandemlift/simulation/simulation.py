@@ -18,8 +18,8 @@ from tandemlift.flight.channels import DERIVED, Channel, channel_of
 from tandemlift.flight.record import Ending, Flight, interruption
 from tandemlift.missions import MissionLike, mission_of
 from tandemlift.missions.recording import engine_of
-from tandemlift.parts.mechanics.push import point_checks
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.pilot.push_checks import on_vehicle_checks
 from tandemlift.simulation.caller_values import checked_seed, numbers
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.outcome import ending_of
@@ -144,7 +144,7 @@ class Simulation:
             if push is None:
                 raise InputError(f"point = {shown(point)}: must come with a push")
             x[POINT] = numbers("point", point, 3, "m, in body axes")
-            accepted(point_checks("point", x[POINT].tolist(), Vehicle.from_settings(self.mission.vehicle)))
+            accepted(on_vehicle_checks("point", x[POINT].tolist(), Vehicle.from_settings(self.mission.vehicle)))
         if thrusts is not None:
             x[THRUSTS] = numbers("thrusts", thrusts, x.size - 7, "N, one for each rotor")
             x[-1] = 1.0

@@ -11,7 +11,7 @@ from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import Absent, Quat, Vec3, each, mat3, vec3
 from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.engines.models.links import parts_layout_from
-from tandemlift.parts.contact.feet import floor, sole_positions, standing_height, start_foot_grip
+from tandemlift.parts.contact.feet import floor, standing_height, start_foot_grip
 from tandemlift.parts.contact.walls import walls
 from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PerfectReadings, resultant
 from tandemlift.parts.mechanics.push import CentralPush, PointPush, PushSamples
@@ -30,6 +30,13 @@ DIFFERENT = {  # takes more than the payload has
     "plant.mass_scale": 0.8,
     "plant.inertia_scale": [0.6, 1.3, 2.0],
     "plant.center_of_mass_offset": [0.03, -0.1, 0.02],
+}
+
+TURNED = {  # about z, of unlike inertias
+    "vehicle.quadrotors.0.heading": 0.6,
+    "vehicle.quadrotors.0.inertia": [0.02, 0.035, 0.05],
+    "vehicle.quadrotors.2.heading": -2.5,
+    "vehicle.quadrotors.2.rotor_positions": [[0.3, 0.1], [-0.1, 0.2], [-0.2, -0.2], [0.1, -0.3]],
 }
 
 
@@ -119,7 +126,7 @@ def excited(mission, vehicle, seconds):
         yield state, moved.readings, body
 
 
-@pytest.mark.parametrize("changes", [{}, DIFFERENT], ids=["as known", "as it really is"])
+@pytest.mark.parametrize("changes", [{}, DIFFERENT, TURNED], ids=["as known", "as it really is", "turned"])
 def test_an_excited_vehicle_moves_and_feels_as_in_the_compiled_engine(changes):
     start = {"initial.euler": [0.2, -0.1, 0.4], "initial.velocity": [1.0, 0.5, -0.3], "initial.rates": [1.0, -2.0, 0.5]}
     shoved = {"disturbance.force": [0.3, -0.2, 0.1], "disturbance.moment": [0.02, 0.04, -0.01]}
@@ -194,8 +201,7 @@ def standing(name="four", changes=None):
     """(body, compiled plant's floor, mission, vehicle): a vehicle whose level feet are just on the floor."""
     mission = tl.load_mission(name, LEVEL | (changes or {}))
     vehicle = Vehicle.from_settings(mission.vehicle)
-    soles = sole_positions(vehicle.lever_arms, 0.12, 0.18)
-    ground = floor(soles, vehicle.mass, vehicle.inertia, DT, friction=FRICTION, sinkage=SINKAGE)
+    ground = floor(vehicle.soles, vehicle.mass, vehicle.inertia, DT, friction=FRICTION, sinkage=SINKAGE)
     ground = ground._replace(height=-standing_height(ground, vehicle.weight))
     return MuJoCoBody(mission, vehicle, ground), ground, mission, vehicle
 

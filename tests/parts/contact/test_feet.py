@@ -24,7 +24,6 @@ from tandemlift.parts.contact.feet import (
     grips_after_step,
     may_touch,
     sinkage_of,
-    sole_positions,
     spring_damper,
     standing_height,
     start_foot_grip,
@@ -41,8 +40,7 @@ STEP = 0.001
 
 
 def floor_of(vehicle: Vehicle, step: float = STEP, friction: float = 0.6, **more: float) -> Floor:
-    soles = sole_positions(vehicle.lever_arms, 0.12, DEPTH)
-    return floor(soles, vehicle.mass, vehicle.inertia, step, friction=friction, **more)
+    return floor(vehicle.soles, vehicle.mass, vehicle.inertia, step, friction=friction, **more)
 
 
 VEHICLE = paper_vehicle()
@@ -343,7 +341,7 @@ def test_machine_code_of_contact_equals_plain_python(count):
 
 def test_a_foot_that_turning_alone_brings_to_the_floor_is_said_to_touch():
     """Every attitude and spin: the body turns about its centre of mass as SciPy says, and its lowest sole touches."""
-    rng, soles = np.random.default_rng(5), sole_positions(VEHICLE.lever_arms, 0.12, DEPTH).reshape(-1, 3)
+    rng, soles = np.random.default_rng(5), VEHICLE.soles.reshape(-1, 3)
     time, sunk = 0.002, 0.0
     for _ in range(200):
         attitude, rates = Rotation.random(random_state=rng), rng.normal(size=3) * 20.0

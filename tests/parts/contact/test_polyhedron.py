@@ -20,8 +20,8 @@ from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.clearance import clearance, least_clearance
 from tandemlift.parts.contact.polyhedron import spots_by_walls
 from tandemlift.parts.contact.walls import near_wall_loads
+from tandemlift.parts.mechanics.bodies import convex_hull
 from tandemlift.parts.mechanics.loads import resultant
-from tandemlift.parts.mechanics.payload import convex_hull
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.wall_geometry import wall
 
@@ -33,7 +33,7 @@ HEAVY = 1e4  # weight of the equation that fractions add up to 1
 
 
 def walls_around(body):
-    return walls_of(PAIR, guard=1e-6, beam=None, body=body)
+    return walls_of(PAIR, guard=1e-6, beam=None, bodies=[body])
 
 
 def core_in(w, s):

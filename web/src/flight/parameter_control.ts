@@ -56,6 +56,13 @@ export class ParameterControl {
     this.change(flight, key, flight.time, 0);
   }
 
+  /** Makes the changes that another flight of the same mission made at this flight's step. */
+  repeat(flight: Flight, changes: readonly RecordedChange[]): void {
+    for (const { time, key, value, duration } of changes) {
+      if (time === flight.time) this.change(flight, key, value, duration);
+    }
+  }
+
   /** The rotors that have stopped. */
   failed(at: number): number[] {
     const stopped = this.manifest.page.rotors.filter(({ key }) => (this.now.value(key) as number) <= at);

@@ -13,7 +13,7 @@ import { Layout } from "../wire/frames.ts";
 import { CorridorRun } from "./corridor_run.ts";
 import { Flight } from "./flight.ts";
 import { HandControl, type Message } from "./hand_control.ts";
-import type { FlightManifest, Tables } from "./manifest.ts";
+import type { FlightManifest } from "./manifest.ts";
 import { checkMessage } from "./message_rules.ts";
 import { MissionNumbers } from "./mission_numbers.ts";
 import type { FlightModule } from "./module.ts";
@@ -41,7 +41,7 @@ export class Session {
   private flight!: Flight;
   private hand!: HandControl;
   private parameters!: ParameterControl;
-  private start!: Tables;
+  private start!: MissionNumbers;
   private run: CorridorRun | null = null;
   private failed = false;
   private lastGrab = 0;
@@ -174,9 +174,11 @@ export class Session {
       restore: ({ key }) => answerAll(this.parameters.restore(this.flight, key)),
       kill: ({ rotor }) => this.parameters.stopRotor(this.flight, rotor),
       reset: () => this.reset(),
+      rewind: ({ time }) => this.rewind(time),
       save: ({ name }) => this.answer(this.saved(name)),
       tare: (message) => this.refuse(message),
       fly: (message) => this.refuse(message),
+      turn: (message) => this.refuse(message),
       ping: () => undefined,
       pause: ({ on }) => (this.pacer.paused = on),
       speed: ({ factor }) => (this.pacer.speed = factor),
@@ -206,6 +208,23 @@ export class Session {
     this.answer({ type: "scene", ...this.scene });
   }
 
+  /** Flies again to a time with what was pushed and changed until then, and stands still there. */
+  private rewind(time: number): void {
+    const { flight: past, parameters } = this;
+    const steps = Math.min(Math.round(time / this.module.manifest.dt) + 1, past.step);
+    this.pacer.paused = true;
+    this.begin(this.start);
+    const hands = new Map(past.recorded.map(({ step, hand }) => [step, hand]));
+    while (this.flight.step < steps) {
+      this.parameters.repeat(this.flight, parameters.changes);
+      const hand = hands.get(this.flight.step);
+      if (hand) this.flight.hold(hand);
+      this.advance();
+    }
+    this.hand.open();
+    this.answer({ type: "scene", ...this.scene });
+  }
+
   private refusals(): StatusRefusals {
     const { module, manifest, flight } = this;
     const { refused_at_end: ended } = manifest.page.texts;
@@ -218,7 +237,7 @@ export class Session {
     this.module.free();
     this.flight = new Flight(this.module, this.manifest.page, start.numbers);
     this.parameters = new ParameterControl(this.manifest, start);
-    this.start = structuredClone(start.tables);
+    this.start = start;
     this.hand = new HandControl(this.flight, this.module, this.manifest.page);
     this.failed = false;
     this.run = this.newRun();
@@ -238,7 +257,7 @@ export class Session {
   }
 
   private saved(name: string): SavedFile {
-    const bytes = recordedFlight(name, this.flight, this.manifest.page, this.start, this.parameters.changes);
+    const bytes = recordedFlight(name, this.flight, this.manifest.page, this.start.tables, this.parameters.changes);
     return { type: "saved", name: `${name}.zip`, bytes };
   }
 

@@ -5,6 +5,7 @@ import { button, el, icon } from "./dom.ts";
 import { isAirborne } from "./phases.ts";
 import type { Question } from "./question.ts";
 import { RefusalNote } from "./refusal_note.ts";
+import { Turns } from "./turns.ts";
 
 const { min, max } = LIMITS.speed.factor;
 const [LIFT, LAND] = ["Lift off (L)", "Land here (K)"];
@@ -22,6 +23,7 @@ export interface DockActions {
 
 export class Dock {
   private readonly note = new RefusalNote();
+  private readonly turns: Turns;
   private readonly asking: Record<"lift" | "land", HTMLButtonElement>;
   private paused = false;
   private enabled = true;
@@ -52,8 +54,10 @@ export class Dock {
     this.asking = { lift: this.request("lift", LIFT, "go"), land: this.request("land", LAND) };
     const stop = button("stop", "Stop", STOP, () => this.stop(), "danger");
     const keep = button("save", "Save", "Save the flight so far", actions.save);
+    this.turns = new Turns(send);
     place.replaceChildren(
       this.note.element,
+      this.turns.element,
       el("div", { class: "strip" }, this.asking.lift, this.asking.land, stop, this.enableButton),
       el("div", { class: "strip" }, this.pauseButton, this.speeds, this.resetButton()),
       el("div", { class: "strip" }, this.openButton, keep, this.videoButton),
@@ -69,6 +73,7 @@ export class Dock {
     const speed = String(Number(status.speed.toPrecision(3)));
     if (document.activeElement !== this.speeds && SPEEDS.includes(speed)) this.speeds.value = speed;
     this.enable(status.enabled);
+    this.turns.status(status);
     const { lift, land } = status.refusals;
     mark(this.asking.lift, lift, LIFT);
     mark(this.asking.land, land, LAND);

@@ -26,6 +26,7 @@ const KEYS: Line[] = [
   ["Arrows or W A S D", "push level; the force is set under Settings \u2192 hand"],
   ["E, Q or Page Up, Page Down", "push up, down"],
   ["Gamepad", "left stick: level; right stick: up and down"],
+  ["R \u00b7 Ctrl+Z", "fly again to the chosen moment, and try again from there \u00b7 undo a setting"],
   ["L \u00b7 K \u00b7 P", "lift \u00b7 land \u00b7 pause"],
 ];
 const REPLAY_KEYS: Line[] = [

@@ -2,7 +2,7 @@
 
 import type { Graphics } from "../view/graphics.ts";
 import type { Frame } from "../wire/frames.ts";
-import type { FlightScene, ParameterValue, StatusMessage, Vector } from "../wire/messages.generated.ts";
+import type { FlightScene, PageMessage, ParameterValue, StatusMessage, Vector } from "../wire/messages.generated.ts";
 import { THRESHOLD } from "../wire/messages.generated.ts";
 import { perAxis } from "../wire/parameters.ts";
 import type { Replay } from "../wire/replay.ts";
@@ -15,6 +15,8 @@ import { TimeWindow } from "./time_window.ts";
 import { Timeline } from "./timeline.ts";
 
 const PLOT_EVERY = { full: 30, light: 110 }; // ms; each of the four plots is drawn at a fourth of this rate
+const BACK = 5; // s, that a flight is rewound if no moment is chosen
+const REWIND = `Fly again to the chosen moment, or ${BACK} s back, and stand still there (R)`;
 const TIMELINE_EVERY = 100; // ms
 
 /** What the laboratory needs of the page. */
@@ -22,6 +24,7 @@ export interface LaboratoryPage {
   readonly replay: Replay | null;
   readonly graphics: Graphics;
   readonly current: Frame | null;
+  send(message: PageMessage): void;
 }
 
 export class Laboratory {
@@ -36,7 +39,10 @@ export class Laboratory {
   private readonly clock = el("output", {});
   private readonly back: HTMLButtonElement;
 
-  constructor(private readonly page: LaboratoryPage) {
+  constructor(
+    private readonly page: LaboratoryPage,
+    private readonly tell: (text: string) => void,
+  ) {
     this.window = new TimeWindow(
       () => this.history!.flown,
       () => page.current?.scalar("time") ?? NaN,
@@ -44,11 +50,12 @@ export class Laboratory {
     this.timeline = new Timeline((time) => {
       this.choose(time);
     });
-    this.back = button("back", "Now", "The last seconds, and no chosen moment", () => {
+    this.back = button("play", "Now", "The last seconds, and no chosen moment", () => {
       this.window.follow();
       this.choose(null);
     });
-    if (!page.replay) byId("time").replaceChildren(this.clock, this.timeline.element, this.back);
+    const again = button("rewind", "Try again", REWIND, () => this.rewind());
+    if (!page.replay) byId("time").replaceChildren(this.clock, this.timeline.element, this.back, again);
   }
 
   /** The threshold of pushes along each axis [N]; null before the first scene. */
@@ -85,6 +92,15 @@ export class Laboratory {
     if (page.current) this.marks.setting(page.current.scalar("time"), text.trim());
   }
 
+  /** Has the flight flown again to the chosen moment. */
+  rewind(): void {
+    const { window, page } = this;
+    if (!page.current) return;
+    const time = window.moment ?? Math.max(page.current.scalar("time") - BACK, 0);
+    page.send({ type: "rewind", time });
+    this.tell(`Flown again to ${time.toFixed(2)} s, it stands still: take hold, then press Continue (P).`);
+  }
+
   /** After each picture. */
   tick(now: number): void {
     const { page, window, scene, history } = this;
@@ -110,7 +126,7 @@ export class Laboratory {
 
   private keep(frame: Frame): void {
     if (this.history!.add(frame)) {
-      this.window.cut(frame.scalar("time"));
+      this.window.restart();
       this.marks.cut(frame.scalar("time"));
     }
     this.marks.frame(frame);

@@ -35,6 +35,7 @@ export class Panel {
   constructor(
     private readonly place: HTMLElement,
     private readonly page: PanelPage,
+    private readonly undo: HTMLElement,
   ) {}
 
   scene(scene: FlightScene): void {
@@ -54,7 +55,7 @@ export class Panel {
     this.place.replaceChildren(
       ...(live ? [this.group("hand", this.hand(scene), true)] : []),
       ...groups,
-      ...(groups.length ? [this.restoreAll()] : []),
+      ...(groups.length ? [this.undo, this.restoreAll()] : []),
       ...(this.rotors ? [this.group("rotors", [this.rotors.element])] : []),
       this.group("picture", this.picture(), !live),
       ...this.page.extra,

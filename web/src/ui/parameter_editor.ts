@@ -120,7 +120,7 @@ export class ParameterEditor {
     });
     const row = el("div", { class: "number" }, el("span", { class: `axis ${axis}` }, axis), bar, entry);
     const show = (value: number | string | boolean): void => {
-      entry.value = formatNumber(Number(value));
+      entry.defaultValue = entry.value = formatNumber(Number(value));
       bar.value = String(slide?.place(Number(value)) ?? 0);
     };
     return { row, show };

@@ -16,7 +16,7 @@ export interface PlotListener {
 /** Lets a plot's area zoom and point; `window` is that of all plots. */
 export function listen(plot: uPlot, window: TimeWindow, listener: PlotListener): void {
   const { over } = plot;
-  const timeAt = (x: number): number => plot.posToVal(x - over.getBoundingClientRect().left, "x");
+  const timeAt = (x: number): number => timeUnder(over, window, x);
   const look = (time: number | null): void => {
     window.hovered = time;
     listener.looked();
@@ -63,6 +63,12 @@ export function selecting(window: TimeWindow, listener: PlotListener): Pick<uPlo
     },
     hooks: { setSelect: [select] },
   };
+}
+
+/** The time at a place of the page; not as the plot was last drawn, which may be before a zoom. */
+function timeUnder(over: HTMLElement, { shown: [from, to] }: TimeWindow, x: number): number {
+  const { left, width } = over.getBoundingClientRect();
+  return from + ((to - from) * (x - left)) / width;
 }
 
 function holdUntilUp(window: TimeWindow): void {

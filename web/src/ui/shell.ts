@@ -32,6 +32,7 @@ import { SensesOfFlight } from "./senses.ts";
 import { type Shown, ShowMenu } from "./show_menu.ts";
 import { StatusBar } from "./status_bar.ts";
 import type { ThemeChoice } from "./theme.ts";
+import { Undo } from "./undo.ts";
 import { VideoRecorder } from "./video_recorder.ts";
 
 const TEXT_EVERY = 200; // ms
@@ -73,6 +74,7 @@ export class Shell {
   readonly challenge: Challenge;
   private readonly senses: SensesOfFlight;
   private readonly show: ShowMenu;
+  private readonly undo: Undo;
   private dock: Dock | null = null;
   private player: ReplayDock | null = null;
   private readonly question = new Question();
@@ -88,8 +90,9 @@ export class Shell {
     this.findings = new Findings(this.notices);
     this.missions = new MissionChoice(page.send.bind(page), this.notices, this.question);
     this.bar = new StatusBar(page.replay !== null);
-    this.panel = new Panel(byId("panel"), page);
-    this.laboratory = new Laboratory(page);
+    this.undo = new Undo(page.send.bind(page));
+    this.panel = new Panel(byId("panel"), page, this.undo.element);
+    this.laboratory = new Laboratory(page, (text) => this.notices.show(text, "done"));
     this.help = helpDialog(page.replay !== null);
     this.saving = new SaveDialog((name) => {
       page.send({ type: "save", name });
@@ -121,6 +124,7 @@ export class Shell {
     this.bar.scene(scene);
     this.panel.scene(scene);
     this.laboratory.show(scene);
+    this.undo.scene(scene.parameters);
     this.missions.scene(scene);
     this.senses.begin(scene);
     this.challenge.begin(scene);
@@ -151,6 +155,7 @@ export class Shell {
     this.panel.changed(key, value, duration);
     this.laboratory.changed(key, value);
     this.challenge.changed(key, value);
+    this.undo.changed(key, value, performance.now());
   }
 
   refused(what: string, reason: string): void {
@@ -242,6 +247,7 @@ export class Shell {
   }
 
   private readonly key = (event: KeyboardEvent): void => {
+    if (this.undo.key(event)) event.preventDefault();
     if (typing(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.repeat && !event.code.startsWith("Arrow")) return;
     this.keys().get(event.code)?.();
@@ -258,6 +264,7 @@ export class Shell {
       keys.set("ArrowRight", () => player.step(1));
     } else {
       keys.set("KeyP", () => this.dock?.togglePause());
+      keys.set("KeyR", () => this.laboratory.rewind());
       keys.set("KeyL", () => this.dock?.ask("lift"));
       keys.set("KeyK", () => this.dock?.ask("land"));
     }

@@ -77,9 +77,9 @@ export class TimeWindow {
     if (time < from || time > to) this.zoom([time - (to - from) / 2, time + (to - from) / 2]);
   }
 
-  /** What came after a time is no more. */
-  cut(time: number): void {
-    if (this.moment !== null && this.moment > time) this.moment = null;
+  /** The flight is another one from here on. */
+  restart(): void {
+    this.moment = this.hovered = null;
     this.follow();
   }
 }

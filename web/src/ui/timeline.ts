@@ -24,6 +24,7 @@ export class Timeline {
 
   constructor(private readonly choose: (time: number) => void) {
     this.bar.addEventListener("input", () => this.chooseNear(this.bar.valueAsNumber));
+    this.bar.addEventListener("pointerup", () => this.bar.blur()); // keys go on to the flight
     this.bar.addEventListener("keydown", () => (this.finger = false));
     this.bar.addEventListener("pointerdown", ({ pointerType }) => (this.finger = pointerType === "touch"));
     this.element = el("div", { class: "timeline" }, this.phases, this.window, this.bar, this.lane, this.words);

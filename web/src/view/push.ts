@@ -66,7 +66,7 @@ export class PushMark {
 
   constructor() {
     const paint = new MeshBasicMaterial({ color: palette.hand, transparent: true });
-    this.hoop = new Mesh(new TorusGeometry(0.075, 0.008, 6, 28), paint);
+    this.hoop = new Mesh(new TorusGeometry(0.075, 0.008, 4, 20), paint);
     this.group.add(this.arrow.group, this.moment.group, this.hoop);
   }
 

@@ -28,6 +28,7 @@ const STOPPED = 0.01; // fraction of full thrust below which the blades stand st
 const CALM = new Color("#1f9d76");
 const HARD = new Color("#d5281b");
 const AXIS = new Vector3(0, 0, 1);
+const FRONT = "#e8641b"; // of parts in front (engines/models/visuals.py)
 
 interface Place {
   blades: SceneShape;
@@ -39,9 +40,9 @@ interface Place {
   angle: number;
 }
 
-/** Whether a rotor is in front of its quadrotor's centre. */
+/** Whether a rotor is in front of its quadrotor's centre, wherever the quadrotor faces. */
 export function ahead(quadrotor: SceneQuadrotor, rotor: number): boolean {
-  return quadrotor.rotors[rotor].position[0] > quadrotor.position[0] + 1e-6;
+  return quadrotor.rotors[rotor].disc.color === FRONT;
 }
 
 export class Rotors {

@@ -58,6 +58,7 @@ export const MAX_SIZE = 65536;
 export const LIMITS = {
   kill: { rotor: { min: 0, max: 255 } },
   speed: { factor: { min: 0.1, max: 1 } },
+  rewind: { time: { min: 0, max: 100000 } },
 } as const;
 
 /** A part of the vehicle as drawn. */
@@ -222,6 +223,12 @@ export interface PreparationStatus {
   failure: string; // why the mission cannot be flown; empty unless that is so
 }
 
+/** Turns of the pages at one flight. */
+export interface TurnStatus {
+  number: number; // of this page, from 1 on
+  queue: readonly number[]; // numbers of the pages that take turns; the first has the hand
+}
+
 /** The state of a flight in words, and how it keeps up with the clock. */
 export interface FlightStatus {
   phase: Phase; // of the flight; before it `preparing`; at its end `over`, `crashed`, `diverged`, `failed`
@@ -252,6 +259,7 @@ export interface StatusMessage extends FlightStatus {
   viewers: number; // pages that are connected
   holder: "you" | "other" | "none"; // who holds the beam
   last_grab: number; // `seq` of this page's last `grab` that came before the status; 0 if none did
+  turns?: TurnStatus; // whose turn it is, at a server
 }
 
 /** To all: a parameter goes to a value within a duration. */
@@ -361,6 +369,12 @@ export interface ResetMessage {
   type: "reset";
 }
 
+/** Fly again to a time with what was pushed and changed until then, and stand still there. */
+export interface RewindMessage {
+  type: "rewind";
+  time: number; // s
+}
+
 /** Fly another mission: a built-in one, or that of a file, which may extend a built-in one only. */
 export interface FlyMessage {
   type: "fly";
@@ -372,6 +386,12 @@ export interface FlyMessage {
 export interface SaveMessage {
   type: "save";
   name: string; // 1 to 64 letters, digits, `.`, `_` or `-`; the first a letter or a digit
+}
+
+/** Ask for the hand, which the other pages then wait for; or give it, or the place in the queue, away. */
+export interface TurnMessage {
+  type: "turn";
+  what: "ask" | "give";
 }
 
 /** Ask for a `pong`; a page that holds the beam says something every 2 s at least. */
@@ -402,6 +422,8 @@ export type PageMessage =
   | PauseMessage
   | SpeedMessage
   | ResetMessage
+  | RewindMessage
   | FlyMessage
   | SaveMessage
+  | TurnMessage
   | PingMessage;

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tandemlift.apps.cli.completion import CONTROLLERS, names, settings
-from tandemlift.apps.cli.console import progress_bar
+from tandemlift.apps.cli.console import echo, progress_bar
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import FLIGHT_FILE, parse_setting
 from tandemlift.pictures.figures.drawing.figure_style import STYLES, figure_style
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 FIGURES = "figures"  # folder of the figures among results
 DRAWINGS = (".png", ".pdf", ".svg")  # endings of a figure on its own
 HTML = (".html", ".htm")
-REPLAYED = 3000  # frames of a flight in its report, at most
 FILES = ("mission.toml", FLIGHT_FILE, "metrics.json", "metrics.csv", "metrics.tex", "findings.json", "report.html")
 FAILED = 3  # exit code of a flight that crashed, diverged or did not lift; with --strict also of one with findings
 
@@ -117,22 +116,15 @@ def load(mission: str, settings: tuple[str, ...], controller: Controller | str |
 
 
 def write_flight(flight: Flight, folder: Path, *, figures: bool, photographs: Sequence[tuple[str, bytes]] = ()) -> None:
-    """Write the files of a flight into the folder, with a progress bar for the figures."""
+    """Write the files of a flight into the folder, and say where its figures are drawn, with a progress bar."""
+    from tandemlift.apps.live.replay import report_replay
     from tandemlift.pictures.report.flight_report import write_flight_files
 
-    replay = _replay(flight) if figures else None
+    replay = report_replay(flight) if figures else None
+    if figures:
+        echo(f"  drawing: {folder / FIGURES}")
     with progress_bar("Drawing", "figures", shown=figures and sys.stderr.isatty()) as progress:
         write_flight_files(flight, folder, figures=figures, photographs=photographs, progress=progress, replay=replay)
-
-
-def _replay(flight: Flight) -> str | None:
-    """The page that plays a flight in its report; None if nothing of the flight can be shown."""
-    from tandemlift.apps.live.page_files import page_files
-    from tandemlift.apps.live.replay import replay_html
-
-    with suppress(InputError):
-        return replay_html(flight, page_files(), REPLAYED)
-    return None
 
 
 def flight_file(given: str) -> tuple[Path, Path | None]:

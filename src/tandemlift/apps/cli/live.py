@@ -46,7 +46,7 @@ no_browser_option = click.option("--no-browser", is_flag=True, help="Only print 
     "--host",
     default=HOST,
     show_default=True,
-    help="Address to listen on. If other machines can reach it, the page's address carries a token.",
+    help="Address to listen on. If other machines can reach it, the page's address carries a token; a QR code has it.",
 )
 @click.option("--out", metavar="DIR", default=str(OUT), show_default=True, help="Folder for flights saved in the page.")
 @no_browser_option
@@ -106,13 +106,14 @@ def check_live_installed() -> None:
 
 def serve_until_interrupt(server: PageServer, what: str, *, browser: bool) -> None:
     """Serve a page until Ctrl-C; print `what` it shows and its address, and optionally open it in a browser."""
-    from tandemlift.apps.live.server import open_in_browser, serve_until_stopped
+    from tandemlift.apps.live.server import open_in_browser, qr_code, serve_until_stopped
 
     def opened(address: str) -> None:
         echo(f"{what}: {address}")
         echo("  Ctrl-C ends it")
         sys.stdout.flush()
         if "token=" in address:
+            echo(qr_code(address), nl=False)
             click.echo("warning: any machine that can reach this one and knows this address can push", err=True)
         if browser:
             open_in_browser(address)

@@ -12,7 +12,6 @@ import click
 from tandemlift.apps.cli.completion import MISSIONS, names
 from tandemlift.apps.cli.console import echo, progress_bar
 from tandemlift.apps.cli.flying import (
-    FIGURES,
     FILES,
     after_crash_option,
     chosen_controller,
@@ -168,11 +167,8 @@ def write_results(
     from tandemlift.flight.summary import summary_lines
     from tandemlift.missions.recording import recording_bytes
 
-    for line in summary_lines(flight):
-        echo(line)
+    echo("\n".join(summary_lines(flight)))
     if recording is not None:  # so that the folder can be flown anywhere
         write_file(folder / Path(recording).name, recording_bytes(recording))
-    if figures:
-        echo(f"  drawing: {folder / FIGURES}")
     write_flight(flight, folder, figures=figures, photographs=photographs)
     echo(f"  report: {folder / 'report.html'} ({time.perf_counter() - began:.2f} s in all)")

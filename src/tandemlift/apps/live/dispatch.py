@@ -17,9 +17,11 @@ from tandemlift.apps.live.session.page_messages import (
     Refusal,
     ResetMessage,
     RestoreMessage,
+    RewindMessage,
     SaveMessage,
     SetMessage,
     TareMessage,
+    TurnMessage,
     read_message,
     subject_of,
 )
@@ -37,6 +39,7 @@ SLOW = (
     TareMessage,
     KillMessage,
     ResetMessage,
+    RewindMessage,
     FlyMessage,
     SaveMessage,
 )  # may compile or write
@@ -65,9 +68,16 @@ class Dispatcher:
                 viewer.last_grab = message.seq
             if isinstance(message, PingMessage):
                 viewer.send(PongMessage(type="pong", t=message.t))
+            elif isinstance(message, TurnMessage):
+                if self._viewers.take_turn(viewer, message):
+                    self._viewers.let_go()
+                    self._flight.release()
+                self._viewers.send_status(self._flight.status())
+            elif not self._viewers.admits(viewer, message):
+                pass
             elif isinstance(message, SLOW):
                 self._start_change(viewer, message)
-            elif self._viewers.admits(viewer, message):
+            else:
                 self._answer(viewer, self._apply(message))
                 self._viewers.note(viewer, message)
                 if isinstance(message, MoveMessage):

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.apps.live.page_files import data_element, in_one_file, page_text, with_data
+from tandemlift.apps.live.page_files import data_element, in_one_file, page_files, page_text, with_data
 from tandemlift.apps.live.session.frames import (
     RATE,
     arrays_of,
@@ -25,11 +25,13 @@ from tandemlift.apps.live.session.frames import (
 from tandemlift.apps.live.session.scene_builder import scene_of_tables
 from tandemlift.apps.live.session.server_messages import FlightScene, SceneChange, SceneReplay
 from tandemlift.apps.live.session.status import scene_ending, told
-from tandemlift.core.errors import shown
+from tandemlift.core import errors
+from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.rendering.stage import FlightStage
 
+IN_REPORT = 3000  # frames of a flight in its report, at most
 MAX_FRAMES = 36_000  # ten minutes at the full rate; a longer flight has fewer frames a second
 OFFLINE = (
     "default-src 'none'; script-src 'sha256-{script}'; style-src 'unsafe-inline'; img-src data: blob:; "
@@ -44,14 +46,14 @@ def scene_and_frames(flight: Flight) -> tuple[FlightScene, NDArray[np.float32]]:
         InputError: nothing of the flight can be shown.
     """
     stage = FlightStage(flight)
-    kept = np.flatnonzero(np.isin(flight.time, stage.time))
-    kept = kept[:: _stride(flight.time[kept])]
-    channels = {name: components_of(flight[name][kept]) for name in flight.channels}
-    values = arrays_of(field_values(channels, flight.time[kept], phase_times(flight.mission["phases"])))
-    frames = pack_frames(layout_for(stage.vehicle.rotor_count), values, len(kept))
+    samples = np.flatnonzero(np.isin(flight.time, stage.time))
+    samples = samples[:: _stride(flight.time[samples])]
+    channels = {name: components_of(flight[name][samples]) for name in flight.channels}
+    values = arrays_of(field_values(channels, flight.time[samples], phase_times(flight.mission["phases"])))
+    frames = pack_frames(layout_for(stage.vehicle.rotor_count), values, len(samples))
     scene = scene_of_tables(flight.mission, stage.vehicle, flight.version.get("engine", ""), stage.floor)
-    start, end = (float(flight.time[kept[i]]) for i in (0, -1))
-    ending = scene_ending(flight.ending, flight["position"][kept[-1]])
+    start, end = (float(flight.time[samples[i]]) for i in (0, -1))
+    ending = scene_ending(flight.ending, flight["position"][samples[-1]])
     changes = flight.mission.get("changes", ())
     scene["replay"] = SceneReplay(
         start=start,
@@ -59,7 +61,7 @@ def scene_and_frames(flight: Flight) -> tuple[FlightScene, NDArray[np.float32]]:
         speed=1,
         ending=ending,
         findings=told(flight.findings),
-        changes=[SceneChange(time=c["time"], text=f"{c['key']} = {shown(c['value'])}") for c in changes],
+        changes=[SceneChange(time=c["time"], text=f"{c['key']} = {errors.shown(c['value'])}") for c in changes],
     )
     return scene, frames
 
@@ -73,6 +75,14 @@ def replay_files(flight: Flight, files: Mapping[str, bytes]) -> dict[str, bytes]
 def replay_html(flight: Flight, files: Mapping[str, bytes], most: int = MAX_FRAMES) -> str:
     """One self-contained page that plays a flight, of `most` frames; its policy allows it no network."""
     return in_one_file(with_data(page_text(files, "/index.html"), replay_element(flight, most=most)), files, OFFLINE)
+
+
+def report_replay(flight: Flight) -> str | None:
+    """The page that plays a flight in its report; None if nothing of the flight can be shown."""
+    try:
+        return replay_html(flight, page_files(), IN_REPORT)
+    except InputError:
+        return None
 
 
 def replay_element(flight: Flight, every: int = 1, most: int = MAX_FRAMES) -> str:

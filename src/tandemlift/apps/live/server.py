@@ -6,6 +6,7 @@ The flight goes on in a thread of its own and never waits for a page. A page tha
 from __future__ import annotations
 
 import asyncio
+import io
 import logging
 import os
 import socket
@@ -205,6 +206,17 @@ def open_in_browser(address: str) -> None:
     """Open an address in a graphical browser, if one can open; a text browser would take over the terminal."""
     if sys.platform in ("win32", "darwin") or os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"):
         threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+
+
+def qr_code(address: str) -> str:
+    """The QR code of an address as text for a terminal; empty without the package segno."""
+    try:
+        import segno
+    except ImportError:
+        return ""
+    text = io.StringIO()
+    segno.make(address, error="l", micro=False).terminal(text, compact=True)
+    return text.getvalue()
 
 
 def _file(path: str, content: bytes, cookie: str | None) -> Response:

@@ -21,8 +21,11 @@ from tandemlift.apps.live.session.page_messages import (
     PageMessage,
     Refusal,
     ReleaseMessage,
+    SaveMessage,
+    TurnMessage,
 )
-from tandemlift.apps.live.session.server_messages import FlightStatus, RefusedMessage, StatusMessage
+from tandemlift.apps.live.session.server_messages import FlightStatus, RefusedMessage, TurnStatus
+from tandemlift.apps.live.turns import Turns
 
 BEHIND = 4_096  # bytes not yet taken by the network, beyond which a viewer is behind
 LOST = 1_000_000  # bytes, beyond which it is cut off: it reads nothing at all
@@ -42,6 +45,7 @@ class Viewer:
     """One page's connection.
 
     Attributes:
+        number: by which all pages know it, from 1 on; 0 before it joins.
         dropped: frames that it was too slow for.
         last_message: when its last message came, by the monotonic clock [s].
         last_echo: when its last echo was sent, likewise.
@@ -49,7 +53,7 @@ class Viewer:
     """
 
     def __init__(self, connection: ServerConnection) -> None:
-        self.connection = connection
+        self.connection, self.number = connection, 0
         self.dropped, self.last_message = 0, time.monotonic()
         self.last_grab = 0
         self._second, self._messages, self._refusals, self._work = 0, 0, 0, 0.0
@@ -124,10 +128,12 @@ class Viewers:
 
     Attributes:
         holder: who holds the beam, or None; by a spring (`pulls`), by a force (`pushes`), or by both.
+        turns: who has the hand, and who waits for it.
     """
 
     def __init__(self) -> None:
-        self._all: set[Viewer] = set()
+        self._all, self._joined = set[Viewer](), 0
+        self.turns = Turns()
         self.holder: Viewer | None = None
         self.pulls = self.pushes = False
 
@@ -138,12 +144,15 @@ class Viewers:
         return iter(tuple(self._all))
 
     def join(self, viewer: Viewer) -> None:
-        """Add a viewer."""
+        """Add a viewer, which gets the next number."""
+        self._joined += 1
+        viewer.number = self._joined
         self._all.add(viewer)
 
     def leave(self, viewer: Viewer) -> bool:
         """Remove a viewer; returns whether the beam is free afterwards."""
         self._all.discard(viewer)
+        self.turns.take(viewer, "give", time.monotonic())
         held = self.holder is viewer
         if held:
             self.let_go()
@@ -172,27 +181,36 @@ class Viewers:
 
     def send_status(self, status: FlightStatus) -> None:
         """Send the status to all, each with who holds the beam as it sees it, and its last grab that this is after."""
+        self.turns.pass_on(time.monotonic())
         others: Literal["none", "other"] = "none" if self.holder is None else "other"
         for viewer in self:
             holder: Literal["you", "other", "none"] = "you" if viewer is self.holder else others
-            message = StatusMessage(
-                type="status", **status, viewers=len(self), holder=holder, last_grab=viewer.last_grab
-            )
-            viewer.send(message)
+            turns = TurnStatus(number=viewer.number, queue=self.turns.numbers)
+            seen = {**status, "viewers": len(self), "holder": holder, "last_grab": viewer.last_grab, "turns": turns}
+            viewer.send({"type": "status", **seen})
 
     def admits(self, viewer: Viewer, message: PageMessage) -> bool:
         """Whether a message is passed to the flight: all of the holder's, of others those that do not touch the beam.
 
         Raises:
-            Refusal: it needs the beam, and another viewer holds it.
+            Refusal: another viewer has the hand; or the message needs the beam, and another viewer holds it.
         """
         if isinstance(message, (MoveMessage, ReleaseMessage)) or (
             isinstance(message, ForceMessage) and not any(message.force)
         ):
             return self.holder is viewer
+        if self.turns.player not in (None, viewer) and not isinstance(message, SaveMessage):
+            raise Refusal(
+                message.type, f"page {self.turns.numbers[0]} has the hand: ask for it, and wait for your turn"
+            )
         if isinstance(message, (GrabMessage, ForceMessage)) and self.holder not in (None, viewer):
             raise Refusal(message.type, "another page holds the beam: wait until it is released")
         return True
+
+    def take_turn(self, viewer: Viewer, message: TurnMessage) -> bool:
+        """Let a viewer ask for the hand or give it on; returns whether the beam is to be released."""
+        self.turns.take(viewer, message.what, time.monotonic())
+        return self.holder is not None and self.holder is not self.turns.player
 
     def note(self, viewer: Viewer, message: PageMessage) -> None:
         """Update the holder of the beam after an applied message."""

@@ -13,7 +13,7 @@ import numpy as np
 from tandemlift.core.caching import cached
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array, number
-from tandemlift.core.vector import each, quarters, spread, vec3
+from tandemlift.core.vector import Mat3, each, quarters, spread, vec3
 from tandemlift.engines.models.scene import Scene
 from tandemlift.parts.mechanics.loads import PartsLayout
 from tandemlift.parts.mechanics.vehicle import Vehicle, parallel_axis_term
@@ -27,13 +27,15 @@ def parts_layout_from(vehicle: Vehicle) -> PartsLayout:
     """The layout of a vehicle's parts."""
     quadrotors, N = vehicle.quadrotors, vehicle.count
     x, y = np.array([q.rotors for q in quadrotors]).reshape(4 * N, 2).T
+    turned = any(q.heading for q in quadrotors)
+    rows = zip(*[q.tensor for q in quadrotors], strict=True)  # row x of every tensor, then y, then z
     torque = [q.torque_per_thrust * spin for q in quadrotors for spin in q.spins]
     return PartsLayout(
         payload=vec3(vehicle.origin),
         quadrotors=spread(vehicle.lever_arms),
         joints=spread([np.subtract(q.joint_position, q.position) for q in quadrotors]),
         mass=each(N)(*[q.mass for q in quadrotors]),
-        inertia=spread([q.inertia for q in quadrotors]),
+        inertia=Mat3(*map(spread, rows)) if turned else spread([q.inertia for q in quadrotors]),
         x=quarters(each(4 * N)(*map(number, x))),
         y=quarters(each(4 * N)(*map(number, y))),
         torque=quarters(each(4 * N)(*torque)),
@@ -67,7 +69,7 @@ def links_of(scene: Scene, vehicle: Vehicle) -> list[Link]:
     fleet = zip(vehicle.quadrotors, vehicle.lever_arms, strict=True)
     return [
         _payload(scene, vehicle),
-        *(Link(f"quadrotor_{i}", d, q.mass, np.zeros(3), np.diag(q.inertia)) for i, (q, d) in enumerate(fleet, 1)),
+        *(Link(f"quadrotor_{i}", d, q.mass, np.zeros(3), q.tensor) for i, (q, d) in enumerate(fleet, 1)),
     ]
 
 

@@ -17,10 +17,10 @@ from numpy.typing import ArrayLike
 
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.engines.models.mujoco_contact import (
-    HULL,
     add_floor,
     add_vehicle_shapes,
     add_walls,
+    hull_name,
     set_contact_stiffness,
 )
 from tandemlift.engines.models.mujoco_import import mujoco
@@ -55,7 +55,7 @@ def model_of(scene: Scene, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
     spec = specification(scene, vehicle, floor, walls)
     difference = _add_difference(spec, scene, vehicle)
     model = spec.compile()
-    quadrotors = [(q.mass, q.inertia) for q in vehicle.quadrotors]
+    quadrotors = [(q.mass, principal_axes(q.tensor)[0]) for q in vehicle.quadrotors]
     _set_inertias(model, [(vehicle.payload.mass, principal_axes(vehicle.payload.tensor)[0]), *quadrotors, *difference])
     model.dof_damping[:] = [*vehicle.drag.force, *vehicle.drag.moment]
     set_contact_stiffness(model, floor, walls)
@@ -100,14 +100,14 @@ def _add_payload(spec: Any, vehicle: Vehicle) -> None:
     body = spec.worldbody.add_body(name="payload", iquat=quat, **_placeholder_inertia(vehicle.payload_center))
     body.add_joint(name="free", type=mujoco.mjtJoint.mjJNT_FREE, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
     body.add_site(name="payload", pos=vehicle.origin)
-    hull = vehicle.payload.hull
-    if hull is not None:
-        spec.add_mesh(name=HULL, uservert=hull.corners.ravel(), userface=hull.triangles.ravel())
+    for k, hull in enumerate(vehicle.payload.hulls):
+        spec.add_mesh(name=hull_name(k), uservert=hull.corners.ravel(), userface=hull.triangles.ravel())
 
 
 def _add_quadrotor(spec: Any, name: str, quadrotor: Quadrotor, center: Array) -> None:
     """Add a quadrotor welded to the payload, with its centre of mass at `center`; sites at its joint and rotors."""
-    body = spec.body("payload").add_body(name=name, pos=center, **_placeholder_inertia())
+    _, quat = principal_axes(quadrotor.tensor)
+    body = spec.body("payload").add_body(name=name, pos=center, iquat=quat, **_placeholder_inertia())
     body.add_site(name=name, pos=np.subtract(quadrotor.joint_position, quadrotor.position))
     for j, ((x, y), spin) in enumerate(zip(quadrotor.rotors, quadrotor.spins, strict=True), 1):
         rotor = f"{name} rotor{j}"

@@ -31,7 +31,7 @@ POINT = 1e-4  # m, radius of the sphere that represents a foot's ball joint
 GROUND = "ground"  # the floor, for everything but feet
 THIN = 1e-4  # m, thickness of a wall
 KINDS = mujoco.mjtGeom
-HULL = "hull"  # name of a payload's box or mesh
+HULL = "hull"  # begins the names of a payload's box, mesh or bodies
 DEEP = 1e3  # m, height of the walls, which reach below any floor
 
 
@@ -79,10 +79,10 @@ def add_vehicle_shapes(spec: Any, floor: Any, walls: Any, vehicle: Vehicle) -> V
         if isinstance(hull.beam, Ellipsoids) and vehicle.beam:
             _add_beam(spec, np.array(hull.beam.center).T, hull.beam.radius[0])
             shapes.on_floor.append("beam")
-    if vehicle.payload.hull is not None and (isinstance(hull, Hull) or isinstance(walls, Walls)):
-        _add_body(spec, vehicle)
-        shapes.on_floor.extend([HULL] * isinstance(hull, Hull))
-        shapes.on_walls.extend([HULL] * isinstance(walls, Walls))
+    if isinstance(hull, Hull) or isinstance(walls, Walls):
+        names = _add_bodies(spec, vehicle)
+        shapes.on_floor.extend(names * isinstance(hull, Hull))
+        shapes.on_walls.extend(names * isinstance(walls, Walls))
     if isinstance(walls, Walls):
         _add_spheres(spec, walls, vehicle, shapes.on_walls)
         if isinstance(walls.beam, Beam):
@@ -138,14 +138,19 @@ def _add_beam(spec: Any, ends: Array, radius: float) -> None:
     _add_shape(spec.body("payload"), "beam", KINDS.mjGEOM_CAPSULE, size=size, fromto=ends.ravel())
 
 
-def _add_body(spec: Any, vehicle: Vehicle) -> None:
-    """Add a box, or the convex hull of a mesh, with its origin at the payload's."""
-    if vehicle.payload.size is not None:
-        attributes: dict[str, Any] = {"size": 0.5 * np.array(vehicle.payload.size)}
-    else:
-        attributes = {"meshname": HULL}
-    kind = KINDS.mjGEOM_MESH if "meshname" in attributes else KINDS.mjGEOM_BOX
-    _add_shape(spec.body("payload"), HULL, kind, pos=vehicle.origin, **attributes)
+def hull_name(k: int) -> str:
+    """The name of a payload's hull k, from 0, as a mesh and as a shape."""
+    return f"{HULL}{k + 1}" if k else HULL
+
+
+def _add_bodies(spec: Any, vehicle: Vehicle) -> list[str]:
+    """Add a box, or the convex hulls of a mesh or of bodies, with their origin at the payload's; their names."""
+    names, size = [hull_name(k) for k in range(len(vehicle.payload.hulls))], vehicle.payload.size
+    for name in names:
+        kind = KINDS.mjGEOM_MESH if size is None else KINDS.mjGEOM_BOX
+        attributes: dict[str, Any] = {"meshname": name} if size is None else {"size": 0.5 * np.array(size)}
+        _add_shape(spec.body("payload"), name, kind, pos=vehicle.origin, **attributes)
+    return names
 
 
 def add_floor(spec: Any, floor: Floor, shapes: VehicleShapes) -> None:
@@ -195,7 +200,7 @@ def touching_parts(model: Any) -> dict[tuple[int, int], tuple[str, str, int]]:
         if surface == "floor":
             continue
         numbers = [int("".join(filter(str.isdigit, word))) for word in part.split() if word[-1].isdigit()]
-        kind = "beam" if part in ("beam", HULL) else "rotor" if " rotor" in part else "guard"
-        index = 4 * (numbers[0] - 1) + numbers[1] - 1 if kind == "rotor" else numbers[0] - 1 if numbers else 0
+        kind = "beam" if part.startswith(("beam", HULL)) else "rotor" if " rotor" in part else "guard"
+        index = 4 * (numbers[0] - 1) + numbers[1] - 1 if kind == "rotor" else numbers[0] - 1 if kind == "guard" else 0
         found[min(pair), max(pair)] = "floor" if surface == GROUND else "wall", kind, index
     return found

@@ -32,7 +32,16 @@ from tandemlift.engines.models.sdf_collisions import (
 )
 from tandemlift.engines.models.sdf_elements import Element, add, fill, geometry, numbers, pose, rgba
 from tandemlift.engines.models.surroundings import floor_from
-from tandemlift.engines.models.visuals import GLASS, LEVEL, SUN, WALL, VisualShape, payload_shapes, quadrotor_shapes
+from tandemlift.engines.models.visuals import (
+    GLASS,
+    LEVEL,
+    SUN,
+    WALL,
+    VisualShape,
+    payload_shapes,
+    quadrotor_shapes,
+    rotation_about_z,
+)
 from tandemlift.parts.contact.corridor import WallTable
 from tandemlift.parts.contact.feet import Floor
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
@@ -165,10 +174,8 @@ def _wall(name: str, wall: WallTable, floor: float) -> VisualShape:
     """The box of a wall, from below the floor to its top."""
     start, along = np.array(wall.start), np.subtract(wall.end, wall.start)
     foot, length = min(floor, wall.top) - BURIED, float(np.hypot(*along))
-    turn = np.arctan2(along[1], along[0])
-    c, s = np.cos(turn), np.sin(turn)
+    axes = rotation_about_z(np.arctan2(along[1], along[0]))
     middle = np.array([*(start + along / 2.0), (foot + wall.top) / 2.0])
-    axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     return VisualShape(name, "box", (length, THIN, wall.top - foot), middle, axes, WALL, GLASS)
 
 

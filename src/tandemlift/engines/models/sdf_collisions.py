@@ -7,7 +7,7 @@
 | `beam_tip_K` | the payload | the floor | the same: an end of the beam |
 | `guard`, `rotor_J_sphere` | a quadrotor | walls | `parts.contact.walls`: a sphere |
 | `beam`, `beam_end_K` | the payload | walls | the same: a capsule |
-| `beam_box`, `beam_edge_K` | the payload | walls | `parts.contact.polyhedron`: a box, or the edges of a mesh's hull |
+| `beam_box`, `beam_edge_K`, `beam_body_K_…` | the payload | walls | `parts.contact.polyhedron`: a box, edges, bodies |
 
 Gazebo has no flat ellipsoid: a disc is a cylinder of the same radius and thickness, which reaches up to 4 mm farther
 where it leans. Shapes without a common bit do not touch, so no shape touches the same surface twice.
@@ -26,7 +26,7 @@ from tandemlift.engines.models.links import Link
 from tandemlift.engines.models.scene import Scene
 from tandemlift.engines.models.sdf_elements import Element, add, fill, geometry, pose
 from tandemlift.engines.models.surroundings import feet_and_floor_from, wall_contact_from
-from tandemlift.engines.models.visuals import VisualShape, frame_along, hull_shapes
+from tandemlift.engines.models.visuals import VisualShape, body_shapes, frame_along, hull_shapes
 from tandemlift.parts.contact.feet import Floor
 from tandemlift.parts.contact.hull import Ellipsoids, Hull
 from tandemlift.parts.contact.walls import Beam, Walls
@@ -140,12 +140,12 @@ def _beam(walls: Walls) -> list[VisualShape]:
 
 
 def _body(payload: Payload) -> list[VisualShape]:
-    """A box, or the edges of a convex hull as cylinders, for walls, which are thin."""
-    if payload.hull is None:
-        return []
+    """A box, bodies, or the edges of a convex hull as cylinders, for walls, which are thin."""
     if payload.size is not None:
         return [VisualShape("beam_box", "box", payload.size, np.zeros(3))]
-    return [shape._replace(name=f"beam_{shape.name}") for shape in hull_shapes(payload.hull, solid=False)]
+    shapes = body_shapes(payload, solid=False)
+    shapes += hull_shapes(payload.hulls[0], solid=False) if payload.corners is not None else []
+    return [shape._replace(name=f"beam_{shape.name}") for shape in shapes]
 
 
 def _feet(floor: Floor, i: int, link: Link) -> Iterator[VisualShape]:

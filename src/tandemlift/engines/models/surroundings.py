@@ -8,7 +8,7 @@ from tandemlift.core.caching import cached
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import Absent
 from tandemlift.engines.models.scene import Scene
-from tandemlift.parts.contact.feet import Floor, floor, sole_positions, standing_height
+from tandemlift.parts.contact.feet import Floor, floor, standing_height
 from tandemlift.parts.contact.ground_table import GroundTable
 from tandemlift.parts.contact.hull import hull
 from tandemlift.parts.contact.spheres import rotor_spheres
@@ -30,10 +30,9 @@ def feet_and_floor_from(scene: Scene, vehicle: Vehicle) -> Floor:
 @cached
 def _floor(vehicle: Vehicle, g: GroundTable, mass_scale: float, step: float, start: float) -> Floor:
     """The floor under a vehicle; unless its height is given, the vehicle stands on it with its centre at `start`."""
-    fleet, mass = vehicle.quadrotors, vehicle.mass * mass_scale
-    soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
+    mass = vehicle.mass * mass_scale
     shapes = hull(**vehicle.hull_shapes, mass=mass, inertia=vehicle.inertia, step=step)
-    at_zero = floor(soles, mass, vehicle.inertia, step, friction=g.friction, sinkage=g.sinkage, hull=shapes)
+    at_zero = floor(vehicle.soles, mass, vehicle.inertia, step, friction=g.friction, sinkage=g.sinkage, hull=shapes)
     if g.height is not None:
         return at_zero._replace(height=g.height)
     return at_zero._replace(height=start - standing_height(at_zero, mass * GRAVITY))
@@ -62,6 +61,6 @@ def _walls(vehicle: Vehicle, friction: float, mass_scale: float, step: float) ->
         friction=friction,
         rotors=rotor_spheres(vehicle.lever_arms, hubs, [q.rotor_radius for q in fleet], guards),
         beam=vehicle.beam,
-        body=vehicle.payload.hull,
+        bodies=vehicle.payload.hulls,
         payload=vehicle.origin,
     )

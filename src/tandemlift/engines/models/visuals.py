@@ -2,8 +2,8 @@
 
 The hull of a mesh is one more, of triangles; where there are none, its edges are drawn as cylinders.
 
-Front parts are orange and rear parts blue, so that the heading is visible. Pictures, the live page, MuJoCo, Gazebo and
-RViz draw this one list.
+Front parts are orange and rear parts blue, so that each quadrotor's heading is visible. Pictures, the live page,
+MuJoCo, Gazebo and RViz draw this one list.
 """
 
 from __future__ import annotations
@@ -16,7 +16,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.core.types import Array
-from tandemlift.parts.mechanics.payload import ConvexHull, Payload
+from tandemlift.core.vector import vec3
+from tandemlift.parts.mechanics.bodies import ConvexHull
+from tandemlift.parts.mechanics.payload import Payload
+from tandemlift.parts.mechanics.rotation import rotation_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 
@@ -93,14 +96,31 @@ def hull_shapes(hull: ConvexHull, *, solid: bool) -> list[VisualShape]:
     return [piece for k, (a, b) in ends for piece in cylinder(f"edge_{k}", a, b, EDGE_RADIUS, WOOD)]
 
 
+def body_shapes(payload: Payload, *, solid: bool) -> list[VisualShape]:
+    """Each of several bodies: a rod, a box, or any other as by `hull_shapes`; their names begin with their number."""
+    shapes = list[VisualShape]()
+    for k, body in enumerate(payload.bodies, 1):
+        if body.ends is not None and body.radius is not None:
+            own = cylinder("rod", *body.ends, body.radius, WOOD)
+        elif body.size is not None:
+            axes = np.array(rotation_from_euler(vec3(body.euler)))
+            own = [_box("box", body.position, body.size, WOOD)._replace(axes=axes)]
+        else:
+            own = hull_shapes(body.hull, solid=solid)
+        shapes += [shape._replace(name=f"body_{k}_{shape.name}") for shape in own]
+    return shapes
+
+
 def payload_shapes(payload: Payload, quadrotors: tuple[Quadrotor, ...], *, solid: bool = True) -> list[VisualShape]:
     """The payload about its origin: a beam with end caps, a box or a hull, and struts to joints that lie beside it.
 
     Not `solid`: a hull is drawn as its edges.
     """
     low, high = payload.box
-    if payload.hull is not None and payload.size is None:
-        shapes = hull_shapes(payload.hull, solid=solid)
+    if payload.bodies:
+        shapes = body_shapes(payload, solid=solid)
+    elif payload.hulls and payload.size is None:
+        shapes = hull_shapes(payload.hulls[0], solid=solid)
     elif payload.size is not None:
         shapes = [_box("payload", np.zeros(3), payload.size, WOOD)]
     elif not payload.length:
@@ -134,7 +154,17 @@ def quadrotor_shapes(q: Quadrotor, depth: float) -> list[VisualShape]:
         q: the quadrotor.
         depth: of the joint below the payload's surface [m]; the sensor's collar is at the surface.
     """
-    return [*_mount(q, depth), *_hull(mean_arm(q)), *_rotors(q), *_ring(q), *_legs(q)]
+    own = [*_hull(mean_arm(q)), *_rotors(q), *_ring(q), *_legs(q)]
+    if q.heading:
+        turn = rotation_about_z(q.heading)
+        own = [shape._replace(position=turn @ shape.position, axes=turn @ shape.axes) for shape in own]
+    return [*_mount(q, depth), *own]
+
+
+def rotation_about_z(angle: float) -> Array:
+    """The rotation (3 × 3) about z by an angle [rad]."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def _mount(q: Quadrotor, depth: float) -> list[VisualShape]:
@@ -161,18 +191,15 @@ def _hull(s: float) -> list[VisualShape]:
 def _rotors(q: Quadrotor) -> list[VisualShape]:
     """Arms up to the guard, motors, hubs, blades and rotor discs."""
     s, shapes = mean_arm(q), list[VisualShape]()
-    for j, (x, y) in enumerate(q.rotors, 1):
+    for j, (x, y) in enumerate(q.own_rotors, 1):
         color, reach = FRONT if x > 1e-9 else REAR, max(float(np.hypot(x, y)), 1e-9)
         low, mid, hub, high = (np.array([x, y, z * s]) for z in (-0.05, 0.12, 0.2, 0.24))
         tip = np.array([x, y, 0.0]) * max(q.guard_radius / reach, 1.0)
         shapes += cylinder(f"arm_{j}", np.zeros(3), tip, 0.05 * s, CARBON)
         shapes += cylinder(f"motor_{j}", low, mid, 0.1 * s, METAL)
         shapes += cylinder(f"hub_{j}", mid, high, 0.05 * s, color)
-        turn = 0.7 + j
-        c, n = np.cos(turn), np.sin(turn)
-        axes = np.array([[c, -n, 0.0], [n, c, 0.0], [0.0, 0.0, 1.0]])
         blades = (1.9 * q.rotor_radius, 0.16 * q.rotor_radius, 0.02 * q.rotor_radius)
-        shapes.append(VisualShape(f"blades_{j}", "box", blades, hub, axes, CARBON))
+        shapes.append(VisualShape(f"blades_{j}", "box", blades, hub, rotation_about_z(0.7 + j), CARBON))
         shapes.append(VisualShape(f"rotor_{j}", "cylinder", (q.rotor_radius, 0.01 * s), hub, LEVEL, color, BLUR))
     return shapes
 
@@ -200,6 +227,5 @@ def _legs(q: Quadrotor) -> list[VisualShape]:
 
 def wall_shape(wall: Mapping[str, Any]) -> VisualShape:
     """A wall as a thin box, from its table in the scene: `size` (3), `center` (3) [m, world axes], `heading` [rad]."""
-    c, s = np.cos(wall["heading"]), np.sin(wall["heading"])
-    axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    axes = rotation_about_z(wall["heading"])
     return VisualShape("wall", "box", tuple(wall["size"]), np.array(wall["center"]), axes, WALL, GLASS)

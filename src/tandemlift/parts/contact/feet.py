@@ -17,7 +17,7 @@ by their own law (`hull`).
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra import absolute, greatest, maximum, minimum, sqrt, where
 from tandemlift.core.arrays import array, largest, lengths
@@ -163,19 +163,6 @@ def may_touch(floor: Floor, s: State, time: Number) -> Condition:
     swings = floor.reach * (sqrt(dot(s.rates, s.rates)) + MAX_ANGULAR_ACCELERATION * time) * time
     fall = (minimum(s.velocity.z, 0.0) - 0.5 * MAX_ACCELERATION * time) * time
     return s.position.z + fall - minimum(hangs + swings, floor.reach) < floor.height
-
-
-def sole_positions(centers: ArrayLike, span: ArrayLike, depth: ArrayLike) -> NDArray[np.float64]:
-    """Four soles under each quadrotor, N × 4 × 3 [m, body axes], from the same point as the centres.
-
-    Args:
-        centers: centres of mass of the quadrotors, N × 3 [m].
-        span: of a foot along x and along y from there [m], one number or N.
-        depth: of the soles below there [m], one number or N.
-    """
-    d = array(centers)
-    size = np.stack([np.broadcast_to(v, len(d)) for v in (span, span, depth)], axis=1)
-    return d[:, None] + size[:, None] * [[1.0, 1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, -1.0], [1.0, -1.0, -1.0]]
 
 
 def floor(

@@ -16,7 +16,7 @@ with v the sliding velocity. Thus k δ is a spring, the rest dissipates, and con
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -28,8 +28,8 @@ from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Array, Condition, Number, NumberSet, number
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, dot, each, quarters, spread
 from tandemlift.parts.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
+from tandemlift.parts.mechanics.bodies import ConvexHull
 from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each, sum_over_set
-from tandemlift.parts.mechanics.payload import ConvexHull
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import world_z_in_body
 
@@ -192,7 +192,7 @@ def hull(
     step: float,
     *,
     beam: tuple[float, float] | None = None,
-    body: ConvexHull | None = None,
+    bodies: Sequence[ConvexHull] = (),
     payload: ArrayLike = (0.0, 0.0, 0.0),
     stiffness: float = 20000.0,
     damping_ratio: float = 0.2,
@@ -208,7 +208,7 @@ def hull(
         inertia: 3 × 3 about its centre of mass [kg·m²].
         step: of the Runge-Kutta method [s].
         beam: length [m] of the axis and radius [m] of a capsule along body y, if the payload is one.
-        body: the convex hull of the payload from its origin, if it has one.
+        bodies: the convex hulls of the payload from its origin, if it has any.
         payload: its origin from the system's centre of mass [m, body axes].
         stiffness: of a contact [N/m].
         damping_ratio: of the vehicle oscillating on one contact, without rotation.
@@ -218,8 +218,8 @@ def hull(
     ends, radius = np.zeros((0, 3)), beam[1] if beam else CORNER
     if beam is not None:
         ends = array([np.add(payload, [0.0, 0.5 * side * beam[0], 0.0]) for side in (-1.0, 1.0)])
-    elif body is not None:
-        ends = array(np.add(payload, body.inset(CORNER)))
+    elif bodies:
+        ends = array(np.add(payload, np.concatenate([body.inset(CORNER) for body in bodies])))
     points = np.concatenate([hubs, centers, ends])
     body_mobility = mobility(points, mass, array(inertia))
     k, c = softened_for_step(stiffness, 2.0 * damping_ratio * sqrt(stiffness * mass), body_mobility, step)

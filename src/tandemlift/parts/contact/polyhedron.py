@@ -1,4 +1,4 @@
-"""A convex body against walls: its corners against their surface, its edges against their edges and tops.
+"""A convex body, or several, against walls: its corners against their surface, its edges against their edges and tops.
 
 Walls are thin. The nearest points of two convex bodies are a corner and a face, or of two edges. So every corner
 touches as a sphere the two walls nearest to it; every edge touches as a capsule the two nearest upright edges and the
@@ -9,6 +9,8 @@ Each distance is continuous, also where an edge's nearest point comes to its end
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -27,8 +29,8 @@ from tandemlift.parts.contact.beam_axis import (
     point_by_top,
 )
 from tandemlift.parts.contact.spheres import SpringyWall, WallContact, sphere_contact
+from tandemlift.parts.mechanics.bodies import ConvexHull
 from tandemlift.parts.mechanics.loads import PartLoad, PartsLayout, sum_over_set, translated
-from tandemlift.parts.mechanics.payload import ConvexHull
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.wall_geometry import (
@@ -53,11 +55,22 @@ LEAST = 1e-6  # m, distance at which a direction is known
 FAR = 1e3  # m
 
 
-class Polyhedron(NamedTuple):
-    """The payload as a convex body, from its origin in body axes [m].
+class Faces(NamedTuple):
+    """The faces of a convex body, from the payload's origin [m, body axes]: unit `normal` and `distance`, sets.
 
-    `radius` of all corners and edges. As sets: the `corners` of the core, the body without its outermost `radius`;
-    `middle`, `direction` and `half` length of the edges between them; unit `normal` and `distance` of the body's faces.
+    `others`: those of the next body of several, or `Absent`.
+    """
+
+    normal: Vec3
+    distance: NumberSet
+    others: Faces | Absent
+
+
+class Polyhedron(NamedTuple):
+    """The payload as convex bodies, from its origin in body axes [m].
+
+    `radius` of all corners and edges. As sets, of all bodies together: the `corners` of the cores, the bodies without
+    their outermost `radius`; `middle`, `direction` and `half` length of the edges between them. `faces`: body by body.
     """
 
     radius: Number
@@ -65,12 +78,11 @@ class Polyhedron(NamedTuple):
     middle: Vec3
     direction: Vec3
     half: NumberSet
-    normal: Vec3
-    distance: NumberSet
+    faces: Faces
 
 
 class NearPolyhedron(NamedTuple):
-    """The two walls nearest to every corner (of sets), the two nearest upright edges, the walls with nearest tops."""
+    """The two walls nearest to every corner (of sets); to all bodies together, two upright edges and two tops."""
 
     first: Wall
     second: Wall
@@ -128,28 +140,37 @@ def by_top(a: BeamAxis, half: NumberSet, wall: Wall) -> Spots:
     return Spots(place, offset_from_top(wall, place))
 
 
+def faces_of(p: Polyhedron) -> list[Faces]:
+    """The faces of every body."""
+    found = [p.faces]
+    while isinstance(found[-1].others, Faces):
+        found.append(found[-1].others)
+    return found
+
+
 @law
-def offset_from_tip(p: Polyhedron, edge: Wall, origin: Vec3, R: Mat3) -> Vec3:
-    """Offset of the core's nearest face from the upper end of an edge [m, world axes]; far where no face is before it.
+def offset_from_tip(faces: Faces, radius: Number, edge: Wall, origin: Vec3, R: Mat3) -> Vec3:
+    """Offset of a core's nearest face from the upper end of an edge [m, world axes]; far where no face is before it.
 
     Below the faces by s, the nearest one of the core is r − s behind the tip, and at least a little.
     """
     tip = apply_transposed(R, Vec3(edge.x, edge.y, edge.top) - origin)
-    above = dot(p.normal, tip) - p.distance
-    most, count = greatest(above), len(p.distance)
+    above = dot(faces.normal, tip) - faces.distance
+    most, count = greatest(above), len(faces.distance)
     numbers = each(count)(*[1.0 + i for i in range(count)])
     face = least(number_at(above, most, numbers, 1.0 + count))
-    normal = Vec3(*[total(if_number(numbers, face, axis)) for axis in p.normal])
-    beside = greatest(dot(p.normal, tip - normal * most) - p.distance)
-    return apply(R, normal * -where(beside < BESIDE, maximum(most + p.radius, LEAST), FAR))
+    normal = Vec3(*[total(if_number(numbers, face, axis)) for axis in faces.normal])
+    beside = greatest(dot(faces.normal, tip - normal * most) - faces.distance)
+    return apply(R, normal * -where(beside < BESIDE, maximum(most + radius, LEAST), FAR))
 
 
 @law
 def by_tips(p: Polyhedron, near: NearPolyhedron, frame: PartsLayout, s: State) -> Spots:
-    """The points of the core's faces nearest to the upper ends of the two nearest edges."""
+    """The points of the cores' faces nearest to the upper ends of the two nearest edges."""
     R = rotation_from_quaternion(s.attitude)
-    origin, pairs = s.position + apply(R, frame.payload), (near.edge, near.other_edge)
-    offsets = [offset_from_tip(p, edge, origin, R) for edge in pairs]
+    origin, bodies = s.position + apply(R, frame.payload), faces_of(p)
+    offsets = [offset_from_tip(f, p.radius, edge, origin, R) for f in bodies for edge in (near.edge, near.other_edge)]
+    pairs = (near.edge, near.other_edge) * len(bodies)
     places = [Vec3(edge.x, edge.y, edge.top) + o for edge, o in zip(pairs, offsets, strict=True)]
     place, o = (Vec3(*[set_of(axis) for axis in zip(*points, strict=True)]) for points in (places, offsets))
     return Spots(place, o)
@@ -205,9 +226,9 @@ def least_square(spots: Spots) -> Number:
 
 @law
 def square_from_edge(p: Polyhedron, edge: Wall, a: BeamAxis, origin: Vec3, R: Mat3) -> Number:
-    """Square of the distance of a body from an upright edge [m²]."""
-    tip = offset_from_tip(p, edge, origin, R)
-    return minimum(least_square(by_edge(a, p.half, edge)), dot(tip, tip))
+    """Square of the distance of the bodies from an upright edge [m²]."""
+    tips, square = [offset_from_tip(f, p.radius, edge, origin, R) for f in faces_of(p)], by_edge(a, p.half, edge)
+    return functools.reduce(minimum, [dot(tip, tip) for tip in tips], least_square(square))
 
 
 @law
@@ -252,20 +273,23 @@ def no_walls_near_polyhedron(p: object) -> NearPolyhedron | Absent:
     return NearPolyhedron(nowhere, nowhere, WALL, WALL, WALL, WALL)
 
 
-def polyhedron(hull: ConvexHull | None) -> Polyhedron | Absent:
-    """The contact shape of a convex hull; `Absent` without one."""
-    if hull is None:
+def polyhedron(hulls: Sequence[ConvexHull]) -> Polyhedron | Absent:
+    """The contact shape of convex hulls; `Absent` without any."""
+    if not hulls:
         return Absent()
-    radius = min(ROUNDING, 0.25 * hull.width)
-    corners = hull.inset(radius)
-    a, b = corners[hull.edges].transpose(1, 0, 2)
+    radius = min(ROUNDING, *[0.25 * hull.width for hull in hulls])
+    cores = [hull.inset(radius) for hull in hulls]
+    a, b = np.concatenate([core[hull.edges] for core, hull in zip(cores, hulls, strict=True)]).transpose(1, 0, 2)
     lengths = np.linalg.norm(b - a, axis=1)
+    faces: Faces | Absent = Absent()
+    for hull in reversed(hulls):
+        faces = Faces(spread(hull.normals), each(len(hull.offsets))(*map(number, hull.offsets)), faces)
+    assert isinstance(faces, Faces)
     return Polyhedron(
         number(radius),
-        spread(corners),
+        spread(np.concatenate(cores)),
         spread(0.5 * (a + b)),
         spread((b - a) / lengths[:, None]),
         each(len(a))(*map(number, 0.5 * lengths)),
-        spread(hull.normals),
-        each(len(hull.offsets))(*map(number, hull.offsets)),
+        faces,
     )

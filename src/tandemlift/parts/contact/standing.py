@@ -12,7 +12,7 @@ from tandemlift.core.caching import cached
 from tandemlift.core.errors import CheckResult, refused, shown, warned
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import vec3
-from tandemlift.parts.contact.feet import Floor, floor, sinkage_of, sole_positions, standing_height
+from tandemlift.parts.contact.feet import Floor, floor, sinkage_of, standing_height
 from tandemlift.parts.contact.ground_table import GroundTable
 from tandemlift.parts.contact.hull import hull, lowest_of_hull
 from tandemlift.parts.mechanics.rigid_body import InitialTable
@@ -43,9 +43,8 @@ class Standing(NamedTuple):
 @cached
 def standing_on(g: GroundTable, table: VehicleTable, mass_scale: float, step: float, start: InitialTable) -> Standing:
     """The equilibrium on the floor of a vehicle with this start, which is on the floor by default; `step` in s."""
-    vehicle, fleet, z = Vehicle.from_settings(table), table.quadrotors, start.position[2]
-    mass = vehicle.mass * mass_scale
-    soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
+    vehicle, z = Vehicle.from_settings(table), start.position[2]
+    mass, soles = vehicle.mass * mass_scale, vehicle.soles
     shapes = hull(**vehicle.hull_shapes, mass=mass, inertia=vehicle.inertia, step=step)
     built = floor(soles, mass, vehicle.inertia, step, friction=g.friction, sinkage=g.sinkage, hull=shapes)
     stands, sinkage = standing_height(built, mass * GRAVITY), sinkage_of(built, mass * GRAVITY)

@@ -16,6 +16,7 @@ every state, so it stays exact in between. Impacts that springs would not stop a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -52,8 +53,8 @@ from tandemlift.parts.contact.spheres import (
     with_rotor_loads,
 )
 from tandemlift.parts.contact.springs import mobility, softened_for_step, surface_mobility
+from tandemlift.parts.mechanics.bodies import ConvexHull
 from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, translated
-from tandemlift.parts.mechanics.payload import ConvexHull
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.wall_geometry import WALL, Wall, nearer, offset, second_nearest
@@ -154,7 +155,7 @@ def walls(
     friction: float,
     rotors: RotorSpheres | Absent = IN_GUARDS,
     beam: tuple[float, float] | None = None,
-    body: ConvexHull | None = None,
+    bodies: Sequence[ConvexHull] = (),
     payload: ArrayLike = (0.0, 0.0, 0.0),
     stiffness: float = 5000.0,
     damping_ratio: float = 0.5,
@@ -170,12 +171,12 @@ def walls(
         friction: μ of guards, rotors and beam on walls.
         rotors: a `RotorSpheres`, or `Absent` if all rotors are in their guard.
         beam: length [m] of the axis and radius [m] of a capsule along body y, if the payload is one.
-        body: the convex hull of the payload from its origin, if it has one.
+        bodies: the convex hulls of the payload from its origin, if it has any.
         payload: its origin from the system's centre of mass [m, body axes].
         stiffness: of a contact [N/m].
         damping_ratio: of the vehicle oscillating on one contact, without rotation.
     """
-    J, shape = array(inertia), Beam(number(beam[1]), each(2)(*_ends(beam))) if beam else polyhedron(body)
+    J, shape = array(inertia), Beam(number(beam[1]), each(2)(*_ends(beam))) if beam else polyhedron(bodies)
     radii = np.broadcast_to(guards, len(array(quadrotors)))
     of_payload = _payload_spheres(shape, payload)
     spheres = [*zip(array(quadrotors), radii, strict=True), *of_payload]
@@ -186,7 +187,7 @@ def walls(
     k, c = softened_for_step(stiffness, 2.0 * damping_ratio * sqrt(stiffness * mass), mobility(pressed, mass, J), step)
     tangential_mobility = sum(surface_mobility(center, radius, mass, J) for center, radius in spheres)
     reach = greatest([number(far + radius) for far, (_, radius) in zip(lengths(pressed), several, strict=True)])
-    if body is not None:
+    for body in bodies:
         reach = max(reach, float(lengths(np.add(payload, body.corners)).max()))
     return Walls(
         k,

@@ -65,7 +65,7 @@ def start_contact_detection(
         payload=vec3(vehicle.origin),
         half=0.0 if payload.span is None else 0.5 * payload.span,
         radius=0.0 if payload.radius is None else payload.radius,
-        corners=Absent() if payload.hull is None else spread(vehicle.origin + payload.hull.corners),
+        corners=spread([c for h in payload.hulls for c in vehicle.origin + h.corners]) if payload.hulls else Absent(),
         margin=MARGIN,
     )
     detector = ContactDetector(

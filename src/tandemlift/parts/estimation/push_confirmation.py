@@ -200,7 +200,7 @@ def rotor_model(vehicle: Vehicle, step: float) -> tuple[RotorModel, PerRotor]:
 def _wind_ratios(vehicle: Vehicle) -> list[Any]:
     """Drag of the payload over that of the quadrotors along each body axis; 0 where the quadrotors have none."""
     beam = array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
-    fleet = np.sum([array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
+    fleet = np.sum([array(q.areas) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
     return [where(b < TINY_AREA, 0.0, a / maximum(b, TINY_AREA)) for a, b in zip(beam, fleet, strict=True)]
 
 

@@ -88,14 +88,14 @@ def start_payload_drag(windage: PayloadDrag | Absent) -> PayloadDragState | Abse
 def payload_drag_from(vehicle: Vehicle, bandwidth: float, step: float) -> PayloadDrag:
     """The windage of the nominal vehicle, with a low-pass of a bandwidth [rad/s]."""
     beam = array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
-    quadrotors = np.sum([array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
+    quadrotors = np.sum([array(q.areas) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
     return PayloadDrag(number(beam[0] / quadrotors[0]), number(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
 
 
 def compensation_checks(model: str, quadrotors: Sequence[Quadrotor]) -> Iterator[CheckResult]:
     """Check for quadrotors without drag along an axis, which do not measure its wind; `model`: `wind_compensation`."""
     for axis, name in enumerate("xy"):
-        if model != "none" and not any(q.drag_area[axis] * q.drag_coefficient > 0.0 for q in quadrotors):
+        if model != "none" and not any(q.areas[axis] * q.drag_coefficient > 0.0 for q in quadrotors):
             yield refused(
                 'estimator.wind_compensation = "quadrotors": must be "none" where no quadrotor has drag along body '
                 f"{name}: there the wind is not measured"

@@ -10,6 +10,7 @@ from tandemlift.core.types import GRAVITY, Number, PerQuadrotor, PerRotor
 from tandemlift.core.vector import (
     ZERO,
     Absent,
+    Mat3,
     Quarters,
     Quat,
     Vec3,
@@ -22,7 +23,7 @@ from tandemlift.core.vector import (
     total,
 )
 from tandemlift.parts.mechanics.parts import Acceleration
-from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench
+from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench, apply_inertia
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 
@@ -58,15 +59,16 @@ class PartsLayout(NamedTuple):
     """Places and masses of the parts, which determine the loads of the joints. Body axes.
 
     From the system's centre of mass [m]: `payload`, its origin, and `quadrotors`, their centres of mass; `joints`: from
-    each of these to its joint [m]. `mass` [kg] and `inertia` [kg·m², diagonal] of each quadrotor. Of rotor j of every
-    quadrotor, from that quadrotor's centre of mass: `x` and `y` [m], and `torque` about z over thrust [m].
+    each of these to its joint [m]. `mass` [kg] and `inertia` [kg·m²] of each quadrotor, a Vec3 where it is diagonal. Of
+    rotor j of every quadrotor, from that quadrotor's centre of mass: `x` and `y` [m], and `torque` about z over thrust
+    [m].
     """
 
     payload: Vec3
     quadrotors: Vec3
     joints: Vec3
     mass: PerQuadrotor
-    inertia: Vec3
+    inertia: Vec3 | Mat3
     x: Quarters[PerQuadrotor]
     y: Quarters[PerQuadrotor]
     torque: Quarters[PerQuadrotor]
@@ -154,9 +156,8 @@ def perfect_readings(frame: PartsLayout, s: State, a: Acceleration, thrusts: Per
     rotors = quadrotor_wrenches(frame, thrusts)
     inertial = specific_force_at(s, a, frame.quadrotors) * Vec3(frame.mass, frame.mass, frame.mass)
     force = Vec3(-inertial.x, -inertial.y, rotors.thrust - inertial.z)
-    J, w = frame.inertia, s.rates
-    turning = Vec3(J.x * a.angular.x, J.y * a.angular.y, J.z * a.angular.z)
-    spinning = cross(w, Vec3(J.x * w.x, J.y * w.y, J.z * w.z))
+    turning = apply_inertia(frame.inertia, a.angular)
+    spinning = cross(s.rates, apply_inertia(frame.inertia, s.rates))
     couple = rotors.moment - turning - spinning
     return PerfectReadings(specific_force_at(s, a, frame.payload), force, couple - cross(frame.joints, force), ZERO)
 

@@ -1,100 +1,20 @@
-"""The payload: a beam along body y, a box, or the convex hull of a mesh, or any body with a mass and an inertia.
+"""The payload: a beam along body y, a box, a mesh, several bodies, or any body with a mass and an inertia.
 
-All that others need of a box or a mesh is its `ConvexHull`, in body axes from the payload's origin.
+All that others need of the shape of a box, a mesh or bodies are its `hulls`, in body axes from the payload's origin.
 """
 
 from __future__ import annotations
 
 import math
-from functools import lru_cache
-from itertools import combinations, pairwise, product
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, model_validator
 
 from tandemlift.core.errors import shown
-from tandemlift.core.keys import Exactly3, Length, PerAxis, Positive, Positive3, Size, Table, Triple, key, must
+from tandemlift.core.keys import Exactly3, PerAxis, Positive, Positive3, Size, Table, Triple, key, must
 from tandemlift.core.types import Array
-
-FLAT = 1e-6  # of the extent of a body: corners as near to a plane as this lie in it
-SLIVER = 1e-5  # of the square of the extent: a smaller triangle determines no plane
-MOST_CORNERS = 32  # of a payload's hull: contact with walls costs time for each
-
-
-class ConvexHull(NamedTuple):
-    """A convex body: corners (n, 3) [m], edges as pairs of them (m, 2), faces as tuples of them, and their planes.
-
-    The corners of a face are counterclockwise, seen from outside. A face is where normal · x = offset, with unit
-    `normals` (f, 3) that point outside and `offsets` (f) [m].
-    """
-
-    corners: Array
-    edges: Array
-    faces: tuple[tuple[int, ...], ...]
-    normals: Array
-    offsets: Array
-
-    @property
-    def triangles(self) -> Array:
-        """Corners of triangles that make up the surface (t, 3), counterclockwise seen from outside."""
-        return np.array([(face[0], a, b) for face in self.faces for a, b in pairwise(face[1:])])
-
-    @property
-    def areas(self) -> Triple:
-        """Areas [m²] seen along x, y and z."""
-        a, b, c = self.corners[self.triangles].transpose(1, 0, 2)
-        x, y, z = (0.25 * np.abs(np.cross(b - a, c - a)).sum(axis=0)).tolist()  # each is seen from two sides
-        return x, y, z
-
-    @property
-    def width(self) -> float:
-        """The smallest distance of a face from the corner farthest behind it [m]."""
-        return float(np.min(self.offsets - np.min(self.corners @ self.normals.T, axis=0)))
-
-    def inset(self, depth: float) -> Array:
-        """The corners (n, 3) [m] moved inwards, so that each is so deep under its faces [m]."""
-        rows = [self.normals[[i in face for face in self.faces]] for i in range(len(self.corners))]
-        return self.corners - depth * np.array([np.linalg.pinv(n) @ np.ones(len(n)) for n in rows])
-
-
-@lru_cache(maxsize=64)
-def convex_hull(corners: tuple[Triple, ...]) -> ConvexHull:
-    """The convex hull of the corners of a convex body [m]: its faces are the planes with no corner above them.
-
-    Raises:
-        ValueError: the points are not the corners of a convex body: fewer than four, in a plane, or within the others.
-    """
-    points = np.array(corners)
-    extent = float(np.ptp(points, axis=0).max())
-    triples = np.array(list(combinations(range(len(points)), 3))).reshape(-1, 3)
-    a, b, c = points[triples].transpose(1, 0, 2)
-    normals = np.cross(b - a, c - a)
-    sizes = np.linalg.norm(normals, axis=1)
-    wide = sizes > SLIVER * extent * extent
-    normals, a = normals[wide] / sizes[wide, None], a[wide]
-    normals, a = np.vstack([normals, -normals]), np.vstack([a, a])
-    offsets = np.sum(normals * a, axis=1)
-    above, planes = normals @ points.T - offsets[:, None], dict[frozenset[int], int]()
-    for i in np.flatnonzero(above.max(axis=1, initial=-np.inf) <= FLAT * extent).tolist():
-        planes.setdefault(frozenset(np.flatnonzero(above[i] >= -FLAT * extent).tolist()), i)
-    outer = [i for on, i in planes.items() if not any(on < other for other in planes)]
-    normals, offsets = normals[outer], offsets[outer]
-    faces = tuple(
-        _around(points, np.flatnonzero(above[i] >= -FLAT * extent).tolist(), n)
-        for i, n in zip(outer, normals, strict=True)
-    )
-    edges = sorted({(min(e), max(e)) for face in faces for e in zip(face, (*face[1:], face[0]), strict=True)})
-    if len(points) - len(edges) + len(faces) != 2 or {i for face in faces for i in face} != set(range(len(points))):
-        raise ValueError("not the corners of a convex body")
-    return ConvexHull(points, np.array(edges), faces, normals, offsets)
-
-
-def _around(points: Array, face: list[int], normal: Array) -> tuple[int, ...]:
-    """The corners of a face, counterclockwise about its normal."""
-    away = points[face] - points[face].mean(axis=0)
-    turn = np.arctan2(away @ np.cross(normal, away[0]), away @ away[0])
-    return tuple(face[i] for i in np.argsort(turn))
+from tandemlift.parts.mechanics.bodies import Body, ConvexHull, Place, Sides, box_hull, check_corners, convex_hull
 
 
 def _principal(inertia: Triple) -> Triple:
@@ -104,31 +24,23 @@ def _principal(inertia: Triple) -> Triple:
     return inertia
 
 
-def _check_corners(corners: tuple[Triple, ...]) -> None:
-    if not 4 <= len(corners) <= MOST_CORNERS:
-        raise must("payload", f"have 4 to {MOST_CORNERS} corners, here are {len(corners)}")
-    try:
-        convex_hull(corners)
-    except ValueError as error:
-        raise must("payload", f"have the corners of a convex body; these {len(corners)} are {error}") from None
-
-
 Inertia = Annotated[Positive3, AfterValidator(_principal)]
 Areas = Annotated[tuple[Size, Size, Size], PerAxis(3)]
-Sides = Annotated[tuple[Length, Length, Length], PerAxis(3)]
-Metre = Annotated[float, Field(ge=-1e3, le=1e3)]
-Place = Annotated[tuple[Metre, Metre, Metre], PerAxis(3, single=False)]
-OWN = {"beam": ("length", "radius"), "box": ("size",), "mesh": ("mesh", "density", "corners")}  # keys of one shape
+OWN = {  # keys of one shape
+    **{"beam": ("length", "radius"), "box": ("size",), "mesh": ("mesh", "density", "corners")},
+    "bodies": ("bodies",),
+}
 
 
 class Payload(Table):
-    """`[vehicle.payload]`: a thin beam along body y, a box, a mesh, or any body with a mass and moments of inertia.
+    """`[vehicle.payload]`: a beam along body y, a box, a mesh, bodies, or any with a mass and moments of inertia.
 
     Positions on the vehicle are from the payload's origin: the middle of a beam or a box, whether its mass is even or
-    not, and the origin of a mesh's file. A mesh touches as its convex hull of at most 32 corners.
+    not, and the origin of a mesh's file. A mesh touches as its convex hull of at most 32 corners. Mass, centre of mass,
+    inertia and products of bodies come from them.
     """
 
-    shape: Literal["beam", "box", "mesh"] = key(
+    shape: Literal["beam", "box", "mesh", "bodies"] = key(
         "beam",
         None,
         "shape of the payload",
@@ -136,6 +48,7 @@ class Payload(Table):
             "beam": "a beam with length and radius, or without them a body without shape",
             "box": "a box with edges along the body axes, such as a plate",
             "mesh": "the body in the file of a mesh",
+            "bodies": "several convex bodies: rods of any direction, boxes and others",
         },
     )
     mass: Positive = key(..., "kg", "mass of the payload", example=0.5)
@@ -172,7 +85,7 @@ class Payload(Table):
         None,
         "m",
         "corners of the convex hull of a mesh, from the payload's origin, body axes",
-        rule=f"4 to {MOST_CORNERS} corners of a convex body; with shape 'mesh'",
+        rule="4 to 32 corners of a convex body; with shape 'mesh'",
         unset="those of the mesh",
         example=[[1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 0]],
     )
@@ -199,12 +112,13 @@ class Payload(Table):
         example=[0.2, 0.008, 0.2],
     )
     drag_coefficient: Size = key(1.0, "1", "drag coefficient c", source="chosen: a bluff body")
+    bodies: tuple[Body, ...] = ()
 
     @model_validator(mode="after")
     def _complete(self) -> Payload:
         for shape, names in OWN.items():
             for name in names:
-                if shape != self.shape and getattr(self, name) is not None:
+                if shape != self.shape and getattr(self, name) not in (None, ()):
                     given = f"{name} = {shown(getattr(self, name))}"
                     raise must("payload", f'have no {given} with shape = "{self.shape}", or shape must be "{shape}"')
         if self.mesh_scale != 1.0:
@@ -213,8 +127,10 @@ class Payload(Table):
             raise must("payload", 'have size with shape = "box": its edges along the body axes [m]')
         if self.shape == "mesh" and (self.corners is None or self.inertia is None):
             raise must("payload", 'have mesh and density with shape = "mesh", or corners, mass and inertia')
+        if self.shape == "bodies" and (not self.bodies or self.inertia is None):
+            raise must("payload", 'have one table of bodies or more with shape = "bodies"')
         if self.corners is not None:
-            _check_corners(self.corners)
+            check_corners(self.corners)
         if self.shape == "beam" and self.inertia is None and (self.length is None or self.radius is None):
             raise must("payload", "have either inertia, or length and radius (of a beam)")
         if any(self.products):
@@ -247,40 +163,42 @@ class Payload(Table):
         """Areas [m²] seen along the body axes: as given, or of the shape; zero for a payload without one."""
         if self.drag_area is not None:
             return self.drag_area
-        if self.hull is not None:
-            return self.hull.areas
+        if self.hulls:
+            x, y, z = map(sum, zip(*[hull.areas for hull in self.hulls], strict=True))
+            return x, y, z
         length, radius = (0.0 if size is None else size for size in (self.length, self.radius))
         return (2.0 * radius * length, math.pi * radius**2, 2.0 * radius * length)
 
     @property
-    def hull(self) -> ConvexHull | None:
-        """The convex hull of a box or a mesh, from the payload's origin; None for any other payload."""
+    def hulls(self) -> tuple[ConvexHull, ...]:
+        """The convex hull of a box, a mesh or every body, from the payload's origin; none of any other payload."""
         if self.size is not None:
-            return convex_hull(tuple(product(*[(-0.5 * side, 0.5 * side) for side in self.size])))
-        return None if self.corners is None else convex_hull(self.corners)
+            return (box_hull(self.size),)
+        return tuple(body.hull for body in self.bodies) if self.corners is None else (convex_hull(self.corners),)
 
     @property
     def box(self) -> tuple[Array, Array]:
         """The lowest and the highest corner of the shape [m], body axes, from the payload's origin (3 each)."""
-        if self.hull is not None:
-            return self.hull.corners.min(axis=0), self.hull.corners.max(axis=0)
+        if self.hulls:
+            corners = np.concatenate([hull.corners for hull in self.hulls])
+            return corners.min(axis=0), corners.max(axis=0)
         length, radius = (0.0 if size is None else size for size in (self.length, self.radius))
         half = np.array([radius, 0.5 * length, radius])
         return -half, half
 
     @property
     def span(self) -> float | None:
-        """Length along body y [m]: of a beam, or twice the largest distance of a hull from its origin, or None."""
-        return self.length if self.hull is None else 2.0 * float(np.abs(self.hull.corners[:, 1]).max())
+        """Length along body y [m]: of a beam, or twice the largest distance of a hull from the origin, or None."""
+        return 2.0 * max(float(np.abs(hull.corners[:, 1]).max()) for hull in self.hulls) if self.hulls else self.length
 
     @property
     def outline(self) -> Array:
         """Points of lines that show the shape (n, 3) [m], from its origin; NaN between two lines.
 
-        The axis of a beam, the edges of a hull, or a single point.
+        The axis of a beam, the edges of hulls, or a single point.
         """
-        if self.hull is not None:
-            ends = self.hull.corners[self.hull.edges]
+        if self.hulls:
+            ends = np.concatenate([hull.corners[hull.edges] for hull in self.hulls])
             return np.concatenate([ends, np.full((len(ends), 1, 3), np.nan)], axis=1).reshape(-1, 3)
         half = 0.5 * (self.length or 0.0)
         return np.array([[0.0, -half, 0.0], [0.0, half, 0.0]])[: 2 if half else 1]

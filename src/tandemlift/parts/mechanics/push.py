@@ -5,19 +5,14 @@ Several pushes at several points act as one force F = Σ F_i in world axes and o
 number of pushes does not enter the equations of motion.
 """
 
-from collections.abc import Iterator, Sequence
 from typing import Generic, NamedTuple, TypeAlias, TypeVar
 
-import numpy as np
-
 from tandemlift.core.algebra import exp, where
-from tandemlift.core.errors import CheckResult, refused, shown
 from tandemlift.core.keys import Exactly3, Positive, Table, key
 from tandemlift.core.law import choice, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Mat3, Quat, Vec3, linear, outer, plus
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
 class PushTable(Table):
@@ -126,14 +121,3 @@ def _moment(push: PointPush, attitude: Quat) -> Vec3:
         P.x * R.x.z + P.y * R.y.z + P.z * R.z.z,
     )
     return Vec3(G.z.y - G.y.z, G.x.z - G.z.x, G.y.x - G.x.y)
-
-
-FARTHEST = 0.5  # m, largest distance of a push from the box of all parts
-
-
-def point_checks(key: str, point: Sequence[float], vehicle: Vehicle) -> Iterator[CheckResult]:
-    """Check for a push at a point [m, body axes] that is not on the vehicle; `key` is the point's key."""
-    if vehicle.beside(point) > FARTHEST:
-        low, high = (shown(np.round(corner, 3).tolist()) for corner in vehicle.box)
-        given = f"{key} = {shown([float(x) for x in point])}"
-        yield refused(f"{given}: must be on the vehicle, whose parts reach from {low} to {high} m")

@@ -4,11 +4,9 @@ x_d, y_d = T_r; z_d = (T_r,z + height · q(lift)) (1 − q(land)), with exact de
 smoothstep 10 s³ − 15 s⁴ + 6 s⁵ on [0, 1].
 """
 
-from collections.abc import Iterator
 from typing import Literal, NamedTuple
 
 from tandemlift.core.algebra import clip
-from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.keys import NonNegative, Positive, Table, key
 from tandemlift.core.law import law
 from tandemlift.core.types import Number
@@ -121,17 +119,3 @@ def scheduled_phases(p: PhasesTable) -> ScheduledPhases:
         land_start=0.0 if p.land_start is None else p.land_start,
         land_rate=0.0 if p.land_start is None else 1.0 / p.land_duration,
     )
-
-
-def phase_checks(p: PhasesTable) -> Iterator[CheckResult]:
-    """Check for a landing before the lift."""
-    if p.land_start is not None and p.land_start < p.lift_start:
-        limit = f"must not be before phases.lift_start = {p.lift_start}"
-        yield refused(f"phases.land_start = {p.land_start}: {limit}")
-
-
-def phase_warnings(p: PhasesTable) -> Iterator[CheckResult]:
-    """Check for a landing that cuts the lift short."""
-    lifted = p.lift_start + p.lift_duration
-    if p.height and p.land_start is not None and p.land_start < lifted:
-        yield warned(f"phases.land_start = {p.land_start} is before the lift ends at {lifted:g} s: it is cut short")

@@ -1,8 +1,9 @@
 """A vehicle from its parts: mass, centre of mass, inertia, and the matrices between wrench and rotor thrusts.
 
 Body axes are parallel to the payload's; the beam lies along y. Rotors of a "+" quadrotor stand at +x, +y, −x, −y, of
-an "x" 45° further, or at `rotor_positions`; without `spins`, the reaction torque on the body of rotors 1 and 3 is about
-+z, of 2 and 4 about −z. Thrust is along body z, so heights do not enter the allocation.
+an "x" 45° further, or at `rotor_positions`, all turned by its `heading` about z; without `spins`, the reaction torque
+on the body of rotors 1 and 3 is about +z, of 2 and 4 about −z. Thrust is along body z, so heights do not enter the
+allocation.
 """
 
 from __future__ import annotations
@@ -138,6 +139,11 @@ class Vehicle:
         return [[(x, y, q.rotor_height) for x, y in q.rotors] for q in self.quadrotors]
 
     @property
+    def soles(self) -> Array:
+        """The soles of every quadrotor's feet from the system's centre of mass [m], body axes (N × 4 × 3)."""
+        return self.lever_arms[:, None] + array([q.feet for q in self.quadrotors])
+
+    @property
     def beam(self) -> tuple[float, float] | None:
         """Length and radius [m] of a payload that is a beam, else None."""
         payload = self.payload
@@ -152,7 +158,7 @@ class Vehicle:
             "radii": [q.rotor_radius for q in self.quadrotors],
             "guards": [q.guard_radius for q in self.quadrotors],
             "beam": self.beam,
-            "body": self.payload.hull,
+            "bodies": self.payload.hulls,
             "payload": self.origin,
         }
 
@@ -177,7 +183,7 @@ class Vehicle:
         """J_t [kg m²] about the system's centre of mass, body axes (3 × 3)."""
         total = self.payload.tensor + parallel_axis_term(self.payload.mass, self.payload_center)
         for q, d in zip(self.quadrotors, self.lever_arms, strict=True):
-            total = total + np.diag(q.inertia) + parallel_axis_term(q.mass, d)
+            total = total + q.tensor + parallel_axis_term(q.mass, d)
         return total
 
     def real_inertia(self, plant: PlantTable) -> Array:

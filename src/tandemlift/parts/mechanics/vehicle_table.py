@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, model_validator
+import numpy as np
+from pydantic import AfterValidator, Field, model_validator
 
 from tandemlift.core.keys import (
     Axes3,
@@ -22,10 +23,13 @@ from tandemlift.core.keys import (
     key,
     must,
 )
-from tandemlift.parts.mechanics.payload import Areas, Inertia, Metre, Payload, Place
+from tandemlift.core.types import Array
+from tandemlift.parts.mechanics.bodies import Metre, Place
+from tandemlift.parts.mechanics.payload import Areas, Inertia, Payload
 
 Corner = Annotated[tuple[Metre, Metre], PerAxis(2, single=False)]
 Turns = Literal[-1, 1]
+Heading = Annotated[float, Field(ge=-6.2832, le=6.2832)]  # rad, within a whole turn either way
 COINCIDING = 1e-3  # m
 
 
@@ -55,15 +59,16 @@ class PlantTable(Table):
 class Quadrotor(Table):
     """`[[vehicle.quadrotors]]`: one table for each quadrotor, 1 to 64 of them, rigidly fixed to the payload.
 
-    Their axes are parallel to the vehicle's, they are at least 1 mm apart, and no rotor strikes another. In dotted
-    keys, the first has the number 0.
+    They are at least 1 mm apart, and no rotor strikes another. One with a `heading` is turned about body z, with all
+    that is its own. Thrust stays along body z. Readings of its joint are along the body axes, whatever its heading. In
+    dotted keys, the first has the number 0.
     """
 
     mass: Positive = key(..., "kg", "mass of the quadrotor", example=1.5)
     inertia: Inertia = key(
         ...,
         "kg m²",
-        "principal moments of inertia about the quadrotor's centre of mass",
+        "principal moments of inertia about the quadrotor's centre of mass, along its own axes",
         rule="none above the sum of the other two",
         example=[0.029125, 0.029125, 0.055225],
     )
@@ -72,6 +77,12 @@ class Quadrotor(Table):
         "m",
         "position of the quadrotor's centre of mass from the payload's origin, body axes",
         example=[0.0, 1.0, 0.075],
+    )
+    heading: Heading = key(
+        0.0,
+        "rad",
+        "angle from body x to the quadrotor's own x axis, about body z: of its rotors, feet, inertia and drag area",
+        source="it faces along body x",
     )
     layout: Literal["+", "x"] = key(
         "x",
@@ -90,7 +101,7 @@ class Quadrotor(Table):
     rotor_positions: tuple[Corner, Corner, Corner, Corner] | None = key(
         None,
         "m",
-        "x and y of each rotor from the quadrotor's centre of mass",
+        "x and y of each rotor from the quadrotor's centre of mass, its own axes",
         rule="four pairs within ±1000, such that every moment can be produced",
         unset="by layout and arm",
         example=[[0.25, 0.0], [0.0, 0.25], [-0.25, 0.0], [0.0, -0.25]],
@@ -133,7 +144,10 @@ class Quadrotor(Table):
         source="chosen: arm and rotor",
     )
     feet_spread: Length = key(
-        0.12, "m", "distance of each of four feet from the quadrotor's centre, along x and along y", source="chosen"
+        0.12,
+        "m",
+        "distance of each of four feet from the quadrotor's centre, along its x and along its y",
+        source="chosen",
     )
     feet_depth: Length = key(
         0.18,
@@ -144,7 +158,7 @@ class Quadrotor(Table):
     drag_area: Areas = key(
         (0.02, 0.02, 0.05),
         "m²",
-        "area seen along each body axis, for drag in moving air",
+        "area seen along each of its own axes, for drag in moving air; along body axes what it has there",
         source="chosen: a body of 0.2 m by 0.1 m, and rotor discs that are mostly open",
     )
     drag_coefficient: Size = key(1.0, "1", "drag coefficient", source="chosen: a bluff body")
@@ -156,8 +170,8 @@ class Quadrotor(Table):
         return self
 
     @property
-    def rotors(self) -> tuple[tuple[float, float], ...]:
-        """Position (x, y) [m] of each rotor from the centre of mass, body axes."""
+    def own_rotors(self) -> tuple[tuple[float, float], ...]:
+        """Position (x, y) [m] of each rotor from the centre of mass, the quadrotor's own axes."""
         if self.rotor_positions is not None:
             return self.rotor_positions
         arm = 0.0 if self.arm is None else self.arm
@@ -165,6 +179,42 @@ class Quadrotor(Table):
             return ((arm, 0.0), (0.0, arm), (-arm, 0.0), (0.0, -arm))
         angles = [math.pi / 4 + i * math.pi / 2 for i in range(4)]
         return tuple((arm * math.cos(a), arm * math.sin(a)) for a in angles)
+
+    @property
+    def rotors(self) -> tuple[tuple[float, float], ...]:
+        """Position (x, y) [m] of each rotor from the centre of mass, body axes."""
+        return tuple(self._turned(x, y) for x, y in self.own_rotors)
+
+    @property
+    def feet(self) -> tuple[Triple, ...]:
+        """The soles of its four feet from the centre of mass [m], body axes."""
+        size, corners = self.feet_spread, ((1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0))
+        return tuple((*self._turned(x * size, y * size), -self.feet_depth) for x, y in corners)
+
+    @property
+    def tensor(self) -> Array:
+        """Its tensor of inertia about its centre of mass [kg m²], body axes (3 × 3)."""
+        return self._turned_tensor(self.inertia)
+
+    @property
+    def areas(self) -> Triple:
+        """Areas [m²] of its drag along the body axes; of a turned one without the part across each axis."""
+        x, y, z = np.diag(self._turned_tensor(self.drag_area)).tolist()
+        return x, y, z
+
+    def _turned(self, x: float, y: float) -> tuple[float, float]:
+        """A place on its own axes [m] along the body axes."""
+        c, s = math.cos(self.heading), math.sin(self.heading)
+        return (c * x - s * y, s * x + c * y) if self.heading else (x, y)
+
+    def _turned_tensor(self, principal: Triple) -> Array:
+        """The tensor (3 × 3) along the body axes of one that is diagonal along its own."""
+        x, y, z = principal
+        if not self.heading:
+            return np.diag(principal)
+        mean, half = 0.5 * (x + y), 0.5 * (x - y)
+        c, s = half * math.cos(2.0 * self.heading), half * math.sin(2.0 * self.heading)
+        return np.array([[mean + c, s, 0.0], [s, mean - c, 0.0], [0.0, 0.0, z]])
 
     @property
     def joint_position(self) -> Triple:

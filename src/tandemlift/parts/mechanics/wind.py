@@ -8,7 +8,6 @@ whole vehicle, `vehicle.drag`, is in `rigid_body`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
@@ -16,7 +15,6 @@ from pydantic import Field
 
 from tandemlift.core.algebra import clip, cos, maximum, sqrt
 from tandemlift.core.arrays import distance
-from tandemlift.core.errors import CheckResult, warned
 from tandemlift.core.keys import NonNegative, PerAxis, Positive, Table, key
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number
@@ -25,9 +23,6 @@ from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, a
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.turbulence import (
-    FOOT,
-    HIGHEST,
-    LOWEST,
     Dryden,
     TurbulenceState,
     WindNoise,
@@ -166,7 +161,7 @@ def air_drag_from(vehicle: Vehicle, density: float) -> AirDrag:
     payload, quadrotors = vehicle.payload, vehicle.quadrotors
     return AirDrag(
         vec3(payload.areas) * (0.5 * density * payload.drag_coefficient),
-        spread([[a * (0.5 * density * q.drag_coefficient) for a in q.drag_area] for q in quadrotors]),
+        spread([[a * (0.5 * density * q.drag_coefficient) for a in q.areas] for q in quadrotors]),
     )
 
 
@@ -254,16 +249,3 @@ def gusts_from(w: WindTable) -> list[Gust]:
     """The gusts on top of the mean wind."""
     gusts = w.gusts if w.model == "air" else ()
     return [Gust(vec3(g.velocity), g.start, 1.0 / g.rise, math.inf if g.hold is None else g.hold) for g in gusts]
-
-
-def wind_warnings(w: WindTable) -> Iterator[CheckResult]:
-    """Check for gusts without a wind, and for turbulence at a height outside the standard."""
-    if w.gusts and w.model == "none":
-        yield warned('wind.gusts do not blow while wind.model is "none"')
-    lowest, highest = LOWEST * FOOT, HIGHEST * FOOT
-    held = min(max(w.height, lowest), highest)
-    if w.model == "air" and w.turbulence and abs(held - w.height) > 1e-6 * held:
-        yield warned(
-            f"wind.height = {w.height}: MIL-F-8785C gives the turbulence from {lowest:g} m to {highest:g} m; "
-            f"that of {held:g} m blows"
-        )

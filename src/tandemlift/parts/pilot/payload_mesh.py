@@ -12,7 +12,7 @@ import numpy as np
 from tandemlift.core.errors import FlightWarning, InputError, extra, shown
 from tandemlift.core.keys import Triple
 from tandemlift.core.types import Array
-from tandemlift.parts.mechanics.payload import MOST_CORNERS, ConvexHull, convex_hull
+from tandemlift.parts.mechanics.bodies import MOST_CORNERS, ConvexHull, convex_hull
 
 KINDS = (".stl", ".obj", ".ply")
 SMALLEST, LARGEST = 1e-3, 20.0  # m, extent of a payload

@@ -5,11 +5,22 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from tandemlift.core.errors import FAILS, CheckResult, judged
+import numpy as np
+
+from tandemlift.core.errors import FAILS, CheckResult, judged, refused, shown
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 BESIDE = 0.05  # m, from the box of all parts
+FARTHEST = 0.5  # m, largest distance of a push from the box of all parts
+
+
+def on_vehicle_checks(key: str, point: Sequence[float], vehicle: Vehicle) -> Iterator[CheckResult]:
+    """Check for a push at a point [m, body axes] that is not on the vehicle; `key` is the point's key."""
+    if vehicle.beside(point) > FARTHEST:
+        low, high = (shown(np.round(corner, 3).tolist()) for corner in vehicle.box)
+        given = f"{key} = {shown([float(x) for x in point])}"
+        yield refused(f"{given}: must be on the vehicle, whose parts reach from {low} to {high} m")
 
 
 def point_checks(pushes: Sequence[PushTable], vehicle: Vehicle) -> Iterator[CheckResult]:

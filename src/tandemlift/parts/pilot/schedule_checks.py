@@ -1,4 +1,4 @@
-"""Checks of inconsistent heights and times: lift, landing, pushes, a person's path."""
+"""Checks of inconsistent heights and times: lift, landing, pushes, a person's path, wind."""
 
 from __future__ import annotations
 
@@ -7,13 +7,15 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from tandemlift.core.errors import CLOSE, FAILS, CheckResult, judged, noted
+from tandemlift.core.errors import CLOSE, FAILS, CheckResult, judged, noted, refused, warned
 from tandemlift.core.types import GRAVITY
 from tandemlift.parts.compliance.admittance import AdmittanceTable
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.guidance.compliance_table import ComplianceTable
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
+from tandemlift.parts.mechanics.turbulence import FOOT, HIGHEST, LOWEST
+from tandemlift.parts.mechanics.wind import WindTable
 from tandemlift.parts.rotors.hover import HoverFacts
 
 STEEPEST = 1.875  # of the quintic smooth step: its largest slope
@@ -154,3 +156,30 @@ def landing_checks(schedule: Schedule) -> Iterator[CheckResult]:
         f"{end:g} s: the flight ends in the air; set mission.duration to {math.ceil(over)} s or more, or land earlier"
     )
     yield judged("schedule", over, end, "s", text, subject="landing", near=0.0)
+
+
+def phase_checks(p: PhasesTable) -> Iterator[CheckResult]:
+    """Check for a landing before the lift."""
+    if p.land_start is not None and p.land_start < p.lift_start:
+        limit = f"must not be before phases.lift_start = {p.lift_start}"
+        yield refused(f"phases.land_start = {p.land_start}: {limit}")
+
+
+def phase_warnings(p: PhasesTable) -> Iterator[CheckResult]:
+    """Check for a landing that cuts the lift short."""
+    lifted = p.lift_start + p.lift_duration
+    if p.height and p.land_start is not None and p.land_start < lifted:
+        yield warned(f"phases.land_start = {p.land_start} is before the lift ends at {lifted:g} s: it is cut short")
+
+
+def wind_warnings(w: WindTable) -> Iterator[CheckResult]:
+    """Check for gusts without a wind, and for turbulence at a height outside the standard."""
+    if w.gusts and w.model == "none":
+        yield warned('wind.gusts do not blow while wind.model is "none"')
+    lowest, highest = LOWEST * FOOT, HIGHEST * FOOT
+    held = min(max(w.height, lowest), highest)
+    if w.model == "air" and w.turbulence and abs(held - w.height) > 1e-6 * held:
+        yield warned(
+            f"wind.height = {w.height}: MIL-F-8785C gives the turbulence from {lowest:g} m to {highest:g} m; "
+            f"that of {held:g} m blows"
+        )

@@ -92,7 +92,7 @@ class WindOnParts:
         payload, half, arms = self.vehicle.payload, 0.5 * self.wind.density, self.vehicle.lever_arms
         first = AirPart(np.array(payload.areas) * (half * payload.drag_coefficient), self.vehicle.origin)
         fleet = zip(self.vehicle.quadrotors, arms, strict=True)
-        return first, *[AirPart(np.array(q.drag_area) * (half * q.drag_coefficient), place) for q, place in fleet]
+        return first, *[AirPart(np.array(q.areas) * (half * q.drag_coefficient), place) for q, place in fleet]
 
     @cached_property
     def eddies(self) -> Array:

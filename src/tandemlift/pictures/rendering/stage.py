@@ -51,12 +51,6 @@ class FlightStage:
 
     def _floor_of(self, mission: dict[str, Any], vehicle: Vehicle) -> float:
         """Height of the floor [m]; where the mission gives none, that of the lowest foot."""
-        soles = [
-            center + np.array([x * q.feet_spread, y * q.feet_spread, -q.feet_depth])
-            for q, center in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True)
-            for x in (1.0, -1.0)
-            for y in (1.0, -1.0)
-        ]
         ground = mission.get("ground", {})
         standing = ground.get("model", "none") != "none"
         if standing and ground.get("height") is not None:
@@ -64,7 +58,7 @@ class FlightStage:
         shown = slice(0, 1) if standing else slice(None)
         unit = self._attitudes[shown] / np.linalg.norm(self._attitudes[shown], axis=1)[:, None]
         up = np.stack(world_z_in_body(Quat(*unit.T)), axis=1)
-        return float((self.path[shown, 2, None] + up @ np.array(soles).T).min())
+        return float((self.path[shown, 2, None] + up @ vehicle.soles.reshape(-1, 3).T).min())
 
     def _at(self, time: float, values: Array) -> Array:
         """Values (n) of a channel (T, n), interpolated at a time [s]."""

@@ -16,7 +16,15 @@ from PIL import Image
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
 from tandemlift.engines.models.camera import NEAR
-from tandemlift.engines.models.visuals import GLASS, PUSH_COLOR, SUN, WALL, VisualShape, vehicle_shapes
+from tandemlift.engines.models.visuals import (
+    GLASS,
+    PUSH_COLOR,
+    SUN,
+    WALL,
+    VisualShape,
+    rotation_about_z,
+    vehicle_shapes,
+)
 from tandemlift.pictures.rendering import ground
 from tandemlift.pictures.rendering.ground import Painted, View, rgb
 from tandemlift.pictures.rendering.stage import FlightStage
@@ -213,5 +221,4 @@ def _pose(position: Array, rotation: Array) -> Array:
 
 def _turned(angle: float) -> Array:
     """A rotation about z by an angle [rad], as a transformation (4 × 4)."""
-    c, s = np.cos(angle), np.sin(angle)
-    return _pose(np.zeros(3), np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]))
+    return _pose(np.zeros(3), rotation_about_z(angle))

@@ -148,12 +148,11 @@ def assemble(mission: Mission) -> AssembledFlight:
     Raises:
         InputError: a part of the mission cannot be built.
     """
-    vehicle, step = Vehicle.from_settings(mission.vehicle), mission.mission.step
-    chance = np.random.default_rng(mission.mission.seed)
+    vehicle, step, seed = Vehicle.from_settings(mission.vehicle), mission.mission.step, mission.mission.seed
+    chance, delays = np.random.default_rng(seed), delays_from(mission.sensors, mission.actuators, mission.person, step)
     pilot, memory = start_pilot(mission, vehicle)
     state, plant = start_state(mission), plant_from(mission, vehicle)
     grip = Absent() if isinstance(plant.floor, Absent) else _grip(plant.floor, state)
-    delays = delays_from(mission.sensors, mission.actuators, mission.person, step)
     weights, over = mission.allocation.weights, plant.floor.height if mission.ground.effect else None
     rotors, spinning, thrusts = start_rotors(
         mission.actuators, mission.faults, vehicle, step, weights=weights, floor=over, delayed=bool(delays[2])
@@ -162,9 +161,8 @@ def assemble(mission: Mission) -> AssembledFlight:
     near, hand = near_walls_from(plant.walls), push_kind(mission.pushes, mission.person)
     at_rest = lambda: readings_at_rest(plant, state, grip, near, thrusts, hand)  # noqa: E731
     senses = start_perception(mission, vehicle, state, chance, at_rest)
-    walk = Walk(
-        waypoints_from(mission.person, mission.corridor), state, mission.initial.euler[2], mission.phases.height
-    )
+    waypoints = waypoints_from(mission.person, mission.corridor)
+    walk = Walk(waypoints, state, mission.initial.euler[2], mission.phases.height)
     person, memory_of_person, tremor_noise = start_person(mission.person, vehicle, step, walk)
     mass, floor = vehicle.mass * mission.plant.mass_scale, mission.ground.model != "none"
     limits = crash_limits_from(mission.crash, mission.supervision, mass, floor=floor)
@@ -200,7 +198,7 @@ def assemble(mission: Mission) -> AssembledFlight:
         limits=limits,
         finding_limits=finding_limits_from(mission, vehicle),
     )
-    given = StepInputs(hand, ZERO, StepNoise(wind_noise_of(wind), senses.noise, tremor_noise), memory_of_person)
-    legs = path_legs_from(mission.person, person, walk)
+    inputs = StepInputs(hand, ZERO, StepNoise(wind_noise_of(wind), senses.noise, tremor_noise), memory_of_person)
+    legs, seeds = path_legs_from(mission.person, person, walk), np.array(key_from_seed(seed))
     tables = input_tables_from(mission.pushes, mission.wind, mission.all_walls, legs)
-    return AssembledFlight(model, given, tables, delays, np.array(key_from_seed(mission.mission.seed)))
+    return AssembledFlight(model, inputs, tables, delays, seeds)

@@ -7,6 +7,7 @@ on any machine: each product and each sum is rounded separately. Results that de
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, NamedTuple, TypeVar
 
@@ -30,7 +31,7 @@ FIXED = {
     "mission.step": "determines the number of steps, and the steps of every time",
     "mission.log_interval": "determines the steps between rows of the log",
 }
-SHAPE = ("vehicle.payload.size.", "vehicle.payload.corners.")
+SHAPE = ("vehicle.payload.size.", "vehicle.payload.corners.", "vehicle.payload.bodies.")
 SCHEDULED = "belongs to a change in flight, which becomes a mission of its own"
 WHOLE = "is a whole number, on which the layout of the flight may depend"
 UNTRACED = ("controller.", "vehicle.")  # tables that a controller's start reads
@@ -73,6 +74,8 @@ def trace_assembly(mission: Mission, build: Callable[[Mission], Any] = assemble)
     """
     numbers, fixed = numbers_of_mission(mission), {**FIXED, **dict.fromkeys(counts_of_mission(mission), WHOLE)}
     fixed |= {key: "determines the faces of the payload" for key in numbers if key.startswith(SHAPE)}
+    turned = re.compile(r"vehicle\.quadrotors\.\d+\.heading").fullmatch
+    fixed |= {key: "determines the axes of a quadrotor" for key in numbers if turned(key)}
     fixed |= {key: SCHEDULED for key in numbers if key.startswith("changes.")}
     while True:
         traced, reasons = _tried(numbers, fixed, lambda symbols: build(with_numbers(mission, symbols)))

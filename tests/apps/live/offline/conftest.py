@@ -4,6 +4,8 @@ import pytest
 from own_flight import OwnFlight
 from sessions import GUIDED
 
+from tandemlift.apps.live import pages
+from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.page_modules import packed_flight, packed_mission, page_mission
 from tandemlift.apps.live.session.session import Session
 
@@ -36,3 +38,18 @@ def by_hand(packed_by_hand, tmp_path):
     yield session, flight
     flight.close()
     session.stop()
+
+
+@pytest.fixture(scope="module")
+def address(hover, tmp_path_factory):
+    file = tmp_path_factory.mktemp("page") / "own.html"
+    file.write_text(pages.offline_html([hover], page_files()), "utf-8")
+    return file.as_uri()
+
+
+@pytest.fixture(scope="module")
+def browser():
+    from chromium import launched
+
+    with launched() as one:
+        yield one

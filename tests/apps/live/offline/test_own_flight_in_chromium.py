@@ -1,11 +1,10 @@
 """The page that flies by itself in Chromium, from disk: pulled by a real mouse, saved, and flown again in Python."""
 
 import time
-import zipfile
 
 import numpy as np
 import pytest
-from chromium import MS, SIZE, launched, middle_of_the_beam, opened, panel
+from chromium import SIZE, middle_of_the_beam, opened, panel, save, seconds_flown
 from click.testing import CliRunner
 from patience import until
 from repository import ROOT
@@ -16,33 +15,6 @@ from tandemlift.apps.live import pages
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import fly_stepwise
-
-
-@pytest.fixture(scope="module")
-def address(hover, tmp_path_factory):
-    file = tmp_path_factory.mktemp("page") / "own.html"
-    file.write_text(pages.offline_html([hover], page_files()), "utf-8")
-    return file.as_uri()
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with launched() as one:
-        yield one
-
-
-def seconds_flown(page):
-    return float(page.inner_text("#meters .time dd").removesuffix("s").replace("–", "-1"))
-
-
-def save(page, folder):
-    """Save the flight by the page's dialog, unpacked into a folder; the name of the file."""
-    page.click("#dock button:has-text('Save')")
-    page.fill("#save-name", "by-hand")
-    with page.expect_download(timeout=MS) as download:
-        page.click("#saving button[type=submit]")
-    zipfile.ZipFile(download.value.path()).extractall(folder)
-    return download.value.suggested_filename
 
 
 def pull_and_push(page):

@@ -7,6 +7,7 @@ from websockets.exceptions import InvalidStatus
 
 from tandemlift.apps.live.access import listen
 from tandemlift.apps.live.page_files import page_files
+from tandemlift.apps.live.server import qr_code
 from tandemlift.core.errors import InputError
 
 
@@ -126,3 +127,11 @@ def test_a_port_that_is_taken_and_a_host_that_is_none_are_refused_in_words():
 def test_a_page_that_is_not_there_is_told_of(tmp_path):
     with pytest.raises(InputError, match="the page is not there"):
         page_files(tmp_path)
+
+
+def test_the_qr_code_is_that_of_the_address():
+    segno = pytest.importorskip("segno")
+    address = "http://lab.example:8710/?token=abc"
+    drawn = qr_code(address).splitlines()
+    side = segno.make(address, error="l", micro=False).symbol_size(border=4)[0]
+    assert {len(line) for line in drawn if line} >= {side}

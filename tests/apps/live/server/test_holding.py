@@ -3,7 +3,7 @@
 import numpy as np
 from patience import PATIENCE, until
 
-from tandemlift.apps.live import viewers
+from tandemlift.apps.live import turns, viewers
 from tandemlift.apps.live.session.frames import read_frames
 
 
@@ -140,3 +140,54 @@ def test_a_viewer_who_does_not_hold_may_go_without_letting_go(live):
         holder.text("status", viewers=1)
         at_target(holder, live, [1.0, 0.0, 0.0])
         assert live.flight.released == 0
+
+
+def told(viewer, number, *queue):
+    """Wait until a viewer of this number is told that these take turns."""
+    viewer.text("status", turns={"number": number, "queue": list(queue)})
+
+
+def test_viewers_take_turns_and_the_others_wait(live):
+    with live.viewer() as one, live.viewer() as two, live.viewer() as three:
+        for number, viewer in enumerate((one, two, three), 1):
+            told(viewer, number)
+        one.grab(1.0, 0.0, 0.0)
+        one.text("status", holder="you")
+        two.say(type="turn", what="ask")  # takes the beam from a page that has no turn
+        told(one, 1, 2)
+        until(lambda: not live.flight.held)
+        for number, viewer, queue in ((1, one, (2, 1)), (3, three, (2, 1, 3)), (1, one, (2, 1, 3))):
+            viewer.say(type="turn", what="ask")
+            told(viewer, number, *queue)
+        for message in ({"type": "reset"}, {"type": "ask", "what": "lift"}):
+            one.say(**message)
+            assert one.text("refused")["reason"] == "page 2 has the hand: ask for it, and wait for your turn"
+        one.grab(1.0, 0.0, 0.0)
+        assert one.text("refused")["what"] == "grab"
+        two.grab(-1.0, 0.0, 0.0)
+        two.text("status", holder="you")
+        two.say(type="turn", what="give")  # lets go, too
+        told(three, 3, 1, 3)
+        until(lambda: not live.flight.held)
+        one.grab(1.0, 0.0, 0.0)
+        one.text("status", holder="you")
+        three.say(type="turn", what="give")
+        told(two, 2, 1)
+    with live.viewer() as four:  # who leaves gives the hand away
+        told(four, 4)
+
+
+def test_a_viewer_that_does_nothing_passes_the_hand_on_if_another_waits(live, clock):
+    with live.viewer() as one, live.viewer() as two:
+        told(one, 1)
+        told(two, 2)
+        one.say(type="turn", what="ask")
+        told(two, 2, 1)
+        two.say(type="turn", what="ask")
+        told(one, 1, 1, 2)
+        clock[0] += turns.IDLE + 1.0
+        told(one, 1, 2)
+        clock[0] += turns.IDLE + 1.0  # nobody waits
+        two.say(type="ping", t=0.0)
+        two.text("pong")
+        told(one, 1, 2)

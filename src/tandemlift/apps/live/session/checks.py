@@ -32,6 +32,8 @@ FAILED_ALREADY = "rotor = {rotor}: fails at {time:g} s already"
 BESIDE_TEXT = "point = {point}: must be on the vehicle, within {reach:.3g} m of its centre of mass"
 TARED_IN_HOVER_TEXT = "hands off until the force sensors are tared, in steady hover"
 TARED_UNTIL_TEXT = "hands off until {end:g} s: the force sensors are tared in hover"
+REPEATABLE = ("compiled", "mujoco")  # engines whose bodies only the flight pushes
+NOT_REPEATABLE = "rewind: others may push the body in {engine}, so that its flights cannot be flown again"
 NO_REQUESTS = "{what}: mission {mission} is scheduled and takes no requests"
 
 ALLOWED, TARED_IN_HOVER, TARED_UNTIL, BESIDE = 0.0, 1.0, 2.0, 3.0  # whether a push is allowed, else the reason
@@ -124,6 +126,16 @@ def check_takes_requests(guidance: str, mission: str, what: str) -> None:
     """
     if guidance == "scheduled":
         raise InputError(NO_REQUESTS.format(what=what, mission=mission))
+
+
+def check_repeatable(engine: str) -> None:
+    """Refuse to fly again in an engine that does not do the same twice.
+
+    Raises:
+        InputError: it does not.
+    """
+    if engine not in REPEATABLE:
+        raise InputError(NOT_REPEATABLE.format(engine=engine))
 
 
 def check_may_tare(flight: RecordedFlight, vehicle: SceneVehicle, phase: str) -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from tandemlift.apps.live.session import page_messages as page
 from tandemlift.apps.live.session.checks import check_touch
-from tandemlift.apps.live.session.page_messages import AskMessage, ForceMessage, GrabMessage, MoveMessage
 from tandemlift.apps.live.session.server_messages import SceneVehicle
 from tandemlift.core.vector import ZERO, Quat, Vec3, apply
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
@@ -36,7 +36,19 @@ class HandControl:
         self._offset = ZERO  # m, added to targets
         self._requests: dict[str, int] = {}  # last step of each
 
-    def grab(self, m: GrabMessage, attitude: Callable[[], Quat]) -> None:
+    def take(self, m: page.BeamMessage, attitude: Callable[[], Quat]) -> None:
+        """Grab, move, push or release, as a message says; `attitude`: of the vehicle, if it is needed."""
+        match m:
+            case page.GrabMessage():
+                self.grab(m, attitude)
+            case page.MoveMessage():
+                self.move(m)
+            case page.ForceMessage():
+                self.push(m)
+            case page.ReleaseMessage():
+                self.release()
+
+    def grab(self, m: page.GrabMessage, attitude: Callable[[], Quat]) -> None:
         """Take hold of the beam at a point, or at the centre of mass; `attitude`: of the vehicle, if it is needed.
 
         Raises:
@@ -48,12 +60,12 @@ class HandControl:
         target = Vec3(*m.target) + self._offset
         self._change(held=1.0, grip=ZERO if centre else point, target=target)
 
-    def move(self, m: MoveMessage) -> None:
+    def move(self, m: page.MoveMessage) -> None:
         """Pull to another target, if the hand holds."""
         if self._flight.hand.held:
             self._change(target=Vec3(*m.target) + self._offset)
 
-    def push(self, m: ForceMessage) -> None:
+    def push(self, m: page.ForceMessage) -> None:
         """Push with a force.
 
         Raises:
@@ -68,7 +80,7 @@ class HandControl:
         """Let go of the beam, and push no more."""
         self._change(held=0.0, force=ZERO)
 
-    def request(self, m: AskMessage) -> None:
+    def request(self, m: page.AskMessage) -> None:
         """Ask the pilot to lift off, to land or to stop."""
         self._change(**{m.what: 1.0})
         if m.what != "stop":

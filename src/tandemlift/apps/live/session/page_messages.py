@@ -168,6 +168,13 @@ class ResetMessage(NumberedMessage):
     type: Literal["reset"] = "reset"
 
 
+class RewindMessage(NumberedMessage):
+    """Fly again to a time with what was pushed and changed until then, and stand still there."""
+
+    type: Literal["rewind"] = "rewind"
+    time: Annotated[float, Field(ge=0.0, le=1e5), "s"]
+
+
 class FlyMessage(NumberedMessage):
     """Fly another mission: a built-in one, or that of a file, which may extend a built-in one only."""
 
@@ -181,6 +188,13 @@ class SaveMessage(NumberedMessage):
 
     type: Literal["save"] = "save"
     name: SaveName
+
+
+class TurnMessage(NumberedMessage):
+    """Ask for the hand, which the other pages then wait for; or give it, or the place in the queue, away."""
+
+    type: Literal["turn"] = "turn"
+    what: Literal["ask", "give"]
 
 
 class PingMessage(NumberedMessage):
@@ -202,8 +216,10 @@ PageMessage = (
     | PauseMessage
     | SpeedMessage
     | ResetMessage
+    | RewindMessage
     | FlyMessage
     | SaveMessage
+    | TurnMessage
     | PingMessage
 )
 PAGE_MESSAGES: dict[str, type[NumberedMessage]] = {

@@ -30,7 +30,6 @@ from tandemlift.engines.models.surroundings import floor_from
 from tandemlift.engines.models.visuals import BEAM_RADIUS, SHAPELESS, VisualShape, vehicle_shapes
 from tandemlift.missions import Mission, tables_of
 from tandemlift.parts.contact.corridor import wall_tables
-from tandemlift.parts.contact.feet import sole_positions
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 
@@ -87,22 +86,20 @@ def scene_of_tables(tables: Mapping[str, Any], vehicle: Vehicle, engine: str, fl
 
 def _lowest(height: float, vehicle: Vehicle) -> float:
     """Height of the soles of a level vehicle with its centre of mass at a height [m]."""
-    fleet = vehicle.quadrotors
-    soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
-    return float(height + np.min(soles[:, 2]))
+    return float(height + np.min(vehicle.soles[:, 2]))
 
 
 def _vehicle(vehicle: Vehicle) -> SceneVehicle:
     payload = vehicle.payload
     low, high = payload.box
-    if payload.hull is not None:
+    if payload.hulls:
         width, length, height = high - low
     elif payload.length:
         length, width = payload.length, 2.0 * (payload.radius or BEAM_RADIUS)
         height = width
     else:
         length, width, height = SHAPELESS, SHAPELESS, SHAPELESS
-    middle = vehicle.origin if payload.hull is None else vehicle.origin + 0.5 * (low + high)
+    middle = vehicle.origin + 0.5 * (low + high) if payload.hulls else vehicle.origin
     shapes = vehicle_shapes(vehicle)
     blades, discs = ([_shape(s) for s in shapes if s.name.startswith(name)] for name in TURNING)
     turning = list(zip(blades, discs, strict=True))

@@ -248,6 +248,13 @@ class SceneMessage(FlightScene):
     type: Literal["scene"]
 
 
+class TurnStatus(TypedDict):
+    """Turns of the pages at one flight."""
+
+    number: Annotated[int, "of this page, from 1 on"]
+    queue: Annotated[list[int], "numbers of the pages that take turns; the first has the hand"]
+
+
 class StatusMessage(FlightStatus):
     """The status: on connecting and four times a second."""
 
@@ -255,6 +262,7 @@ class StatusMessage(FlightStatus):
     viewers: Annotated[int, "pages that are connected"]
     holder: Annotated[Literal["you", "other", "none"], "who holds the beam"]
     last_grab: Annotated[int, "`seq` of this page's last `grab` that came before the status; 0 if none did"]
+    turns: NotRequired[Annotated[TurnStatus, "whose turn it is, at a server"]]
 
 
 class ChangedMessage(TypedDict):

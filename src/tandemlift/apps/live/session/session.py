@@ -16,7 +16,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from tandemlift.apps.live.session import page_messages as page
-from tandemlift.apps.live.session.checks import check_may_tare, check_takes_requests
+from tandemlift.apps.live.session.checks import check_may_tare, check_repeatable, check_takes_requests
 from tandemlift.apps.live.session.frame_builder import FrameBuilder
 from tandemlift.apps.live.session.hand_control import HandControl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission, other_mission, with_whole_rotors
@@ -34,7 +34,7 @@ from tandemlift.apps.live.session.server_messages import (
 from tandemlift.apps.live.session.status import FlightFindings, Preparation, phase_of, refusals_now, status_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import Refusals
-from tandemlift.core.vector import Quat
+from tandemlift.core.vector import ZERO, Quat
 from tandemlift.missions import Mission, tables_of
 from tandemlift.simulation.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.simulation.results import channels_of
@@ -206,23 +206,9 @@ class Session:
         raise InputError(f"{message.type}: cannot be handled here")
 
     @_handle.register
-    def _grab(self, m: page.GrabMessage) -> None:
+    def _move_hand(self, m: page.BeamMessage) -> None:
         with self._lock:
-            self._hand.grab(m, lambda: Quat(*self._values()["attitude"]))
-
-    @_handle.register
-    def _move(self, m: page.MoveMessage) -> None:
-        with self._lock:
-            self._hand.move(m)
-
-    @_handle.register
-    def _release(self, m: page.ReleaseMessage) -> None:
-        self.release()
-
-    @_handle.register
-    def _push(self, m: page.ForceMessage) -> None:
-        with self._lock:
-            self._hand.push(m)
+            self._hand.take(m, lambda: Quat(*self._values()["attitude"]))
 
     @_handle.register
     def _ask(self, m: page.AskMessage) -> list[Answer]:
@@ -253,6 +239,19 @@ class Session:
         with self._parameters.turn:
             setup = setup_flight(with_whole_rotors(self._flight.now, self._mission), self._engine)
             self._begin(setup, FrameBuilder(setup.plan))
+            self.generation += 1
+
+    @_handle.register
+    def _rewind(self, m: page.RewindMessage) -> None:
+        check_repeatable(self._engine)
+        with self._parameters.turn:
+            past, self.pacer.paused = self._flight, True
+            again = RecordedFlight(past.start, self._engine)
+            again.repeat(past, min(round(m.time / past.dt) + 1, past.step))
+            again.hold(again.hand._replace(held=0.0, force=ZERO, lift=0.0, land=0.0))
+            with self._lock:
+                self._flight, self._failed = again, False
+                self._hand = HandControl(again, self._frames.scene["vehicle"])
             self.generation += 1
 
     @_handle.register

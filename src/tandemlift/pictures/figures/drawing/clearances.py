@@ -20,7 +20,7 @@ from tandemlift.pictures.figures.drawing.vehicle import body_to_world
 class Clearances(NamedTuple):
     """Least distance from walls (T) [m]: of the guards, and of the payload; none without a shape.
 
-    Of a box or a mesh it is that of corners and edges.
+    Of a box, a mesh or bodies it is that of corners and edges.
     """
 
     guards: Array
@@ -66,7 +66,7 @@ def _axes(vehicle: Vehicle, s: State, R: Array) -> list[tuple[BeamAxis, float]]:
     if payload.length and payload.radius:
         return [(beam_axis(vec3(vehicle.origin), s), 0.5 * payload.length)]
     found = []
-    for a, b in payload.hull.corners[payload.hull.edges] if payload.hull is not None else ():
+    for a, b in (ends for hull in payload.hulls for ends in hull.corners[hull.edges]):
         half = 0.5 * float(np.linalg.norm(b - a))
         center = s.position + Vec3(*(R @ (vehicle.origin + 0.5 * (a + b))).T)
         found.append((BeamAxis(center, s.velocity, Vec3(*(R @ (0.5 * (b - a) / half)).T), s.rates), half))

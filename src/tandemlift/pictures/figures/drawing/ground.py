@@ -4,17 +4,11 @@ from __future__ import annotations
 
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.contact.feet import floor, sole_positions, standing_height
+from tandemlift.parts.contact.feet import floor, standing_height
 from tandemlift.parts.contact.ground_table import GroundTable
 from tandemlift.parts.contact.hull import hull
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.figures.drawing.vehicle import body_to_world, true_mass
-
-
-def _soles(vehicle: Vehicle) -> Array:
-    """The soles (N, 4, 3) from the vehicle's centre of mass [m, body axes]."""
-    fleet = vehicle.quadrotors
-    return sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
 
 
 def floor_height(flight: Flight) -> float | None:
@@ -28,14 +22,12 @@ def floor_height(flight: Flight) -> float | None:
     vehicle, mission, mass = Vehicle.from_mission(flight.mission), flight.mission, true_mass(flight)
     step, friction = mission["mission"]["step"], ground.friction
     shapes = hull(**vehicle.hull_shapes, mass=mass, inertia=vehicle.inertia, step=step)
-    at_zero = floor(
-        _soles(vehicle), mass, vehicle.inertia, step, friction=friction, sinkage=ground.sinkage, hull=shapes
-    )
+    at_zero = floor(vehicle.soles, mass, vehicle.inertia, step, friction=friction, sinkage=ground.sinkage, hull=shapes)
     return mission["initial"]["position"][2] - standing_height(at_zero, mass * GRAVITY)
 
 
 def clearance(flight: Flight, height: float) -> Array:
     """The height of the lowest sole (T) over a floor at a height [m]."""
-    soles = _soles(Vehicle.from_mission(flight.mission)).reshape(-1, 3)
+    soles = Vehicle.from_mission(flight.mission).soles.reshape(-1, 3)
     below = body_to_world(flight["attitude"])[:, 2] @ soles.T
     return flight["position"][:, 2] + below.min(axis=1) - height

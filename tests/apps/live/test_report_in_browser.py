@@ -4,7 +4,7 @@ import pytest
 from patience import until
 
 import tandemlift as tl
-from tandemlift.apps.cli.flying import _replay
+from tandemlift.apps.live.replay import report_replay
 from tandemlift.pictures.report.flight_report import write_report
 
 pytest.importorskip("playwright")
@@ -14,7 +14,7 @@ SIZES = {"desktop": (1280, 900), "phone": (390, 844)}
 @pytest.fixture(scope="module")
 def path(tmp_path_factory):
     flight = tl.fly(tl.load_mission("one-push"))
-    return write_report(flight, (), tmp_path_factory.mktemp("flown") / "report.html", _replay(flight))
+    return write_report(flight, (), tmp_path_factory.mktemp("flown") / "report.html", report_replay(flight))
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,30 @@
+"""What is drawn: the threshold's label, and the menu of what is shown."""
+
+import re
+
+from chromium import rests
+from patience import until
+
+
+def test_a_push_below_the_threshold_says_how_much_is_missing_and_the_menu_is_remembered(page, live):
+    live.wait(rests, "rest")
+    page.click("#show-panel")
+    page.locator("#key-force").fill("0.2")
+    page.locator("#key-force").press("Enter")
+    page.evaluate("document.activeElement.blur()")
+    page.keyboard.down("w")
+    until(
+        lambda: re.fullmatch(r"0\.20 of 0\.\d\d N", page.text_content(".label.push") or ""),
+        "the label of a push that moves nothing",
+    )
+    page.keyboard.up("w")
+    live.wait(lambda seen: not seen["push"].any(), "the end of the push")
+
+    def box():
+        return page.get_by_label("person, 1.75 m")
+
+    page.get_by_role("button", name="Show").click()
+    box().check()
+    page.reload()
+    page.get_by_role("button", name="Show").click()
+    assert box().is_checked()

@@ -1,0 +1,124 @@
+"""The page as a laboratory, used by a real mouse and real fingers: plots, timeline, rewinding, undo."""
+
+import time
+
+import numpy as np
+from chromium import opened, panel, save, seconds_flown
+from patience import until
+
+import tandemlift as tl
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.stepping import fly_stepwise
+
+WIDE, PHONE = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
+
+
+def pushed(page, seconds=0.5):
+    page.keyboard.down("KeyD")
+    time.sleep(seconds)
+    page.keyboard.up("KeyD")
+
+
+def area(page, plot=0):
+    box = page.locator(".plot .u-over").nth(plot).bounding_box()
+    return box["x"], box["y"] + box["height"] / 2, box["width"]
+
+
+def shown(page):
+    """The times at which all plots show values."""
+    texts = page.locator(".plot .cursor:not([hidden]) .values > b").all_text_contents()
+    return [float(text.removesuffix(" s")) for text in texts]
+
+
+def test_a_drag_zooms_all_plots_which_show_values_at_one_moment_and_come_back(browser, address):
+    page = opened(browser, address)
+    page.set_viewport_size(WIDE)
+    until(lambda: seconds_flown(page) > 2.0, "a flight")
+    x, y, width = area(page)
+    page.mouse.move(x + 0.95 * width, y)
+    page.mouse.down()
+    page.mouse.move(x + 0.99 * width, y, steps=4)
+    page.mouse.up()  # a second, of twenty
+    page.mouse.move(x + 0.1 * width, y)
+    left = until(lambda: shown(page) if len(shown(page)) == 4 else None, "values in all plots")
+    page.mouse.move(x + 0.9 * width, y)
+    until(lambda: shown(page) and shown(page)[0] > left[0] + 0.3, "another moment")
+    right = shown(page)
+    assert len(set(right)) == 1
+    assert right[0] - left[0] < 1.6
+    page.mouse.dblclick(x + 0.5 * width, y)
+    page.mouse.move(x + 0.5 * width, y + 1)
+    until(lambda: not shown(page), "the last 20 s, which had not begun at their middle")
+    assert page.wrong == []
+    page.context.close()
+
+
+def test_fingers_spread_time_and_a_tapped_mark_is_the_moment(browser, address):
+    page = opened(browser, address, has_touch=True, is_mobile=True)
+    page.set_viewport_size(PHONE)
+    if page.get_attribute("#show-panel", "aria-pressed") == "true":
+        page.click("#show-panel")
+    until(lambda: seconds_flown(page) > 6.0, "a flight")
+    x, y, width = area(page)
+    touch = page.context.new_cdp_session(page)
+
+    def fingers(kind, *places):
+        at = [{"x": x + place * width, "y": y, "id": i} for i, place in enumerate(places)]
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
+
+    assert page.get_by_role("button", name="Now").count() == 0
+    fingers("touchStart", 0.8, 0.9)
+    for spread in (0.1, 0.2, 0.3):
+        fingers("touchMove", 0.8 - spread, 0.9)
+    fingers("touchEnd")
+    until(lambda: page.get_by_role("button", name="Now").count() == 1, "a stretch of time")
+    page.get_by_role("button", name="Now").tap()
+    pushed(page)
+    mark = until(lambda: page.locator(".mark.push").first if page.locator(".mark.push").count() else None, "a mark")
+    until(lambda: "push of" in (mark.get_attribute("aria-label") or ""), "its words")
+    place = mark.bounding_box()
+    page.touchscreen.tap(place["x"] + place["width"] / 2 + 4, place["y"] + place["height"])
+    assert "push of" in page.locator(".timeline .words").inner_text()
+    began = float(mark.get_attribute("aria-label").split(" s:")[0])
+    until(lambda: shown(page) and abs(shown(page)[0] - began) < 0.06, "values where the push began")
+    assert page.wrong == []
+    page.context.close()
+
+
+def test_who_tries_again_pushes_anew_and_saves_the_new_flight(browser, address, tmp_path):
+    page = opened(browser, address)
+    page.set_viewport_size(WIDE)
+    until(lambda: seconds_flown(page) > 6.0, "a flight at its height")
+    pushed(page)
+    entry = panel(page, "person.stiffness").locator("input[type=number]")
+    first = entry.input_value()
+    entry.fill("9")
+    entry.press("Enter")
+    until(lambda: page.locator(".mark.setting").count() == 1, "a mark of what was set")
+    entry.press("Control+z")
+    until(lambda: entry.input_value() == first, "the setting as it was")
+    page.get_by_role("button", name="Redo").click()
+    until(lambda: entry.input_value() == "9", "the setting again")
+    page.locator(".mark.push").focus()
+    assert "push of" in page.locator(".timeline .words").inner_text()
+    page.keyboard.press("Enter")
+    began = float(page.inner_text("#time output").removesuffix(" s"))
+    page.keyboard.press("r")
+    until(lambda: page.get_by_role("button", name="Continue").count() == 1, "a flight that stands")
+    assert abs(seconds_flown(page) - began) < 0.11
+    assert page.locator(".mark").count() <= 1  # the push of which this is the beginning
+    assert entry.input_value() == first
+    page.keyboard.press("p")
+    page.keyboard.down("KeyA")
+    time.sleep(0.6)
+    page.keyboard.up("KeyA")
+    save(page, tmp_path)
+    assert page.wrong == []
+    page.context.close()
+    mission = tl.load_mission(tmp_path / "recorded.toml")
+    plan = FlightPlan(mission)
+    again = fly_stepwise(plan, plan.steps + 1, 1)
+    last = np.load(tmp_path / "last_sample.npy")
+    np.testing.assert_array_equal(again.last.view(np.int64), last.view(np.int64))
+    assert not mission.changes
+    assert mission.mission.duration < began + 20.0

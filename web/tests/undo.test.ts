@@ -1,0 +1,68 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { Undo } from "../src/ui/undo.ts";
+import type { PageMessage, SceneParameter } from "../src/wire/messages.generated.ts";
+
+/** An element that holds nothing, as Node.js has no page. */
+const BLANK = { setAttribute: () => undefined, append: () => undefined, addEventListener: () => undefined };
+Object.assign(globalThis, { document: { createElement: () => ({ ...BLANK }), createElementNS: () => ({ ...BLANK }) } });
+
+const parameters = (mass: number, damping: number): SceneParameter[] =>
+  Object.entries({ mass, damping }).map(([key, value]) => ({ key, value, label: key, group: "" }));
+
+/** A flight that does what it is told, and says so. */
+function flying(): { undo: Undo; values: Record<string, unknown>; set: (key: string, value: number, now: number) => void } {
+  const values: Record<string, unknown> = { mass: 1, damping: 2 };
+  const undo: Undo = new Undo((message: PageMessage) => {
+    if (message.type !== "set") return;
+    values[message.key] = message.value;
+    undo.changed(message.key, message.value, 1e6);
+  });
+  undo.scene(parameters(1, 2));
+  const set = (key: string, value: number, now: number): void => {
+    values[key] = value;
+    undo.changed(key, value, now);
+  };
+  return { undo, values, set };
+}
+
+test("settings come back in the other order, and can be made again", () => {
+  const { undo, values, set } = flying();
+  set("mass", 3, 0);
+  set("damping", 5, 1000);
+  undo.undo();
+  assert.deepEqual(values, { mass: 3, damping: 2 });
+  undo.undo();
+  undo.undo();
+  assert.deepEqual(values, { mass: 1, damping: 2 });
+  undo.redo();
+  undo.redo();
+  undo.redo();
+  assert.deepEqual(values, { mass: 3, damping: 5 });
+});
+
+test("what was changed at once comes back at once, and a new change ends what could be made again", () => {
+  const { undo, values, set } = flying();
+  set("mass", 3, 0);
+  set("damping", 5, 1);
+  undo.undo();
+  assert.deepEqual(values, { mass: 1, damping: 2 });
+  set("mass", 7, 9000);
+  undo.redo();
+  assert.deepEqual(values, { mass: 7, damping: 2 });
+  undo.undo();
+  assert.deepEqual(values, { mass: 1, damping: 2 });
+});
+
+test("a flight with other values has nothing to take back; one that begins again with the same has", () => {
+  const { undo, values, set } = flying();
+  set("mass", 3, 0);
+  undo.scene(parameters(3, 2));
+  undo.undo();
+  assert.equal(values["mass"], 1);
+  undo.redo();
+  undo.scene(parameters(1, 2));
+  undo.undo();
+  assert.equal(values["mass"], 3);
+});
