@@ -37,7 +37,7 @@ def test_the_flight_plays_and_a_click_in_a_plot_takes_it_to_that_time(browser, p
     replay = page.frames[1]
     clock = replay.locator("output b")
     until(lambda: float(clock.inner_text()) > 0.5, "a flight that moves by itself")
-    replay.locator(".timeline button").first.click()
+    replay.get_by_title("Play or pause (P)").click()
     over = page.locator(".u-over").first
     over.scroll_into_view_if_needed()
     box = over.bounding_box()
