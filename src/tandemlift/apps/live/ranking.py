@@ -100,11 +100,8 @@ def ranked(
     Raises:
         InputError: nothing was handed in.
     """
-    paths, results, keys = (
-        handed_in(folder),
-        list[HandedIn](),
-        dict(_keys_of(tables_of(interactive_mission(challenge)))),
-    )
+    paths, results = handed_in(folder), list[HandedIn]()
+    keys = dict(_keys_of(tables_of(interactive_mission(challenge))))
     for path in paths:
         results.append(scored(path, keys, (*FREE, *free)))
         if progress:
