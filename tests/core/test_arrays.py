@@ -8,16 +8,16 @@ from tandemlift.compiler.tracer.fused import FUSES
 from tandemlift.compiler.tracer.valued_graph import ValuedGraph
 from tandemlift.core.arrays import (
     array,
-    condition_number,
     distance,
     eigenvectors,
     has_symbols,
     inverse,
     largest,
-    largest_eigenvalue,
     lengths,
     square_roots,
 )
+from tandemlift.parts.contact.springs import largest_eigenvalue
+from tandemlift.parts.mechanics.vehicle import condition_number
 
 
 @pytest.fixture(autouse=True)

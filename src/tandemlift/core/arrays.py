@@ -95,13 +95,6 @@ def inverse(A: Any) -> Any:
     return made
 
 
-def condition_number(A: Any, inverted: Callable[[], Any]) -> Any:
-    """The condition number of a matrix; with symbols, by Frobenius norms: up to n times as large."""
-    if not has_symbols(A):
-        return np.linalg.cond(A)
-    return sqrt(np.sum(A * A) * np.sum(np.square(inverted())))
-
-
 def _rotation(p: Any, q: Any, off: Any) -> tuple[Any, Any, Any]:
     """Cosine, sine and tangent that diagonalise [[p, off], [off, q]], by the smaller angle; none if it is diagonal."""
     half = 0.5 * (q - p)
@@ -138,32 +131,6 @@ def eigenvectors(A: Any, vectors: bool = True) -> tuple[Any, Any]:
             if vectors:
                 V[k, p], V[k, q] = _turned(V[k, p], V[k, q], c, s)
     return np.diag(A), V
-
-
-def factor(A: Any) -> Any:
-    """L of A = L Lᵀ, lower triangular, of a symmetric positive definite matrix (Cholesky)."""
-    if not has_symbols(A):
-        return np.linalg.cholesky(A)
-    n = len(A)
-    L = np.zeros((n, n)).astype(object)
-    for j in range(n):
-        L[j, j] = sqrt(A[j, j] - np.sum(L[j, :j] * L[j, :j]))
-        for i in range(j + 1, n):
-            L[i, j] = (A[i, j] - np.sum(L[i, :j] * L[j, :j])) / L[j, j]
-    return L
-
-
-def largest_eigenvalue(M: Any, K: Any) -> Any:
-    """The largest λ of K x = λ M x, both symmetric and M positive definite."""
-    if not has_symbols(M) and not has_symbols(K):
-        return float(np.linalg.eigvals(np.linalg.solve(M, K)).real.max())
-    root = np.zeros((len(M), len(M))).astype(object)
-    L = factor(M.astype(object))
-    for column in range(len(M)):  # L⁻¹, by forward substitution
-        for i in range(len(M)):
-            root[i, column] = (float(i == column) - np.sum(L[i, :i] * root[:i, column])) / L[i, i]
-    values, _ = eigenvectors(root @ K @ root.T, vectors=False)
-    return greatest(tuple(values))
 
 
 def convex_faces(points: Any) -> tuple[Any, Any, list[tuple[int, ...]]]:

@@ -178,8 +178,7 @@ class RecordedFlight:
     def logged(self) -> tuple[Array, Array]:
         """Times [s] and rows of the log so far; rows that are written are never written again."""
         rows = self._log[: (self.step - 1) // self._p.every + 1]
-        times = np.arange(len(rows), dtype=np.float64) * (self._p.every * self._p.dt)
-        return times, rows
+        return np.arange(len(rows), dtype=np.float64) * (self._p.every * self._p.dt), rows
 
     def numbers(self) -> Array:
         """A copy of the numbers of its state."""
@@ -250,9 +249,9 @@ class RecordedFlight:
 
     def repeat(self, past: RecordedFlight, steps: int) -> None:
         """Fly so many steps with hand and changes of another flight of the same mission, bit-identically."""
-        hands, changes = dict(past._hand), [(round(c["time"] / self.dt), c) for c in past._changes]
+        hands = dict(past._hand)
         while self.step < steps:
-            for _, c in [one for one in changes if one[0] == self.step]:
+            for c in [c for c in past._changes if round(c["time"] / self.dt) == self.step]:
                 key, value, duration = c["key"], c["value"], c["duration"]
                 self.change(self.prepare(key, value, duration), key, value, duration)
             if self.step in hands:
@@ -272,9 +271,8 @@ class RecordedFlight:
 
     def change(self, due: ScheduledChange, key: str, value: Any, duration: float = 0.0) -> None:
         """Begin a prepared change with the next step; no other change may have come between."""
-        entry = {"time": self.step * self.dt, "key": key, "value": value, "duration": duration}
         self._stepper.change(due._replace(first=self.step))
-        self._changes.append(entry)
+        self._changes.append({"time": self.step * self.dt, "key": key, "value": value, "duration": duration})
         self.now = due.prepared.mission
 
     def snapshot(self) -> FlightSnapshot:
@@ -298,6 +296,5 @@ class RecordedFlight:
             steps,
             self._log[: steps // p.every + 1],  # rows that are written are never written again
             np.full(leaves(p.sample), np.nan) if self.lost else self.sample.copy(),
-            self._wall,
-            self.interruption,
+            *(self._wall, self.interruption),
         )

@@ -64,7 +64,7 @@ export const LIMITS = {
 /** A part of the vehicle as drawn. */
 export interface SceneShape {
   kind: "box" | "sphere" | "cylinder" | "hull";
-  size: readonly number[]; // edges of a box, radius of a sphere, radius and length of a cylinder, corners of a hull's triangles, m
+  size: readonly number[]; // edges of a box, radius of a sphere or cylinder and its length, corners of triangles, m
   position: Vector; // of its centre; m, body axes
   axes: readonly number[]; // columns of its rotation to body axes (9); a cylinder lies along its z
   color: string; // #rrggbb

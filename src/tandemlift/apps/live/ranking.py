@@ -39,12 +39,12 @@ def handed_in(folder: Path) -> list[Path]:
     return found
 
 
-def scored(path: Path, challenge: Mission, free: tuple[str, ...]) -> HandedIn:
+def scored(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]) -> HandedIn:
     """A saved flight, flown again and scored.
 
     Args:
         path: its folder or .zip.
-        challenge: the mission that all were to fly, as a page flies it.
+        challenge: dotted keys of the mission that all were to fly, as a page flies it.
         free: keys, or tables of keys, that may differ from it.
     """
     try:
@@ -53,12 +53,12 @@ def scored(path: Path, challenge: Mission, free: tuple[str, ...]) -> HandedIn:
         return HandedIn(path.stem, None, str(error))
 
 
-def _score_again(path: Path, challenge: Mission, free: tuple[str, ...]) -> CorridorScore:
+def _score_again(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]) -> CorridorScore:
     with without_flight_warnings():
         mission = load_mission(path if path.suffix == ".zip" else path / MISSION_FILE)
         if mission.person.recording is None:
             raise InputError(f"{path.name}: has no recording of a hand")
-        _check_unchanged(mission, challenge, free)
+        _check_unchanged(dict(_keys_of(tables_of(mission))), challenge, free)
         score = score_of(fly(mission))
     if (path / SCORE_FILE).exists():
         try:
@@ -70,9 +70,8 @@ def _score_again(path: Path, challenge: Mission, free: tuple[str, ...]) -> Corri
     return score
 
 
-def _check_unchanged(mission: Mission, challenge: Mission, free: tuple[str, ...]) -> None:
+def _check_unchanged(theirs: dict[str, Any], ours: Mapping[str, Any], free: tuple[str, ...]) -> None:
     """Raise an InputError that names the first key that a participant changed and was not free to."""
-    theirs, ours = dict(_keys_of(tables_of(mission))), dict(_keys_of(tables_of(challenge)))
     theirs |= {change["key"]: change["value"] for change in theirs.pop("changes", [])}
     for key in sorted({*theirs, *ours} - {"changes"}):
         if theirs.get(key) != ours.get(key) and not any(key == f or key.startswith(f"{f}.") for f in free):
@@ -101,9 +100,10 @@ def ranked(
     Raises:
         InputError: nothing was handed in.
     """
-    paths, results, flown = handed_in(folder), list[HandedIn](), interactive_mission(challenge)
+    paths, results = handed_in(folder), list[HandedIn]()
+    keys = dict(_keys_of(tables_of(interactive_mission(challenge))))
     for path in paths:
-        results.append(scored(path, flown, (*FREE, *free)))
+        results.append(scored(path, keys, (*FREE, *free)))
         if progress:
             progress(len(results), len(paths))
     width = max(len(one.name) for one in results)

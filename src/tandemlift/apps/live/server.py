@@ -30,6 +30,7 @@ from tandemlift.apps.live.session.frames import RATE
 from tandemlift.apps.live.session.page_messages import MAX_SIZE
 from tandemlift.apps.live.session.server_messages import SceneMessage
 from tandemlift.apps.live.viewers import FAREWELL, Viewer, Viewers, dismiss
+from tandemlift.core.errors import extra
 
 if TYPE_CHECKING:
     from tandemlift.apps.live.session.session import Session
@@ -209,11 +210,9 @@ def open_in_browser(address: str) -> None:
 
 
 def qr_code(address: str) -> str:
-    """The QR code of an address as text for a terminal; empty without the package segno."""
-    try:
+    """The QR code of an address as text for a terminal."""
+    with extra("live", "the QR code of an address"):
         import segno
-    except ImportError:
-        return ""
     text = io.StringIO()
     segno.make(address, error="l", micro=False).terminal(text, compact=True)
     return text.getvalue()

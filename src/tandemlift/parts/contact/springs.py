@@ -1,10 +1,12 @@
 """Springs and dampers of a contact: normal force, friction, and the stiffness that a Runge-Kutta step resolves."""
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.core.algebra import greatest, maximum, sqrt, where
-from tandemlift.core.arrays import array, eigenvectors, has_symbols, inverse, largest_eigenvalue
+from tandemlift.core.arrays import array, eigenvectors, has_symbols, inverse
 from tandemlift.core.law import elementwise
 from tandemlift.core.types import Number, number
 
@@ -61,3 +63,29 @@ def softened_for_step(stiffness: float, damping: float, body_mobility: float, st
     decay = rate + sqrt(maximum(rate**2 - frequency**2, 0.0))
     factor = 1.0 / greatest([1.0, frequency * step / OSCILLATION, decay * step / DECAY])
     return number(stiffness * factor**2), number(damping * factor)
+
+
+def _factor(A: Any) -> Any:
+    """L of A = L Lᵀ, lower triangular, of a symmetric positive definite matrix (Cholesky)."""
+    if not has_symbols(A):
+        return np.linalg.cholesky(A)
+    n = len(A)
+    L = np.zeros((n, n)).astype(object)
+    for j in range(n):
+        L[j, j] = sqrt(A[j, j] - np.sum(L[j, :j] * L[j, :j]))
+        for i in range(j + 1, n):
+            L[i, j] = (A[i, j] - np.sum(L[i, :j] * L[j, :j])) / L[j, j]
+    return L
+
+
+def largest_eigenvalue(M: Any, K: Any) -> Any:
+    """The largest λ of K x = λ M x, both symmetric and M positive definite."""
+    if not has_symbols(M) and not has_symbols(K):
+        return float(np.linalg.eigvals(np.linalg.solve(M, K)).real.max())
+    root = np.zeros((len(M), len(M))).astype(object)
+    L = _factor(M.astype(object))
+    for column in range(len(M)):  # L⁻¹, by forward substitution
+        for i in range(len(M)):
+            root[i, column] = (float(i == column) - np.sum(L[i, :i] * root[:i, column])) / L[i, i]
+    values, _ = eigenvectors(root @ K @ root.T, vectors=False)
+    return greatest(tuple(values))

@@ -9,19 +9,27 @@ allocation.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from tandemlift.core.arrays import array, condition_number, has_symbols, inverse, square_roots
+from tandemlift.core.algebra import sqrt
+from tandemlift.core.arrays import array, has_symbols, inverse, square_roots
 from tandemlift.core.caching import cached
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.parts.mechanics.payload import Payload
 from tandemlift.parts.mechanics.vehicle_table import Drag, PlantTable, Quadrotor, VehicleTable
+
+
+def condition_number(A: Any, inverted: Callable[[], Any]) -> Any:
+    """The condition number of a matrix; with symbols, by Frobenius norms: up to n times as large."""
+    if not has_symbols(A):
+        return np.linalg.cond(A)
+    return sqrt(np.sum(A * A) * np.sum(np.square(inverted())))
 
 
 def mixer(quadrotor: Quadrotor) -> Array:

@@ -1,6 +1,7 @@
 """Whom the server lets in, and what it serves: over real sockets."""
 
 import pytest
+import segno
 from live_page import PAGE
 from standin import StandIn
 from websockets.exceptions import InvalidStatus
@@ -130,7 +131,6 @@ def test_a_page_that_is_not_there_is_told_of(tmp_path):
 
 
 def test_the_qr_code_is_that_of_the_address():
-    segno = pytest.importorskip("segno")
     address = "http://lab.example:8710/?token=abc"
     drawn = qr_code(address).splitlines()
     side = segno.make(address, error="l", micro=False).symbol_size(border=4)[0]

@@ -35,7 +35,6 @@ Newtons = Annotated[float, "N"]
 Seconds = Annotated[float, "s"]
 ParameterValue = float | bool | str | list[float]
 Phase = Annotated[str, OneOf("Phase", (*PHASE_NAMES, PREPARING, *ENDS))]
-Ground = Annotated[list[float], Field(min_length=2, max_length=2), "x, y, m, world axes"]
 FrameFieldName = Annotated[str, OneOf("FrameFieldName", FIELD_NAMES)]
 
 
@@ -44,8 +43,7 @@ class SceneShape(TypedDict):
 
     kind: Literal["box", "sphere", "cylinder", "hull"]
     size: Annotated[
-        list[float],
-        "edges of a box, radius of a sphere, radius and length of a cylinder, corners of a hull's triangles, m",
+        list[float], "edges of a box, radius of a sphere or cylinder and its length, corners of triangles, m"
     ]
     position: Annotated[BodyPosition, "of its centre"]
     axes: Annotated[list[float], "columns of its rotation to body axes (9); a cylinder lies along its z"]
@@ -101,7 +99,7 @@ class SceneWall(TypedDict):
 class SceneCorridor(TypedDict):
     """A corridor."""
 
-    centreline: list[Ground]
+    centreline: list[Annotated[list[float], Field(min_length=2, max_length=2), "x, y, m, world axes"]]
     width: Metres
     height: Metres
 
