@@ -96,6 +96,7 @@ export class Stage {
     this.camera.updateProjectionMatrix();
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height);
+    this.renderer.render(this.scene, this.camera); // a canvas of a new size is black
   }
 }
 
