@@ -185,7 +185,7 @@ def seconds_flown(page):
 
 def save(page, folder):
     """Save a page's own flight by its dialog, unpacked into a folder; the name of the file."""
-    page.click("#dock button:text-is('Save')")
+    page.click("#dock span:text-is('Save')")
     page.fill("#save-name", "by-hand")
     with page.expect_download(timeout=MS) as download:
         page.click("#saving button[type=submit]")

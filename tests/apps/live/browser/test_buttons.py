@@ -25,7 +25,7 @@ def test_time_passes_as_slowly_as_is_asked(page, live):
 
 
 def test_a_name_that_is_refused_says_why_in_the_dialog_and_another_one_is_taken(page, live):
-    page.click("#dock button:text-is('Save')")
+    page.click("#dock span:text-is('Save')")
     reason = page.locator("#saving .reason")
     for name in ("", "a b", "../elsewhere", "x" * 65):
         page.fill("#save-name", name)
@@ -45,7 +45,7 @@ def test_a_name_that_is_refused_says_why_in_the_dialog_and_another_one_is_taken(
 
 def test_a_name_may_be_corrected_after_the_folder_could_not_be_written(page, live):
     (live.out / "file").write_text("no folder", "utf-8")
-    page.click("#dock button:text-is('Save')")
+    page.click("#dock span:text-is('Save')")
     page.fill("#save-name", "file")
     page.keyboard.press("Enter")
     until(lambda: "file: cannot be written" in (page.locator("#saving .reason").text_content() or ""), "a reason")
@@ -54,7 +54,7 @@ def test_a_name_may_be_corrected_after_the_folder_could_not_be_written(page, liv
 
 
 def test_what_is_saved_on_the_page_flies_again_to_the_last_bit(page, live):
-    page.click("#dock button:text-is('Save')")
+    page.click("#dock span:text-is('Save')")
     page.fill("#save-name", "from-the-page")
     page.keyboard.press("Enter")
     folder = live.out / "from-the-page"
