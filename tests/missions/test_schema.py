@@ -83,7 +83,7 @@ def at(key):
     return tuple(int(part) if part.isdigit() else part for part in key.split("."))
 
 
-@for_all([key for key in SCHEMA if not key.startswith("controller.")])
+@for_all([key for key in SCHEMA if not key.startswith("controller.") and ".bodies." not in key])
 def test_it_takes_for_each_key_whatever_its_table_takes_and_knows_wrong_types(key):
     whole = merge(tables_of(load_mission("iris", EVERYTHING)), BEYOND)
     if key in ("admittance.mass", "admittance.damping"):

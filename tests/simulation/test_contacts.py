@@ -145,7 +145,7 @@ def test_an_event_says_part_place_and_direction(touches):
         contact = ContactEstimate(part, ZERO, ZERO, along, Vec3(float(x), float(y), 0.0), 0.0, 0.0)
         where = f"beam, {abs(along):.2f} m from its centre" if part < 0.0 else f"guard of quadrotor {part:.0f}"
         side = {(1, 0): "−x", (0, -1): "+y", (0.7, 0.7): "−x −y"}[x, y]
-        assert describe_contact(int(code_of(contact))) == f"{where}, towards {side}"
+        assert describe_contact(int(code_of(contact.part, contact.normal, contact.along))) == f"{where}, towards {side}"
     for flight in touches.values():
         first = next(code for code in contact_codes(flight) if code)
         assert f"contact: {describe_contact(first)}" in events(flight)

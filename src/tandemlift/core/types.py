@@ -84,11 +84,6 @@ def flat(value: Any) -> list[float]:
     return [number for part in value for number in flat(part)] if is_value(value) else [float(value)]
 
 
-def numbers_of(value: Any) -> list[Any]:
-    """The numbers of a nested value, depth first, as they are: symbols, too."""
-    return layout_and_numbers(value)[1]
-
-
 def layout_and_numbers(value: Any) -> tuple[Any, list[Any]]:
     """The classes of a nested value, and its numbers, depth first, as they are."""
     numbers = list[Any]()

@@ -31,7 +31,7 @@ from tandemlift.simulation.preparation.traced_assembly import (
 INTERACTIVE = ("hover", "zigzag", "iris", "doorway", "rotor-loss")
 MISSIONS = [*built_in(), *[f"{name}, interactive" for name in INTERACTIVE], "iris, other parts"]
 ROUNDED = r"(sensors|actuators|person)\.(motion\.|additional\.\d+\.)?(delay|interval)|sensor_faults\.\d+\.(time|until)"
-PLANNED = r"mission\.(duration|step|log_interval)"
+PLANNED = r"mission\.(duration|step|log_interval)|vehicle\.quadrotors\.\d+\.heading"
 
 OTHER_PARTS = {  # what no built-in mission has: other devices and faults, turbulence, a full tensor of inertia
     "wind": {"model": "air", "velocity": [2.0, 1.0, 0.0], "turbulence": 7.7},

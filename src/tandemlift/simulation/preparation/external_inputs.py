@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from tandemlift.core.arrays import array
 from tandemlift.core.caching import cached
 from tandemlift.core.law import law
-from tandemlift.core.types import Condition, Number, is_value, leaves, numbers_of
+from tandemlift.core.types import Condition, Number, is_value, layout_and_numbers, leaves
 from tandemlift.core.vector import ZERO, Absent, Vec3, mat3, vec3
 from tandemlift.parts.contact.clearance import is_fast
 from tandemlift.parts.contact.corridor import WallTable
@@ -131,7 +131,7 @@ def input_tables_from(
 
 
 def _table(rows: list[Any], width: int) -> NDArray[np.float64]:
-    return array([numbers_of(row) for row in rows]).reshape(len(rows), width)
+    return array([layout_and_numbers(row)[1] for row in rows]).reshape(len(rows), width)
 
 
 @cached
