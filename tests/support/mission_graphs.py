@@ -12,7 +12,7 @@ import numpy as np
 
 from tandemlift.compiler.machine_code.machine import QUICK, Loaded, compiled
 from tandemlift.compiler.tracer import Function, Module, Place, Symbol
-from tandemlift.core.types import numbers_of
+from tandemlift.core.types import layout_and_numbers
 from tandemlift.simulation.preparation.memory import aligned
 from tandemlift.simulation.preparation.traced_assembly import TracedAssembly
 
@@ -23,7 +23,7 @@ PART = re.compile(r"(vehicle\.quadrotors)\.\d+\.")
 def assembled_numbers(assembled: Any) -> list[Any]:
     """All numbers of an assembled flight, one after another: floats, or floats and symbols."""
     tables = [x for table in assembled.tables for x in table.flat]
-    return [*numbers_of(assembled.model), *tables, *assembled.delays.tolist(), *assembled.seeds.tolist()]
+    return [*layout_and_numbers(assembled.model)[1], *tables, *assembled.delays.tolist(), *assembled.seeds.tolist()]
 
 
 def values_of(traced: TracedAssembly, nodes: list[Any]) -> np.ndarray:

@@ -15,7 +15,7 @@ from odd_numbers import bits
 import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.compiler.tracer.valued_graph import evaluated
-from tandemlift.core.types import flat, numbers_of
+from tandemlift.core.types import flat, layout_and_numbers
 from tandemlift.core.vector import layout
 from tandemlift.missions import built_in, changed
 from tandemlift.simulation.pilot_api import pilot_at_start
@@ -86,7 +86,7 @@ def test_the_graph_gives_the_numbers_of_the_plain_assembly(name):
     made = with_values(traced.assembled, traced.graph)
     assert [layout(made.model), layout(made.given)] == [layout(plain.model), layout(plain.given)]
     assert [table.shape for table in made.tables] == [table.shape for table in plain.tables]
-    assert {type(x) for x in numbers_of(made.model)} == {float}
+    assert {type(x) for x in layout_and_numbers(made.model)[1]} == {float}
     assert_close(np.array(assembled_numbers(made)), np.array(list(map(float, assembled_numbers(plain)))))
 
 
