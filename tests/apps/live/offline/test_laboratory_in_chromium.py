@@ -19,6 +19,19 @@ def pushed(page, seconds=0.5):
     page.keyboard.up("KeyD")
 
 
+def resized(page, size):
+    """Give the page a size, and wait until its plots stand still in it."""
+    page.set_viewport_size(size)
+    boxes = [None]
+
+    def still():
+        boxes.append(page.locator(".plot .u-over").first.bounding_box())
+        page.evaluate("new Promise((done) => setTimeout(done, 300))")
+        return boxes[-1] == boxes[-2] and page.evaluate("window.innerWidth") == size["width"]
+
+    until(still, "plots of that size")
+
+
 def area(page, plot=0):
     box = page.locator(".plot .u-over").nth(plot).bounding_box()
     return box["x"], box["y"] + box["height"] / 2, box["width"]
@@ -32,8 +45,8 @@ def shown(page):
 
 def test_a_drag_zooms_all_plots_which_show_values_at_one_moment_and_come_back(browser, address):
     page = opened(browser, address)
-    page.set_viewport_size(WIDE)
-    until(lambda: seconds_flown(page) > 2.0, "a flight")
+    resized(page, WIDE)
+    until(lambda: seconds_flown(page) > 4.0, "a flight")
     x, y, width = area(page)
     page.mouse.move(x + 0.95 * width, y)
     page.mouse.down()
@@ -55,10 +68,11 @@ def test_a_drag_zooms_all_plots_which_show_values_at_one_moment_and_come_back(br
 
 def test_fingers_spread_time_and_a_tapped_mark_is_the_moment(browser, address):
     page = opened(browser, address, has_touch=True, is_mobile=True)
-    page.set_viewport_size(PHONE)
+    resized(page, PHONE)
     if page.get_attribute("#show-panel", "aria-pressed") == "true":
         page.click("#show-panel")
     until(lambda: seconds_flown(page) > 6.0, "a flight")
+    resized(page, PHONE)
     x, y, width = area(page)
     touch = page.context.new_cdp_session(page)
 
@@ -87,7 +101,7 @@ def test_fingers_spread_time_and_a_tapped_mark_is_the_moment(browser, address):
 
 def test_who_tries_again_pushes_anew_and_saves_the_new_flight(browser, address, tmp_path):
     page = opened(browser, address)
-    page.set_viewport_size(WIDE)
+    resized(page, WIDE)
     until(lambda: seconds_flown(page) > 6.0, "a flight at its height")
     pushed(page)
     entry = panel(page, "person.stiffness").locator("input[type=number]")
@@ -105,7 +119,7 @@ def test_who_tries_again_pushes_anew_and_saves_the_new_flight(browser, address, 
     began = float(page.inner_text("#time output").removesuffix(" s"))
     page.keyboard.press("r")
     until(lambda: page.get_by_role("button", name="Continue").count() == 1, "a flight that stands")
-    assert abs(seconds_flown(page) - began) < 0.11
+    until(lambda: abs(seconds_flown(page) - began) < 0.16, "the moment of the push, to a tenth")
     assert page.locator(".mark").count() <= 1  # the push of which this is the beginning
     assert entry.input_value() == first
     page.keyboard.press("p")
