@@ -51,7 +51,9 @@ def test_a_drag_zooms_all_plots_which_show_values_at_one_moment_and_come_back(br
     x, y, width = area(page)
     page.mouse.move(x + 0.95 * width, y)
     page.mouse.down()
-    page.mouse.move(x + 0.99 * width, y, steps=4)
+    for place in (0.96, 0.97, 0.98, 0.99, 0.99):
+        page.mouse.move(x + place * width, y)
+        time.sleep(0.1)
     page.mouse.up()  # a second, of twenty
     page.mouse.move(x + 0.1 * width, y)
     left = until(lambda: shown(page) if len(shown(page)) == 4 else None, "values in all plots")
@@ -114,8 +116,13 @@ def test_who_tries_again_pushes_anew_and_saves_the_new_flight(browser, address, 
     until(lambda: entry.input_value() == first, "the setting as it was")
     page.get_by_role("button", name="Redo").click()
     until(lambda: entry.input_value() == "9", "the setting again")
-    page.locator(".mark.push").focus()
-    assert "push of" in page.locator(".timeline .words").inner_text()
+
+    def words():
+        page.locator(".mark.push").blur()
+        page.locator(".mark.push").focus()
+        return page.locator(".timeline .words").text_content()
+
+    until(lambda: "push of" in words(), "the words of a mark")
     page.keyboard.press("Enter")
     began = float(page.locator(".timeline .words").inner_text().split(" s:")[0])
     page.keyboard.press("r")
