@@ -55,8 +55,13 @@ def test_a_drag_zooms_all_plots_which_show_values_at_one_moment_and_come_back(br
         page.mouse.move(x + place * width, y)
         time.sleep(0.1)
     page.mouse.up()  # a second, of twenty
-    page.mouse.move(x + 0.1 * width, y)
-    left = until(lambda: shown(page) if len(shown(page)) == 4 else None, "values in all plots")
+
+    def pointed():
+        page.mouse.move(x + 0.1 * width, y + 1)  # a mouse moves on after a drag has ended
+        page.mouse.move(x + 0.1 * width, y)
+        return shown(page) if len(shown(page)) == 4 else None
+
+    left = until(pointed, "values in all plots")
     page.mouse.move(x + 0.9 * width, y)
     until(lambda: shown(page) and shown(page)[0] > left[0] + 0.3, "another moment")
     right = shown(page)
@@ -95,7 +100,7 @@ def test_fingers_spread_time_and_a_tapped_mark_is_the_moment(browser, address):
     until(lambda: "push of" in (mark.get_attribute("aria-label") or ""), "its words")
     place = mark.bounding_box()
     page.touchscreen.tap(place["x"] + place["width"] / 2 + 4, place["y"] + place["height"])
-    assert "push of" in page.locator(".timeline .words").inner_text()
+    until(lambda: "push of" in page.locator(".timeline .words").text_content(), "the words of a mark")
     began = float(mark.get_attribute("aria-label").split(" s:")[0])
     until(lambda: shown(page) and abs(shown(page)[0] - began) < 0.06, "values where the push began")
     assert page.wrong == []
