@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import operator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,7 +13,9 @@ from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, changed
 from tandemlift.parts.controllers import control
+from tandemlift.parts.person.caller_inputs import CallerInput
 from tandemlift.simulation.pilot_api import pilot_at_start
+from tandemlift.simulation.preparation import leaf_offset
 
 
 def portable_mission(mission: Mission) -> Mission:
@@ -41,6 +43,36 @@ def portable_mission(mission: Mission) -> Mission:
     return portable
 
 
+class Held(NamedTuple):
+    """Inputs of a caller: their place in a `CallerInput`, what they are, and the flag that makes them count, or None."""
+
+    place: slice
+    meaning: str
+    flag: int | None
+
+
+def held_inputs(external: CallerInput) -> dict[str, Held]:
+    """The inputs of a caller by their names in `Simulation.step`."""
+    spans = {name: leaf_offset(external, *path) for name, path in PATHS.items()}
+    places = {name: slice(span.at, span.at + span.size) for name, span in spans.items()}
+    flags = {"thrusts": places["override"].start, "velocity": places["given"].start}
+    return {name: Held(places[name], meaning, flags.get(name)) for name, meaning in MEANINGS.items()}
+
+
+PATHS = {
+    "push": ("force",),
+    "point": ("point",),
+    "thrusts": ("thrusts",),
+    "override": ("override",),
+    "velocity": ("lead", "velocity"),
+    "given": ("lead", "given"),
+}
+MEANINGS = {
+    "push": "N, in world axes",
+    "point": "m, in body axes",
+    "thrusts": "N, one for each rotor",
+    "velocity": "m/s, in world axes",
+}
 MOST_SEED = 10**18  # as `mission.seed`
 
 
@@ -58,6 +90,21 @@ def numbers(name: str, value: Any, count: int, what: str) -> Array:
         plain = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
         raise InputError(f"{name} = {shown(plain)}: must be {count} finite numbers ({what})")
     return array
+
+
+def count_of(name: str, value: Any, least: int = 1) -> int:
+    """A whole number of at least `least`.
+
+    Raises:
+        InputError: the value is something else.
+    """
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = least - 1
+    if number < least:
+        raise InputError(f"{name} = {shown(value)}: must be a whole number of at least {least}")
+    return number
 
 
 def checked_seed(seed: Any) -> int:

@@ -17,6 +17,7 @@ from tandemlift.missions import Mission
 from tandemlift.parts.controllers import NoMemory, control
 from tandemlift.parts.person.caller_inputs import CallerInput
 from tandemlift.parts.person.outside_push import OutsidePush
+from tandemlift.parts.person.requests import ReferenceVelocity
 from tandemlift.simulation.loop.log_sample import Sample
 from tandemlift.simulation.preparation import FlightStart, LoopCode, PythonController, TimeGrid
 from tandemlift.simulation.preparation.assemble import assemble
@@ -47,7 +48,8 @@ class FlightPlan:
         self.model, self.given, self.tables, self.delays, self.seeds = assembled_by_graph(mission, assemble)
         if interactive:
             rotors = 4 * len(mission.vehicle.quadrotors)
-            nothing = CallerInput(ZERO, ZERO, each(rotors)(*[0.0] * rotors), 0.0)
+            none = each(rotors)(*[0.0] * rotors)
+            nothing = CallerInput(ZERO, ZERO, none, 0.0, ReferenceVelocity(ZERO, 0.0))
             self.given = self.given._replace(external=nothing)
         if engine_named(engine).pushable:
             self.given = self.given._replace(outside=OutsidePush(ZERO, ZERO))

@@ -9,12 +9,14 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift.core.errors import suggestion
 from tandemlift.core.faults import ALARM_TEXTS, CHECKS
 from tandemlift.core.files import versions
 from tandemlift.core.phases import CONTACT as PHASE_CONTACT
 from tandemlift.core.phases import FAILURES, IDLE, PHASE_NAMES
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import Absent, Vec3, dot
+from tandemlift.flight.channels import DERIVED
 from tandemlift.flight.record import Ending, Flight
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
@@ -170,6 +172,36 @@ def channels_of(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
         else:
             yield from channels_of(part, columns)
         at += leaves(part)
+
+
+class SampleChannels:
+    """The channels of samples laid out like `like`, by name; `names`: of those that a flight records."""
+
+    def __init__(self, like: Any) -> None:
+        row = np.arange(leaves(like), dtype=np.float64)[None, :]
+        self._places: dict[str, Any] = {}
+        for name, at in channels_of(like, row):
+            first, place = int(at.flat[0]), at[0].astype(np.intp)
+            joined = place.ndim and np.array_equal(place, np.arange(first, first + place.size))
+            self._places[name] = slice(first, first + place.size) if joined else place
+        self.names = tuple(self._places)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._places or name in DERIVED
+
+    def of(self, numbers: Array, name: str) -> Any:
+        """A channel of samples (n,) or (n, flights); a view of them where possible.
+
+        Raises:
+            KeyError: there is no such channel.
+        """
+        if name in DERIVED:
+            desired, actual, _ = DERIVED[name]
+            return self.of(numbers, desired) - self.of(numbers, actual)
+        if name not in self._places:
+            known = [*self.names, *DERIVED]
+            raise KeyError(f"no channel {name!r}; there are {', '.join(known)}.{suggestion(name, known)}")
+        return numbers[self._places[name]]
 
 
 def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flight:

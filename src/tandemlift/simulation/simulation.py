@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.core.errors import InputError, accepted, shown, suggestion
+from tandemlift.core.errors import InputError, accepted, shown
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, leaves, unflat
 from tandemlift.engines.registry import EngineLost
@@ -20,19 +20,14 @@ from tandemlift.missions import MissionLike, mission_of
 from tandemlift.missions.recording import engine_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.push_checks import on_vehicle_checks
-from tandemlift.simulation.caller_values import checked_seed, numbers
+from tandemlift.simulation.caller_values import checked_seed, count_of, held_inputs, numbers
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.outcome import ending_of
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset
-from tandemlift.simulation.results import RawResult, channels_of, flight_of, take_metrics
+from tandemlift.simulation.results import RawResult, SampleChannels, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_of
 
-FORCE, POINT, THRUSTS = (
-    slice(0, 3),
-    slice(3, 6),
-    slice(6, -1),
-)  # of the numbers of a `parts.person.caller_inputs.CallerInput`
 REPORT_EVERY = 1000  # steps between reports of computing time, which decides when optimised code is made
 
 
@@ -68,10 +63,9 @@ class Simulation:
     def _prepare(self) -> None:
         p = self._p = FlightPlan(self.mission, self.engine, interactive=True)
         self.dt = p.dt
-        row = np.arange(leaves(p.sample), dtype=np.float64)[None, :]
-        self._places: dict[str, Any] = {name: at[0].astype(np.intp) for name, at in channels_of(p.sample, row)}
-        self.channels = tuple(self._places)
-        self._external = np.zeros(leaves(p.given.external))
+        self._sample = SampleChannels(p.sample)
+        self.channels = self._sample.names
+        self._external, self._held = np.zeros(leaves(p.given.external)), held_inputs(p.given.external)
         self._state = leaf_offset(p.model, "flight_state", "state")
 
     def _begin(self) -> None:
@@ -102,9 +96,15 @@ class Simulation:
         return self.state
 
     def step(
-        self, push: ArrayLike | None = None, thrusts: ArrayLike | None = None, *, point: ArrayLike | None = None
+        self,
+        push: ArrayLike | None = None,
+        thrusts: ArrayLike | None = None,
+        *,
+        point: ArrayLike | None = None,
+        velocity: ArrayLike | None = None,
+        steps: int = 1,
     ) -> Array:
-        """Take one step of `dt`; the inputs act for this step only.
+        """Take one step of `dt`, or several; the inputs act for these steps only.
 
         Args:
             push: force (3,) [N] on the vehicle in world axes, in addition to the mission's pushes.
@@ -112,42 +112,47 @@ class Simulation:
                 Delay, lag, limits and faults of real rotors apply to them; ideal rotors produce them exactly. The pilot
                 continues to decide without receiving them.
             point: point of application of the push (3,) [m], body axes, from the centre of mass; that centre if None.
+            velocity: of the reference (3,) [m/s], world axes, in place of the admittance's response to pushes. With
+                interactive guidance its limits apply, and it counts only while pushes may be followed.
+            steps: number of steps; fewer are taken if the flight ends before.
 
         Returns:
             The state (13,) at the new `time`.
 
         Raises:
-            InputError: the flight is over, an input is not an array of that many finite numbers, or the point is not
-                on the vehicle.
+            InputError: the flight is over, an input is not an array of that many finite numbers, the point is not on
+                the vehicle, or `steps` is not a whole number of at least 1.
             OSError: the engine in another process is lost; the flight is over.
         """
         if self.over:
             raise InputError(f"{self._why_over()}; reset() begins anew")
-        self._set_inputs(push, thrusts, point)
-        began = time.perf_counter()
+        self._set_inputs(push, thrusts, point, velocity)
+        began, end = time.perf_counter(), self.k + (steps if steps == 1 else count_of("steps", steps))
         try:
-            self._stepper.step(self.k, external=self._external)
+            while self.k < end and not self.over:
+                self._stepper.step(self.k, external=self._external)
+                self._log_and_advance()
         except EngineLost as error:
             self._interruption = interruption(self.time, error)
             raise
-        self._log_and_advance()
         self._wall += time.perf_counter() - began
         return self.state
 
-    def _set_inputs(self, push: Any, thrusts: Any, point: Any) -> None:
+    def _set_inputs(self, push: Any, thrusts: Any, point: Any, velocity: Any) -> None:
         """Write the caller's inputs of a step."""
         x = self._external
         x.fill(0.0)
-        if push is not None:
-            x[FORCE] = numbers("push", push, 3, "N, in world axes")
+        for name, value in (("push", push), ("point", point), ("thrusts", thrusts), ("velocity", velocity)):
+            if value is not None:
+                place, meaning, flag = self._held[name]
+                x[place] = numbers(name, value, place.stop - place.start, meaning)
+                if flag is not None:
+                    x[flag] = 1.0
         if point is not None:
             if push is None:
                 raise InputError(f"point = {shown(point)}: must come with a push")
-            x[POINT] = numbers("point", point, 3, "m, in body axes")
-            accepted(on_vehicle_checks("point", x[POINT].tolist(), Vehicle.from_settings(self.mission.vehicle)))
-        if thrusts is not None:
-            x[THRUSTS] = numbers("thrusts", thrusts, x.size - 7, "N, one for each rotor")
-            x[-1] = 1.0
+            given = x[self._held["point"].place].tolist()
+            accepted(on_vehicle_checks("point", given, Vehicle.from_settings(self.mission.vehicle)))
 
     def _log_and_advance(self) -> None:
         """Log the sample of the step just taken, if it is due, and count the step."""
@@ -214,20 +219,14 @@ class Simulation:
             InputError: no step has been taken yet.
             KeyError: there is no such channel.
         """
-        if name in DERIVED:
-            desired, actual, _ = DERIVED[name]
-            return self[desired] - self[actual]
         if name == "time":
             return self.sample_time
-        if name not in self._places:
-            known = [*self.channels, *DERIVED]
-            raise KeyError(f"no channel {name!r}; there are {', '.join(known)}.{suggestion(name, known)}")
-        if self.k == 0:
+        if self.k == 0 and name in self._sample:
             raise InputError(f"channel {name!r}: no step has been taken yet, and a sample is of a step; see `state`")
-        return self._stepper.row[self._places[name]]
+        return self._sample.of(self._stepper.row, name).copy()
 
     def __contains__(self, name: object) -> bool:
-        return name in self._places or name in DERIVED
+        return name in self._sample
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.channels)

@@ -14,12 +14,13 @@ from __future__ import annotations
 
 from typing import Generic, NamedTuple
 
-from tandemlift.core.algebra import absolute, clip, maximum, minimum, sqrt, where
+from tandemlift.core.algebra import absolute, chosen, clip, maximum, minimum, sqrt, where
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number
-from tandemlift.core.vector import ZERO, Vec3
+from tandemlift.core.vector import ZERO, Absent, Vec3
 from tandemlift.parts.compliance.admittance import Admittance, anchored, soft_threshold
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, V, low_pass_step
+from tandemlift.parts.person.requests import ReferenceVelocity
 
 QUIET_TIME = 2.0  # s without a push, after which the bias is estimated
 BIAS_CLIP = 0.3  # of the threshold: the largest deviation from the mean that counts for the bias
@@ -170,14 +171,18 @@ def with_horizontal_limit(a: Vec3, limit: Number) -> Vec3:
 
 
 @law
-def admittance_acceleration(
-    k: Compliance, m: ComplianceState, force: Vec3, damping: Number, horizontal: Number
-) -> Vec3:
-    """The admittance's response [m/s²] to a force beyond the threshold, within limits."""
+def admittance_acceleration(k: Compliance, m: ComplianceState, force: Vec3, damping: Number) -> Vec3:
+    """The admittance's response [m/s²] to a force beyond the threshold, within the limit along each axis."""
     a = k.admittance
     pull = force - (a.damping + Vec3(damping, damping, damping)) * m.velocity - a.stiffness * (m.position - m.anchor)
-    free = clip(pull * a.inverse_mass, -k.limits.acceleration, k.limits.acceleration)
-    return with_horizontal_limit(speed_limited(free, m.velocity, k.limits.speed, k.limits.braking_gain), horizontal)
+    return clip(pull * a.inverse_mass, -k.limits.acceleration, k.limits.acceleration)
+
+
+@law(absent="response")
+def led_by(lead: ReferenceVelocity, k: MotionLimits, velocity: Vec3, enabled: Number, response: Vec3) -> Vec3:
+    """The acceleration [m/s²] towards a velocity that a caller gives while pushes may be followed, or the response."""
+    towards = clip((lead.velocity - velocity) * k.braking_gain, -k.acceleration, k.acceleration)
+    return chosen(lead.given * enabled, towards, response)
 
 
 @choice(absent="acceleration")
@@ -195,6 +200,7 @@ def compliance_step(
     horizontal: Number,
     boundary: object,
     dt: Number,
+    lead: ReferenceVelocity | Absent = Absent(),
 ) -> ComplianceState:
     """The memory after a step.
 
@@ -207,11 +213,14 @@ def compliance_step(
         horizontal: the largest horizontal acceleration that the rotors can still give [m/s²].
         boundary: which the reference must not cross, or `Absent`.
         dt: of the step [s].
+        lead: a velocity of the reference in place of the response to the push, or `Absent`.
     """
     filtered = low_pass_step(k.input_filter, m.filtered, push)
     beyond, band = dead_band(k.band, m.band, filtered.value, enabled, dt)
     output = low_pass_step(k.output_filter, m.output, beyond)
-    target = within(boundary, admittance_acceleration(k, m, output.value, damping, horizontal))
+    free = led_by(lead, k.limits, m.velocity, enabled, admittance_acceleration(k, m, output.value, damping))
+    bounded = speed_limited(free, m.velocity, k.limits.speed, k.limits.braking_gain)
+    target = within(boundary, with_horizontal_limit(bounded, horizontal))
     acceleration = moved_towards(m.acceleration, target, k.limits.jerk * dt)
     position = m.position + m.velocity * dt + acceleration * (0.5 * dt * dt)
     velocity = m.velocity + acceleration * dt

@@ -17,7 +17,13 @@ from tandemlift.core.vector import Vec3
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.trajectories import PhasesTable, Reference, Trajectory
-from tandemlift.parts.person.requests import NO_REQUEST, UNKNOWN_STATUS, OperatorRequest, VehicleStatus
+from tandemlift.parts.person.requests import (
+    NO_REQUEST,
+    UNKNOWN_STATUS,
+    OperatorRequest,
+    ReferenceVelocity,
+    VehicleStatus,
+)
 
 M = TypeVar("M")
 Reading = Literal["truth", "measurement", "estimate"]
@@ -73,7 +79,7 @@ class PilotInput(NamedTuple):
 
     The state; the person's push: force [N, world axes] and moment about the centre of mass [N·m, body axes]; 1 if the
     person requests a landing, else 0; readings and estimates, or `Absent`; the operator's requests; the status of the
-    vehicle.
+    vehicle; a velocity of the reference from a caller, or `Absent`.
     """
 
     state: State
@@ -83,6 +89,7 @@ class PilotInput(NamedTuple):
     sensed: object
     operator: OperatorRequest = NO_REQUEST
     status: VehicleStatus = UNKNOWN_STATUS
+    lead: ReferenceVelocity | Absent = Absent()
 
 
 class LoadOfWall(NamedTuple):

@@ -249,7 +249,8 @@ def _by_hand(
     compliance = above_ground(g.clearance, g.compliance, before, before.position.z + lifted - phase.ground)
     compliance = fenced(g.supervision, compliance, before, lifted)
     horizontal = available_acceleration(g.available, disturbance.force, usable_thrust(g.available, t))
-    after = compliance_step(compliance, before, pilot_input.push, allowed.responding, damping, horizontal, boundary, dt)
+    push, lead, responding = pilot_input.push, pilot_input.lead, allowed.responding
+    after = compliance_step(compliance, before, push, responding, damping, horizontal, boundary, dt, lead)
     about_vertical = turning_out(boundary, apply(rotation_from_quaternion(state.attitude), pilot_input.moment).z)
     yaw = euler_from_quaternion(state.attitude).angles.z
     heading, turned = yaw_step(g.heading, m.heading, about_vertical, yaw, allowed, rotor_failed, dt)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.law import Absent
+from tandemlift.core.algebra import chosen
+from tandemlift.core.law import Absent, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO
 from tandemlift.parts.compliance.admittance import (
@@ -25,7 +26,8 @@ from tandemlift.parts.guidance.guidance import (
     guide,
     run,
 )
-from tandemlift.parts.mechanics.trajectories import Reference, ScheduledPhases, reference
+from tandemlift.parts.mechanics.trajectories import Reference, ScheduledPhases, Trajectory, reference
+from tandemlift.parts.person.requests import ReferenceVelocity
 
 
 class ScheduledGuidance(NamedTuple):
@@ -36,6 +38,12 @@ class ScheduledGuidance(NamedTuple):
     phases: ScheduledPhases
     yaw: Number
     rotors: RunningInFlight | Absent
+
+
+@law(absent="motion")
+def led_by(lead: ReferenceVelocity, motion: Trajectory) -> Trajectory:
+    """T_r at a velocity that a caller gives, or as the admittance moves it."""
+    return chosen(lead.given, Trajectory(motion.position, lead.velocity, ZERO), motion)
 
 
 @checked_input.register(ScheduledGuidance)
@@ -56,7 +64,7 @@ def _by_schedule(
     dt: Number,
 ) -> tuple[Guidance, AdmittanceState]:
     force = gate(g.gate, pilot_input.push)
-    motion = admittance_response(g.admittance, m, force)
+    motion = led_by(pilot_input.lead, admittance_response(g.admittance, m, force))
     guidance = Guidance(
         force=force,
         admittance=motion,
@@ -68,4 +76,4 @@ def _by_schedule(
         learning=1.0,
         channels=Absent(),
     )
-    return guidance, admittance_step(g.admittance, m, force, motion, dt)
+    return guidance, admittance_step(g.admittance, m._replace(velocity=motion.velocity), force, motion, dt)

@@ -1,6 +1,6 @@
-"""Inputs of a caller who steps a flight: a push beside the mission's, and thrusts in place of the pilot's.
+"""Inputs of a caller who steps a flight: a push beside the mission's, and thrusts or a reference in place of the pilot's.
 
-Both are held over the step. A flight without a caller has `Absent`.
+They are held over the step. A flight without a caller has `Absent`.
 """
 
 from typing import NamedTuple
@@ -8,17 +8,22 @@ from typing import NamedTuple
 from tandemlift.core.algebra import where
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, PerRotor
-from tandemlift.core.vector import ZERO, Mat3, Quat, Vec3, linear, outer, plus
+from tandemlift.core.vector import ZERO, Absent, Mat3, Quat, Vec3, linear, outer, plus
 from tandemlift.parts.mechanics.push import CentralPush, PointPush, Push, PushSamples, push_moment
+from tandemlift.parts.person.requests import ReferenceVelocity
 
 
 class CallerInput(NamedTuple):
-    """A force [N, world axes] at a point [m, body axes]; thrusts of the rotors [N], which count if `override` is 1."""
+    """A force [N, world axes] at a point [m, body axes]; thrusts of the rotors [N], which count if `override` is 1.
+
+    And a velocity of the reference, which counts if its `given` is 1.
+    """
 
     force: Vec3
     point: Vec3
     thrusts: PerRotor
     override: Number
+    lead: ReferenceVelocity
 
 
 @linear
@@ -69,3 +74,9 @@ def overridden(thrust: Number, given: Number, override: Number) -> Number:
 def commanded_thrusts(external: CallerInput, thrusts: PerRotor) -> PerRotor:
     """The commanded thrusts [N], where the pilot commands `thrusts`."""
     return overridden(thrusts, external.thrusts, external.override)
+
+
+@law(absent=Absent())
+def lead_of(external: CallerInput) -> ReferenceVelocity:
+    """The velocity of the reference that the caller gives."""
+    return external.lead

@@ -14,7 +14,7 @@ from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import NonNegative, Table, key
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import NEVER, Number, NumberSet
-from tandemlift.core.vector import Absent, each, total
+from tandemlift.core.vector import Absent, Vec3, each, total
 
 
 class RequestTable(Table):
@@ -45,6 +45,13 @@ class OperatorRequest(NamedTuple):
     lift: Number
     stop: Number
     enabled: Number
+
+
+class ReferenceVelocity(NamedTuple):
+    """A velocity of the reference [m/s, world axes] in place of the admittance's; it counts if `given` is 1."""
+
+    velocity: Vec3
+    given: Number
 
 
 class VehicleStatus(NamedTuple):

@@ -19,11 +19,11 @@ from tandemlift.engines.touches import touches_in
 from tandemlift.parts.contact.feet import FootGrip
 from tandemlift.parts.contact.touches import Touches, of_turning_rotors
 from tandemlift.parts.contact.walls import NearWalls
-from tandemlift.parts.mechanics.push import Push, PushSamples
+from tandemlift.parts.mechanics.push import PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.turbulence import TurbulenceState, WindNoise
 from tandemlift.parts.mechanics.wind import WindModel, WindOutput, wind_loads
-from tandemlift.parts.person.caller_inputs import CallerInput, commanded_thrusts, with_caller_push
+from tandemlift.parts.person.caller_inputs import CallerInput, commanded_thrusts, lead_of, with_caller_push
 from tandemlift.parts.person.outside_push import OutsidePush
 from tandemlift.parts.person.person import Person, PersonState, landing_request, person_step
 from tandemlift.parts.person.requests import UNKNOWN_STATUS, operator_request
@@ -166,10 +166,10 @@ def with_person(model: FlightModel, inputs: StepInputs, t: Number, dt: Number) -
 
 @law
 def perceive(
-    model: FlightModel, push: Push, t: Number, dt: Number
+    model: FlightModel, inputs: StepInputs, t: Number, dt: Number
 ) -> tuple[CheckedEstimates | Estimates | Absent, PilotInput, WatchedEstimatorsState | EstimatorState | Absent]:
-    """(estimates, the pilot's input, the estimators' memory) at time t [s]; `push` is the true one."""
-    before, sources = model.flight_state, model.sources
+    """(estimates, the pilot's input, the estimators' memory) at time t [s]."""
+    before, sources, push = model.flight_state, model.sources, inputs.hand.start
     since, commands = tare_time(model.estimator, before.memory.guidance, t), last_thrusts(before.memory.allocation)
     around = surroundings_of(model.estimator, sources, before.near, before.memory.guidance)
     estimates, memory = estimate_all(model.estimator, before.estimator, before.readings, around, commands, since, dt)
@@ -184,14 +184,15 @@ def perceive(
         sensed=all_sensed(readings, estimates),
         operator=operator_request(before.person),
         status=UNKNOWN_STATUS,
+        lead=lead_of(inputs.external),
     )
     return estimates, pilot_input, memory
 
 
 @law
-def run_pilot(model: FlightModel, push: Push, t: Number, dt: Number) -> PilotOutput:
+def run_pilot(model: FlightModel, inputs: StepInputs, t: Number, dt: Number) -> PilotOutput:
     """The pilot's part of a step."""
-    estimates, pilot_input, estimator = perceive(model, push, t, dt)
+    estimates, pilot_input, estimator = perceive(model, inputs, t, dt)
     decision, memory = decide(model.pilot, model.flight_state.memory, pilot_input, t, dt)
     return PilotOutput(estimates, pilot_input.state.attitude, decision, memory, estimator)
 
@@ -282,4 +283,4 @@ def finish_step(
 def step_flight(model: FlightModel, inputs: StepInputs, t: Number, dt: Number) -> tuple[FlightState, Sample]:
     """One step of a flight from time t [s] by dt [s]: (`FlightState` after it, `Sample` at its start)."""
     inputs = with_person(model, inputs, t, dt)
-    return finish_step(model, run_pilot(model, inputs.hand.start, t, dt), inputs, t, dt)
+    return finish_step(model, run_pilot(model, inputs, t, dt), inputs, t, dt)

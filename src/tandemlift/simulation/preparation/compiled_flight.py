@@ -9,11 +9,15 @@ from functools import cached_property
 from tandemlift.compiler.machine_code import machine
 from tandemlift.compiler.machine_code.code import Code, Written
 from tandemlift.compiler.machine_code.store import key_of
+from tandemlift.compiler.tracer import Function
 from tandemlift.core.progress import always
 from tandemlift.simulation.loop.step import FlightModel, StepInputs
 from tandemlift.simulation.preparation.loops import LoopWriter
+from tandemlift.simulation.preparation.memory import AT, WORDS
 from tandemlift.simulation.preparation.templates import PythonController, delayed_spans, templates_from
 from tandemlift.simulation.preparation.traced_step import TracedStep
+
+CALL = ("contexts", "first", "end", "stop", "actions", "rows", "lanes", "place")  # words of `fly_blocks`
 
 
 class LoopCode:
@@ -43,7 +47,7 @@ class LoopCode:
         Raises:
             Stopped: `going()` was false before the compilation began.
         """
-        return self._code("loop", lanes, ["fly"], going)
+        return self._code("loop", lanes, ["fly", "fly_blocks"] if lanes > 1 else ["fly"], going)
 
     def parts(self, *, leaves_body: bool) -> Code:
         """A step in parts: `ask` up to a controller in Python, `decide` up to another body, `complete` to its end."""
@@ -63,5 +67,28 @@ class LoopCode:
         with self._lock:
             step = LoopWriter(self.traced, number if kind == "loop" else 1)
             text = step.write_loop() if kind == "loop" else step.write_parts(bool(number))
+            if kind == "loop" and number > 1:
+                write_many_blocks(step)
+                text = step.module.text
             spans = {name: span for name, span in step.scratch.spans.items() if "_" not in name}
             return Written(text, {"size": step.scratch.size, "rooms": spans})
+
+
+def write_many_blocks(step: LoopWriter) -> None:
+    """`fly_blocks`: hand the caller's actions to some blocks, and fly each on to a step, or to where it halts."""
+    f = Function(step.module, step.graph, 1, "i64 @fly_blocks(ptr %call) #0")
+    word = {name: f.load("%call", i, "ptr" if name in ("contexts", "actions") else "i64") for i, name in enumerate(CALL)}
+    vector = step.vector
+    with f.repeat(word["end"], word["first"]) as b:
+        context = f.at(word["contexts"], f.integer("mul", b, len(WORDS)), "i64")
+        work = f.load(context, AT["work"], "ptr")
+        with f.repeat(word["rows"]) as row:
+            number = f.integer("add", f.integer("mul", row, word["lanes"]), f.integer("mul", b, step.lanes))
+            given = f.op(f"load {vector}, ptr {f.at(word['actions'], number, 'double')}, align 8")
+            f.store(given, work, f.integer("add", row, word["place"]), vector)
+        f.store(word["stop"], context, AT["stop"], "i64")
+        f.store(f.integer("sub", word["stop"], 1), context, AT["show"], "i64")
+        reached = f.op(f"call i64 @fly(ptr {context})")
+        f.store(reached, context, AT["k"], "i64")
+        f.store("0", context, AT["fresh"], "i64")
+    f.end("i64 0")

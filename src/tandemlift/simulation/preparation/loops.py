@@ -44,21 +44,22 @@ class LoopWriter(StepWriter):
     def begin_step(self, f: Function, k: str) -> None:
         """Form the inputs of step k from outside, once in a span where possible, and bind them."""
         x, lanes = self.templates, self.lanes
-        in_span = f.integer("and", k, SPAN - 1)
-        begins = f.op(f"icmp eq i64 {in_span}, 0")
-        with f.when(begins):
+        begins = self.begins_span(f, k)
+        with f.when(f.op(f"icmp eq i64 {f.integer('and', k, SPAN - 1)}, 0")):
             self.call(f, "sum_pushes", f"i64 {k}")
             if self.draws and lanes == 1:
                 self.call(f, "draw_noise", f"i64 {k}")
-            if x.has_floor or x.has_person:
-                self.call(f, "find_surroundings")
+        if x.has_floor or x.has_person:
+            with f.when(f.any(begins)):
+                self.call(f, "find_surroundings", f"i64 {k}")
         if x.has_walls:
-            self.call(f, "find_walls", f"double {f.op(f'uitofp i1 {begins} to double')}")
+            truth = "i1" if lanes == 1 else f"<{lanes} x i1>"
+            self.call(f, "find_walls", f"{f.vector} {f.op(f'uitofp {truth} {begins} to {f.vector}')}")
         self.bind_inputs(f, k)
         if self.draws and lanes > 1:
             self.call(f, "draw_noise", f"i64 {k}")
         if self.has_gusts:
-            self.call(f, "sum_gusts", f"double {f.read['t'](0)}")
+            self.call(f, "sum_gusts", f"{f.vector} {f.read['t'](0)}")
 
     def bind_inputs(self, f: Function, k: str) -> None:
         """Bind the inputs of step k to their places in memory."""
@@ -149,10 +150,8 @@ class LoopWriter(StepWriter):
         f.lines.append(f"  %k = phi i64 [ {begin}, %first ], [ %next, %ahead ]")
         f.do(f"br i1 {f.op(f'icmp slt i64 %k, {stop}')}, label %sound, label %over")
         f.lines.append("sound:")
-        if self.lanes == 1:
-            lost = f.load("%flight", leaf_offset(self.templates.model, "flight_state", "ended").at)
-            f.do(f"br i1 {f.op(f'fcmp oeq double {lost}, 0.0')}, label %step, label %over")
-            f.lines.append("step:")
+        f.do(f"br i1 {self.is_halted(f)}, label %over, label %step")
+        f.lines.append("step:")
         self.begin_step(f, "%k")
         sample, go_on = self._step_in_pieces(f, kept) if self.largest else self._step_in_place(f)
         sample()

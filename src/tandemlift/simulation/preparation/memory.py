@@ -18,21 +18,25 @@ from tandemlift.parts.mechanics.push import GaussianPush
 from tandemlift.parts.mechanics.wall_geometry import Wall
 from tandemlift.parts.mechanics.wind import Gust
 from tandemlift.parts.person.person import PathLeg
-from tandemlift.simulation.preparation.external_inputs import ROWS, InputTables
+from tandemlift.simulation.preparation.external_inputs import LANES, ROWS, InputTables
 
 Numbers = NDArray[np.float64]
+Words = NDArray[np.int64]
 IDLE = ROWS._replace(pushes=ROWS.pushes._replace(per_sigma=1.0))  # rows without effect
+NEVER = -1  # the number of no step
+TABLES = ("pushes", "gusts", "walls", "legs")
 COUNTS = ("push_count", "gust_count", "wall_count", "leg_count")
 
 
 WORDS = (
     *("flight", "work", "ring", "delays", "keys", "log", "last"),
-    *("pushes", "gusts", "walls", "legs"),
-    *("push_count", "gust_count", "wall_count", "leg_count"),
-    *("rings", "stride", "steps", "every", "since", "fresh", "dt", "k", "stop"),
+    *TABLES,
+    "shown",
+    *COUNTS,
+    *("rings", "stride", "steps", "every", "since", "fresh", "dt", "k", "stop", "show", "apart"),
 )
 AT = {name: i for i, name in enumerate(WORDS)}
-POINTERS = WORDS[:11]
+POINTERS = WORDS[:12]
 MEMORY = "ptr noalias %c, ptr noalias %flight, ptr noalias %work"  # arguments of the internal functions
 
 
@@ -89,6 +93,7 @@ class FlightMemory:
         starts: a flight for each lane.
         grid: of time steps, the same for all lanes.
         columns: numbers of a sample.
+        shared: arrays in which its numbers and its context shall stand; by default, arrays of its own.
 
     Attributes:
         numbers: of all flights, interleaved: number i of lane l stands at i · lanes + l.
@@ -96,30 +101,60 @@ class FlightMemory:
         k: the next step.
     """
 
-    def __init__(self, code: Code, starts: Sequence[FlightStart], grid: TimeGrid, columns: int) -> None:
+    def __init__(
+        self,
+        code: Code,
+        starts: Sequence[FlightStart],
+        grid: TimeGrid,
+        columns: int,
+        shared: tuple[Numbers, Words] | None = None,
+    ) -> None:
         self.code, self.grid, self.k, lanes = code, grid, 0, len(starts)
-        self.numbers, self.ring = (
-            _interleaved([s.numbers for s in starts]),
-            _interleaved([s.ring.ravel() for s in starts]),
-        )
-        self.keys = _interleaved([s.keys for s in starts])
-        tables = [_table([s.tables[i] for s in starts], IDLE[i]) for i in range(len(IDLE))]
+        own = aligned(starts[0].numbers.size * lanes), np.zeros(len(WORDS), dtype=np.int64)
+        self.numbers, self._context = shared or own
+        self.ring, self.keys = aligned(starts[0].ring.size * lanes), aligned(starts[0].keys.size * lanes)
         self.work = aligned(code.about["size"] * lanes)
         self.log, self.last = np.zeros((lanes, grid.rows, columns)), np.full(columns, np.nan)
-        self._context = np.zeros(len(WORDS), dtype=np.int64)
-        self._kept = tables, grid.delays
-        arrays = (self.numbers, self.work, self.ring, grid.delays, self.keys, self.log, self.last, *tables)
+        arrays = (self.numbers, self.work, self.ring, grid.delays, self.keys, self.log, self.last)
         for word, array in zip(WORDS, arrays, strict=False):
             self.put(word, array.ctypes.data)
-        for word, table in zip(COUNTS, zip(*[s.tables for s in starts], strict=True), strict=True):
-            self.put(word, max(map(len, table)))
+        self._starts = list(starts)
+        for lane in range(lanes):
+            self._write(lane)
+        self._write_tables()
         self.put("rings", len(starts[0].ring))
         self.put("stride", grid.rows * columns)
         self.put("steps", grid.steps)
         self.put("every", grid.every)
         self.put("fresh", 1)
+        self.put("show", NEVER)
         self._context.view(np.float64)[AT["dt"]] = grid.dt
         self.address = self._context.ctypes.data
+
+    def begin(self, lane: int, start: FlightStart) -> None:
+        """Begin a flight in a lane; the others go on."""
+        same = all(map(np.array_equal, self._starts[lane].tables, start.tables))
+        self._starts[lane] = start
+        self._write(lane)
+        if not same:
+            self._write_tables()
+        self.put("fresh", 1)
+
+    def _write(self, lane: int) -> None:
+        start, lanes = self._starts[lane], len(self._starts)
+        for array, own in ((self.numbers, start.numbers), (self.ring, start.ring), (self.keys, start.keys)):
+            array.reshape(-1, lanes)[:, lane] = own.ravel()
+
+    def _write_tables(self) -> None:
+        self._tables = [_table(tables, idle) for tables, idle in zip(self._tables_of_lanes, IDLE, strict=True)]
+        for word, table in zip(TABLES, self._tables, strict=True):
+            self.put(word, table.ctypes.data)
+        for word, tables in zip(COUNTS, self._tables_of_lanes, strict=True):
+            self.put(word, max(map(len, tables)))
+
+    @property
+    def _tables_of_lanes(self) -> list[tuple[Numbers, ...]]:
+        return list(zip(*[start.tables for start in self._starts], strict=True))
 
     def put(self, word: str, value: int) -> None:
         """Set a word of the context."""
@@ -140,11 +175,85 @@ class FlightMemory:
         return slice(at * lanes, (at + size) * lanes)
 
 
-def _interleaved(rows: Sequence[Any]) -> Numbers:
-    """The numbers of all lanes, interleaved."""
-    woven = aligned(len(rows) * len(rows[0]))
-    woven.reshape(-1, len(rows))[:] = np.stack(rows, axis=1)
-    return woven
+class BlockOfFlights:
+    """The memory of many flights, eight to a `FlightMemory`, that a loop steps together from one call of Python.
+
+    Args:
+        code: the loop for eight flights.
+        starts: a flight for each lane, a multiple of eight.
+        grid: of time steps; its log is never written.
+        columns: numbers of a sample.
+        held: first number and count of the caller's inputs that the actions are, in `external`.
+
+    Attributes:
+        flights: the numbers of all flights, (blocks, numbers, 8).
+        actions: of the caller, (count, lanes), held over all steps of a call.
+        sample: the last one of each flight, (columns, lanes).
+        begun: the step of the block at which each flight began, (blocks, 8).
+        halts: 1 for a flight whose end halts its block, so that its last numbers can be taken; else 0, (blocks, 8).
+    """
+
+    def __init__(
+        self, code: Code, starts: Sequence[FlightStart], grid: TimeGrid, columns: int, held: tuple[int, int]
+    ) -> None:
+        lanes, width = len(starts), LANES
+        blocks, size = lanes // width, starts[0].numbers.size
+        self.code, self._contexts = code, np.zeros((blocks, len(WORDS)), dtype=np.int64)
+        self.flights = aligned(lanes * size).reshape(blocks, size, width)
+        self.sample = aligned(columns * lanes).reshape(columns, lanes)
+        self.actions = aligned(held[1] * lanes).reshape(held[1], lanes)
+        self.blocks = [
+            FlightMemory(code, starts[b * width : (b + 1) * width], grid, columns, (self.flights[b].reshape(-1), context))
+            for b, context in enumerate(self._contexts)
+        ]
+        for b, memory in enumerate(self.blocks):
+            memory.put("shown", self.sample[:, b * width :].ctypes.data)
+            memory.put("apart", lanes)
+            memory.put("steps", NEVER)
+            memory.put("every", 1 << 62)  # with `since`: never logged
+            memory.put("since", NEVER)
+        self.halts, self.begun = np.ones((blocks, width)), np.zeros((blocks, width), dtype=np.int64)
+        self._halting = [memory.work[memory.span("halts")] for memory in self.blocks]
+        self._begun = [memory.work[memory.span("begun")].view(np.int64) for memory in self.blocks]
+        place = code.about["rooms"]["external"][0] + held[0]
+        self._call = np.array([self._contexts.ctypes.data, 0, 0, 0, self.actions.ctypes.data, held[1], lanes, place])
+
+    @property
+    def reached(self) -> Words:
+        """The next step of each block."""
+        return self._contexts[:, AT["k"]]
+
+    def begin(self, lane: int, start: FlightStart) -> None:
+        """Begin a flight in a lane at the next step of its block."""
+        b, place = divmod(lane, LANES)
+        self.blocks[b].begin(place, start)
+        self.begun[b, place] = self._begun[b][place] = self.reached[b]
+        self.sample[:, lane] = np.nan
+        self.watch(lane, True)
+
+    def watch(self, lane: int, halts: bool) -> None:
+        """Choose whether the end of a flight halts its block."""
+        b, place = divmod(lane, LANES)
+        self.halts[b, place] = self._halting[b][place] = float(halts)
+
+    def sample_here(self, b: int) -> Numbers:
+        """The samples of a block at its present step (columns, 8), taken without a step and without actions."""
+        own, memory, k = slice(b * LANES, (b + 1) * LANES), self.blocks[b], int(self.reached[b])
+        before = self.sample[:, own].copy(), self.actions[:, own].copy()
+        self.actions[:, own] = 0.0
+        memory.put("steps", k)
+        self.fly(k + 1, b, b + 1)
+        memory.put("steps", NEVER)
+        memory.put("k", k)  # a block passes its last step
+        found = self.sample[:, own].copy()
+        self.sample[:, own], self.actions[:, own] = before
+        return found
+
+    def fly(self, stop: int, first: int = 0, end: int | None = None) -> None:
+        """Fly the blocks from `first` to `end` − 1 on to step `stop`, or to the step at which a watched flight ends."""
+        call = self._call.copy()
+        call[1:4] = first, len(self.blocks) if end is None else end, stop
+        self.code.free["fly_blocks"](call.ctypes.data)
 
 
 def _table(tables: Sequence[Numbers], idle: Wall | GaussianPush | Gust | PathLeg) -> Numbers:

@@ -23,14 +23,13 @@ def write_push(step: StepWriter) -> None:
     with f.repeat(HALVES * width) as i:
         f.store(f.zero, "%work", f.integer("add", i, step.pushes_at))
     opens, closes = step.time(f, first), step.time(f, f.integer("add", first, SPAN))
-    half, twice = f.op(f"fmul double %dt, {double(0.5)}"), f.integer("mul", first, 2)
+    twice = f.integer("mul", first, 2)
     pushes, count = step.context_word(f, "pushes"), step.context_word(f, "push_count")
     with f.repeat(count) as i:
         row = f.at(pushes, f.integer("mul", i, leaves(ROWS.pushes)))
         f.read |= {"push": lambda m: Place(row, m), "opens": lambda m: opens, "closes": lambda m: closes}
         with f.when(f.any(f.value(step.traced.push_is_active))), f.repeat(HALVES) as j:
-            number = f.op(f"sitofp i64 {f.integer('add', twice, j)} to double")
-            when = f.op(f"fmul double {number}, {half}")
+            when = step.time(f, f.integer("add", twice, j), 2)
             f.read["when"] = lambda m: when
             _add_to(f, f.integer("add", f.integer("mul", j, width), step.pushes_at), step.traced.push)
     f.end()
@@ -38,7 +37,7 @@ def write_push(step: StepWriter) -> None:
 
 def write_gust(step: StepWriter) -> None:
     """The velocity of all gusts at the time of a step."""
-    f = step.function("sum_gusts", ", double %t")
+    f = step.function("sum_gusts", f", {step.vector} %t")
     f.read["t"] = lambda m: "%t"
     for m in range(3):
         f.store(f.zero, "%work", step.gust + m)
@@ -60,11 +59,12 @@ def _add_to(f: Function, at: str | int, more: Symbols) -> None:
 def write_draw(step: StepWriter) -> None:
     """Standard normals of one step in every lane; for a flight alone, of all steps of the span that holds step k."""
     lanes = step.lanes if step.lanes > 1 else step.draw_lanes
-    uniform = ("number",) if step.lanes > 1 else ("key",)
+    uniform = () if step.lanes > 1 else ("key",)
     f = Function(step.module, step.graph, lanes, f"internal void @draw_noise({MEMORY}, i64 %k) #1", uniform)
     keys = step.context_word(f, "keys")
     if step.lanes > 1:
-        f.read = {"number": lambda m: "%k", "key": lambda m: f.load(keys, m)}
+        own = step.own(f, "%k")
+        f.read = {"number": lambda m: own, "key": lambda m: f.load(keys, m)}
         for m, value in enumerate(v for four in step.traced.normals for v in f.values(four)):
             f.store(value, "%work", step.noise + m)
         f.end()
@@ -84,8 +84,8 @@ def write_draw(step: StepWriter) -> None:
 
 
 def write_surroundings(step: StepWriter) -> None:
-    """Search once per span: whether the floor is near, the leg of the person's path."""
-    x, f = step.templates, step.function("find_surroundings")
+    """Search once per span of a flight: whether the floor is near, the leg of the person's path."""
+    x, f = step.templates, step.function("find_surroundings", ", i64 %k")
     if x.has_floor:
         low = f.any(f.value(step.traced.may_touch_floor))
         f.store(f.op(f"uitofp i1 {low} to double"), "%work", step.low * step.lanes, "double")
@@ -97,7 +97,7 @@ def write_surroundings(step: StepWriter) -> None:
 def write_walls(step: StepWriter) -> None:
     """Find the nearest walls of the flights for which they are due."""
     f, at = (
-        step.function("find_walls", ", double %begins"),
+        step.function("find_walls", f", {step.vector} %begins"),
         leaf_offset(step.templates.model, "flight_state", "near").at,
     )
     f.read |= {"begins": lambda m: "%begins", "due": lambda m: Place("%work", step.due)}
@@ -122,14 +122,17 @@ def _find_legs(step: StepWriter, f: Function) -> None:
         leaf_offset(model, "flight_state", "person", "leg").at,
     )
     legs, last = step.context_word(f, "legs"), f.integer("sub", step.context_word(f, "leg_count"), 1)
+    begins = step.begins_span(f, "%k")
     for lane in range(lanes):
-        number = f.load("%flight", index * lanes + lane, "double")
-        i = f.call("i64", "@llvm.fptosi.sat.i64.f64", number, types=["double"])
-        i = f.call("i64", "@llvm.smax.i64", i, "0", types=["i64", "i64"])
-        i = f.call("i64", "@llvm.smin.i64", i, last, types=["i64", "i64"])
-        row = f.at(legs, f.integer("mul", i, leaves(ROWS.legs)))
-        for m in range(leaves(ROWS.legs)):
-            f.store(f.load(row, m * lanes + lane, "double"), "%flight", (leg + m) * lanes + lane, "double")
+        is_due = begins if lanes == 1 else f.op(f"extractelement <{lanes} x i1> {begins}, i64 {lane}")
+        with f.when(is_due):
+            number = f.load("%flight", index * lanes + lane, "double")
+            i = f.call("i64", "@llvm.fptosi.sat.i64.f64", number, types=["double"])
+            i = f.call("i64", "@llvm.smax.i64", i, "0", types=["i64", "i64"])
+            i = f.call("i64", "@llvm.smin.i64", i, last, types=["i64", "i64"])
+            row = f.at(legs, f.integer("mul", i, leaves(ROWS.legs)))
+            for m in range(leaves(ROWS.legs)):
+                f.store(f.load(row, m * lanes + lane, "double"), "%flight", (leg + m) * lanes + lane, "double")
 
 
 def steady(graph: Graph, roots: Symbols, state_size: int) -> list[int]:

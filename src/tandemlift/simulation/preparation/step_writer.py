@@ -12,7 +12,7 @@ from tandemlift.simulation.preparation.memory import AT, MEMORY, POINTERS, Scrat
 from tandemlift.simulation.preparation.templates import LeafSpan, delayed_spans, leaf_offset
 from tandemlift.simulation.preparation.traced_step import Symbols, TracedStep
 
-UNIFORM = ("t", "dt", "when", "opens", "closes", "number", "begins")
+UNIFORM = ("dt",)
 ARGUMENTS = "ptr %c, ptr %flight, ptr %work"
 
 
@@ -32,7 +32,9 @@ class StepWriter:
         self.moves_body = True
         self.width, self.draws = leaves(self.templates.given.hand.start), 0
         self.state_size = leaves(self.templates.model.flight_state)
+        self.vector = "double" if lanes == 1 else f"<{lanes} x double>"
         self.delayed = delayed_spans(self.templates.model)
+        self.ended = leaf_offset(self.templates.model, "flight_state", "ended").at
         self.touches = leaf_offset(self.templates.model, "flight_state", "touches")
         self.moved_touches = leaf_offset(self.templates.moved, "touches").at
         g, roots = self.graph, [s.node for s in self.all_roots]
@@ -43,15 +45,8 @@ class StepWriter:
     def all_roots(self) -> Symbols:
         """Every value that a step computes."""
         x = self.traced
-        return [
-            *x.next_state,
-            *x.sample,
-            *self.body_roots(),
-            *self.limit_roots(),
-            *x.asked,
-            *x.body.acting,
-            *x.body.push,
-        ]
+        end = [*x.next_state, *x.sample, *self.body_roots(), *self.limit_roots()]
+        return [*end, *x.asked, *x.body.acting, *x.body.push]
 
     def _lay_out_scratch(self) -> None:
         x, take = self.templates, self.scratch.take
@@ -68,6 +63,8 @@ class StepWriter:
         self.solving = take("solving", len(needs.problem) + len(needs.search) if needs else 0)
         self.sample = take("sample", leaves(x.sample) if self.lanes > 1 else 0)
         self.low, self.near, self.due = take("low", 1), take("near", 1), take("due", 1)
+        in_block = int(self.lanes > 1)
+        self.begun, self.halts = take("begun", in_block), take("halts", in_block)
 
     def function(self, name: str, more: str = "", result: str = "void") -> Function:
         """An internal function whose arguments are the context %c, the flight, the scratch memory, and `more`."""
@@ -97,10 +94,38 @@ class StepWriter:
         kind = "ptr" if name in POINTERS else "i64"
         return f.op(f"load {kind}, ptr {f.at('%c', AT[name], 'i64')}, align 8")
 
-    def time(self, f: Function, k: str) -> str:
-        """The time of step k."""
-        number = f.op(f"sitofp i64 {k} to double")
-        return f.op(f"fmul double {number}, %dt")
+    def own(self, f: Function, k: str, times: int = 1) -> str:
+        """The number of a step of the loop in each flight's own count; `times`: of both, such as 2 for half steps."""
+        if self.lanes == 1:
+            return k
+        kind = f"<{self.lanes} x i64>"
+        begun = f.load("%work", self.begun, kind)
+        if times > 1:
+            begun = f.op(f"mul {kind} {begun}, splat (i64 {times})")
+        return f.op(f"sub {kind} {f.spread(k, 'i64')}, {begun}")
+
+    def time(self, f: Function, k: str, times: int = 1) -> str:
+        """The time of step k, or of a part of it: k of `times` as many."""
+        counted = self.own(f, k, times)
+        step = "%dt" if times == 1 else f.op(f"fmul double %dt, {double(1.0 / times)}")
+        number = f.op(f"sitofp {'i64' if self.lanes == 1 else f'<{self.lanes} x i64>'} {counted} to {f.vector}")
+        return f.op(f"fmul {f.vector} {number}, {f.spread(step)}")
+
+    def is_halted(self, f: Function) -> str:
+        """Whether a flight has ended, so that no further step may be taken; in a block, one of those that halt it."""
+        lost = f.op(f"fcmp une {f.vector} {f.load('%flight', self.ended)}, {f.zero}")
+        if self.lanes == 1:
+            return lost
+        watched = f.op(f"fcmp one {f.vector} {f.load('%work', self.halts)}, {f.zero}")
+        return f.any(f.op(f"and <{self.lanes} x i1> {lost}, {watched}"))
+
+    def begins_span(self, f: Function, k: str) -> str:
+        """Whether step k begins a span of each flight."""
+        if self.lanes == 1:
+            return f.op(f"icmp eq i64 {f.integer('and', k, SPAN - 1)}, 0")
+        kind = f"<{self.lanes} x i64>"
+        in_span = f.op(f"and {kind} {self.own(f, k)}, splat (i64 {SPAN - 1})")
+        return f.op(f"icmp eq {kind} {in_span}, zeroinitializer")
 
     @property
     def solved(self) -> int:
@@ -139,11 +164,19 @@ def write_sample(step: StepWriter, f: Function, k: str) -> None:
     row = f.integer("sdiv", past, every)
     logged = f.op(f"icmp eq i64 {f.integer('mul', row, every)}, {past}")
     final = f.op(f"icmp eq i64 {k}, {steps}")
-    with f.when(f.op(f"or i1 {logged}, {final}")):
-        if step.lanes == 1:
+    due = f.op(f"or i1 {logged}, {final}")
+    if step.lanes == 1:
+        with f.when(due):
             _write_one_sample(step, f, row, logged, final)
-        else:
-            _write_samples_of_lanes(step, f, row, logged)
+        return
+    shown = f.op(f"icmp eq i64 {k}, {step.context_word(f, 'show')}")
+    shown = f.op(f"or i1 {shown}, {_halts_now(step, f)}")
+    with f.when(f.op(f"or i1 {due}, {shown}")):
+        step.store_values(f, step.sample, step.traced.sample)
+        with f.when(logged):
+            _log_lanes(step, f, row)
+        with f.when(shown):
+            _show_lanes(step, f)
 
 
 def _write_one_sample(step: StepWriter, f: Function, row: str, logged: str, final: str) -> None:
@@ -154,16 +187,31 @@ def _write_one_sample(step: StepWriter, f: Function, row: str, logged: str, fina
             f.put(f.at(step.context_word(f, name), f.integer("mul", index, len(sample))), 0, sample)
 
 
-def _write_samples_of_lanes(step: StepWriter, f: Function, row: str, logged: str) -> None:
+def _halts_now(step: StepWriter, f: Function) -> str:
+    """Whether a flight that halts the block ends in this step."""
+    before, halts = f.load("%flight", step.ended), f.load("%work", step.halts)
+    after = f.value(step.traced.next_state[step.ended])
+    ends = [f.op(f"fcmp {c} {f.vector} {x}, {f.zero}") for c, x in (("oeq", before), ("une", after), ("une", halts))]
+    truth = f"<{step.lanes} x i1>"
+    return f.any(f.op(f"and {truth} {f.op(f'and {truth} {ends[0]}, {ends[1]}')}, {ends[2]}"))
+
+
+def _log_lanes(step: StepWriter, f: Function, row: str) -> None:
     columns = len(step.traced.sample)
-    step.store_values(f, step.sample, step.traced.sample)
-    with f.when(logged):
-        log, stride = step.context_word(f, "log"), step.context_word(f, "stride")
-        with f.repeat(step.lanes) as lane:
-            to = f.integer("add", f.integer("mul", lane, stride), f.integer("mul", row, columns))
-            with f.repeat(columns) as m:
-                at = f.integer("add", f.integer("mul", f.integer("add", m, step.sample), step.lanes), lane)
-                f.store(f.load("%work", at, "double"), log, f.integer("add", to, m), "double")
+    log, stride = step.context_word(f, "log"), step.context_word(f, "stride")
+    with f.repeat(step.lanes) as lane:
+        to = f.integer("add", f.integer("mul", lane, stride), f.integer("mul", row, columns))
+        with f.repeat(columns) as m:
+            at = f.integer("add", f.integer("mul", f.integer("add", m, step.sample), step.lanes), lane)
+            f.store(f.load("%work", at, "double"), log, f.integer("add", to, m), "double")
+
+
+def _show_lanes(step: StepWriter, f: Function) -> None:
+    """Write the sample to memory in which number m of all blocks stands together, `apart` numbers after m - 1."""
+    shown, apart = step.context_word(f, "shown"), step.context_word(f, "apart")
+    with f.repeat(len(step.traced.sample)) as m:
+        value = f.load("%work", f.integer("add", m, step.sample))
+        f.store(value, f.at(shown, f.integer("mul", m, apart), "double"))
 
 
 def write_next_state(step: StepWriter, f: Function, k: str) -> None:

@@ -103,7 +103,7 @@ def templates_from(model: FlightModel, given: StepInputs) -> Templates:
     """The layouts of a flight's steps, from its first."""
     before, outer = model.flight_state, given
     given = with_person(model, given, 0.0, 0.001)
-    output = run_pilot(model, given.hand.start, 0.0, 0.001)
+    output = run_pilot(model, given, 0.0, 0.001)
     acting = actuate(model, output.decision.thrusts, given, 0.0)
     moved = step_body(model.plant, before, acting, given.hand, 0.0, 0.001)
     _, sample = finish_sample(model, output, acting, moved, given, 0.0, 0.0)

@@ -121,7 +121,7 @@ class TracedStep:
         output = (
             self._ask_python()
             if calls_python
-            else self.trace(run_pilot)(self.model, self.given.hand.start, self.t, self.dt)
+            else self.trace(run_pilot)(self.model, self.given, self.t, self.dt)
         )
         self.limits: LimitProblem | None = None
         if templates.has_thrust_limits:
@@ -155,8 +155,8 @@ class TracedStep:
         return symbols(self.graph, value)
 
     def _ask_python(self) -> PilotOutput:
-        f, push, t, dt = self.model, self.given.hand.start, self.t, self.dt
-        estimates, pilot_input, estimator = self.trace(perceive)(f, push, t, dt)
+        f, t, dt = self.model, self.t, self.dt
+        estimates, pilot_input, estimator = self.trace(perceive)(f, self.given, t, dt)
         memory = f.flight_state.memory
         briefed = self.trace(control_input)(f.pilot, memory, pilot_input, t, dt)
         self.asked = [*self.numbers(briefed.measured), *self.numbers(briefed.guidance.reference)]

@@ -1,0 +1,298 @@
+"""Many flights of a mission, stepped together from Python: `Block`."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from functools import cached_property
+from typing import Any, Literal, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tandemlift.core.errors import InputError, shown
+from tandemlift.core.findings import Finding
+from tandemlift.core.types import Array, flat, leaves, unflat
+from tandemlift.missions import MissionLike, mission_of
+from tandemlift.simulation.caller_values import checked_seed, count_of, held_inputs
+from tandemlift.simulation.findings import findings_of
+from tandemlift.simulation.lanes import Keys, Lanes, lane_numbers, one_for_each
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import LANES, BlockOfFlights, leaf_offset
+from tandemlift.simulation.results import RawResult, SampleChannels, metrics_of
+
+Actions = Literal["push", "thrusts", "velocity"]
+WORTH = 2e-4  # s of flight code in a call, from which on threads share it
+
+
+class Block:
+    """Flights of one mission that step together, in NumPy: for learning, and for worlds of one's own.
+
+    Each lane is a flight with a time of its own, and equals that of a `Simulation` to the last bit. Lane i has the seed
+    `mission.seed` + i. A flight that is over stays as it ended until its lane is reset.
+
+    Args:
+        mission: from `load_mission`, or its name or path; the compiled engine flies it.
+        lanes: number of flights.
+        threads: that share a call if it takes long enough; by default one for each processor.
+        actions: the input that `step` takes, as `Simulation.step` does: "push" (lanes, 3) [N], "thrusts" (lanes, 4N)
+            [N], or "velocity" of the reference (lanes, 3) [m/s].
+
+    Attributes:
+        mission: the mission.
+        lanes: number of flights.
+        dt: length of a step [s].
+        channels: names of the channels, the same as a flight's.
+        actions: those of the last call (lanes, n), in memory that the flights read: `step(block.actions)` copies
+            nothing.
+
+    Raises:
+        InputError: the mission cannot be loaded or built, Python is part of its steps, or an argument is not one of
+            the above.
+    """
+
+    def __init__(
+        self, mission: MissionLike, lanes: int, threads: int | None = None, *, actions: Actions = "push"
+    ) -> None:
+        if actions not in get_args(Actions):
+            raise InputError(f"actions = {actions!r}: must be one of {', '.join(map(repr, get_args(Actions)))}")
+        self.mission, self.lanes = mission_of(mission), count_of("lanes", lanes)
+        self._threads = (os.cpu_count() or 1) if threads is None else count_of("threads", threads)
+        self._flights = Lanes(self.mission, self.lanes)
+        p = self._p = self._flights.first
+        self.dt, self._sample = p.dt, SampleChannels(p.sample)
+        self.channels = self._sample.names
+        place, self._unit, flag = held_inputs(p.given.external)[actions]
+        starts = self._flights.starts
+        self._code = p.loop_code.loop(LANES)
+        self._code.optimise()
+        self._memory = BlockOfFlights(
+            self._code,
+            [*starts, *[starts[-1]] * (-self.lanes % LANES)],
+            p.grid(1, 1),
+            leaves(p.sample),
+            (place.start, place.stop - place.start + (flag is not None)),
+        )
+        rows = place.stop - place.start
+        self.actions: Array = self._memory.actions[:rows, : self.lanes].T
+        self._counts = self._memory.actions[rows:]  # 1 where thrusts or a velocity count
+        self._ended_at = leaf_offset(p.model, "flight_state", "ended").at
+        at, size = leaf_offset(p.model, "flight_state", "metrics")
+        self._tallies, self._empty = slice(at, at + size), np.array(flat(p.model.flight_state.metrics))
+        self._k, self._pace = 0, 0.0  # pace: s for a step of eight flights
+        self._over, self._outcomes = np.zeros(self.lanes, dtype=bool), [""] * self.lanes
+        self._taken, self._steps, self._late = np.zeros((3, self.lanes), dtype=np.int64)
+        self._early = np.zeros((self.lanes, size))
+        self._saved = np.zeros((self.lanes, self._memory.flights.shape[1]))  # numbers of the flights that are over
+        self._shown, self._last = np.zeros((2, leaves(p.sample), self.lanes))  # their samples: of the last step, at end
+        self.reset()
+
+    @cached_property
+    def _pool(self) -> ThreadPoolExecutor:
+        return ThreadPoolExecutor(self._threads, thread_name_prefix="block")
+
+    # stepping
+
+    def reset(
+        self,
+        lanes: int | Sequence[int] | NDArray[Any] | None = None,
+        seed: int | Sequence[int] | None = None,
+        keys: Keys | Sequence[Keys] | None = None,
+    ) -> None:
+        """Begin flights anew at t = 0; those of other lanes go on.
+
+        Args:
+            lanes: their numbers, or a truth for each lane, such as `block.ended`; by default all.
+            seed: one for each of these lanes from now on, or the first of consecutive ones; by default each keeps its
+                own, and the same flight begins again.
+            keys: of the mission to change in these lanes from now on, such as {"plant.mass_scale": 1.1}: for all of
+                them, or a list with a dictionary for each. {} returns to the mission.
+
+        Raises:
+            InputError: there is no such lane, a seed or a key is not allowed, or a key must be the same in all lanes;
+                no lane has been reset.
+        """
+        numbers = lane_numbers(lanes, self.lanes)
+        if seed is None or np.ndim(seed):
+            seeds = [s if s is None else checked_seed(s) for s in one_for_each("seed", seed, len(numbers))]
+        else:
+            seeds = [checked_seed(checked_seed(seed) + i) for i in range(len(numbers))]
+        self._flights.change(numbers, seeds, one_for_each("keys", keys, len(numbers)))
+        for lane in numbers:
+            plan = self._flights.plans[lane]
+            self._memory.begin(lane, self._flights.starts[lane])
+            self._steps[lane], self._late[lane] = plan.steps, plan.late_step if plan.late_step < plan.steps else 0
+        self._over[numbers], self._taken[numbers], self._early[numbers] = False, 0, self._empty
+
+    def step(self, actions: ArrayLike | None = None, steps: int = 1) -> None:
+        """Take one step of `dt` in every lane, or several; the actions act for these steps only.
+
+        Args:
+            actions: (lanes, n); none act if not given.
+            steps: number of steps; a flight that ends before takes fewer.
+
+        Raises:
+            InputError: all flights are over, the actions have another shape or are not finite numbers, or `steps` is
+                not a whole number of at least 1.
+        """
+        if self._over.all():
+            raise InputError("all flights are over; reset() begins them anew")
+        left = count_of("steps", steps)
+        self._act(actions)
+        while left and not self._over.all():
+            going, due = ~self._over, np.where(self._taken < self._late, self._late, self._steps)
+            taken = min(left, int((due - self._taken)[going].min()))
+            self._fly_to(self._k + taken)
+            left -= taken
+        over = np.flatnonzero(self._over)
+        if over.size:  # they have flown on beside the others
+            self._memory.flights[over // LANES, :, over % LANES] = self._saved[over]
+            self._memory.sample[:, over] = self._shown[:, over]
+
+    def _act(self, actions: ArrayLike | None) -> None:
+        if actions is None:
+            self._memory.actions.fill(0.0)
+            return
+        if actions is not self.actions:
+            given = np.asarray(actions)
+            if given.shape != self.actions.shape or given.dtype.kind not in "fiu":
+                what = f"{given.dtype} {given.shape}"
+                raise InputError(f"actions are {what}: must be numbers {self.actions.shape} ({self._unit})")
+            actions = given
+        finite = np.isfinite(actions)
+        if not finite.all():
+            lane = int(np.flatnonzero(~finite.all(axis=1))[0])
+            wrong = shown(np.asarray(actions)[lane].tolist())
+            raise InputError(f"actions of lane {lane} = {wrong}: must be finite numbers ({self._unit})")
+        if actions is not self.actions:
+            self.actions[...] = actions
+        self._counts.fill(1.0)
+
+    def _fly_to(self, stop: int) -> None:
+        """Fly on to a step of the block at which, at the earliest, a flight is over by its duration."""
+        memory, begun = self._memory, self._memory.begun.reshape(-1)[: self.lanes]
+        while True:
+            self._run(stop)
+            reached = np.repeat(memory.reached, LANES)[: self.lanes]
+            going = ~self._over
+            self._taken[going] = (reached - begun)[going]
+            ended = memory.flights[:, self._ended_at].reshape(-1)[: self.lanes] != 0.0
+            self._close(np.flatnonzero(ended & going))
+            if (memory.reached == stop).all():
+                break
+        self._k, going = stop, ~self._over
+        late = np.flatnonzero(going & (self._taken == self._late))
+        if late.size:
+            place = late // LANES, self._tallies, late % LANES
+            self._early[late], memory.flights[place] = memory.flights[place], self._empty
+        done = np.flatnonzero(going & (self._taken == self._steps))
+        for b in np.unique(done // LANES):
+            self._last[:, done[done // LANES == b]] = memory.sample_here(b)[:, done[done // LANES == b] % LANES]
+        self._close(done)
+
+    def _run(self, stop: int) -> None:
+        """Run the code, on several threads where it pays."""
+        memory, count = self._memory, len(self._memory.blocks)
+        work = self._pace * count * (stop - self._k)
+        parts = max(1, min(self._threads, count, int(work / WORTH)))
+        began = time.perf_counter()
+        if parts == 1:
+            memory.fly(stop)
+        else:
+            cuts = [count * i // parts for i in range(parts + 1)]
+            list(self._pool.map(lambda i: memory.fly(stop, cuts[i], cuts[i + 1]), range(parts)))
+        spent = (time.perf_counter() - began) * parts
+        self._code.add_time(spent)
+        self._pace = spent / (count * (stop - self._k))
+
+    def _close(self, lanes: NDArray[np.intp]) -> None:
+        """Keep flights as they have ended."""
+        memory = self._memory
+        self._over[lanes] = True
+        self._saved[lanes] = memory.flights[lanes // LANES, :, lanes % LANES]
+        self._shown[:, lanes] = memory.sample[:, lanes]
+        for lane in lanes.tolist():
+            memory.watch(lane, False)
+            self._outcomes[lane] = ""
+
+    # state, channels and ends
+
+    @property
+    def time(self) -> Array:
+        """The time that each flight has reached [s], (lanes,)."""
+        time: Array = self._taken * self.dt
+        return time
+
+    @property
+    def ended(self) -> NDArray[np.bool_]:
+        """Whether each flight is over: its duration, or by its end before (lanes,)."""
+        return self._over.copy()
+
+    @property
+    def outcome(self) -> NDArray[np.str_]:
+        """The outcome of each flight that is over, as in a flight's metrics; "" for the others (lanes,)."""
+        for lane in np.flatnonzero(self._over).tolist():
+            self._outcomes[lane] = self._outcomes[lane] or self.metrics(lane)["outcome"]
+        return np.array([o if over else "" for o, over in zip(self._outcomes, self._over, strict=True)])
+
+    @property
+    def state(self) -> Array:
+        """The true states (lanes, 13), as `Simulation.state`."""
+        at, size = leaf_offset(self._p.model, "flight_state", "state")
+        parts = self._memory.flights[:, at : at + size].swapaxes(1, 2)
+        return parts.reshape(-1, size)[: self.lanes]
+
+    def __getitem__(self, name: str) -> Array:
+        """A channel of the sample of the last step: (lanes, n), or (lanes,) where it has one column; read only.
+
+        It is a view where the numbers of the channel stand together, and changes with the next step. A lane that has
+        not stepped since its reset has nan.
+
+        Raises:
+            KeyError: there is no such channel.
+        """
+        if name == "time":
+            return np.where(self._taken > 0, (self._taken - 1) * self.dt, np.nan)
+        found: Array = self._sample.of(self._memory.sample, name)[..., : self.lanes].T
+        found.flags.writeable = False
+        return found
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._sample
+
+    def __repr__(self) -> str:
+        return f"<Block {self.mission.mission.name}: {self.lanes} flights, {int(self._over.sum())} over>"
+
+    def metrics(self, lane: int) -> dict[str, Any]:
+        """The metrics of one flight so far, as `Flight.metrics`; `command_at_start` is None.
+
+        Raises:
+            InputError: there is no such lane.
+        """
+        return metrics_of(*self._flown(lane))
+
+    def findings(self, lane: int) -> tuple[Finding, ...]:
+        """The findings of one flight so far.
+
+        Raises:
+            InputError: there is no such lane.
+        """
+        plan, flown = self._flown(lane)
+        return findings_of(plan, flown.flight_state, flown.step, metrics_of(plan, flown)["outcome"])
+
+    def _flown(self, lane: int) -> tuple[FlightPlan, RawResult]:
+        (lane,) = lane_numbers(int(lane), self.lanes)
+        plan, memory, b, place = self._flights.plans[lane], self._memory, *divmod(lane, LANES)
+        over, like = self._over[lane], self._p.model.flight_state
+        state = unflat(memory.flights[b, : leaves(like), place], like)
+        last = self._last[:, lane] if over else memory.sample_here(b)[:, place]
+        return plan, RawResult(
+            flight_state=state,
+            early=unflat(self._early[lane], like.metrics),
+            step=int(self._taken[lane]),
+            log=np.full((1, last.size), np.nan),
+            last=np.full(last.size, np.nan) if state.ended else last,
+            wall=0.0,
+        )

@@ -1,0 +1,127 @@
+"""The flights of a block at their start: lane by lane a seed, and keys of the mission that may differ."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from tandemlift.core.errors import InputError, shown
+from tandemlift.missions import Mission, changed
+from tandemlift.simulation.caller_values import checked_seed
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import FlightStart
+
+Keys = Mapping[str, Any]
+
+
+class Lanes:
+    """The flights of a block's lanes at their start.
+
+    Args:
+        mission: of all lanes; lane i has the seed `mission.seed` + i.
+        count: number of lanes.
+
+    Attributes:
+        first: the plan of the mission itself.
+        plans: of each lane, which agrees with its flight in everything but the seed.
+        starts: of each lane.
+
+    Raises:
+        InputError: the mission cannot be built, or Python is part of its steps.
+    """
+
+    def __init__(self, mission: Mission, count: int) -> None:
+        self.first = FlightPlan(mission, interactive=True)
+        _refuse_stepwise(self.first)
+        self.plans = [self.first] * count
+        self._seeds = [checked_seed(mission.mission.seed + lane) for lane in range(count)]
+        self.starts = [_start(self.first, seed) for seed in self._seeds]
+
+    def change(self, lanes: Sequence[int], seeds: Sequence[int | None], keys: Sequence[Keys | None]) -> None:
+        """Give lanes other seeds, or other keys than the mission has; None leaves those of a lane.
+
+        Raises:
+            InputError: a changed mission is invalid, or cannot fly beside the others; all lanes are as before.
+        """
+        plans = {id(own): self._plan_with(own) for own in keys if own is not None}
+        new = list[tuple[int, int, FlightPlan, FlightStart]]()
+        for lane, seed, own in zip(lanes, seeds, keys, strict=True):
+            if seed is not None or own is not None:
+                plan = self.plans[lane] if own is None else plans[id(own)]
+                seed = self._seeds[lane] if seed is None else seed
+                new.append((lane, seed, plan, _start(plan, seed)))
+        for lane, seed, plan, start in new:
+            self._seeds[lane], self.plans[lane], self.starts[lane] = seed, plan, start
+
+    def _plan_with(self, keys: Keys) -> FlightPlan:
+        plan = self.first
+        for key, value in keys.items():
+            plan = FlightPlan(changed(plan.mission, key, value), interactive=True)
+            if reason := _shared(self.first, plan):
+                raise InputError(f"{key} = {shown(value)}: must be the same in all lanes, because it {reason}")
+        return plan
+
+
+def _start(plan: FlightPlan, seed: int) -> FlightStart:
+    """The start of a flight with another seed than its plan's, perhaps."""
+    mission = plan.mission
+    if mission.mission.seed == seed:
+        return plan.start()
+    table = mission.mission.model_copy(update={"seed": seed})
+    return FlightPlan(mission.model_copy(update={"mission": table}), interactive=True).start()
+
+
+def _shared(first: FlightPlan, plan: FlightPlan) -> str:
+    """The reason for which two plans cannot fly side by side in one loop; "" if they can."""
+    if plan.dt != first.dt:
+        return "is the length of their steps"
+    if plan.stepwise or plan.variant != first.variant:
+        return "picks the laws of their steps; make a Block of its own"
+    return "" if np.array_equal(plan.delays, first.delays) else "sets the delay of their readings, in steps"
+
+
+def _refuse_stepwise(plan: FlightPlan) -> None:
+    mission = plan.mission
+    if plan.interpreted is not None:
+        name = f"controller.name = {mission.controller.name!r}"
+        raise InputError(f"{name}: is plain Python, which a block cannot step; register it as a law, or use Simulation")
+    if mission.changes:
+        raise InputError(f"changes: {len(mission.changes)} given, which a block cannot make; remove them")
+    if mission.changes_in_flight:
+        recording = str(mission.person.recording)
+        raise InputError(f"person.recording = {recording!r}: a block plays no recorded hand; use Simulation")
+
+
+def one_for_each(name: str, value: Any, count: int) -> Sequence[Any]:
+    """The values of some lanes, from one for all or a list with one for each.
+
+    Raises:
+        InputError: a list has another length.
+    """
+    if value is None or isinstance(value, (Mapping, str)) or np.ndim(value) == 0:
+        return [value] * count
+    if len(value) != count:
+        raise InputError(f"{name}: {len(value)} given, but {count} lanes are reset; give one for each, or one for all")
+    return list(value)
+
+
+def lane_numbers(lanes: Any, count: int) -> list[int]:
+    """The numbers of some lanes: of all if None; from one number, several, or a truth for each lane.
+
+    Raises:
+        InputError: there is no such lane.
+    """
+    if lanes is None:
+        return list(range(count))
+    given = np.atleast_1d(np.asarray(lanes))
+    if given.dtype == bool and given.shape == (count,):
+        given = np.flatnonzero(given)
+    if given.ndim != 1 or (given.size and given.dtype.kind not in "iu"):
+        raise InputError(f"lanes = {shown(lanes)}: must be numbers of lanes, or {count} truths")
+    for lane in given.tolist():
+        if not 0 <= lane < count:
+            raise InputError(f"lanes: there is no lane {lane}; they go from 0 to {count - 1}")
+    numbers: list[int] = given.tolist()
+    return numbers
