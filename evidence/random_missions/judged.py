@@ -21,9 +21,9 @@ from random_missions.generate import UNPUSHED, RandomMission, random_family
 from tandemlift.analysis.studies.execution.chunk import sources_digest
 from tandemlift.analysis.studies.execution.columns import Columns
 from tandemlift.analysis.studies.execution.files import ChunkFiles
+from tandemlift.analysis.studies.execution.many import fly_each
 from tandemlift.flight.record import Flight
 from tandemlift.missions.loading import built_in, path_of
-from tandemlift.simulation.many import fly_each
 
 BAD = ("not-lifted", "crashed", "diverged")
 SAME_TIME = 0.02  # s, within which record and judge must see a crash

@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.analysis.studies.execution.many import fly_each
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
-from tandemlift.simulation.many import fly_each
 from validation.census import Census
 
 Changes = dict[str, Any]

@@ -28,13 +28,13 @@ if TYPE_CHECKING:
     from tandemlift.parts.mechanics.vehicle import Vehicle
     from tandemlift.pictures.figures.registry import plot
     from tandemlift.pictures.report.study.feel_report import feel
-    from tandemlift.simulation.block import Block
+    from tandemlift.simulation.blocks.block import Block
     from tandemlift.simulation.fly import fly, fly_many
     from tandemlift.simulation.pilot_api import Pilot
     from tandemlift.simulation.simulation import Simulation
 
 _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
-    "Block": "simulation.block",
+    "Block": "simulation.blocks.block",
     "Flight": "flight.record",
     "FlightWarning": "core.errors",
     "InputError": "core.errors",

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from random_missions.generate import shortened
 
 import tandemlift as tl
+from tandemlift.analysis.studies.execution.many import fly_each
 from tandemlift.core.phases import FAILURES
-from tandemlift.simulation.many import fly_each
 
 AXES = st.integers(0, 2)
 CHANGES = {  # what may be wrong with a vehicle, its surroundings, or what is asked of it; each within its own range

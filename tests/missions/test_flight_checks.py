@@ -12,10 +12,10 @@ from tandemlift.core.errors import CLOSE, FAILS, OK, judged
 from tandemlift.core.vector import ZERO, vec3
 from tandemlift.missions import built_in, load_mission, tables_of
 from tandemlift.missions.flight_checks import CHECKS, flight_checks
+from tandemlift.parts.interaction.passage import least_room, places_of
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.wind import air_loads
-from tandemlift.parts.person.passage import least_room, places_of
 from tandemlift.parts.pilot.schedule_checks import Schedule
 from tandemlift.parts.pilot.sensing_checks import noise_of, push_bandwidths
 from tandemlift.parts.rotors.authority import CONTROL

@@ -4,7 +4,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.missions import load_mission
-from tandemlift.parts.person.requests import start_requests
+from tandemlift.parts.interaction.requests import start_requests
 
 BY_HAND = {"pilot.guidance": "interactive"}
 WATCHED = {**BY_HAND, "supervision.model": "on"}

@@ -95,7 +95,7 @@ ADMITTANCE = "class Admittance(NamedTuple):"
 ANCHORED = "@elementwise\ndef anchored"
 CHOICE = '"hard": "'
 LAW: Edits = {
-    "parts/compliance/admittance.py": [
+    "parts/interaction/admittance.py": [
         (ADMITTANCE, GATE + ADMITTANCE),
         (ANCHORED, SMOOTH + ANCHORED),
         ('gate: Literal["hard", "soft"]', 'gate: Literal["hard", "soft", "smooth"]'),

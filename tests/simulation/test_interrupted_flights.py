@@ -11,13 +11,13 @@ from ros_processes import SETTINGS
 from ros_trial import GUIDED, Middleware
 
 import tandemlift as tl
+from tandemlift.analysis.studies.execution.many import fly_each
 from tandemlift.apps.cli.main import main
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.apps.live.session.page_messages import ResetMessage
 from tandemlift.apps.live.session.session import Session
 from tandemlift.engines import gazebo
 from tandemlift.engines.registry import EngineLost
-from tandemlift.simulation.many import fly_each
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 DT, LAST = 1e-3, 150  # s; the last step that the plugin takes

@@ -7,7 +7,7 @@ from scipy.integrate import solve_ivp
 import tandemlift as tl
 from tandemlift.core.types import flat
 from tandemlift.missions.recording import WIDTH, Recording, read_recording, write_recording
-from tandemlift.parts.person.virtual_hand import HAND_RELEASED
+from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED
 
 LONG_PUSH = [{"force": [2.0, 0.0, 0.0], "time": 10.0, "sigma": 1e6}]
 FREE = {"admittance.stiffness": 0.0, "admittance.mass": 2.0, "admittance.damping": 2.0, "admittance.threshold": 0.0}

@@ -99,7 +99,7 @@ def in_plain_python(mission: tl.Mission, steps: int) -> list[Any]:
                 near = nearest_with(plant.walls, unflat(row, WALL), near, plant.frame, model.flight_state.state)
             model = model._replace(flight_state=model.flight_state._replace(near=near))
         given = with_person(model, given_at(k, like, tables, seeds), k * DT, DT)
-        output = run_pilot(model, given.hand.start, k * DT, DT)
+        output = run_pilot(model, given, k * DT, DT)
         wished = output.decision.thrusts
         output = output._replace(memory=with_allocation(output.memory, AllocationState(wished * 0.0, wished)))
         flight_state, sample = finish_step(model, output, given, k * DT, DT)

@@ -16,8 +16,8 @@ from tandemlift.core.files import parts_of
 from tandemlift.core.keys import PerAxis, is_number
 from tandemlift.missions.keys import Model, table_in
 from tandemlift.missions.mission import Mission
-from tandemlift.parts.compliance.admittance import with_feel
 from tandemlift.parts.controllers import CONTROLLERS
+from tandemlift.parts.interaction.admittance import with_feel
 
 
 def _with(at: Any, parts: list[str], value: object, key: str) -> Any:

@@ -15,7 +15,6 @@ from tandemlift.missions import outcomes
 from tandemlift.missions.flight_checks import flight_checks
 from tandemlift.missions.mission import Mission, MissionTable
 from tandemlift.missions.recording import read_recording
-from tandemlift.parts.compliance.admittance import admittance_checks, gate_checks
 from tandemlift.parts.contact import standing
 from tandemlift.parts.contact.corridor import wall_checks, wall_warnings
 from tandemlift.parts.estimation import estimator_table as estimator
@@ -24,10 +23,11 @@ from tandemlift.parts.estimation.disturbance_observer import observer_checks
 from tandemlift.parts.estimation.wind_compensation import compensation_checks
 from tandemlift.parts.guidance import supervision_table as supervision
 from tandemlift.parts.guidance.guidance import reading_checks
+from tandemlift.parts.interaction.admittance import admittance_checks, gate_checks
+from tandemlift.parts.interaction.person_table import PersonTable, person_checks, person_warnings
+from tandemlift.parts.interaction.requests import request_checks
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
-from tandemlift.parts.person.person_table import PersonTable, person_checks, person_warnings
-from tandemlift.parts.person.requests import request_checks
 from tandemlift.parts.pilot.push_checks import on_vehicle_checks
 from tandemlift.parts.pilot.schedule_checks import phase_checks, phase_warnings, wind_warnings
 from tandemlift.parts.pilot.vehicle_checks import vehicle_checks

@@ -12,7 +12,7 @@ from tandemlift.core.errors import CLOSE, FAILS, SETTINGS, CheckResult, noted
 from tandemlift.missions.mission import Mission
 from tandemlift.missions.outcomes import promise_of
 from tandemlift.parts.controllers.interface import tilt_limit_of
-from tandemlift.parts.person.passage import passage_checks, way_checks
+from tandemlift.parts.interaction.passage import passage_checks, way_checks
 from tandemlift.parts.pilot.loop_checks import loop_checks
 from tandemlift.parts.pilot.push_checks import point_checks, push_checks
 from tandemlift.parts.pilot.schedule_checks import (

@@ -16,7 +16,6 @@ from pydantic import AfterValidator, Field, SerializeAsAny, ValidationError, mod
 from tandemlift.core.errors import InputError
 from tandemlift.core.keys import NonNegative, Positive, Table, divisor, key, must
 from tandemlift.missions.outcomes import CrashTable, FindingsTable, OutcomeTable, PromiseTable
-from tandemlift.parts.compliance.admittance import AdmittanceTable, with_feel
 from tandemlift.parts.contact.corridor import CorridorTable, WallTable
 from tandemlift.parts.contact.ground_table import GroundTable
 from tandemlift.parts.controllers import ControllerTable
@@ -26,14 +25,15 @@ from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.guidance.compliance_table import ComplianceTable
 from tandemlift.parts.guidance.guidance import PilotTable
 from tandemlift.parts.guidance.supervision_table import SupervisionTable
+from tandemlift.parts.interaction.admittance import AdmittanceTable, with_feel
+from tandemlift.parts.interaction.person_table import PersonTable
+from tandemlift.parts.interaction.requests import RequestTable
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.rigid_body import InitialTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTable, VehicleTable
 from tandemlift.parts.mechanics.wind import WindTable
-from tandemlift.parts.person.person_table import PersonTable
-from tandemlift.parts.person.requests import RequestTable
 from tandemlift.parts.pilot.loop_checks import ControlLoop, push_feedback, reading_delays
 from tandemlift.parts.rotors.allocation import AllocationTable
 from tandemlift.parts.rotors.detection_table import DetectionTable

@@ -15,8 +15,8 @@ from pydantic.fields import FieldInfo
 from tandemlift.core.keys import description_of
 from tandemlift.missions.keys import EXTENDS, Model, bounds, compact, table_in, text_of
 from tandemlift.missions.mission import Mission
-from tandemlift.parts.compliance.admittance import AdmittanceTable
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
+from tandemlift.parts.interaction.admittance import AdmittanceTable
 
 Schema = dict[str, Any]
 KEYWORDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}

@@ -13,7 +13,7 @@ from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, changed
 from tandemlift.parts.controllers import control
-from tandemlift.parts.person.caller_inputs import CallerInput
+from tandemlift.parts.interaction.caller_inputs import CallerInput
 from tandemlift.simulation.pilot_api import pilot_at_start
 from tandemlift.simulation.preparation import leaf_offset
 
@@ -44,7 +44,7 @@ def portable_mission(mission: Mission) -> Mission:
 
 
 class Held(NamedTuple):
-    """Inputs of a caller: their place in a `CallerInput`, what they are, and the flag that makes them count, or None."""
+    """Inputs of a caller: place in a `CallerInput`, meaning, and place of the flag that makes them count, or None."""
 
     place: slice
     meaning: str

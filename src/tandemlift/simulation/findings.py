@@ -12,8 +12,8 @@ from tandemlift.core.vector import Absent, dot, total
 from tandemlift.missions.outcomes import FindingsTable, Promise, promise_of
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
 from tandemlift.parts.guidance.supervision import ALARM, PHASE, EventLog, SupervisionState
+from tandemlift.parts.interaction.requests import RequestTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
-from tandemlift.parts.person.requests import RequestTable
 from tandemlift.simulation.loop.detectors import Detectors
 from tandemlift.simulation.loop.excess import Excess
 from tandemlift.simulation.loop.oscillation import HalfPeriods, Swings

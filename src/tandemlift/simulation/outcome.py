@@ -9,9 +9,9 @@ from tandemlift.core.phases import ENDING_OF, FAR, LEFT_FENCE, STRUCK, TURNED_OV
 from tandemlift.core.vector import ZERO, Absent, Vec3
 from tandemlift.flight.record import Ending
 from tandemlift.parts.guidance.compliance_table import ComplianceTable
+from tandemlift.parts.interaction.requests import RequestTable
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.trajectories import PhasesTable
-from tandemlift.parts.person.requests import RequestTable
 from tandemlift.simulation.ending_numbers import EndingMoment, ending_numbers
 from tandemlift.simulation.loop.log_sample import Sample
 from tandemlift.simulation.loop.step import FlightState

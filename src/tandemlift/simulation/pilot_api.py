@@ -13,9 +13,9 @@ from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import ZERO, Absent, Quat
 from tandemlift.missions import Mission, MissionLike, mission_of
 from tandemlift.parts.controllers import control
+from tandemlift.parts.interaction.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.person.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.parts.pilot.pilot import PilotInput
 from tandemlift.parts.pilot.refusals import refusals_of
 from tandemlift.simulation.preparation.memory import aligned

@@ -15,9 +15,9 @@ from tandemlift.engines.registry import engine_named
 from tandemlift.flight.record import LATE
 from tandemlift.missions import Mission
 from tandemlift.parts.controllers import NoMemory, control
-from tandemlift.parts.person.caller_inputs import CallerInput
-from tandemlift.parts.person.outside_push import OutsidePush
-from tandemlift.parts.person.requests import ReferenceVelocity
+from tandemlift.parts.interaction.caller_inputs import CallerInput
+from tandemlift.parts.interaction.outside_push import OutsidePush
+from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.simulation.loop.log_sample import Sample
 from tandemlift.simulation.preparation import FlightStart, LoopCode, PythonController, TimeGrid
 from tandemlift.simulation.preparation.assemble import assemble
@@ -34,7 +34,7 @@ class FlightPlan:
     Args:
         mission: from `load_mission`.
         engine: name of the body's engine.
-        interactive: whether the caller of a step may add a push and replace thrusts (`parts.person.caller_inputs`).
+        interactive: whether the caller of a step has inputs (`parts.interaction.caller_inputs`).
 
     Raises:
         InputError: the engine is unknown, or the mission cannot be built.

@@ -117,7 +117,7 @@ class Stepper:
         self.row[:] = row
 
     def move_hand(self, hand: np.ndarray) -> None:
-        """Move the virtual hand: the numbers of its input, see `parts.person.virtual_hand`."""
+        """Move the virtual hand: the numbers of its input, see `parts.interaction.virtual_hand`."""
         self.a[self.hand] = hand
         self.memory.put("fresh", 1)
 
@@ -136,7 +136,7 @@ class Stepper:
         Args:
             k: the step.
             final: whether only the sample is taken; a body in another engine moves nevertheless.
-            external: the numbers of a `parts.person.caller_inputs.CallerInput`, if the plan is interactive.
+            external: the numbers of a `parts.interaction.caller_inputs.CallerInput`, if the plan is interactive.
 
         Raises:
             EngineLost: the engine took no step; the flight's numbers are those before it.

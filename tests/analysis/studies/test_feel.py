@@ -6,7 +6,7 @@ import pytest
 import tandemlift as tl
 from tandemlift.analysis.studies.feel_study import study_feel
 from tandemlift.analysis.studies.standard_push import answer_of, pushed_axes
-from tandemlift.parts.compliance.admittance import FEELS
+from tandemlift.parts.interaction.admittance import FEELS
 
 EDGE = 0.02  # s, of the flown push
 IDEAL = "one-push"  # ideal rotors, no sensors, the push known

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
-from tandemlift.parts.compliance.compliance import ComplianceState
 from tandemlift.parts.estimation.contact_detection import NO_CONTACT
 from tandemlift.parts.guidance.contact_hold import (
     LEAD,
@@ -19,6 +18,7 @@ from tandemlift.parts.guidance.contact_hold import (
     start_reaction,
 )
 from tandemlift.parts.guidance.guidance import PilotInput
+from tandemlift.parts.interaction.compliance import ComplianceState
 from tandemlift.parts.mechanics.rigid_body import State
 
 DT = 0.01

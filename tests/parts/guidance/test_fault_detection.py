@@ -22,8 +22,8 @@ from tandemlift.parts.guidance.preflight_checks import (
     failed_guidance_check,
     failed_lift_check,
 )
+from tandemlift.parts.interaction.requests import VehicleStatus
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.person.requests import VehicleStatus
 from tandemlift.parts.sensors.health import WELL
 
 DT, MASS, AVAILABLE = 0.01, 3.0, 60.0

@@ -15,8 +15,7 @@ from tandemlift.parts.guidance.phases import (
     reached,
     update_phase,
 )
-from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.person.requests import (
+from tandemlift.parts.interaction.requests import (
     NO_REQUEST,
     OperatorRequest,
     RequestCounts,
@@ -24,6 +23,7 @@ from tandemlift.parts.person.requests import (
     requests_until,
     with_operator,
 )
+from tandemlift.parts.mechanics.rigid_body import State
 
 FREE = PhaseBounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 LEVEL, DT, NEVER = Quat(1.0, 0.0, 0.0, 0.0), 0.05, 1e18

@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from tandemlift.parts.compliance.compliance import DeadBand, DeadBandState
 from tandemlift.parts.guidance.phases import PhaseOutput
 from tandemlift.parts.guidance.yaw_compliance import YawCompliance, YawState, yaw_step
+from tandemlift.parts.interaction.compliance import DeadBand, DeadBandState
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState
 
 DT, J, C = 0.02, 3.0, 1.5

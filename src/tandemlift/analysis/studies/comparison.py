@@ -20,6 +20,7 @@ from tandemlift.analysis.studies.comparison_scores import (
     largest_differences,
     speed,
 )
+from tandemlift.analysis.studies.execution.many import fly_each
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress
 from tandemlift.engines.registry import ENGINES
@@ -27,7 +28,6 @@ from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
 from tandemlift.missions.loading import MissionTemplate
 from tandemlift.parts.controllers import CONTROLLERS, Controller, controller, error_text, file_of
-from tandemlift.simulation.many import fly_each
 
 WIDTHS = {"controllers": 9, "engines": 18}  # at least, of a column of text
 

@@ -13,8 +13,8 @@ from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import GRAVITY, LN_20, Progress
 from tandemlift.missions import Mission
 from tandemlift.parts.controllers.interface import tilt_limit_of
+from tandemlift.parts.interaction.passage import least_room, passage_checks, places_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.person.passage import least_room, passage_checks, places_of
 from tandemlift.parts.pilot.schedule_checks import Schedule
 from tandemlift.parts.pilot.sensing_checks import (
     NOISE_SIGMAS,

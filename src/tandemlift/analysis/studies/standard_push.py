@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.studies.closed_form import AXES, YAW, AxisFeel, axes_of, speed_at
+from tandemlift.analysis.studies.execution.many import fly_each
 from tandemlift.core.errors import without_flight_warnings
 from tandemlift.core.types import Array, Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, merge, tables_of
 from tandemlift.missions.changes import Tables
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.simulation.many import fly_each
 
 RISE = 0.02  # s: spacing and standard deviation of the Gaussians
 MOST_PUSHES = 1500

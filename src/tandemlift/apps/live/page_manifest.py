@@ -25,7 +25,7 @@ from tandemlift.flight.record import CAUSE_TEXT, ENDING_TEXT
 from tandemlift.missions import tables_of
 from tandemlift.missions.changes import Tables
 from tandemlift.missions.keys import allowed, bounds, plain
-from tandemlift.parts.person.virtual_hand import HAND_RELEASED
+from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.outcome import NOT_FINITE, cause_of, limit_of
 from tandemlift.simulation.parameter_changes import LATER, NO_EFFECT, scheduled_change
 from tandemlift.simulation.plan import FlightPlan

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from tandemlift.core.keys import TRIAL, Bandwidth, Delay, Fraction, NonNegative, Positive, Positive3, Table, Tilt, key
 from tandemlift.core.vector import Vec3, vec3
-from tandemlift.parts.compliance.admittance import Admittance
-from tandemlift.parts.compliance.compliance import Compliance, MotionLimits, PushFilters
-from tandemlift.parts.compliance.energy_tank import TankTable
-from tandemlift.parts.compliance.following import FollowingTable
 from tandemlift.parts.guidance.yaw_compliance import YawTable
+from tandemlift.parts.interaction.admittance import Admittance
+from tandemlift.parts.interaction.compliance import Compliance, MotionLimits, PushFilters
+from tandemlift.parts.interaction.energy_tank import TankTable
+from tandemlift.parts.interaction.following import FollowingTable
 from tandemlift.parts.mechanics.low_pass import low_pass
 
 

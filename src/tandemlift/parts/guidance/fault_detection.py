@@ -19,9 +19,9 @@ from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIMITED, S
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Vec3, dot
 from tandemlift.parts.guidance.preflight_checks import SensorStatus
+from tandemlift.parts.interaction.requests import VehicleStatus
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import body_z_axis
-from tandemlift.parts.person.requests import VehicleStatus
 
 Corner = Annotated[float, Field(ge=-1e3, le=1e3)]  # m
 Corners = Annotated[tuple[Corner, Corner, Corner], PerAxis(3)]

@@ -15,15 +15,15 @@ from tandemlift.core.law import Absent, choice, law
 from tandemlift.core.types import NEVER, Number, PerRotor
 from tandemlift.core.vector import Vec3
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
-from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.trajectories import PhasesTable, Reference, Trajectory
-from tandemlift.parts.person.requests import (
+from tandemlift.parts.interaction.requests import (
     NO_REQUEST,
     UNKNOWN_STATUS,
     OperatorRequest,
     ReferenceVelocity,
     VehicleStatus,
 )
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.trajectories import PhasesTable, Reference, Trajectory
 
 M = TypeVar("M")
 Reading = Literal["truth", "measurement", "estimate"]

@@ -9,16 +9,6 @@ from tandemlift.core.law import law
 from tandemlift.core.phases import CONTACT, IDLE, LAND, LIFT
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Vec3, apply, dot
-from tandemlift.parts.compliance.above_ground import GroundClearance, above_ground, has_floor
-from tandemlift.parts.compliance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
-from tandemlift.parts.compliance.energy_tank import EnergyTank, EnergyTankState, passivity_damping
-from tandemlift.parts.compliance.following import (
-    Following,
-    FollowingLimits,
-    FollowingState,
-    must_land,
-    update_following,
-)
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.available import AvailableForce, available_acceleration, needed_force, usable_thrust
 from tandemlift.parts.guidance.contact_hold import (
@@ -56,11 +46,21 @@ from tandemlift.parts.guidance.supervision import (
     supervise,
 )
 from tandemlift.parts.guidance.yaw_compliance import FixedHeading, HeadingReference, YawCompliance, YawState, yaw_step
+from tandemlift.parts.interaction.above_ground import GroundClearance, above_ground, has_floor
+from tandemlift.parts.interaction.compliance import Compliance, ComplianceState, compensated_push, compliance_step
+from tandemlift.parts.interaction.energy_tank import EnergyTank, EnergyTankState, passivity_damping
+from tandemlift.parts.interaction.following import (
+    Following,
+    FollowingLimits,
+    FollowingState,
+    must_land,
+    update_following,
+)
+from tandemlift.parts.interaction.requests import requests_until, with_operator
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, wrap_angle
 from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
-from tandemlift.parts.person.requests import requests_until, with_operator
 
 
 class HandGuidance(NamedTuple):
@@ -249,8 +249,8 @@ def _by_hand(
     compliance = above_ground(g.clearance, g.compliance, before, before.position.z + lifted - phase.ground)
     compliance = fenced(g.supervision, compliance, before, lifted)
     horizontal = available_acceleration(g.available, disturbance.force, usable_thrust(g.available, t))
-    push, lead, responding = pilot_input.push, pilot_input.lead, allowed.responding
-    after = compliance_step(compliance, before, push, responding, damping, horizontal, boundary, dt, lead)
+    push, responding = pilot_input.push, allowed.responding
+    after = compliance_step(compliance, before, push, responding, damping, horizontal, boundary, dt, pilot_input.lead)
     about_vertical = turning_out(boundary, apply(rotation_from_quaternion(state.attitude), pilot_input.moment).z)
     yaw = euler_from_quaternion(state.attitude).angles.z
     heading, turned = yaw_step(g.heading, m.heading, about_vertical, yaw, allowed, rotor_failed, dt)

@@ -8,15 +8,6 @@ from tandemlift.core.algebra import chosen
 from tandemlift.core.law import Absent, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO
-from tandemlift.parts.compliance.admittance import (
-    Admittance,
-    AdmittanceState,
-    HardGate,
-    SoftGate,
-    admittance_response,
-    admittance_step,
-    gate,
-)
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.guidance import (
     Guidance,
@@ -26,8 +17,17 @@ from tandemlift.parts.guidance.guidance import (
     guide,
     run,
 )
+from tandemlift.parts.interaction.admittance import (
+    Admittance,
+    AdmittanceState,
+    HardGate,
+    SoftGate,
+    admittance_response,
+    admittance_step,
+    gate,
+)
+from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.parts.mechanics.trajectories import Reference, ScheduledPhases, Trajectory, reference
-from tandemlift.parts.person.requests import ReferenceVelocity
 
 
 class ScheduledGuidance(NamedTuple):

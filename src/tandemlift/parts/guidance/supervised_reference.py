@@ -8,12 +8,12 @@ from tandemlift.core.algebra import chosen, clip, maximum, where
 from tandemlift.core.law import Absent, choice, elementwise, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3
-from tandemlift.parts.compliance.compliance import Compliance, ComplianceState, with_speed
 from tandemlift.parts.guidance.guidance import PilotInput
 from tandemlift.parts.guidance.supervision import Supervision, SupervisionState
+from tandemlift.parts.interaction.compliance import Compliance, ComplianceState, with_speed
+from tandemlift.parts.interaction.requests import VehicleStatus
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.trajectories import Trajectory
-from tandemlift.parts.person.requests import VehicleStatus
 from tandemlift.parts.sensors.health import any_component, not_finite
 from tandemlift.parts.sensors.watchdog import state_not_finite
 

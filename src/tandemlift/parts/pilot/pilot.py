@@ -12,7 +12,6 @@ from typing import NamedTuple
 from tandemlift.core.law import law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import Absent, total
-from tandemlift.parts.compliance.admittance import AdmittanceState
 from tandemlift.parts.controllers import Command, Disturbance, Measured, control
 from tandemlift.parts.estimation.disturbance_observer import (
     DisturbanceEstimate,
@@ -24,6 +23,7 @@ from tandemlift.parts.estimation.disturbance_observer import (
 from tandemlift.parts.guidance.guidance import Guidance, PilotInput, checked_input, guide, running, untouched, with_wall
 from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
+from tandemlift.parts.interaction.admittance import AdmittanceState
 from tandemlift.parts.rotors.allocation import AllocationState, ConstrainedAllocation, Mixer, allocate
 from tandemlift.parts.rotors.detection import DetectionState, RotorLossDetection, detection_step, failed_rotors
 

@@ -15,13 +15,13 @@ from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMI
 from tandemlift.core.refusals import NUMBER_OF, REQUESTS, Refusals, refusal_of
 from tandemlift.core.types import GRAVITY, Number
 from tandemlift.core.vector import dot, total
-from tandemlift.parts.compliance.admittance import AdmittanceState
-from tandemlift.parts.compliance.compliance import Compliance, ComplianceState
 from tandemlift.parts.guidance.contact_hold import ContactReaction, ContactReactionState
 from tandemlift.parts.guidance.fault_detection import HOLDS
 from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
 from tandemlift.parts.guidance.supervision import Supervision, SupervisionState
+from tandemlift.parts.interaction.admittance import AdmittanceState
+from tandemlift.parts.interaction.compliance import Compliance, ComplianceState
 from tandemlift.parts.mechanics.rotation import body_z_axis
 from tandemlift.parts.rotors.rotor_faults import efficiency_at
 

@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 from tandemlift.core.errors import CLOSE, FAILS, CheckResult, judged, noted, refused, warned
 from tandemlift.core.types import GRAVITY
-from tandemlift.parts.compliance.admittance import AdmittanceTable
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.guidance.compliance_table import ComplianceTable
+from tandemlift.parts.interaction.admittance import AdmittanceTable
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.mechanics.turbulence import FOOT, HIGHEST, LOWEST

@@ -8,7 +8,6 @@ from tandemlift.core.law import choice, law
 from tandemlift.core.phases import LAND
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import Absent, Quat, Vec3
-from tandemlift.parts.compliance.admittance import AdmittanceState
 from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.estimation.contact_detection import (
     ContactEstimate,
@@ -32,6 +31,7 @@ from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimato
 from tandemlift.parts.guidance.contact_hold import contact_of
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
 from tandemlift.parts.guidance.phases import in_the_air, is_in
+from tandemlift.parts.interaction.admittance import AdmittanceState
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState, sense

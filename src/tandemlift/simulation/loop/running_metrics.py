@@ -12,10 +12,10 @@ from tandemlift.core.vector import ZERO, Absent, Vec3, dot, total
 from tandemlift.parts.contact.clearance import Clearance, clearance, smaller_clearance
 from tandemlift.parts.guidance.guidance import thrust_fraction
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
+from tandemlift.parts.interaction.outside_push import OutsidePush, held_by_anyone
+from tandemlift.parts.interaction.person import PersonState
+from tandemlift.parts.interaction.virtual_hand import VirtualHandState
 from tandemlift.parts.mechanics.rotation import wrap_angle
-from tandemlift.parts.person.outside_push import OutsidePush, held_by_anyone
-from tandemlift.parts.person.person import PersonState
-from tandemlift.parts.person.virtual_hand import VirtualHandState
 from tandemlift.parts.rotors.rotors import Rotors
 from tandemlift.simulation.loop.log_sample import Sample
 

@@ -8,7 +8,7 @@ instruction serves all of them. The laws are the same, and so is every bit of th
 
 from tandemlift.simulation.preparation.compiled_flight import LoopCode
 from tandemlift.simulation.preparation.external_inputs import GAUSSIAN, GUST, HALVES, LANES, SPAN, InputTables
-from tandemlift.simulation.preparation.memory import BlockOfFlights, FlightMemory, FlightStart, TimeGrid
+from tandemlift.simulation.preparation.memory import FlightMemory, FlightStart, TimeGrid
 from tandemlift.simulation.preparation.templates import COMMAND, GIVEN, PythonController, Templates, leaf_offset
 
 __all__ = [
@@ -19,7 +19,6 @@ __all__ = [
     "HALVES",
     "LANES",
     "SPAN",
-    "BlockOfFlights",
     "FlightMemory",
     "FlightStart",
     "InputTables",

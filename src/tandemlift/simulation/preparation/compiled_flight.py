@@ -17,7 +17,7 @@ from tandemlift.simulation.preparation.memory import AT, WORDS
 from tandemlift.simulation.preparation.templates import PythonController, delayed_spans, templates_from
 from tandemlift.simulation.preparation.traced_step import TracedStep
 
-CALL = ("contexts", "first", "end", "stop", "actions", "rows", "lanes", "place")  # words of `fly_blocks`
+CALL = ("contexts", "first", "end", "stop", "actions", "rows", "lanes", "place", "halted")  # words of `fly_blocks`
 
 
 class LoopCode:
@@ -75,10 +75,15 @@ class LoopCode:
 
 
 def write_many_blocks(step: LoopWriter) -> None:
-    """`fly_blocks`: hand the caller's actions to some blocks, and fly each on to a step, or to where it halts."""
+    """`fly_blocks`: hand the caller's actions to some blocks, and fly each on to a step, or to where a flight halts it.
+
+    `halted` counts the blocks that a flight halts.
+    """
     f = Function(step.module, step.graph, 1, "i64 @fly_blocks(ptr %call) #0")
-    word = {name: f.load("%call", i, "ptr" if name in ("contexts", "actions") else "i64") for i, name in enumerate(CALL)}
-    vector = step.vector
+    word = {
+        name: f.load("%call", i, "ptr" if name in ("contexts", "actions") else "i64") for i, name in enumerate(CALL)
+    }
+    vector, halted = step.vector, CALL.index("halted")
     with f.repeat(word["end"], word["first"]) as b:
         context = f.at(word["contexts"], f.integer("mul", b, len(WORDS)), "i64")
         work = f.load(context, AT["work"], "ptr")
@@ -91,4 +96,6 @@ def write_many_blocks(step: LoopWriter) -> None:
         reached = f.op(f"call i64 @fly(ptr {context})")
         f.store(reached, context, AT["k"], "i64")
         f.store("0", context, AT["fresh"], "i64")
+        with f.when(step.is_halted(f, f.load(context, AT["flight"], "ptr"), work)):
+            f.store(f.integer("add", f.load("%call", halted, "i64"), 1), "%call", halted, "i64")
     f.end("i64 0")

@@ -23,7 +23,6 @@ from tandemlift.simulation.preparation.precompute import (
     write_walls,
 )
 from tandemlift.simulation.preparation.step_writer import StepWriter, write_next_state, write_sample
-from tandemlift.simulation.preparation.templates import leaf_offset
 from tandemlift.simulation.preparation.traced_step import Symbols
 
 

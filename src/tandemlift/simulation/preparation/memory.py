@@ -7,18 +7,18 @@ a step keeps for its later parts.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.compiler.machine_code.code import Code
 from tandemlift.core.types import flat
+from tandemlift.parts.interaction.person import PathLeg
 from tandemlift.parts.mechanics.push import GaussianPush
 from tandemlift.parts.mechanics.wall_geometry import Wall
 from tandemlift.parts.mechanics.wind import Gust
-from tandemlift.parts.person.person import PathLeg
-from tandemlift.simulation.preparation.external_inputs import LANES, ROWS, InputTables
+from tandemlift.simulation.preparation.external_inputs import ROWS, InputTables
 
 Numbers = NDArray[np.float64]
 Words = NDArray[np.int64]
@@ -133,7 +133,7 @@ class FlightMemory:
 
     def begin(self, lane: int, start: FlightStart) -> None:
         """Begin a flight in a lane; the others go on."""
-        same = all(map(np.array_equal, self._starts[lane].tables, start.tables))
+        same = self._starts[lane] is start or all(map(np.array_equal, self._starts[lane].tables, start.tables))
         self._starts[lane] = start
         self._write(lane)
         if not same:
@@ -173,87 +173,6 @@ class FlightMemory:
         at, size = self.code.about["rooms"][name]
         lanes = len(self.log)
         return slice(at * lanes, (at + size) * lanes)
-
-
-class BlockOfFlights:
-    """The memory of many flights, eight to a `FlightMemory`, that a loop steps together from one call of Python.
-
-    Args:
-        code: the loop for eight flights.
-        starts: a flight for each lane, a multiple of eight.
-        grid: of time steps; its log is never written.
-        columns: numbers of a sample.
-        held: first number and count of the caller's inputs that the actions are, in `external`.
-
-    Attributes:
-        flights: the numbers of all flights, (blocks, numbers, 8).
-        actions: of the caller, (count, lanes), held over all steps of a call.
-        sample: the last one of each flight, (columns, lanes).
-        begun: the step of the block at which each flight began, (blocks, 8).
-        halts: 1 for a flight whose end halts its block, so that its last numbers can be taken; else 0, (blocks, 8).
-    """
-
-    def __init__(
-        self, code: Code, starts: Sequence[FlightStart], grid: TimeGrid, columns: int, held: tuple[int, int]
-    ) -> None:
-        lanes, width = len(starts), LANES
-        blocks, size = lanes // width, starts[0].numbers.size
-        self.code, self._contexts = code, np.zeros((blocks, len(WORDS)), dtype=np.int64)
-        self.flights = aligned(lanes * size).reshape(blocks, size, width)
-        self.sample = aligned(columns * lanes).reshape(columns, lanes)
-        self.actions = aligned(held[1] * lanes).reshape(held[1], lanes)
-        self.blocks = [
-            FlightMemory(code, starts[b * width : (b + 1) * width], grid, columns, (self.flights[b].reshape(-1), context))
-            for b, context in enumerate(self._contexts)
-        ]
-        for b, memory in enumerate(self.blocks):
-            memory.put("shown", self.sample[:, b * width :].ctypes.data)
-            memory.put("apart", lanes)
-            memory.put("steps", NEVER)
-            memory.put("every", 1 << 62)  # with `since`: never logged
-            memory.put("since", NEVER)
-        self.halts, self.begun = np.ones((blocks, width)), np.zeros((blocks, width), dtype=np.int64)
-        self._halting = [memory.work[memory.span("halts")] for memory in self.blocks]
-        self._begun = [memory.work[memory.span("begun")].view(np.int64) for memory in self.blocks]
-        place = code.about["rooms"]["external"][0] + held[0]
-        self._call = np.array([self._contexts.ctypes.data, 0, 0, 0, self.actions.ctypes.data, held[1], lanes, place])
-
-    @property
-    def reached(self) -> Words:
-        """The next step of each block."""
-        return self._contexts[:, AT["k"]]
-
-    def begin(self, lane: int, start: FlightStart) -> None:
-        """Begin a flight in a lane at the next step of its block."""
-        b, place = divmod(lane, LANES)
-        self.blocks[b].begin(place, start)
-        self.begun[b, place] = self._begun[b][place] = self.reached[b]
-        self.sample[:, lane] = np.nan
-        self.watch(lane, True)
-
-    def watch(self, lane: int, halts: bool) -> None:
-        """Choose whether the end of a flight halts its block."""
-        b, place = divmod(lane, LANES)
-        self.halts[b, place] = self._halting[b][place] = float(halts)
-
-    def sample_here(self, b: int) -> Numbers:
-        """The samples of a block at its present step (columns, 8), taken without a step and without actions."""
-        own, memory, k = slice(b * LANES, (b + 1) * LANES), self.blocks[b], int(self.reached[b])
-        before = self.sample[:, own].copy(), self.actions[:, own].copy()
-        self.actions[:, own] = 0.0
-        memory.put("steps", k)
-        self.fly(k + 1, b, b + 1)
-        memory.put("steps", NEVER)
-        memory.put("k", k)  # a block passes its last step
-        found = self.sample[:, own].copy()
-        self.sample[:, own], self.actions[:, own] = before
-        return found
-
-    def fly(self, stop: int, first: int = 0, end: int | None = None) -> None:
-        """Fly the blocks from `first` to `end` − 1 on to step `stop`, or to the step at which a watched flight ends."""
-        call = self._call.copy()
-        call[1:4] = first, len(self.blocks) if end is None else end, stop
-        self.code.free["fly_blocks"](call.ctypes.data)
 
 
 def _table(tables: Sequence[Numbers], idle: Wall | GaussianPush | Gust | PathLeg) -> Numbers:

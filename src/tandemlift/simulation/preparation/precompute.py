@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from tandemlift.compiler.tracer import LEAVES, Function, Graph, Place, Symbol, double, symbols
+from tandemlift.compiler.tracer import LEAVES, Function, Graph, Place, Symbol, symbols
 from tandemlift.core.types import leaves
 from tandemlift.simulation.preparation.external_inputs import HALVES, ROWS, SPAN
 from tandemlift.simulation.preparation.memory import MEMORY, ScratchLayout

@@ -11,11 +11,6 @@ from tandemlift.core.algebra import minimum
 from tandemlift.core.types import NEVER
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.missions import Mission
-from tandemlift.parts.compliance.above_ground import GroundClearance
-from tandemlift.parts.compliance.admittance import AdmittanceState, AdmittanceTable, admittance_from, gate_from
-from tandemlift.parts.compliance.compliance import start_compliance
-from tandemlift.parts.compliance.energy_tank import start_tank
-from tandemlift.parts.compliance.following import AT_REST, start_following
 from tandemlift.parts.controllers import controller
 from tandemlift.parts.estimation.contact_table import start_contact_detection
 from tandemlift.parts.estimation.disturbance_observer import start_observer
@@ -33,11 +28,16 @@ from tandemlift.parts.guidance.phases import PhaseSettings, start_phases
 from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
 from tandemlift.parts.guidance.supervision_table import start_supervision
 from tandemlift.parts.guidance.yaw_compliance import start_heading
+from tandemlift.parts.interaction.above_ground import GroundClearance
+from tandemlift.parts.interaction.admittance import AdmittanceState, AdmittanceTable, admittance_from, gate_from
+from tandemlift.parts.interaction.compliance import start_compliance
+from tandemlift.parts.interaction.energy_tank import start_tank
+from tandemlift.parts.interaction.following import AT_REST, start_following
+from tandemlift.parts.interaction.requests import RequestTable, start_requests
 from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.trajectories import PhasesTable, scheduled_phases
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.person.requests import RequestTable, start_requests
 from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters
 from tandemlift.parts.rotors.allocation import mixer_of, start_allocation
 from tandemlift.parts.rotors.detection_table import start_detection

@@ -111,13 +111,15 @@ class StepWriter:
         number = f.op(f"sitofp {'i64' if self.lanes == 1 else f'<{self.lanes} x i64>'} {counted} to {f.vector}")
         return f.op(f"fmul {f.vector} {number}, {f.spread(step)}")
 
-    def is_halted(self, f: Function) -> str:
+    def is_halted(self, f: Function, flight: str = "%flight", work: str = "%work") -> str:
         """Whether a flight has ended, so that no further step may be taken; in a block, one of those that halt it."""
-        lost = f.op(f"fcmp une {f.vector} {f.load('%flight', self.ended)}, {f.zero}")
+        truths = [(flight, self.ended), (work, self.halts)][: 1 + (self.lanes > 1)]
+        zero = "0.0" if self.lanes == 1 else "zeroinitializer"
+        held = [f.op(f"fcmp une {self.vector} {f.load(*place, self.vector)}, {zero}") for place in truths]
         if self.lanes == 1:
-            return lost
-        watched = f.op(f"fcmp one {f.vector} {f.load('%work', self.halts)}, {f.zero}")
-        return f.any(f.op(f"and <{self.lanes} x i1> {lost}, {watched}"))
+            return held[0]
+        both = f.op(f"and <{self.lanes} x i1> {held[0]}, {held[1]}")
+        return f.op(f"icmp ne i8 {f.op(f'bitcast <{self.lanes} x i1> {both} to i{self.lanes}')}, 0")
 
     def begins_span(self, f: Function, k: str) -> str:
         """Whether step k begins a span of each flight."""

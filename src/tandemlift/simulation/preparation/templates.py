@@ -12,9 +12,9 @@ from tandemlift.core.vector import ZERO, Absent, Quat
 from tandemlift.engines.compiled import BodyStep
 from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.controllers import Command, Measured, Reference, control
+from tandemlift.parts.interaction.person import Person
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
 from tandemlift.parts.mechanics.trajectories import Trajectory
-from tandemlift.parts.person.person import Person
 from tandemlift.parts.rotors.allocation import ConstrainedAllocation
 from tandemlift.simulation.loop.log_sample import Sample
 from tandemlift.simulation.loop.step import (

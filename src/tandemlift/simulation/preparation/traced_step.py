@@ -118,11 +118,7 @@ class TracedStep:
         )
         self.given = self.trace(with_person)(self.model, outer, self.t, self.dt)
         self.asked: Symbols = []
-        output = (
-            self._ask_python()
-            if calls_python
-            else self.trace(run_pilot)(self.model, self.given, self.t, self.dt)
-        )
+        output = self._ask_python() if calls_python else self.trace(run_pilot)(self.model, self.given, self.t, self.dt)
         self.limits: LimitProblem | None = None
         if templates.has_thrust_limits:
             output = self._limit_thrusts(output)

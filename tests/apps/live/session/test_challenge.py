@@ -13,7 +13,7 @@ from tandemlift.apps.cli.main import cli
 from tandemlift.apps.live.session.challenge import count_touches, log_dimensionless_jerk, score_of, write_score
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.core.vector import Vec3
-from tandemlift.parts.person.virtual_hand import HAND_RELEASED
+from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 MISSION = """

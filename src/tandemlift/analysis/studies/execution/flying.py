@@ -9,10 +9,10 @@ from tandemlift.analysis.studies.design.plan import StudyRow
 from tandemlift.analysis.studies.design.settings import REFUSED, KeepTable
 from tandemlift.analysis.studies.execution.chunk import Chunk
 from tandemlift.analysis.studies.execution.columns import Columns, columns_of_rows
+from tandemlift.analysis.studies.execution.many import Keep, fly_each
 from tandemlift.core.errors import InputError
 from tandemlift.missions import Mission
 from tandemlift.missions.loading import MissionTemplate
-from tandemlift.simulation.many import Keep, fly_each
 
 
 def fly_chunk(chunk: Chunk) -> Columns:

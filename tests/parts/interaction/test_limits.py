@@ -7,21 +7,21 @@ import tandemlift as tl
 from tandemlift.core.phases import REASONS
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Absent, Vec3, each, vec3
-from tandemlift.parts.compliance.above_ground import GroundClearance, above_ground
-from tandemlift.parts.compliance.compliance import compliance_step
-from tandemlift.parts.compliance.following import (
+from tandemlift.parts.guidance.available import (
+    AvailableForce,
+    available_acceleration,
+    needed_force,
+    usable_thrust,
+)
+from tandemlift.parts.interaction.above_ground import GroundClearance, above_ground
+from tandemlift.parts.interaction.compliance import compliance_step
+from tandemlift.parts.interaction.following import (
     AT_REST,
     Following,
     FollowingLimits,
     more_urgent,
     must_land,
     update_following,
-)
-from tandemlift.parts.guidance.available import (
-    AvailableForce,
-    available_acceleration,
-    needed_force,
-    usable_thrust,
 )
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import rotor_faults
@@ -116,7 +116,7 @@ def lowest(clearance, push, start=1.0, seconds=8.0):
     m, heights = m.compliance, []
     for i in range(round(seconds / H)):
         k = above_ground(clearance, g.compliance, m, m.position.z + start)
-        m = compliance_step(k, m, vec3((0.0, 0.0, push(i * H))), 1.0, 0.0, 10.0, Absent(), H)
+        m = compliance_step(k, m, vec3((0.0, 0.0, push(i * H))), 1.0, 0.0, 10.0, Absent(), H, Absent())
         heights.append(m.position.z + start)
     return np.array(heights)
 

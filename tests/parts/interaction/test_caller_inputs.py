@@ -6,8 +6,9 @@ import pytest
 import tandemlift as tl
 from tandemlift.core.types import flat
 from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each, mat3, vec3
+from tandemlift.parts.interaction.caller_inputs import CallerInput, commanded_thrusts, with_caller_push
 from tandemlift.parts.mechanics.push import CentralPush, PointPush, PushSamples, push_moment
-from tandemlift.parts.person.caller_inputs import CallerInput, commanded_thrusts, with_caller_push
+from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.simulation.loop.step import step_flight
 from tandemlift.simulation.plan import FlightPlan
 
@@ -17,10 +18,12 @@ ROTORS = each(8)
 CENTRAL = CentralPush(Vec3(0.5, 0.0, 1.0))
 AT_POINTS = PointPush(Vec3(0.5, 0.0, 1.0), mat3(np.outer([0.5, 0.0, 1.0], [0.2, -0.7, 0.0])))
 DT = 0.001
+NOT_LED = ReferenceVelocity(ZERO, 0.0)
 
 
 def external(force=ZERO, point=ZERO, thrusts=None):
-    return CallerInput(force, point, ROTORS(*(thrusts or [0.0] * 8)), 0.0 if thrusts is None else 1.0)
+    given = 0.0 if thrusts is None else 1.0
+    return CallerInput(force, point, ROTORS(*(thrusts or [0.0] * 8)), given, NOT_LED)
 
 
 @pytest.mark.parametrize("own", [CENTRAL, AT_POINTS])
@@ -53,7 +56,32 @@ def test_plain_python_takes_the_same_step_as_machine_code(point):
     mission = tl.load_mission("one-push", {"pushes.0.point": point, "pushes.0.time": 40.0})
     p, sim = FlightPlan(mission, interactive=True), tl.Simulation(mission)
     thrusts = [4.0, 5.0, 4.5, 4.2, 4.8, 4.1, 4.4, 4.6]
-    added = CallerInput(vec3([0.6, -0.3, 0.4]), vec3([0.0, 0.7, 0.05]), ROTORS(*thrusts), 1.0)
+    added = CallerInput(vec3([0.6, -0.3, 0.4]), vec3([0.0, 0.7, 0.05]), ROTORS(*thrusts), 1.0, NOT_LED)
     flight_state, _ = step_flight(p.model, p.given._replace(external=added), 0.0, DT)
     state = sim.step(added.force, thrusts, point=added.point)
     np.testing.assert_allclose(state, flat(flight_state.state), rtol=1e-13, atol=1e-15)
+
+
+def test_a_velocity_moves_the_reference_of_scheduled_guidance_at_it_and_then_the_admittance_brakes():
+    sim = tl.Simulation(tl.load_mission("paper", {"pushes": []}))
+    velocity, before = np.array([0.2, -0.1, 0.05]), None
+    for k in range(400):
+        sim.step(velocity=velocity)
+        before = sim["admittance_position"] if k == 0 else before
+        np.testing.assert_array_equal(sim["admittance_velocity"], velocity)
+    np.testing.assert_allclose(sim["admittance_position"] - before, velocity * 399 * sim.dt, rtol=1e-12)
+    a = sim.mission.admittance
+    sim.step(steps=300)
+    decay = np.exp(-np.array(a.damping) / np.array(a.mass) * 299 * sim.dt)
+    np.testing.assert_allclose(sim["admittance_velocity"], velocity * decay, rtol=1e-3)
+
+
+def test_a_velocity_leads_interactive_guidance_within_its_limits_once_it_follows():
+    sim = tl.Simulation(tl.load_mission("iris", {"pushes": [], "person.model": "none"}))
+    asked, limits = np.array([5.0, 0.0, 0.0]), sim.mission.compliance
+    sim.step(velocity=asked, steps=1000)
+    np.testing.assert_array_equal(sim["admittance_velocity"], 0.0)  # on the ground
+    while sim.time < 30.0:
+        sim.step(velocity=asked, steps=10)
+        assert abs(sim["admittance_acceleration"]).max() <= limits.max_acceleration[0] * (1.0 + 1e-9)
+    assert sim["admittance_velocity"][0] == pytest.approx(limits.max_speed[0], rel=1e-3)

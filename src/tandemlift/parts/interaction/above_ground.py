@@ -11,7 +11,7 @@ from typing import NamedTuple
 from tandemlift.core.algebra import clip, where
 from tandemlift.core.law import law
 from tandemlift.core.types import Number
-from tandemlift.parts.compliance.compliance import Compliance, ComplianceState, with_speed
+from tandemlift.parts.interaction.compliance import Compliance, ComplianceState, with_speed
 
 APPROACH_GAIN = 2.0  # 1/s: largest speed downwards over the height that is left
 

@@ -6,12 +6,12 @@ import pytest
 import tandemlift as tl
 from tandemlift.core.vector import ZERO, Quat, mat3, vec3
 from tandemlift.engines.compiled import start_state
+from tandemlift.parts.interaction.person import hand_target, landing_request, person_step, person_view
+from tandemlift.parts.interaction.person_table import Walk, path_legs_from, start_person
+from tandemlift.parts.interaction.tremor import TremorNoise
 from tandemlift.parts.mechanics.push import PointPush, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.person.person import hand_target, landing_request, person_step, person_view
-from tandemlift.parts.person.person_table import Walk, path_legs_from, start_person
-from tandemlift.parts.person.tremor import TremorNoise
 
 DT = 0.001
 NO_PUSH = PushSamples(*[PointPush(ZERO, mat3([[0.0] * 3] * 3))] * 3)

@@ -21,12 +21,12 @@ from tandemlift.core.algebra import clip, maximum, minimum, sqrt, where
 from tandemlift.core.law import Absent, choice, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3, apply, cross, dot, outer
+from tandemlift.parts.interaction.requests import NO_REQUEST, OperatorRequest, operator_request
+from tandemlift.parts.interaction.tremor import Tremor, TremorNoise, TremorState, tremor_step
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.push import PointPush, Push, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, wrap_angle
-from tandemlift.parts.person.requests import NO_REQUEST, OperatorRequest, operator_request
-from tandemlift.parts.person.tremor import Tremor, TremorNoise, TremorState, tremor_step
 
 M = TypeVar("M")
 TINY = 1e-12  # m², N²: guards roots and divisions

@@ -8,9 +8,9 @@ import pytest
 import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.core.vector import ZERO, Quat, Vec3
+from tandemlift.parts.interaction.person_table import start_virtual_hand
+from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED, pull_by
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.person.person_table import start_virtual_hand
-from tandemlift.parts.person.virtual_hand import HAND_RELEASED, pull_by
 
 DT = 0.002
 PERSON = interactive_mission(tl.load_mission("hover")).person

@@ -14,13 +14,20 @@ from scipy.spatial.transform import Rotation
 import tandemlift as tl
 from tandemlift.core.vector import ZERO, Quat, Vec3, mat3, vec3
 from tandemlift.engines.compiled import start_state
+from tandemlift.parts.interaction.person import (
+    PathLeg,
+    PersonState,
+    hand_target,
+    landing_request,
+    person_step,
+    person_view,
+)
+from tandemlift.parts.interaction.person_table import Walk, path_legs_from, start_person
+from tandemlift.parts.interaction.tremor import STILL, TremorNoise, tremor, tremor_step
 from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_moment
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.person.person import PathLeg, PersonState, hand_target, landing_request, person_step, person_view
-from tandemlift.parts.person.person_table import Walk, path_legs_from, start_person
-from tandemlift.parts.person.tremor import STILL, TremorNoise, tremor, tremor_step
 from tandemlift.simulation.preparation.assemble import assemble
 
 DT = 0.001

@@ -7,7 +7,9 @@ from scipy.integrate import solve_ivp
 import tandemlift as tl
 from tandemlift.core.phases import GUIDED
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
-from tandemlift.parts.compliance.compliance import (
+from tandemlift.parts.guidance.phases import PhaseOutput
+from tandemlift.parts.guidance.yaw_compliance import yaw_step
+from tandemlift.parts.interaction.compliance import (
     BIAS_CLIP,
     QUIET_TIME,
     DeadBand,
@@ -15,9 +17,7 @@ from tandemlift.parts.compliance.compliance import (
     compliance_step,
     dead_band,
 )
-from tandemlift.parts.compliance.energy_tank import EnergyTank, EnergyTankState, passivity_damping
-from tandemlift.parts.guidance.phases import PhaseOutput
-from tandemlift.parts.guidance.yaw_compliance import yaw_step
+from tandemlift.parts.interaction.energy_tank import EnergyTank, EnergyTankState, passivity_damping
 from tandemlift.parts.mechanics.trajectories import SmoothStep
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
@@ -51,7 +51,7 @@ def motion(push, seconds, changes=None, across=100.0):
     g, m = guided(changes)
     k, m, out = g.compliance, m.compliance, []
     for i in range(round(seconds / H)):
-        m = compliance_step(k, m, vec3(push(i * H)), 1.0, 0.0, across, Absent(), H)
+        m = compliance_step(k, m, vec3(push(i * H)), 1.0, 0.0, across, Absent(), H, Absent())
         out.append([*m.position, *m.velocity, *m.acceleration, *m.jerk])
     return np.array(out).reshape(-1, 4, 3).swapaxes(0, 1)
 

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from scipy.signal import lsim
 
 from tandemlift.core.vector import ZERO, Vec3
-from tandemlift.parts.compliance.admittance import (
+from tandemlift.parts.interaction.admittance import (
     Admittance,
     AdmittanceState,
     HardGate,

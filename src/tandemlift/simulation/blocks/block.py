@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import os
-import time
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
-from functools import cached_property
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -16,15 +13,16 @@ from tandemlift.core.errors import InputError, shown
 from tandemlift.core.findings import Finding
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.missions import MissionLike, mission_of
+from tandemlift.simulation.blocks.block_memory import BlockOfFlights
+from tandemlift.simulation.blocks.lanes import Keys, Lanes, lane_numbers, one_for_each
 from tandemlift.simulation.caller_values import checked_seed, count_of, held_inputs
 from tandemlift.simulation.findings import findings_of
-from tandemlift.simulation.lanes import Keys, Lanes, lane_numbers, one_for_each
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation import LANES, BlockOfFlights, leaf_offset
+from tandemlift.simulation.preparation import LANES, leaf_offset
+from tandemlift.simulation.preparation.memory import NEVER
 from tandemlift.simulation.results import RawResult, SampleChannels, metrics_of
 
 Actions = Literal["push", "thrusts", "velocity"]
-WORTH = 2e-4  # s of flight code in a call, from which on threads share it
 
 
 class Block:
@@ -59,21 +57,20 @@ class Block:
         if actions not in get_args(Actions):
             raise InputError(f"actions = {actions!r}: must be one of {', '.join(map(repr, get_args(Actions)))}")
         self.mission, self.lanes = mission_of(mission), count_of("lanes", lanes)
-        self._threads = (os.cpu_count() or 1) if threads is None else count_of("threads", threads)
+        threads = (os.cpu_count() or 1) if threads is None else count_of("threads", threads)
         self._flights = Lanes(self.mission, self.lanes)
         p = self._p = self._flights.first
         self.dt, self._sample = p.dt, SampleChannels(p.sample)
         self.channels = self._sample.names
         place, self._unit, flag = held_inputs(p.given.external)[actions]
         starts = self._flights.starts
-        self._code = p.loop_code.loop(LANES)
-        self._code.optimise()
         self._memory = BlockOfFlights(
-            self._code,
+            p.loop_code.loop(LANES),
             [*starts, *[starts[-1]] * (-self.lanes % LANES)],
             p.grid(1, 1),
             leaves(p.sample),
             (place.start, place.stop - place.start + (flag is not None)),
+            threads,
         )
         rows = place.stop - place.start
         self.actions: Array = self._memory.actions[:rows, : self.lanes].T
@@ -81,17 +78,13 @@ class Block:
         self._ended_at = leaf_offset(p.model, "flight_state", "ended").at
         at, size = leaf_offset(p.model, "flight_state", "metrics")
         self._tallies, self._empty = slice(at, at + size), np.array(flat(p.model.flight_state.metrics))
-        self._k, self._pace = 0, 0.0  # pace: s for a step of eight flights
+        self._k, self._due, self._ended = 0, NEVER, 0
         self._over, self._outcomes = np.zeros(self.lanes, dtype=bool), [""] * self.lanes
         self._taken, self._steps, self._late = np.zeros((3, self.lanes), dtype=np.int64)
         self._early = np.zeros((self.lanes, size))
         self._saved = np.zeros((self.lanes, self._memory.flights.shape[1]))  # numbers of the flights that are over
         self._shown, self._last = np.zeros((2, leaves(p.sample), self.lanes))  # their samples: of the last step, at end
         self.reset()
-
-    @cached_property
-    def _pool(self) -> ThreadPoolExecutor:
-        return ThreadPoolExecutor(self._threads, thread_name_prefix="block")
 
     # stepping
 
@@ -124,7 +117,8 @@ class Block:
             plan = self._flights.plans[lane]
             self._memory.begin(lane, self._flights.starts[lane])
             self._steps[lane], self._late[lane] = plan.steps, plan.late_step if plan.late_step < plan.steps else 0
-        self._over[numbers], self._taken[numbers], self._early[numbers] = False, 0, self._empty
+        self._over[numbers], self._early[numbers] = False, self._empty
+        self._look_ahead()
 
     def step(self, actions: ArrayLike | None = None, steps: int = 1) -> None:
         """Take one step of `dt` in every lane, or several; the actions act for these steps only.
@@ -137,17 +131,14 @@ class Block:
             InputError: all flights are over, the actions have another shape or are not finite numbers, or `steps` is
                 not a whole number of at least 1.
         """
-        if self._over.all():
+        if self._due == NEVER:
             raise InputError("all flights are over; reset() begins them anew")
-        left = count_of("steps", steps)
+        end = self._k + (steps if steps == 1 else count_of("steps", steps))
         self._act(actions)
-        while left and not self._over.all():
-            going, due = ~self._over, np.where(self._taken < self._late, self._late, self._steps)
-            taken = min(left, int((due - self._taken)[going].min()))
-            self._fly_to(self._k + taken)
-            left -= taken
-        over = np.flatnonzero(self._over)
-        if over.size:  # they have flown on beside the others
+        while self._k < end and self._due != NEVER:
+            self._fly_to(min(end, self._due))
+        if self._ended:
+            over = np.flatnonzero(self._over)  # they have flown on beside the others
             self._memory.flights[over // LANES, :, over % LANES] = self._saved[over]
             self._memory.sample[:, over] = self._shown[:, over]
 
@@ -171,59 +162,61 @@ class Block:
         self._counts.fill(1.0)
 
     def _fly_to(self, stop: int) -> None:
-        """Fly on to a step of the block at which, at the earliest, a flight is over by its duration."""
-        memory, begun = self._memory, self._memory.begun.reshape(-1)[: self.lanes]
-        while True:
-            self._run(stop)
-            reached = np.repeat(memory.reached, LANES)[: self.lanes]
-            going = ~self._over
-            self._taken[going] = (reached - begun)[going]
+        """Fly on to a step of the block, not beyond that at which a flight is over by its duration."""
+        memory = self._memory
+        while memory.fly(stop):
             ended = memory.flights[:, self._ended_at].reshape(-1)[: self.lanes] != 0.0
-            self._close(np.flatnonzero(ended & going))
+            self._close(np.flatnonzero(ended & ~self._over))
             if (memory.reached == stop).all():
                 break
-        self._k, going = stop, ~self._over
-        late = np.flatnonzero(going & (self._taken == self._late))
-        if late.size:
-            place = late // LANES, self._tallies, late % LANES
-            self._early[late], memory.flights[place] = memory.flights[place], self._empty
-        done = np.flatnonzero(going & (self._taken == self._steps))
-        for b in np.unique(done // LANES):
-            self._last[:, done[done // LANES == b]] = memory.sample_here(b)[:, done[done // LANES == b] % LANES]
+        self._k = stop
+        if stop == self._due:
+            self._take_due()
+
+    def _take_due(self) -> None:
+        """Take the metrics of flights that have reached 10 s, and end those whose duration is over."""
+        memory, taken = self._memory, self._steps_taken
+        late = np.flatnonzero(~self._over & (taken == self._late))
+        for lane in late.tolist():
+            place = lane // LANES, self._tallies, lane % LANES
+            self._early[lane], memory.flights[place] = memory.flights[place], self._empty
+        done = np.flatnonzero(~self._over & (taken == self._steps))
+        for b in np.unique(done // LANES).tolist():
+            here = done[done // LANES == b]
+            self._last[:, here] = memory.sample_here(b)[:, here % LANES]
         self._close(done)
 
-    def _run(self, stop: int) -> None:
-        """Run the code, on several threads where it pays."""
-        memory, count = self._memory, len(self._memory.blocks)
-        work = self._pace * count * (stop - self._k)
-        parts = max(1, min(self._threads, count, int(work / WORTH)))
-        began = time.perf_counter()
-        if parts == 1:
-            memory.fly(stop)
-        else:
-            cuts = [count * i // parts for i in range(parts + 1)]
-            list(self._pool.map(lambda i: memory.fly(stop, cuts[i], cuts[i + 1]), range(parts)))
-        spent = (time.perf_counter() - began) * parts
-        self._code.add_time(spent)
-        self._pace = spent / (count * (stop - self._k))
+    def _look_ahead(self) -> None:
+        """Find the step of the block at which a flight is due: see `_take_due`."""
+        taken, going = self._steps_taken, ~self._over
+        left = np.where(taken < self._late, self._late, self._steps) - taken
+        self._due = self._k + int(left[going].min()) if going.any() else NEVER
+        self._ended = self.lanes - int(going.sum())
+
+    @property
+    def _steps_taken(self) -> NDArray[np.int64]:
+        """By each flight."""
+        begun = self._memory.begun.reshape(-1)[: self.lanes]
+        return np.where(self._over, self._taken, self._k - begun)
 
     def _close(self, lanes: NDArray[np.intp]) -> None:
         """Keep flights as they have ended."""
         memory = self._memory
         self._over[lanes] = True
+        self._taken[lanes] = memory.reached[lanes // LANES] - memory.begun[lanes // LANES, lanes % LANES]
         self._saved[lanes] = memory.flights[lanes // LANES, :, lanes % LANES]
         self._shown[:, lanes] = memory.sample[:, lanes]
         for lane in lanes.tolist():
             memory.watch(lane, False)
             self._outcomes[lane] = ""
+        self._look_ahead()
 
     # state, channels and ends
 
     @property
     def time(self) -> Array:
         """The time that each flight has reached [s], (lanes,)."""
-        time: Array = self._taken * self.dt
-        return time
+        return np.multiply(self._steps_taken, self.dt, dtype=np.float64)
 
     @property
     def ended(self) -> NDArray[np.bool_]:
@@ -254,7 +247,7 @@ class Block:
             KeyError: there is no such channel.
         """
         if name == "time":
-            return np.where(self._taken > 0, (self._taken - 1) * self.dt, np.nan)
+            return np.where(self._steps_taken > 0, (self._steps_taken - 1) * self.dt, np.nan)
         found: Array = self._sample.of(self._memory.sample, name)[..., : self.lanes].T
         found.flags.writeable = False
         return found
@@ -291,7 +284,7 @@ class Block:
         return plan, RawResult(
             flight_state=state,
             early=unflat(self._early[lane], like.metrics),
-            step=int(self._taken[lane]),
+            step=int(self._steps_taken[lane]),
             log=np.full((1, last.size), np.nan),
             last=np.full(last.size, np.nan) if state.ended else last,
             wall=0.0,

@@ -22,11 +22,11 @@ from tandemlift.core.algebra import where
 from tandemlift.core.law import Absent, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3, outer
+from tandemlift.parts.interaction.person import PersonOutput, bounded, landing_request, person_step, person_view
+from tandemlift.parts.interaction.requests import OperatorRequest, operator_request
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.push import PointPush, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.person.person import PersonOutput, bounded, landing_request, person_step, person_view
-from tandemlift.parts.person.requests import OperatorRequest, operator_request
 
 
 class VirtualHandInput(NamedTuple):

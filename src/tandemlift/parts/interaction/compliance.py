@@ -7,7 +7,7 @@ so the rate of the acceleration is known too, and the reference can lead by the 
 acceleration and jerk are bounded, also by the thrust that is left; every start and stop is smooth. While nobody pushes,
 a slow mean of the measured push becomes its bias.
 
-Passivity: `parts.compliance.energy_tank`. Yaw: `parts.guidance.yaw_compliance`.
+Passivity: `parts.interaction.energy_tank`. Yaw: `parts.guidance.yaw_compliance`.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from tandemlift.core.algebra import absolute, chosen, clip, maximum, minimum, sq
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3
-from tandemlift.parts.compliance.admittance import Admittance, anchored, soft_threshold
+from tandemlift.parts.interaction.admittance import Admittance, anchored, soft_threshold
+from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, V, low_pass_step
-from tandemlift.parts.person.requests import ReferenceVelocity
 
 QUIET_TIME = 2.0  # s without a push, after which the bias is estimated
 BIAS_CLIP = 0.3  # of the threshold: the largest deviation from the mean that counts for the bias
@@ -200,7 +200,7 @@ def compliance_step(
     horizontal: Number,
     boundary: object,
     dt: Number,
-    lead: ReferenceVelocity | Absent = Absent(),
+    lead: ReferenceVelocity | Absent,
 ) -> ComplianceState:
     """The memory after a step.
 

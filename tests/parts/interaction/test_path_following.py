@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tandemlift.core.vector import ZERO, Vec3
-from tandemlift.parts.person.person import PathFollowing, PathLeg, PersonSettings, PersonView, guided_point, pursue
+from tandemlift.parts.interaction.person import PathFollowing, PathLeg, PersonSettings, PersonView, guided_point, pursue
 
 VIEW = PersonView(Vec3(1.0, 2.0, 3.0), Vec3(0.1, 0.2, 0.3), Vec3(4.0, 5.0, 6.0), Vec3(0.4, 0.5, 0.6), 0.0, 0.0)
 LEG = PathLeg(ZERO, Vec3(8.0, 0.0, 0.0), *[0.0] * (len(PathLeg._fields) - 2))

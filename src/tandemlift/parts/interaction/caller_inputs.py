@@ -1,4 +1,4 @@
-"""Inputs of a caller who steps a flight: a push beside the mission's, and thrusts or a reference in place of the pilot's.
+"""Inputs of a caller who steps a flight: a push beside the mission's; thrusts or a reference in place of the pilot's.
 
 They are held over the step. A flight without a caller has `Absent`.
 """
@@ -9,8 +9,8 @@ from tandemlift.core.algebra import where
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Mat3, Quat, Vec3, linear, outer, plus
+from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.parts.mechanics.push import CentralPush, PointPush, Push, PushSamples, push_moment
-from tandemlift.parts.person.requests import ReferenceVelocity
 
 
 class CallerInput(NamedTuple):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from tandemlift.parts.person.passage import APART, TURNING, trailing, turning
+from tandemlift.parts.interaction.passage import APART, TURNING, trailing, turning
 
 
 @pytest.mark.parametrize("grip", [1.0, -1.0])

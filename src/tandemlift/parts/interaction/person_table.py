@@ -13,10 +13,7 @@ from tandemlift.core.keys import Delay, NonNegative, Positive, Share, Table, key
 from tandemlift.core.types import Array, Number, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.parts.contact.corridor import CorridorTable, Point2
-from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass
-from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.person.person import (
+from tandemlift.parts.interaction.person import (
     Arm,
     PathFollowing,
     PathLeg,
@@ -26,8 +23,11 @@ from tandemlift.parts.person.person import (
     guided_point,
     person_view,
 )
-from tandemlift.parts.person.tremor import NO_TREMOR_NOISE, STILL, tremor
-from tandemlift.parts.person.virtual_hand import HAND_RELEASED, VirtualHand, VirtualHandState
+from tandemlift.parts.interaction.tremor import NO_TREMOR_NOISE, STILL, tremor
+from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED, VirtualHand, VirtualHandState
+from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
 class WaypointTable(Table):

@@ -17,10 +17,10 @@ import numpy as np
 from tandemlift.core.errors import CheckResult, judged
 from tandemlift.core.types import Array
 from tandemlift.parts.contact.corridor import CorridorTable, WallTable
+from tandemlift.parts.interaction.person_table import PersonTable, waypoints_from
 from tandemlift.parts.mechanics.rigid_body import InitialTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.person.person_table import PersonTable, waypoints_from
 
 APART = 0.1  # m, between places on the path
 MOST = 4000  # places

@@ -1,0 +1,128 @@
+"""The memory of many flights that step together, and one call that flies them all."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from functools import cached_property
+
+import numpy as np
+
+from tandemlift.compiler.machine_code.code import Code
+from tandemlift.simulation.preparation import LANES, FlightMemory, FlightStart, TimeGrid
+from tandemlift.simulation.preparation.memory import AT, NEVER, WORDS, Numbers, Words, aligned
+
+WORTH = 2e-4  # s of flight code in a call, from which on threads share it
+
+
+class BlockOfFlights:
+    """The memory of many flights, eight to a `FlightMemory`, that a loop steps together from one call of Python.
+
+    Args:
+        code: the loop for eight flights.
+        starts: a flight for each lane, a multiple of eight.
+        grid: of time steps; its log is never written.
+        columns: numbers of a sample.
+        held: first number and count of the caller's inputs that the actions are, in `external`.
+        threads: that share a call if it takes long enough.
+
+    Attributes:
+        flights: the numbers of all flights, (blocks, numbers, 8).
+        actions: of the caller, (count, lanes), held over all steps of a call.
+        sample: the last one of each flight, (columns, lanes).
+        begun: the step of the block at which each flight began, (blocks, 8).
+        halts: 1 for a flight whose end halts its block, so that its last numbers can be taken; else 0, (blocks, 8).
+    """
+
+    def __init__(
+        self,
+        code: Code,
+        starts: Sequence[FlightStart],
+        grid: TimeGrid,
+        columns: int,
+        held: tuple[int, int],
+        threads: int,
+    ) -> None:
+        self.threads, self._pace = threads, 0.0  # s for a step of eight flights
+        lanes, width = len(starts), LANES
+        blocks, size = lanes // width, starts[0].numbers.size
+        self.code, self._contexts = code, np.zeros((blocks, len(WORDS)), dtype=np.int64)
+        self.flights = aligned(lanes * size).reshape(blocks, size, width)
+        apart = lanes + width  # no power of two, so that the columns share no place in the processor's cache
+        self.sample = aligned(columns * apart).reshape(columns, apart)[:, :lanes]
+        self.actions = aligned(held[1] * lanes).reshape(held[1], lanes)
+        self.blocks = [
+            FlightMemory(code, starts[b * width : (b + 1) * width], grid, columns, (numbers.reshape(-1), context))
+            for b, (numbers, context) in enumerate(zip(self.flights, self._contexts, strict=True))
+        ]
+        for b, memory in enumerate(self.blocks):
+            memory.put("shown", self.sample[:, b * width :].ctypes.data)
+            memory.put("apart", apart)
+            memory.put("steps", NEVER)
+            memory.put("every", 1 << 62)  # with `since`: never logged
+            memory.put("since", NEVER)
+        self.halts, self.begun = np.ones((blocks, width)), np.zeros((blocks, width), dtype=np.int64)
+        self._halting = [memory.work[memory.span("halts")] for memory in self.blocks]
+        self._begun = [memory.work[memory.span("begun")].view(np.int64) for memory in self.blocks]
+        place = code.about["rooms"]["external"][0] + held[0]
+        self._call = np.array([self._contexts.ctypes.data, 0, 0, 0, self.actions.ctypes.data, held[1], lanes, place, 0])
+
+    @property
+    def reached(self) -> Words:
+        """The next step of each block."""
+        return self._contexts[:, AT["k"]]
+
+    def begin(self, lane: int, start: FlightStart) -> None:
+        """Begin a flight in a lane at the next step of its block."""
+        b, place = divmod(lane, LANES)
+        self.blocks[b].begin(place, start)
+        self.begun[b, place] = self._begun[b][place] = self.reached[b]
+        self.sample[:, lane] = np.nan
+        self.watch(lane, True)
+
+    def watch(self, lane: int, halts: bool) -> None:
+        """Choose whether the end of a flight halts its block."""
+        b, place = divmod(lane, LANES)
+        self.halts[b, place] = self._halting[b][place] = float(halts)
+
+    def sample_here(self, b: int) -> Numbers:
+        """The samples of a block at its present step (columns, 8), taken without a step and without actions."""
+        own, memory, k = slice(b * LANES, (b + 1) * LANES), self.blocks[b], int(self.reached[b])
+        before = self.sample[:, own].copy(), self.actions[:, own].copy()
+        self.actions[:, own] = 0.0
+        memory.put("steps", k)
+        self._fly_some(k + 1, b, b + 1)
+        memory.put("steps", NEVER)
+        memory.put("k", k)  # a block passes its last step
+        found = self.sample[:, own].copy()
+        self.sample[:, own], self.actions[:, own] = before
+        return found
+
+    def fly(self, stop: int) -> int:
+        """Fly all blocks on to step `stop`, each at most to the step at which a watched flight ends; with threads.
+
+        Returns:
+            The number of blocks in which one has ended.
+        """
+        count, steps = len(self.blocks), stop - int(self.reached.min())
+        parts = max(1, min(self.threads, count, int(self._pace * count * steps / WORTH)))
+        began, cuts = time.perf_counter(), [count * i // parts for i in range(parts + 1)]
+        if parts == 1:
+            halted = self._fly_some(stop, 0, count)
+        else:
+            halted = sum(self._pool.map(self._fly_some, [stop] * parts, cuts[:-1], cuts[1:]))
+        spent = (time.perf_counter() - began) * parts
+        self.code.add_time(spent)
+        self._pace = spent / (count * steps)
+        return halted
+
+    @cached_property
+    def _pool(self) -> ThreadPoolExecutor:
+        return ThreadPoolExecutor(self.threads, thread_name_prefix="block")
+
+    def _fly_some(self, stop: int, first: int, end: int) -> int:
+        call = self._call.copy()
+        call[1:4] = first, end, stop
+        self.code.free["fly_blocks"](call.ctypes.data)
+        return int(call[-1])
