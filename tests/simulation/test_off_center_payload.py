@@ -9,7 +9,7 @@ from storm import PERFECT
 import tandemlift as tl
 from tandemlift.engines.models.visuals import vehicle_shapes
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.figures.drawing.clearances import clearances
+from tandemlift.pictures.drawing.clearances import clearances
 
 OFF = [0.02, 0.3, -0.01]
 PRODUCTS = [0.004, 0.0, 0.02]

@@ -9,7 +9,7 @@ from passing import thrown
 import tandemlift as tl
 from tandemlift.engines.models.visuals import vehicle_shapes
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.figures.drawing.clearances import clearances
+from tandemlift.pictures.drawing.clearances import clearances
 
 pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.core.errors.FlightWarning")
 

@@ -8,7 +8,7 @@ from passing import thrown
 
 import tandemlift as tl
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.figures.drawing.vehicle import skeleton
+from tandemlift.pictures.drawing.vehicle import skeleton
 
 pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.core.errors.FlightWarning")
 

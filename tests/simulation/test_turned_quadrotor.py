@@ -8,7 +8,7 @@ import pytest
 import tandemlift as tl
 from tandemlift.engines.models.visuals import vehicle_shapes
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.figures.drawing.vehicle import skeleton
+from tandemlift.pictures.drawing.vehicle import skeleton
 
 ANGLE, PRINCIPAL = 0.6, np.array([0.02, 0.035, 0.05])
 TURN = np.array([[np.cos(ANGLE), -np.sin(ANGLE), 0.0], [np.sin(ANGLE), np.cos(ANGLE), 0.0], [0.0, 0.0, 1.0]])

@@ -7,8 +7,8 @@ import tandemlift as tl
 from tandemlift.core.types import flat
 from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each, mat3, vec3
 from tandemlift.parts.interaction.caller_inputs import CallerInput, commanded_thrusts, with_caller_push
-from tandemlift.parts.mechanics.push import CentralPush, PointPush, PushSamples, push_moment
 from tandemlift.parts.interaction.requests import ReferenceVelocity
+from tandemlift.parts.mechanics.push import CentralPush, PointPush, PushSamples, push_moment
 from tandemlift.simulation.loop.step import step_flight
 from tandemlift.simulation.plan import FlightPlan
 

@@ -9,8 +9,8 @@ import tandemlift as tl
 from tandemlift.flight.record import Ending
 from tandemlift.missions import tables_of
 from tandemlift.parts.contact.corridor import wall_tables
+from tandemlift.pictures.drawing.clearances import clearances, grips
 from tandemlift.pictures.figures.corridor import NEWTON, arrows, instants
-from tandemlift.pictures.figures.drawing.clearances import clearances, grips
 from tandemlift.pictures.figures.registry import figures, figures_for
 
 WIDTH, REACH, GUARD, RADIUS = 4.0, 1.0, 0.375, 0.05

@@ -7,10 +7,10 @@ FIGURE = '''"""The speed of the air over time."""
 import numpy as np
 from matplotlib.figure import Figure
 
-from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
-from tandemlift.pictures.figures.drawing.overlay import over_time
-from tandemlift.pictures.figures.drawing.panels import fit, line, time_axis
-from tandemlift.pictures.figures.drawing.style import ACTUAL, column_figure, journal
+from tandemlift.pictures.drawing.figure import Caption, with_any_of
+from tandemlift.pictures.drawing.overlay import over_time
+from tandemlift.pictures.drawing.panels import fit, line, time_axis
+from tandemlift.pictures.drawing.style import ACTUAL, column_figure, journal
 from tandemlift.flight.record import Flight
 
 CAPTION = Caption("Air", "Speed of the air.", "A panel over time of the air’s speed.")

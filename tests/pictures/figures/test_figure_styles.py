@@ -11,8 +11,8 @@ from PIL import Image
 
 import tandemlift as tl
 from tandemlift.core.errors import InputError
-from tandemlift.pictures.figures.drawing.figure_style import DARK, IEEE, STYLES, current_style, figure_style
-from tandemlift.pictures.figures.drawing.style import save
+from tandemlift.pictures.drawing.figure import DARK, IEEE, STYLES, current_style, figure_style
+from tandemlift.pictures.drawing.style import save
 from tandemlift.pictures.figures.registry import figures, save_figures
 
 POINTS = {  # widths of columns and pages that the journals give, in PostScript points

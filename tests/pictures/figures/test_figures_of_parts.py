@@ -12,11 +12,11 @@ import tandemlift as tl
 from tandemlift.engines.models.surroundings import floor_from
 from tandemlift.flight.record import Ending
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.figures.drawing.figure_style import IEEE
-from tandemlift.pictures.figures.drawing.ground import clearance, floor_height
-from tandemlift.pictures.figures.drawing.scene import NEAR, on_paper
-from tandemlift.pictures.figures.drawing.style import COMPONENTS, LIGHT_BLUE, PALE
-from tandemlift.pictures.figures.drawing.vehicle import true_payload_mass
+from tandemlift.pictures.drawing.figure import IEEE
+from tandemlift.pictures.drawing.scene import NEAR, on_paper
+from tandemlift.pictures.drawing.style import COMPONENTS, LIGHT_BLUE, PALE
+from tandemlift.pictures.drawing.surroundings import clearance, floor_height
+from tandemlift.pictures.drawing.vehicle import true_payload_mass
 from tandemlift.pictures.figures.registry import figures, figures_for
 
 WIND = {"wind.model": "air", "wind.velocity": [2.0, 1.0, 0.0], "wind.turbulence": 6.0}

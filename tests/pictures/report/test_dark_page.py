@@ -5,7 +5,7 @@ import re
 import pytest
 from colour_contrast import contrast, inverted, on_screen
 
-from tandemlift.pictures.figures.drawing.figure_style import IEEE, figure_style
+from tandemlift.pictures.drawing.figure import IEEE, figure_style
 from tandemlift.pictures.figures.registry import captions
 from tandemlift.pictures.report.page import TEMPLATES, html_figure
 

@@ -19,7 +19,7 @@ from tandemlift.core.errors import InputError
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
-    from tandemlift.pictures.rendering import Shot
+    from tandemlift.pictures.drawing.film import Shot
 
 CAMERAS = "follow, overview, front, side, top, or AZIMUTH,ELEVATION[,DISTANCE] in degrees and metres"
 PICTURE_OPTIONS, ANIMATION_OPTIONS = ("--time",), ("--from", "--to", "--fps", "--speed")
@@ -156,14 +156,15 @@ def render(
       tandemlift render hover --set mission.duration=5 --out hover.gif
     """
     from tandemlift.flight.record import Flight
-    from tandemlift.pictures import rendering
+    from tandemlift.engines.models.camera import camera_of
+    from tandemlift.pictures.drawing import film
 
     folder, saved = flight_file(flight_or_mission)
     path = Path(out) if out else folder / "picture.png"
     given = {"--time": time, "--from": start, "--to": end, "--fps": fps, "--speed": speed}
     _check_options(path, [name for name, value in given.items() if value is not None])
-    view = rendering.camera_of(camera)
-    shot = rendering.Shot(time, start, end, fps or 20.0, speed, rendering.size_of(size), view)
+    view = camera_of(camera)
+    shot = film.Shot(time, start, end, fps or 20.0, speed, film.size_of(size), view)
     flight = Flight.load(saved) if saved else _fly(flight_or_mission, settings, engine)
     _draw(flight, path, shot)
 
@@ -174,8 +175,8 @@ def _check_options(path: Path, given: list[str]) -> None:
     Raises:
         InputError: an option does not fit the kind of file, the kind is unknown, or nothing here can draw it.
     """
-    from tandemlift.pictures.rendering.studio import pyvista
-    from tandemlift.pictures.rendering.video import ffmpeg
+    from tandemlift.pictures.drawing.studio import pyvista
+    from tandemlift.pictures.drawing.video import ffmpeg
 
     kind = path.suffix.lower()
     if kind not in (".png", ".gif", ".mp4"):
@@ -200,11 +201,11 @@ def _fly(mission: str, settings: tuple[str, ...], engine: str) -> Flight:
 
 
 def _draw(flight: Flight, path: Path, shot: Shot) -> None:
-    from tandemlift.pictures import rendering
+    from tandemlift.pictures.drawing import film
 
     if path.suffix.lower() == ".png":
-        rendering.render(flight, path, shot)
+        film.render(flight, path, shot)
     else:
         with progress_bar("Drawing", "pictures", shown=sys.stderr.isatty()) as progress:
-            rendering.render(flight, path, shot, progress)
+            film.render(flight, path, shot, progress)
     echo(f"{flight.name}: {path}")

@@ -15,7 +15,7 @@ from tandemlift.apps.cli.completion import CONTROLLERS, names, settings
 from tandemlift.apps.cli.console import echo, progress_bar
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import FLIGHT_FILE, parse_setting
-from tandemlift.pictures.figures.drawing.figure_style import STYLES, figure_style
+from tandemlift.pictures.drawing.figure import STYLES, figure_style
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight

@@ -89,7 +89,7 @@ def _draw(connected: LinearModel, path: Path) -> None:
         InputError: it has too many states.
     """
     from tandemlift.analysis.linearization.linear_model import MOST_STATES, axis_responses, modes_of, title_of
-    from tandemlift.pictures.figures.drawing.style import save
+    from tandemlift.pictures.drawing.style import save
     from tandemlift.pictures.figures.linear_model import Response, draw
 
     if len(connected.states) > MOST_STATES:

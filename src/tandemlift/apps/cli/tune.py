@@ -175,7 +175,7 @@ def _progress() -> Iterator[TuneProgress | None]:
 
 
 def _write(found: Tuning, folder: Path) -> None:
-    from tandemlift.pictures.figures.drawing.style import save
+    from tandemlift.pictures.drawing.style import save
     from tandemlift.pictures.report.study.tuning_figures import drawn_figures
     from tandemlift.pictures.report.study.tuning_report import write_tuning
 

@@ -29,7 +29,7 @@ from tandemlift.core import errors
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.rendering.stage import FlightStage
+from tandemlift.pictures.drawing.stage import FlightStage
 
 IN_REPORT = 3000  # frames of a flight in its report, at most
 MAX_FRAMES = 36_000  # ten minutes at the full rate; a longer flight has fewer frames a second

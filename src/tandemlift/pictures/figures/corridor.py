@@ -19,12 +19,11 @@ from matplotlib.patches import FancyArrowPatch
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.figures.drawing.clearances import clearances, grips
-from tandemlift.pictures.figures.drawing.figure import Caption, with_walls
-from tandemlift.pictures.figures.drawing.figure_style import current_style
-from tandemlift.pictures.figures.drawing.panels import extent, legend_above, line, value_ticks
-from tandemlift.pictures.figures.drawing.series import decimate, drawable
-from tandemlift.pictures.figures.drawing.style import (
+from tandemlift.pictures.drawing.clearances import clearances, grips
+from tandemlift.pictures.drawing.figure import Caption, current_style, with_walls
+from tandemlift.pictures.drawing.panels import extent, legend_above, line, value_ticks
+from tandemlift.pictures.drawing.series import decimate, drawable
+from tandemlift.pictures.drawing.style import (
     BEHIND_TEXT,
     BLUE,
     GREY,
@@ -34,7 +33,7 @@ from tandemlift.pictures.figures.drawing.style import (
     page_figure,
     points,
 )
-from tandemlift.pictures.figures.drawing.vehicle import skeleton
+from tandemlift.pictures.drawing.vehicle import skeleton
 from tandemlift.pictures.figures.path import pushes
 
 CAPTION = Caption(

@@ -14,10 +14,10 @@ from matplotlib.figure import Figure
 from tandemlift.core.phases import GUIDED
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
-from tandemlift.pictures.figures.drawing.overlay import over_time
-from tandemlift.pictures.figures.drawing.panels import components, fit, line, shade, time_axis
-from tandemlift.pictures.figures.drawing.style import COMPONENTS, GREY, INK, column_figure, journal
+from tandemlift.pictures.drawing.figure import Caption, with_any_of
+from tandemlift.pictures.drawing.overlay import over_time
+from tandemlift.pictures.drawing.panels import components, fit, line, shade, time_axis
+from tandemlift.pictures.drawing.style import COMPONENTS, GREY, INK, column_figure, journal
 
 CAPTION = Caption(
     "Disturbance",

@@ -13,11 +13,11 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.figures.drawing.figure import Caption, all_flights
-from tandemlift.pictures.figures.drawing.overlay import over_time
-from tandemlift.pictures.figures.drawing.panels import START, fit, is_disturbed, line, time_axis
-from tandemlift.pictures.figures.drawing.style import BLUE, GREY, INK, journal, page_figure
-from tandemlift.pictures.figures.drawing.vehicle import true_weight
+from tandemlift.pictures.drawing.figure import Caption, all_flights
+from tandemlift.pictures.drawing.overlay import over_time
+from tandemlift.pictures.drawing.panels import START, fit, is_disturbed, line, time_axis
+from tandemlift.pictures.drawing.style import BLUE, GREY, INK, journal, page_figure
+from tandemlift.pictures.drawing.vehicle import true_weight
 
 CAPTION = Caption(
     "Inputs",

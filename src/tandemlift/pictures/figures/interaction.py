@@ -15,10 +15,10 @@ from matplotlib.patches import Patch
 
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.figures.drawing.figure import Caption, all_flights
-from tandemlift.pictures.figures.drawing.overlay import over_time
-from tandemlift.pictures.figures.drawing.panels import extent, line, shade, time_axis, value_ticks
-from tandemlift.pictures.figures.drawing.style import BLUE, INK, PALE, VERMILLION, column_figure, journal
+from tandemlift.pictures.drawing.figure import Caption, all_flights
+from tandemlift.pictures.drawing.overlay import over_time
+from tandemlift.pictures.drawing.panels import extent, line, shade, time_axis, value_ticks
+from tandemlift.pictures.drawing.style import BLUE, INK, PALE, VERMILLION, column_figure, journal
 
 CAPTION = Caption(
     "Interaction",

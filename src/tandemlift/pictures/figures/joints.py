@@ -13,9 +13,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
-from tandemlift.pictures.figures.drawing.overlay import over_time
-from tandemlift.pictures.figures.drawing.panels import (
+from tandemlift.pictures.drawing.figure import Caption, with_any_of
+from tandemlift.pictures.drawing.overlay import over_time
+from tandemlift.pictures.drawing.panels import (
     START,
     components,
     fit,
@@ -24,7 +24,7 @@ from tandemlift.pictures.figures.drawing.panels import (
     line,
     time_axis,
 )
-from tandemlift.pictures.figures.drawing.style import COMPONENTS, GREY, journal
+from tandemlift.pictures.drawing.style import COMPONENTS, GREY, journal
 
 CAPTION = Caption(
     "Joints",

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from tandemlift.core.types import Array
-from tandemlift.pictures.figures.drawing.style import (
+from tandemlift.pictures.drawing.style import (
     BLUE,
     COMPONENTS,
     GREY,

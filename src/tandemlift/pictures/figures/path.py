@@ -19,13 +19,12 @@ from matplotlib.patches import FancyArrowPatch, Patch
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.figures.drawing.figure import Caption, all_flights
-from tandemlift.pictures.figures.drawing.ground import floor_height
-from tandemlift.pictures.figures.drawing.overlay import Flights, legend_of_flights, look
-from tandemlift.pictures.figures.drawing.panels import legend_above
-from tandemlift.pictures.figures.drawing.scene import NEAR, Scene3D, on_paper
-from tandemlift.pictures.figures.drawing.series import Mask, decimate, drawable
-from tandemlift.pictures.figures.drawing.style import (
+from tandemlift.pictures.drawing.figure import Caption, all_flights
+from tandemlift.pictures.drawing.overlay import Flights, legend_of_flights, look
+from tandemlift.pictures.drawing.panels import legend_above
+from tandemlift.pictures.drawing.scene import NEAR, Scene3D, on_paper
+from tandemlift.pictures.drawing.series import Mask, decimate, drawable
+from tandemlift.pictures.drawing.style import (
     BEHIND_TEXT,
     BLUE,
     DIM,
@@ -39,8 +38,8 @@ from tandemlift.pictures.figures.drawing.style import (
     points,
     styled,
 )
-from tandemlift.pictures.figures.drawing.vehicle import Skeleton, body_to_world, skeleton
-from tandemlift.pictures.figures.drawing.walls import WallOutline, draw_walls, walls_near
+from tandemlift.pictures.drawing.surroundings import WallOutline, draw_walls, floor_height, walls_near
+from tandemlift.pictures.drawing.vehicle import Skeleton, body_to_world, skeleton
 
 CAPTION = Caption(
     "Path",

@@ -16,10 +16,10 @@ from matplotlib.patches import Patch
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
-from tandemlift.pictures.figures.drawing.overlay import over_time
-from tandemlift.pictures.figures.drawing.panels import fit, legend_above, line, shade, time_axis
-from tandemlift.pictures.figures.drawing.style import (
+from tandemlift.pictures.drawing.figure import Caption, with_any_of
+from tandemlift.pictures.drawing.overlay import over_time
+from tandemlift.pictures.drawing.panels import fit, legend_above, line, shade, time_axis
+from tandemlift.pictures.drawing.style import (
     BLUE,
     GREY,
     INK,
@@ -30,7 +30,7 @@ from tandemlift.pictures.figures.drawing.style import (
     journal,
     page_figure,
 )
-from tandemlift.pictures.figures.drawing.vehicle import body_to_world, true_payload_mass
+from tandemlift.pictures.drawing.vehicle import body_to_world, true_payload_mass
 
 CAPTION = Caption(
     "Push estimate",

@@ -9,10 +9,10 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.figures.drawing.figure import Caption, all_flights
-from tandemlift.pictures.figures.drawing.overlay import over_time
-from tandemlift.pictures.figures.drawing.panels import fit, line, time_axis
-from tandemlift.pictures.figures.drawing.style import BLUE, GREY, VERMILLION, journal, page_figure
+from tandemlift.pictures.drawing.figure import Caption, all_flights
+from tandemlift.pictures.drawing.overlay import over_time
+from tandemlift.pictures.drawing.panels import fit, line, time_axis
+from tandemlift.pictures.drawing.style import BLUE, GREY, VERMILLION, journal, page_figure
 
 CAPTION = Caption(
     "Reference trajectories",

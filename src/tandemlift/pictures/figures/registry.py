@@ -15,12 +15,12 @@ from tandemlift.core.errors import InputError, suggestion, unknown
 from tandemlift.core.types import Progress
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.figures.drawing.figure_style import figure_style
+from tandemlift.pictures.drawing.figure import figure_style
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from tandemlift.pictures.figures.drawing.figure import Caption, FlightFigure
+    from tandemlift.pictures.drawing.figure import Caption, FlightFigure
 
 VIEWS = "views"
 """Photographs of a flight from Gazebo, `views.draw`: they are not drawn from a flight, so `figures` lacks them."""
@@ -70,7 +70,7 @@ def plot(flights: Flight | Sequence[Flight] | Mapping[str, Flight], name: str, *
     Raises:
         InputError: no flight has such a figure or channel, it can only be drawn of one, or there is no such style.
     """
-    from tandemlift.pictures.figures.drawing.overlay import over_time
+    from tandemlift.pictures.drawing.overlay import over_time
 
     given = _named([flights] if isinstance(flights, Flight) else flights)
     if not given:
@@ -101,7 +101,7 @@ def _named(flights: Sequence[Flight] | Mapping[str, Flight]) -> dict[str, Flight
 
 def save_figure(figure: Figure, path: Path) -> Path:
     """Write one figure as PNG or PDF, by the ending of the path; its folder is made if it does not exist."""
-    from tandemlift.pictures.figures.drawing.style import save
+    from tandemlift.pictures.drawing.style import save
 
     path.parent.mkdir(parents=True, exist_ok=True)
     return save(figure, path)

@@ -17,10 +17,10 @@ from matplotlib.ticker import MaxNLocator
 
 from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
-from tandemlift.pictures.figures.drawing.overlay import over_time
-from tandemlift.pictures.figures.drawing.panels import extent, fleet_figure, line, time_axis, value_ticks
-from tandemlift.pictures.figures.drawing.style import BLUE, GREY, INK, TAN, VERMILLION, journal, points
+from tandemlift.pictures.drawing.figure import Caption, with_any_of
+from tandemlift.pictures.drawing.overlay import over_time
+from tandemlift.pictures.drawing.panels import extent, fleet_figure, line, time_axis, value_ticks
+from tandemlift.pictures.drawing.style import BLUE, GREY, INK, TAN, VERMILLION, journal, points
 
 CAPTION = Caption(
     "Rotors",

@@ -15,12 +15,12 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.figures.drawing.figure import Caption, with_any_of
-from tandemlift.pictures.figures.drawing.ground import clearance, floor_height
-from tandemlift.pictures.figures.drawing.overlay import over_time
-from tandemlift.pictures.figures.drawing.panels import components, fit, legend_above, line, shade, time_axis
-from tandemlift.pictures.figures.drawing.style import BLUE, COMPONENTS, GREY, INK, PALE, journal, page_figure
-from tandemlift.pictures.figures.drawing.vehicle import true_weight
+from tandemlift.pictures.drawing.figure import Caption, with_any_of
+from tandemlift.pictures.drawing.overlay import over_time
+from tandemlift.pictures.drawing.panels import components, fit, legend_above, line, shade, time_axis
+from tandemlift.pictures.drawing.style import BLUE, COMPONENTS, GREY, INK, PALE, journal, page_figure
+from tandemlift.pictures.drawing.surroundings import clearance, floor_height
+from tandemlift.pictures.drawing.vehicle import true_weight
 
 CAPTION = Caption(
     "Surroundings",

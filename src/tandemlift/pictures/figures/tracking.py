@@ -16,11 +16,11 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import EngFormatter
 
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.figures.drawing.figure import Caption, all_flights
-from tandemlift.pictures.figures.drawing.overlay import over_time
-from tandemlift.pictures.figures.drawing.panels import fit, line, time_axis
-from tandemlift.pictures.figures.drawing.series import drawable, normalised
-from tandemlift.pictures.figures.drawing.style import (
+from tandemlift.pictures.drawing.figure import Caption, all_flights
+from tandemlift.pictures.drawing.overlay import over_time
+from tandemlift.pictures.drawing.panels import fit, line, time_axis
+from tandemlift.pictures.drawing.series import drawable, normalised
+from tandemlift.pictures.drawing.style import (
     ACTUAL,
     COMPONENTS,
     DESIRED,

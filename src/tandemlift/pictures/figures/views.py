@@ -9,9 +9,8 @@ from collections.abc import Sequence
 import matplotlib.image
 from matplotlib.figure import Figure
 
-from tandemlift.pictures.figures.drawing.figure import Caption
-from tandemlift.pictures.figures.drawing.figure_style import current_style
-from tandemlift.pictures.figures.drawing.style import page_figure, points, styled
+from tandemlift.pictures.drawing.figure import Caption, current_style
+from tandemlift.pictures.drawing.style import page_figure, points, styled
 
 CAPTION = Caption(
     "Photographs",

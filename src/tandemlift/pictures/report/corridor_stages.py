@@ -11,10 +11,9 @@ from matplotlib.figure import Figure
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.figures.drawing.figure import Caption
-from tandemlift.pictures.figures.drawing.ground import floor_height
-from tandemlift.pictures.figures.drawing.scene import NEAR, on_paper
-from tandemlift.pictures.figures.drawing.style import (
+from tandemlift.pictures.drawing.figure import Caption
+from tandemlift.pictures.drawing.scene import NEAR, on_paper
+from tandemlift.pictures.drawing.style import (
     BLUE,
     EDGE,
     GLASS,
@@ -26,8 +25,8 @@ from tandemlift.pictures.figures.drawing.style import (
     points,
     styled,
 )
-from tandemlift.pictures.figures.drawing.vehicle import Skeleton, skeleton
-from tandemlift.pictures.figures.drawing.walls import walls_in
+from tandemlift.pictures.drawing.surroundings import floor_height, walls_in
+from tandemlift.pictures.drawing.vehicle import Skeleton, skeleton
 
 CAPTION = Caption(
     "The corridor in four stages",

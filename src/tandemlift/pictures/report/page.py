@@ -23,13 +23,13 @@ from markupsafe import Markup
 from tandemlift.core.files import DATA, atomic_write
 from tandemlift.flight.metric_descriptions import metric_of
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.figures.drawing.figure_style import DARK, current_style
+from tandemlift.pictures.drawing.figure import DARK, current_style
 from tandemlift.pictures.figures.registry import VIEWS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from tandemlift.pictures.figures.drawing.figure import Caption
+    from tandemlift.pictures.drawing.figure import Caption
 
 TEMPLATES = DATA / "report"
 DASH = "–"  # a value that could not be computed
@@ -139,7 +139,7 @@ def html_figures(drawn: Mapping[str, Figure], captions: Mapping[str, Caption], f
 
     They are also written as NAME.png and NAME.pdf into a folder, if one is given; it is made.
     """
-    from tandemlift.pictures.figures.drawing.style import save
+    from tandemlift.pictures.drawing.style import save
 
     shown = []
     with tempfile.TemporaryDirectory() as aside:

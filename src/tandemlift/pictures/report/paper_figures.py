@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.core.files import atomic_write
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.figures.drawing.figure import Caption
+from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.figures.registry import figures, save_figure
 from tandemlift.pictures.report import corridor_stages
 from tandemlift.pictures.report.errata import DATA

@@ -11,7 +11,7 @@ from pydantic import TypeAdapter, ValidationError
 from tandemlift.core.errors import InputError, shown
 from tandemlift.flight import Flight
 from tandemlift.missions import Mission
-from tandemlift.pictures.figures.drawing.ground import floor_height
+from tandemlift.pictures.drawing.surroundings import floor_height
 from tandemlift.pictures.report.page import html_row, html_table
 
 Row = tuple[str, str]

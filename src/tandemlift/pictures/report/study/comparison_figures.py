@@ -29,11 +29,11 @@ from tandemlift.analysis.studies.comparison_scores import (
 )
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.figures.drawing.figure import Caption
-from tandemlift.pictures.figures.drawing.overlay import legend_of_flights
-from tandemlift.pictures.figures.drawing.panels import LONG, START, extent, fit, legend_above, line, time_axis
-from tandemlift.pictures.figures.drawing.series import drawable
-from tandemlift.pictures.figures.drawing.style import BLUE, GREY, LIGHT_BLUE, look, page_figure, points, styled
+from tandemlift.pictures.drawing.figure import Caption
+from tandemlift.pictures.drawing.overlay import legend_of_flights
+from tandemlift.pictures.drawing.panels import LONG, START, extent, fit, legend_above, line, time_axis
+from tandemlift.pictures.drawing.series import drawable
+from tandemlift.pictures.drawing.style import BLUE, GREY, LIGHT_BLUE, look, page_figure, points, styled
 from tandemlift.pictures.figures.registry import plot
 
 CAPTIONS = {

@@ -11,9 +11,9 @@ from tandemlift.analysis.studies.design.statistics import finite
 from tandemlift.analysis.studies.quantities import Quantity
 from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.core.types import Array
-from tandemlift.pictures.figures.drawing.figure import Caption
-from tandemlift.pictures.figures.drawing.panels import legend_above
-from tandemlift.pictures.figures.drawing.style import look, page_figure, styled
+from tandemlift.pictures.drawing.figure import Caption
+from tandemlift.pictures.drawing.panels import legend_above
+from tandemlift.pictures.drawing.style import look, page_figure, styled
 from tandemlift.pictures.report.study.words import compared, is_far, shown_quantity
 
 MOST_CURVES = 8

@@ -21,9 +21,9 @@ from tandemlift.core.errors import FAILS, CheckResult
 from tandemlift.core.files import atomic_write
 from tandemlift.core.types import Progress
 from tandemlift.missions import MissionLike, format_toml, mission_of, tables_of
-from tandemlift.pictures.figures.drawing.figure import Caption
-from tandemlift.pictures.figures.drawing.panels import fit, line
-from tandemlift.pictures.figures.drawing.style import (
+from tandemlift.pictures.drawing.figure import Caption
+from tandemlift.pictures.drawing.panels import fit, line
+from tandemlift.pictures.drawing.style import (
     ACTUAL,
     DESIRED,
     GREY,

@@ -16,8 +16,8 @@ from matplotlib.ticker import MaxNLocator
 from tandemlift.analysis.studies.design.statistics import share
 from tandemlift.analysis.studies.study_rows import Places, RowGroup, StudyRows
 from tandemlift.core.types import Array
-from tandemlift.pictures.figures.drawing.figure import Caption
-from tandemlift.pictures.figures.drawing.style import BLUE, GREY, LIGHT_BLUE, VERMILLION, page_figure, points, styled
+from tandemlift.pictures.drawing.figure import Caption
+from tandemlift.pictures.drawing.style import BLUE, GREY, LIGHT_BLUE, VERMILLION, page_figure, points, styled
 from tandemlift.pictures.report.study.words import QuantityDisplay, compared, is_far, shown_column, shown_quantity
 
 MOST_GROUPS = 3

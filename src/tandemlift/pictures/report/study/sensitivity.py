@@ -15,8 +15,8 @@ from tandemlift.analysis.studies.design.statistics import IntervalEstimate
 from tandemlift.analysis.studies.sensitivity import Sensitivity, influence
 from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.core.errors import InputError
-from tandemlift.pictures.figures.drawing.figure import Caption
-from tandemlift.pictures.figures.drawing.style import BLUE, INK, LIGHT_BLUE, page_figure, points, styled
+from tandemlift.pictures.drawing.figure import Caption
+from tandemlift.pictures.drawing.style import BLUE, INK, LIGHT_BLUE, page_figure, points, styled
 from tandemlift.pictures.report.page import DASH, html_row, html_table, number
 from tandemlift.pictures.report.study.words import compared, shown_quantity
 

@@ -19,7 +19,7 @@ from tandemlift.pictures.report.study.words import html_command
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from tandemlift.pictures.figures.drawing.figure import Caption
+    from tandemlift.pictures.drawing.figure import Caption
 
 
 def _figures(rows: StudyRows, found: Sequence[sensitivity.Analysed], folder: Path | None) -> str:

@@ -11,8 +11,8 @@ from matplotlib.ticker import MaxNLocator
 
 from tandemlift.analysis.studies.tuning.result import Tuning
 from tandemlift.core.types import Array
-from tandemlift.pictures.figures.drawing.figure import Caption
-from tandemlift.pictures.figures.drawing.style import (
+from tandemlift.pictures.drawing.figure import Caption
+from tandemlift.pictures.drawing.style import (
     BLUE,
     GREY,
     LIGHT_BLUE,

@@ -16,8 +16,8 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike
 
 from tandemlift.core.types import Array
-from tandemlift.pictures.figures.drawing.figure_style import current_style
-from tandemlift.pictures.figures.drawing.style import GRID, GROUND, INK, PALE, TEXT, StyledFigure, points
+from tandemlift.pictures.drawing.figure import current_style
+from tandemlift.pictures.drawing.style import GRID, GROUND, INK, PALE, TEXT, StyledFigure, points
 
 ELEVATION, AZIMUTH = np.radians(27.0), np.radians(-64.0)  # of the reader's eye
 RIGHT = np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0.0])

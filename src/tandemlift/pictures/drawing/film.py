@@ -19,10 +19,10 @@ from tandemlift.core.files import atomic_write
 from tandemlift.core.types import Array, Progress
 from tandemlift.engines.models.camera import ANGLE, CAMERAS, Camera
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.rendering.ground import View
-from tandemlift.pictures.rendering.stage import FlightStage
-from tandemlift.pictures.rendering.studio import Studio
-from tandemlift.pictures.rendering.video import check_size, ffmpeg, write_mp4
+from tandemlift.pictures.drawing.ground import View
+from tandemlift.pictures.drawing.stage import FlightStage
+from tandemlift.pictures.drawing.studio import Studio
+from tandemlift.pictures.drawing.video import check_size, ffmpeg, write_mp4
 
 SIZES = {".png": (1280, 720), ".gif": (640, 360), ".mp4": (1280, 720)}  # pixels
 LONGEST = 20.0  # s, length of an animation: a longer flight is shown faster, unless a speed is given

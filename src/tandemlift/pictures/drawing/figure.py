@@ -1,4 +1,6 @@
-"""Styles of figures, by name: the widths of a journal's columns, its type, and colours on white or on dark paper.
+"""Styles of figures, by name, and the interface of a figure's file besides its drawing.
+
+A style has the widths of a journal's columns, its type, and colours on white or on dark paper.
 
 `with figure_style("elsevier"):` everything is drawn for that journal. Sizes are in inches at print size. Widths: IEEE,
 "Preparation of papers", one and two columns; Elsevier, "Artwork sizing", single, 1.5 and double column; a slide of
@@ -9,12 +11,17 @@ Nothing here loads the drawing library.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from tandemlift.core.errors import unknown
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from tandemlift.flight.record import Flight
 
 MM = 1.0 / 25.4  # in
 DOTS = 300.0  # of a PNG in an inch
@@ -150,3 +157,50 @@ def figure_style(name: str | None) -> Iterator[FigureStyle]:
         yield current_style()
     finally:
         _current.reset(token)
+
+
+# ---- The interface of a figure's file: its caption, and the flights that have the figure
+
+
+class Caption(NamedTuple):
+    """Title and text printed with a figure, and `alt`, a description for those who cannot see it."""
+
+    title: str
+    text: str
+    alt: str
+
+
+class FlightFigure(Protocol):
+    """A file that draws a figure of a flight; its name is the figure's."""
+
+    @property
+    def CAPTION(self) -> Caption:
+        """The caption."""
+
+    @property
+    def IN_FLIGHTS(self) -> Callable[[Flight], bool]:
+        """Whether a flight has this figure."""
+
+    @property
+    def OVERLAY(self) -> Callable[[Mapping[str, Flight]], Figure] | None:
+        """Draws several flights, by name, over each other; None where that would show nothing."""
+
+    @property
+    def draw(self) -> Callable[[Flight], Figure]:
+        """Draws it."""
+
+
+def all_flights(flight: Flight) -> bool:
+    """True: a figure that every flight has."""
+    return True
+
+
+def with_any_of(*channels: str) -> Callable[[Flight], bool]:
+    """For a figure of flights that have one of these channels."""
+    return lambda flight: any(name in flight.channels for name in channels)
+
+
+def with_walls(flight: Flight) -> bool:
+    """Whether there are walls around a flight."""
+    mission = flight.mission
+    return bool(mission.get("walls") or mission.get("corridor", {}).get("centreline"))

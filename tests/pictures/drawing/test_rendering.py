@@ -12,11 +12,12 @@ from PIL import Image
 
 import tandemlift as tl
 from tandemlift.apps.cli.export import render as command
+from tandemlift.engines.models.camera import camera_of
 from tandemlift.engines.models.visuals import SUN
-from tandemlift.pictures.rendering import Animation, Shot, camera_of, picture, render, studio
-from tandemlift.pictures.rendering.film import Film, look_at
-from tandemlift.pictures.rendering.ground import HAZE, ZENITH, floor, grid, rgb, shadow_on, sky
-from tandemlift.pictures.rendering.stage import FlightStage
+from tandemlift.pictures.drawing import studio
+from tandemlift.pictures.drawing.film import Animation, Film, Shot, look_at, picture, render
+from tandemlift.pictures.drawing.ground import HAZE, ZENITH, floor, grid, rgb, shadow_on, sky
+from tandemlift.pictures.drawing.stage import FlightStage
 
 TINY = (96, 54)
 
@@ -229,5 +230,5 @@ def test_a_missing_package_and_a_system_that_cannot_draw_are_named(flight, tmp_p
 
 def test_nothing_of_graphics_is_imported_before_something_is_drawn():
     graphics = ("mujoco", "vtkmodules", "tkinter")
-    code = f"import sys, tandemlift.pictures.rendering; print([m for m in {graphics} if m in sys.modules])"
+    code = f"import sys, tandemlift.pictures.drawing; print([m for m in {graphics} if m in sys.modules])"
     assert completed([sys.executable, "-c", code], capture_output=True, text=True).stdout == "[]\n"

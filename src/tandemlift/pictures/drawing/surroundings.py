@@ -1,4 +1,4 @@
-"""The walls in a scene: those near the displayed points, cut off beyond them, and transparent."""
+"""The walls in a scene: those near the displayed points, cut off beyond them, and transparent; and the floor."""
 
 from __future__ import annotations
 
@@ -9,10 +9,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.collections import LineCollection
 
-from tandemlift.core.types import Array
+from tandemlift.core.types import GRAVITY, Array
+from tandemlift.flight.record import Flight
 from tandemlift.parts.contact.corridor import WallTable
-from tandemlift.pictures.figures.drawing.scene import NEAR, Scene3D, on_paper
-from tandemlift.pictures.figures.drawing.style import EDGE, GLASS
+from tandemlift.parts.contact.feet import floor, standing_height
+from tandemlift.parts.contact.ground_table import GroundTable
+from tandemlift.parts.contact.hull import hull
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.pictures.drawing.scene import NEAR, Scene3D, on_paper
+from tandemlift.pictures.drawing.style import EDGE, GLASS
+from tandemlift.pictures.drawing.vehicle import body_to_world, true_mass
 
 BEYOND = 0.15  # of the longest side of the displayed points: range around them in which walls are drawn
 TOUCHING = 1e-6  # m: a wall on the box's edge is in it
@@ -88,3 +94,28 @@ def draw_walls(scene: Scene3D, tables: Sequence[Mapping[str, Any]], path: Array)
             lines = list(on_paper([(rim[0], rim[1]), (foot[0], foot[1]), *sides]))
             scene.axes.add_collection(LineCollection(lines, colors=EDGE, lw=0.6, clip_on=False, zorder=order))
     return walls
+
+
+# ---- The floor
+
+
+def floor_height(flight: Flight) -> float | None:
+    """Height z of the floor [m], or None where there is none.
+
+    A mission that does not give it means the height at which the vehicle stands on it at the start.
+    """
+    ground = GroundTable.model_validate(flight.mission.get("ground", {}))
+    if ground.model == "none" or ground.height is not None:
+        return ground.height if ground.model != "none" else None
+    vehicle, mission, mass = Vehicle.from_mission(flight.mission), flight.mission, true_mass(flight)
+    step, friction = mission["mission"]["step"], ground.friction
+    shapes = hull(**vehicle.hull_shapes, mass=mass, inertia=vehicle.inertia, step=step)
+    at_zero = floor(vehicle.soles, mass, vehicle.inertia, step, friction=friction, sinkage=ground.sinkage, hull=shapes)
+    return mission["initial"]["position"][2] - standing_height(at_zero, mass * GRAVITY)
+
+
+def clearance(flight: Flight, height: float) -> Array:
+    """The height of the lowest sole (T) over a floor at a height [m]."""
+    soles = Vehicle.from_mission(flight.mission).soles.reshape(-1, 3)
+    below = body_to_world(flight["attitude"])[:, 2] @ soles.T
+    return flight["position"][:, 2] + below.min(axis=1) - height

@@ -25,9 +25,9 @@ from tandemlift.engines.models.visuals import (
     rotation_about_z,
     vehicle_shapes,
 )
-from tandemlift.pictures.rendering import ground
-from tandemlift.pictures.rendering.ground import Painted, View, rgb
-from tandemlift.pictures.rendering.stage import FlightStage
+from tandemlift.pictures.drawing import ground
+from tandemlift.pictures.drawing.ground import Painted, View, rgb
+from tandemlift.pictures.drawing.stage import FlightStage
 
 PATH, AHEAD, FALL, FRAME = "#1f5fbf", "#9db7d6", "#8a9097", "#4d5a6b"  # flown, to come, on the floor; edges of walls
 SHADE = "#9a9fa6"

@@ -11,7 +11,8 @@ from click.testing import CliRunner
 
 import tandemlift as tl
 from tandemlift.apps.cli.export import render as command
-from tandemlift.pictures.rendering import Animation, Shot, render, video
+from tandemlift.pictures.drawing import video
+from tandemlift.pictures.drawing.film import Animation, Shot, render
 
 SIZE = (160, 90)
 SHOT = Shot(start=2.0, end=3.0, fps=12.0, size=SIZE)
@@ -116,7 +117,7 @@ def test_an_ffmpeg_that_fails_leaves_nothing_and_its_words_are_told(script, flig
     program.write_text(f"#!/bin/sh\n{script}\n")
     program.chmod(0o755)
     monkeypatch.setattr(video, "ffmpeg", lambda: str(program))
-    monkeypatch.setattr("tandemlift.pictures.rendering.film.ffmpeg", video.ffmpeg)
+    monkeypatch.setattr("tandemlift.pictures.drawing.film.ffmpeg", video.ffmpeg)
     (tmp_path / "there").mkdir()
     with pytest.raises(tl.InputError, match=r"failed: (exit code 3|no space left)"):
         render(flight, tmp_path / "there" / "a.mp4", SHOT)

@@ -17,7 +17,7 @@ from matplotlib.lines import Line2D
 from tandemlift.core.types import Array
 from tandemlift.flight.data_frames import column_names
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.figures.drawing.panels import (
+from tandemlift.pictures.drawing.panels import (
     FEW,
     HIGH,
     LOW,
@@ -29,7 +29,7 @@ from tandemlift.pictures.figures.drawing.panels import (
     line,
     time_axis,
 )
-from tandemlift.pictures.figures.drawing.style import GREY, look, page_figure, points, styled
+from tandemlift.pictures.drawing.style import GREY, look, page_figure, points, styled
 
 Flights = Mapping[str, Flight]
 Overlay = Callable[[Flights], Figure]

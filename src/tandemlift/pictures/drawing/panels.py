@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.figures.drawing.series import decimate, drawable, intervals
-from tandemlift.pictures.figures.drawing.style import COMPONENTS, PALE, StyledFigure, page_figure, points
+from tandemlift.pictures.drawing.series import decimate, drawable, intervals
+from tandemlift.pictures.drawing.style import COMPONENTS, PALE, StyledFigure, page_figure, points
 
 LEGEND = "outside upper center"
 RELATIVE = 2e-3  # of the largest value: the least span of its axis, so that tick labels stay short

@@ -14,7 +14,7 @@ from tandemlift.parts.contact.beam_axis import BeamAxis, beam_axis, beam_point, 
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.wall_geometry import edges_of, offset, offset_from_top, wall
-from tandemlift.pictures.figures.drawing.vehicle import body_to_world
+from tandemlift.pictures.drawing.vehicle import body_to_world
 
 
 class Clearances(NamedTuple):

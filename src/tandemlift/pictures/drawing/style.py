@@ -21,7 +21,7 @@ from matplotlib.layout_engine import LayoutEngine, PlaceHolderLayoutEngine
 
 from tandemlift.core.files import atomic_write
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.figures.drawing.figure_style import FigureStyle, Palette, current_style
+from tandemlift.pictures.drawing.figure import FigureStyle, Palette, current_style
 
 P = ParamSpec("P")
 TEXT = 8.5  # pt: the size of text for which `points` are given
