@@ -216,3 +216,34 @@ def test_all_flights_over_is_said():
     block.reset(1)
     block.step(steps=3)
     assert block.time.tolist() == pytest.approx([0.05, 0.003])
+
+
+@pytest.mark.parametrize(("name", "begin"), [("iris", 13.0), ("zigzag", 5.007), ("gusts", 3.0)])
+def test_flights_that_are_handed_over_later_equal_those_that_were_flown_there(name, begin):
+    keys = {"mission.duration": begin + 2.0}
+    block = tl.Block(tl.load_mission(name, keys), 10, begin=begin, actions="velocity")
+    sims = [tl.Simulation(tl.load_mission(name, {**keys, "mission.seed": seed})) for seed in range(10)]
+    for sim in sims:
+        sim.step(steps=round(begin / sim.dt))
+    rng = np.random.default_rng(0)
+    assert_same(block, sims)
+    for again in range(4):
+        for _ in range(4):
+            actions, steps = rng.uniform(-0.4, 0.4, (10, 3)), int(rng.integers(1, 60))
+            block.step(actions, steps=steps)
+            for lane, sim in enumerate(sims):
+                sim.step(velocity=actions[lane], steps=steps)
+        assert_same(block, sims)
+        assert_same_metrics(block, 7, sims[7])
+        block.reset([1, 7], seed=100 + again)
+        for lane, seed in ((1, 100 + again), (7, 101 + again)):
+            sims[lane].reset(seed)
+            sims[lane].step(steps=round(begin / sims[lane].dt))
+
+
+def test_a_flight_that_is_over_before_it_is_handed_over_is_refused():
+    with pytest.raises(tl.InputError, match=r"begin = 99 s?: must be from 0 to below mission.duration = 90 s"):
+        tl.Block("paper", 2, begin=99)
+    falls = tl.load_mission("paper", {"crash.tilt": 1.0, "pushes": [{"force": [20.0] * 3, "time": 1.0, "sigma": 0.3}]})
+    with pytest.raises(tl.InputError, match=r"begin = 5 s: the flight of lane 0 is over at \S+ s: crashed"):
+        tl.Block(falls, 2, begin=5.0)

@@ -155,8 +155,8 @@ def render(
       tandemlift render out/paper --out pushes.mp4 --from 20 --to 40 --fps 30
       tandemlift render hover --set mission.duration=5 --out hover.gif
     """
-    from tandemlift.flight.record import Flight
     from tandemlift.engines.models.camera import camera_of
+    from tandemlift.flight.record import Flight
     from tandemlift.pictures.drawing import film
 
     folder, saved = flight_file(flight_or_mission)

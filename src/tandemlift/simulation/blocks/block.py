@@ -9,12 +9,13 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tandemlift.core.errors import InputError, shown
+from tandemlift.core.errors import InputError
 from tandemlift.core.findings import Finding
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.missions import MissionLike, mission_of
 from tandemlift.simulation.blocks.block_memory import BlockOfFlights
-from tandemlift.simulation.blocks.lanes import Keys, Lanes, lane_numbers, one_for_each
+from tandemlift.simulation.blocks.ended_flights import EndedFlights
+from tandemlift.simulation.blocks.lanes import Keys, Lanes, checked_actions, lane_numbers, one_for_each, steps_before
 from tandemlift.simulation.caller_values import checked_seed, count_of, held_inputs
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.plan import FlightPlan
@@ -23,6 +24,7 @@ from tandemlift.simulation.preparation.memory import NEVER
 from tandemlift.simulation.results import RawResult, SampleChannels, metrics_of
 
 Actions = Literal["push", "thrusts", "velocity"]
+RUNWAY = 64  # flights that fly together to where they are handed over
 
 
 class Block:
@@ -37,6 +39,8 @@ class Block:
         threads: that share a call if it takes long enough; by default one for each processor.
         actions: the input that `step` takes, as `Simulation.step` does: "push" (lanes, 3) [N], "thrusts" (lanes, 4N)
             [N], or "velocity" of the reference (lanes, 3) [m/s].
+        begin: time [s] at which a flight is handed over after a reset; until then it flies without actions, as through
+            its lift.
 
     Attributes:
         mission: the mission.
@@ -52,7 +56,13 @@ class Block:
     """
 
     def __init__(
-        self, mission: MissionLike, lanes: int, threads: int | None = None, *, actions: Actions = "push"
+        self,
+        mission: MissionLike,
+        lanes: int,
+        threads: int | None = None,
+        *,
+        actions: Actions = "push",
+        begin: float = 0.0,
     ) -> None:
         if actions not in get_args(Actions):
             raise InputError(f"actions = {actions!r}: must be one of {', '.join(map(repr, get_args(Actions)))}")
@@ -78,12 +88,12 @@ class Block:
         self._ended_at = leaf_offset(p.model, "flight_state", "ended").at
         at, size = leaf_offset(p.model, "flight_state", "metrics")
         self._tallies, self._empty = slice(at, at + size), np.array(flat(p.model.flight_state.metrics))
-        self._k, self._due, self._ended = 0, NEVER, 0
-        self._over, self._outcomes = np.zeros(self.lanes, dtype=bool), [""] * self.lanes
-        self._taken, self._steps, self._late = np.zeros((3, self.lanes), dtype=np.int64)
+        self._k, self._due = 0, NEVER
+        self._ended = EndedFlights(self._memory, self.lanes)
+        self._steps, self._late = np.zeros((2, self.lanes), dtype=np.int64)
         self._early = np.zeros((self.lanes, size))
-        self._saved = np.zeros((self.lanes, self._memory.flights.shape[1]))  # numbers of the flights that are over
-        self._shown, self._last = np.zeros((2, leaves(p.sample), self.lanes))  # their samples: of the last step, at end
+        self._ahead = steps_before(begin, p)
+        self._runway = Block(self.mission, min(self.lanes, RUNWAY), threads) if self._ahead else None
         self.reset()
 
     # stepping
@@ -94,7 +104,7 @@ class Block:
         seed: int | Sequence[int] | None = None,
         keys: Keys | Sequence[Keys] | None = None,
     ) -> None:
-        """Begin flights anew at t = 0; those of other lanes go on.
+        """Begin flights anew, at t = 0 or where the block hands them over; those of other lanes go on.
 
         Args:
             lanes: their numbers, or a truth for each lane, such as `block.ended`; by default all.
@@ -105,7 +115,7 @@ class Block:
 
         Raises:
             InputError: there is no such lane, a seed or a key is not allowed, or a key must be the same in all lanes;
-                no lane has been reset.
+                no lane has been reset. Or a flight is over before it is handed over.
         """
         numbers = lane_numbers(lanes, self.lanes)
         if seed is None or np.ndim(seed):
@@ -113,12 +123,32 @@ class Block:
         else:
             seeds = [checked_seed(checked_seed(seed) + i) for i in range(len(numbers))]
         self._flights.change(numbers, seeds, one_for_each("keys", keys, len(numbers)))
-        for lane in numbers:
+        self._begin(numbers)
+        self._look_ahead()
+
+    def _begin(self, lanes: Sequence[int]) -> None:
+        for lane in lanes:
             plan = self._flights.plans[lane]
             self._memory.begin(lane, self._flights.starts[lane])
             self._steps[lane], self._late[lane] = plan.steps, plan.late_step if plan.late_step < plan.steps else 0
-        self._over[numbers], self._early[numbers] = False, self._empty
-        self._look_ahead()
+        self._ended.over[lanes], self._early[lanes] = False, self._empty
+        if self._runway:
+            for first in range(0, len(lanes), RUNWAY):
+                self._fly_ahead(self._runway, lanes[first : first + RUNWAY])
+
+    def _fly_ahead(self, runway: Block, lanes: Sequence[int]) -> None:
+        """Fly flights to where they are handed over, in another block, and take them from there."""
+        places = list(range(len(lanes)))
+        runway._flights.take(places, self._flights, lanes)
+        runway._begin(places)
+        runway._close(np.arange(len(lanes), runway.lanes))
+        runway.step(steps=self._ahead)
+        for place in np.flatnonzero(runway._ended.over[places]).tolist():
+            end = f"over at {runway.time[place]:g} s: {runway.outcome[place]}"
+            raise InputError(f"begin = {self._ahead * self.dt:g} s: the flight of lane {lanes[place]} is {end}")
+        for place, lane in zip(places, lanes, strict=True):
+            self._memory.take(lane, runway._memory, place, self._ahead)
+        self._early[list(lanes)] = runway._early[places]
 
     def step(self, actions: ArrayLike | None = None, steps: int = 1) -> None:
         """Take one step of `dt` in every lane, or several; the actions act for these steps only.
@@ -137,28 +167,15 @@ class Block:
         self._act(actions)
         while self._k < end and self._due != NEVER:
             self._fly_to(min(end, self._due))
-        if self._ended:
-            over = np.flatnonzero(self._over)  # they have flown on beside the others
-            self._memory.flights[over // LANES, :, over % LANES] = self._saved[over]
-            self._memory.sample[:, over] = self._shown[:, over]
+        self._ended.restore()
 
     def _act(self, actions: ArrayLike | None) -> None:
         if actions is None:
             self._memory.actions.fill(0.0)
             return
-        if actions is not self.actions:
-            given = np.asarray(actions)
-            if given.shape != self.actions.shape or given.dtype.kind not in "fiu":
-                what = f"{given.dtype} {given.shape}"
-                raise InputError(f"actions are {what}: must be numbers {self.actions.shape} ({self._unit})")
-            actions = given
-        finite = np.isfinite(actions)
-        if not finite.all():
-            lane = int(np.flatnonzero(~finite.all(axis=1))[0])
-            wrong = shown(np.asarray(actions)[lane].tolist())
-            raise InputError(f"actions of lane {lane} = {wrong}: must be finite numbers ({self._unit})")
-        if actions is not self.actions:
-            self.actions[...] = actions
+        given = checked_actions(actions, self.actions, self._unit)
+        if given is not self.actions:
+            self.actions[...] = given
         self._counts.fill(1.0)
 
     def _fly_to(self, stop: int) -> None:
@@ -166,7 +183,7 @@ class Block:
         memory = self._memory
         while memory.fly(stop):
             ended = memory.flights[:, self._ended_at].reshape(-1)[: self.lanes] != 0.0
-            self._close(np.flatnonzero(ended & ~self._over))
+            self._close(np.flatnonzero(ended & ~self._ended.over))
             if (memory.reached == stop).all():
                 break
         self._k = stop
@@ -176,39 +193,30 @@ class Block:
     def _take_due(self) -> None:
         """Take the metrics of flights that have reached 10 s, and end those whose duration is over."""
         memory, taken = self._memory, self._steps_taken
-        late = np.flatnonzero(~self._over & (taken == self._late))
+        late = np.flatnonzero(~self._ended.over & (taken == self._late))
         for lane in late.tolist():
             place = lane // LANES, self._tallies, lane % LANES
             self._early[lane], memory.flights[place] = memory.flights[place], self._empty
-        done = np.flatnonzero(~self._over & (taken == self._steps))
+        done = np.flatnonzero(~self._ended.over & (taken == self._steps))
         for b in np.unique(done // LANES).tolist():
             here = done[done // LANES == b]
-            self._last[:, here] = memory.sample_here(b)[:, here % LANES]
+            self._ended.last[:, here] = memory.sample_here(b)[:, here % LANES]
         self._close(done)
 
     def _look_ahead(self) -> None:
         """Find the step of the block at which a flight is due: see `_take_due`."""
-        taken, going = self._steps_taken, ~self._over
+        taken, going = self._steps_taken, ~self._ended.over
         left = np.where(taken < self._late, self._late, self._steps) - taken
         self._due = self._k + int(left[going].min()) if going.any() else NEVER
-        self._ended = self.lanes - int(going.sum())
 
     @property
     def _steps_taken(self) -> NDArray[np.int64]:
         """By each flight."""
         begun = self._memory.begun.reshape(-1)[: self.lanes]
-        return np.where(self._over, self._taken, self._k - begun)
+        return np.where(self._ended.over, self._ended.steps, self._k - begun)
 
     def _close(self, lanes: NDArray[np.intp]) -> None:
-        """Keep flights as they have ended."""
-        memory = self._memory
-        self._over[lanes] = True
-        self._taken[lanes] = memory.reached[lanes // LANES] - memory.begun[lanes // LANES, lanes % LANES]
-        self._saved[lanes] = memory.flights[lanes // LANES, :, lanes % LANES]
-        self._shown[:, lanes] = memory.sample[:, lanes]
-        for lane in lanes.tolist():
-            memory.watch(lane, False)
-            self._outcomes[lane] = ""
+        self._ended.close(lanes)
         self._look_ahead()
 
     # state, channels and ends
@@ -221,14 +229,16 @@ class Block:
     @property
     def ended(self) -> NDArray[np.bool_]:
         """Whether each flight is over: its duration, or by its end before (lanes,)."""
-        return self._over.copy()
+        return self._ended.over.copy()
 
     @property
     def outcome(self) -> NDArray[np.str_]:
         """The outcome of each flight that is over, as in a flight's metrics; "" for the others (lanes,)."""
-        for lane in np.flatnonzero(self._over).tolist():
-            self._outcomes[lane] = self._outcomes[lane] or self.metrics(lane)["outcome"]
-        return np.array([o if over else "" for o, over in zip(self._outcomes, self._over, strict=True)])
+        known, over = self._ended.outcomes, self._ended.over.tolist()
+        for lane in range(self.lanes):
+            if over[lane] and not known[lane]:
+                known[lane] = self.metrics(lane)["outcome"]
+        return np.array([name if gone else "" for name, gone in zip(known, over, strict=True)])
 
     @property
     def state(self) -> Array:
@@ -256,7 +266,7 @@ class Block:
         return name in self._sample
 
     def __repr__(self) -> str:
-        return f"<Block {self.mission.mission.name}: {self.lanes} flights, {int(self._over.sum())} over>"
+        return f"<Block {self.mission.mission.name}: {self.lanes} flights, {int(self._ended.over.sum())} over>"
 
     def metrics(self, lane: int) -> dict[str, Any]:
         """The metrics of one flight so far, as `Flight.metrics`; `command_at_start` is None.
@@ -278,9 +288,9 @@ class Block:
     def _flown(self, lane: int) -> tuple[FlightPlan, RawResult]:
         (lane,) = lane_numbers(int(lane), self.lanes)
         plan, memory, b, place = self._flights.plans[lane], self._memory, *divmod(lane, LANES)
-        over, like = self._over[lane], self._p.model.flight_state
+        over, like = self._ended.over[lane], self._p.model.flight_state
         state = unflat(memory.flights[b, : leaves(like), place], like)
-        last = self._last[:, lane] if over else memory.sample_here(b)[:, place]
+        last = self._ended.last[:, lane] if over else memory.sample_here(b)[:, place]
         return plan, RawResult(
             flight_state=state,
             early=unflat(self._early[lane], like.metrics),

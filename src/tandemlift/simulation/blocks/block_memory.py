@@ -81,6 +81,15 @@ class BlockOfFlights:
         self.sample[:, lane] = np.nan
         self.watch(lane, True)
 
+    def take(self, lane: int, other: BlockOfFlights, place: int, steps: int) -> None:
+        """Go on in a lane, which has just begun, with a flight of another block that has taken some steps."""
+        (b, i), (c, j) = divmod(lane, LANES), divmod(place, LANES)
+        self.flights[b, :, i] = other.flights[c, :, j]
+        self.begun[b, i] = self._begun[b][i] = self.reached[b] - steps
+        ring, turned = (m.ring.reshape(m.rings, -1, LANES) for m in (self.blocks[b], other.blocks[c]))
+        ring[:, :, i] = np.roll(turned[:, :, j], int(self.begun[b, i]) - int(other.begun[c, j]), axis=0)
+        self.sample[:, lane] = other.sample[:, place]
+
     def watch(self, lane: int, halts: bool) -> None:
         """Choose whether the end of a flight halts its block."""
         b, place = divmod(lane, LANES)

@@ -6,8 +6,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from tandemlift.core.errors import InputError, shown
+from tandemlift.core.types import Array
 from tandemlift.missions import Mission, changed
 from tandemlift.simulation.caller_values import checked_seed
 from tandemlift.simulation.plan import FlightPlan
@@ -55,6 +57,12 @@ class Lanes:
         for lane, seed, plan, start in new:
             self._seeds[lane], self.plans[lane], self.starts[lane] = seed, plan, start
 
+    def take(self, lanes: Sequence[int], other: Lanes, places: Sequence[int]) -> None:
+        """Take the flights of another block's lanes."""
+        for lane, place in zip(lanes, places, strict=True):
+            self._seeds[lane] = other._seeds[place]
+            self.plans[lane], self.starts[lane] = other.plans[place], other.starts[place]
+
     def _plan_with(self, keys: Keys) -> FlightPlan:
         plan = self.first
         for key, value in keys.items():
@@ -92,6 +100,34 @@ def _refuse_stepwise(plan: FlightPlan) -> None:
     if mission.changes_in_flight:
         recording = str(mission.person.recording)
         raise InputError(f"person.recording = {recording!r}: a block plays no recorded hand; use Simulation")
+
+
+def steps_before(time: Any, plan: FlightPlan) -> int:
+    """The steps before a time [s].
+
+    Raises:
+        InputError: it is no time of the flight.
+    """
+    duration = plan.mission.mission.duration
+    if not isinstance(time, (int, float)) or not 0.0 <= time < duration:
+        raise InputError(f"begin = {shown(time)}: must be from 0 to below mission.duration = {duration:g} s")
+    return round(time / plan.dt)
+
+
+def checked_actions(actions: ArrayLike, like: Array, unit: str) -> Array:
+    """Actions as an array like `like`, if they are finite numbers.
+
+    Raises:
+        InputError: they are something else.
+    """
+    given = np.asarray(actions) if actions is not like else like
+    if given.shape != like.shape or given.dtype.kind not in "fiu":
+        raise InputError(f"actions are {given.dtype} {given.shape}: must be numbers {like.shape} ({unit})")
+    finite = np.isfinite(given)
+    if not finite.all():
+        lane = int(np.flatnonzero(~finite.all(axis=1))[0])
+        raise InputError(f"actions of lane {lane} = {shown(given[lane].tolist())}: must be finite numbers ({unit})")
+    return given
 
 
 def one_for_each(name: str, value: Any, count: int) -> Sequence[Any]:

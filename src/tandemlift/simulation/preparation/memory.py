@@ -99,6 +99,7 @@ class FlightMemory:
         numbers: of all flights, interleaved: number i of lane l stands at i · lanes + l.
         log: samples (lanes, rows, columns).
         k: the next step.
+        rings: rows of the delay lines.
     """
 
     def __init__(
@@ -122,7 +123,8 @@ class FlightMemory:
         for lane in range(lanes):
             self._write(lane)
         self._write_tables()
-        self.put("rings", len(starts[0].ring))
+        self.rings = len(starts[0].ring)
+        self.put("rings", self.rings)
         self.put("stride", grid.rows * columns)
         self.put("steps", grid.steps)
         self.put("every", grid.every)
