@@ -10,24 +10,22 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.findings import Finding
-from tandemlift.core.types import Array, flat, leaves, unflat
+from tandemlift.core.types import Array, flat, leaves
 from tandemlift.missions import MissionLike, mission_of
 from tandemlift.simulation.blocks.block_memory import BlockOfFlights
 from tandemlift.simulation.blocks.ended_flights import EndedFlights
 from tandemlift.simulation.blocks.lanes import Keys, Lanes, checked_actions, lane_numbers, one_for_each, steps_before
+from tandemlift.simulation.blocks.reading import BlockReadings
 from tandemlift.simulation.caller_values import checked_seed, count_of, held_inputs
-from tandemlift.simulation.findings import findings_of
-from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import LANES, leaf_offset
 from tandemlift.simulation.preparation.memory import NEVER
-from tandemlift.simulation.results import RawResult, SampleChannels, metrics_of
+from tandemlift.simulation.results import SampleChannels
 
 Actions = Literal["push", "thrusts", "velocity"]
-RUNWAY = 64  # flights that fly together to where they are handed over
+RUNWAYS = (8, 64)  # numbers of flights that fly together to where they are handed over
 
 
-class Block:
+class Block(BlockReadings):
     """Flights of one mission that step together, in NumPy: for learning, and for worlds of one's own.
 
     Each lane is a flight with a time of its own, and equals that of a `Simulation` to the last bit. Lane i has the seed
@@ -93,7 +91,8 @@ class Block:
         self._steps, self._late = np.zeros((2, self.lanes), dtype=np.int64)
         self._early = np.zeros((self.lanes, size))
         self._ahead = steps_before(begin, p)
-        self._runway = Block(self.mission, min(self.lanes, RUNWAY), threads) if self._ahead else None
+        sizes = {min(self.lanes, size) for size in RUNWAYS if self._ahead}
+        self._runways = [Block(self.mission, size, threads) for size in sorted(sizes)]
         self.reset()
 
     # stepping
@@ -132,9 +131,10 @@ class Block:
             self._memory.begin(lane, self._flights.starts[lane])
             self._steps[lane], self._late[lane] = plan.steps, plan.late_step if plan.late_step < plan.steps else 0
         self._ended.over[lanes], self._early[lanes] = False, self._empty
-        if self._runway:
-            for first in range(0, len(lanes), RUNWAY):
-                self._fly_ahead(self._runway, lanes[first : first + RUNWAY])
+        while self._runways and len(lanes):
+            runway = next((r for r in self._runways if r.lanes >= len(lanes)), self._runways[-1])
+            self._fly_ahead(runway, lanes[: runway.lanes])
+            lanes = lanes[runway.lanes :]
 
     def _fly_ahead(self, runway: Block, lanes: Sequence[int]) -> None:
         """Fly flights to where they are handed over, in another block, and take them from there."""
@@ -209,93 +209,6 @@ class Block:
         left = np.where(taken < self._late, self._late, self._steps) - taken
         self._due = self._k + int(left[going].min()) if going.any() else NEVER
 
-    @property
-    def _steps_taken(self) -> NDArray[np.int64]:
-        """By each flight."""
-        begun = self._memory.begun.reshape(-1)[: self.lanes]
-        return np.where(self._ended.over, self._ended.steps, self._k - begun)
-
     def _close(self, lanes: NDArray[np.intp]) -> None:
         self._ended.close(lanes)
         self._look_ahead()
-
-    # state, channels and ends
-
-    @property
-    def time(self) -> Array:
-        """The time that each flight has reached [s], (lanes,)."""
-        return np.multiply(self._steps_taken, self.dt, dtype=np.float64)
-
-    @property
-    def ended(self) -> NDArray[np.bool_]:
-        """Whether each flight is over: its duration, or by its end before (lanes,)."""
-        return self._ended.over.copy()
-
-    @property
-    def outcome(self) -> NDArray[np.str_]:
-        """The outcome of each flight that is over, as in a flight's metrics; "" for the others (lanes,)."""
-        known, over = self._ended.outcomes, self._ended.over.tolist()
-        for lane in range(self.lanes):
-            if over[lane] and not known[lane]:
-                known[lane] = self.metrics(lane)["outcome"]
-        return np.array([name if gone else "" for name, gone in zip(known, over, strict=True)])
-
-    @property
-    def state(self) -> Array:
-        """The true states (lanes, 13), as `Simulation.state`."""
-        at, size = leaf_offset(self._p.model, "flight_state", "state")
-        parts = self._memory.flights[:, at : at + size].swapaxes(1, 2)
-        return parts.reshape(-1, size)[: self.lanes]
-
-    def __getitem__(self, name: str) -> Array:
-        """A channel of the sample of the last step: (lanes, n), or (lanes,) where it has one column; read only.
-
-        It is a view where the numbers of the channel stand together, and changes with the next step. A lane that has
-        not stepped since its reset has nan.
-
-        Raises:
-            KeyError: there is no such channel.
-        """
-        if name == "time":
-            return np.where(self._steps_taken > 0, (self._steps_taken - 1) * self.dt, np.nan)
-        found: Array = self._sample.of(self._memory.sample, name)[..., : self.lanes].T
-        found.flags.writeable = False
-        return found
-
-    def __contains__(self, name: object) -> bool:
-        return name in self._sample
-
-    def __repr__(self) -> str:
-        return f"<Block {self.mission.mission.name}: {self.lanes} flights, {int(self._ended.over.sum())} over>"
-
-    def metrics(self, lane: int) -> dict[str, Any]:
-        """The metrics of one flight so far, as `Flight.metrics`; `command_at_start` is None.
-
-        Raises:
-            InputError: there is no such lane.
-        """
-        return metrics_of(*self._flown(lane))
-
-    def findings(self, lane: int) -> tuple[Finding, ...]:
-        """The findings of one flight so far.
-
-        Raises:
-            InputError: there is no such lane.
-        """
-        plan, flown = self._flown(lane)
-        return findings_of(plan, flown.flight_state, flown.step, metrics_of(plan, flown)["outcome"])
-
-    def _flown(self, lane: int) -> tuple[FlightPlan, RawResult]:
-        (lane,) = lane_numbers(int(lane), self.lanes)
-        plan, memory, b, place = self._flights.plans[lane], self._memory, *divmod(lane, LANES)
-        over, like = self._ended.over[lane], self._p.model.flight_state
-        state = unflat(memory.flights[b, : leaves(like), place], like)
-        last = self._ended.last[:, lane] if over else memory.sample_here(b)[:, place]
-        return plan, RawResult(
-            flight_state=state,
-            early=unflat(self._early[lane], like.metrics),
-            step=int(self._steps_taken[lane]),
-            log=np.full((1, last.size), np.nan),
-            last=np.full(last.size, np.nan) if state.ended else last,
-            wall=0.0,
-        )

@@ -12,6 +12,7 @@ import numpy as np
 from tandemlift.compiler.machine_code.code import Code
 from tandemlift.simulation.preparation import LANES, FlightMemory, FlightStart, TimeGrid
 from tandemlift.simulation.preparation.memory import AT, NEVER, WORDS, Numbers, Words, aligned
+from tandemlift.simulation.preparation.templates import LeafSpan
 
 WORTH = 2e-4  # s of flight code in a call, from which on threads share it
 
@@ -72,6 +73,10 @@ class BlockOfFlights:
     def reached(self) -> Words:
         """The next step of each block."""
         return self._contexts[:, AT["k"]]
+
+    def numbers_of(self, span: LeafSpan) -> Numbers:
+        """Some numbers of all flights (lanes, size)."""
+        return self.flights[:, span.at : span.at + span.size].swapaxes(1, 2).reshape(-1, span.size)
 
     def begin(self, lane: int, start: FlightStart) -> None:
         """Begin a flight in a lane at the next step of its block."""

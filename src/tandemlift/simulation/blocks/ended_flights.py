@@ -41,6 +41,11 @@ class EndedFlights:
             memory.watch(lane, False)
             self.outcomes[lane] = ""
 
+    @property
+    def unknown(self) -> list[int]:
+        """The lanes whose outcome is not known yet."""
+        return [lane for lane in np.flatnonzero(self.over).tolist() if not self.outcomes[lane]]
+
     def restore(self) -> None:
         """Set the flights that are over back to their end."""
         over = np.flatnonzero(self.over)
