@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page docs docs-quick test check quick lint types imports tests examples test-pythons test-distributions test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
+.PHONY: run live page docs docs-quick test check quick lint types imports tests examples test-learning test-pythons test-distributions test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -62,6 +62,11 @@ check: .venv/dev ## one room: its format, lint, types, and the tests beside it: 
 
 examples: .venv/dev  ## run the scripts of examples/, whose numbers are asserted; `make docs` runs the same code
 	$(BIN)/pytest -n auto -m examples tests/repository/test_tutorials.py
+
+test-learning: .venv/dev  ## environments by Stable-Baselines3, a policy that learns; installs it, and PyTorch, into .venv-learning
+	test -x .venv-learning/bin/python || $(BIN)/python -m venv .venv-learning
+	.venv-learning/bin/pip install --disable-pip-version-check --quiet -e '.[gymnasium]' pytest pytest-timeout pytest-xdist stable-baselines3
+	.venv-learning/bin/pytest -p no:xdist -m learning tests/analysis/learning
 
 test-pythons:    ## the fast tests under each installed Python from 3.11 to 3.13
 	tools/test-pythons

@@ -9,11 +9,13 @@ flight.metrics()["final_position_m"]
 from __future__ import annotations
 
 import importlib
+import sys
 from typing import TYPE_CHECKING, Any
 
 from tandemlift.core.files import __version__ as __version__
 
 if TYPE_CHECKING:
+    from tandemlift.analysis.learning.registration import register_environments
     from tandemlift.analysis.linearization.linear_model import LinearModel
     from tandemlift.analysis.linearization.linearize import linearize
     from tandemlift.analysis.linearization.mission_check import check
@@ -54,6 +56,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "load_mission": "missions",
     "load_study": "analysis.studies.table",
     "plot": "pictures.figures.registry",
+    "register_environments": "analysis.learning.registration",
     "study": "analysis.studies.study",
     "tune": "analysis.studies.tuning.tune",
 }
@@ -79,6 +82,7 @@ __all__ = [
     "load_mission",
     "load_study",
     "plot",
+    "register_environments",
     "study",
     "tune",
 ]
@@ -92,3 +96,7 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted([*globals(), *_HOMES])
+
+
+if "gymnasium" in sys.modules:
+    __getattr__("register_environments")()

@@ -155,7 +155,6 @@ def render(
       tandemlift render out/paper --out pushes.mp4 --from 20 --to 40 --fps 30
       tandemlift render hover --set mission.duration=5 --out hover.gif
     """
-    from tandemlift.engines.models.camera import camera_of
     from tandemlift.flight.record import Flight
     from tandemlift.pictures.drawing import film
 
@@ -163,7 +162,7 @@ def render(
     path = Path(out) if out else folder / "picture.png"
     given = {"--time": time, "--from": start, "--to": end, "--fps": fps, "--speed": speed}
     _check_options(path, [name for name, value in given.items() if value is not None])
-    view = camera_of(camera)
+    view = film.camera_of(camera)
     shot = film.Shot(time, start, end, fps or 20.0, speed, film.size_of(size), view)
     flight = Flight.load(saved) if saved else _fly(flight_or_mission, settings, engine)
     _draw(flight, path, shot)

@@ -73,7 +73,7 @@ class Block(BlockReadings):
         place, self._unit, flag = held_inputs(p.given.external)[actions]
         starts = self._flights.starts
         self._memory = BlockOfFlights(
-            p.loop_code.loop(LANES),
+            p.loop_code,
             [*starts, *[starts[-1]] * (-self.lanes % LANES)],
             p.grid(1, 1),
             leaves(p.sample),

@@ -9,8 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from tandemlift.compiler.machine_code.code import Code
-from tandemlift.simulation.preparation import LANES, FlightMemory, FlightStart, TimeGrid
+from tandemlift.simulation.preparation import LANES, FlightMemory, FlightStart, LoopCode, TimeGrid
 from tandemlift.simulation.preparation.memory import AT, NEVER, WORDS, Numbers, Words, aligned
 from tandemlift.simulation.preparation.templates import LeafSpan
 
@@ -21,7 +20,7 @@ class BlockOfFlights:
     """The memory of many flights, eight to a `FlightMemory`, that a loop steps together from one call of Python.
 
     Args:
-        code: the loop for eight flights.
+        loop_code: of the flights.
         starts: a flight for each lane, a multiple of eight.
         grid: of time steps; its log is never written.
         columns: numbers of a sample.
@@ -38,7 +37,7 @@ class BlockOfFlights:
 
     def __init__(
         self,
-        code: Code,
+        loop_code: LoopCode,
         starts: Sequence[FlightStart],
         grid: TimeGrid,
         columns: int,
@@ -48,13 +47,13 @@ class BlockOfFlights:
         self.threads, self._pace = threads, 0.0  # s for a step of eight flights
         lanes, width = len(starts), LANES
         blocks, size = lanes // width, starts[0].numbers.size
-        self.code, self._contexts = code, np.zeros((blocks, len(WORDS)), dtype=np.int64)
+        self.code, self._contexts = loop_code.loop(LANES), np.zeros((blocks, len(WORDS)), dtype=np.int64)
         self.flights = aligned(lanes * size).reshape(blocks, size, width)
         apart = lanes + width  # no power of two, so that the columns share no place in the processor's cache
         self.sample = aligned(columns * apart).reshape(columns, apart)[:, :lanes]
         self.actions = aligned(held[1] * lanes).reshape(held[1], lanes)
         self.blocks = [
-            FlightMemory(code, starts[b * width : (b + 1) * width], grid, columns, (numbers.reshape(-1), context))
+            FlightMemory(self.code, starts[b * width : (b + 1) * width], grid, columns, (numbers.reshape(-1), context))
             for b, (numbers, context) in enumerate(zip(self.flights, self._contexts, strict=True))
         ]
         for b, memory in enumerate(self.blocks):
@@ -66,7 +65,7 @@ class BlockOfFlights:
         self.halts, self.begun = np.ones((blocks, width)), np.zeros((blocks, width), dtype=np.int64)
         self._halting = [memory.work[memory.span("halts")] for memory in self.blocks]
         self._begun = [memory.work[memory.span("begun")].view(np.int64) for memory in self.blocks]
-        place = code.about["rooms"]["external"][0] + held[0]
+        place = self.code.about["rooms"]["external"][0] + held[0]
         self._call = np.array([self._contexts.ctypes.data, 0, 0, 0, self.actions.ctypes.data, held[1], lanes, place, 0])
 
     @property

@@ -10,7 +10,7 @@ from tandemlift.analysis.studies.design.distributions import DISTRIBUTIONS, Dist
 from tandemlift.analysis.studies.design.keys import by_key, key_at, leaves_of
 from tandemlift.core.errors import InputError, shown, suggestion
 from tandemlift.core.types import Array
-from tandemlift.missions.changes import Place, Tables
+from tandemlift.missions.changes import MISSING, Place, Tables, place_of, value_at
 from tandemlift.missions.refusals import problems_in
 
 Drawn = dict[str, Distribution]
@@ -54,3 +54,26 @@ def values_at(drawn: Drawn, points: Array) -> list[dict[str, Any]]:
         columns[name] = distribution.values(points[:, at : at + distribution.dimensions])
         at += distribution.dimensions
     return [{name: column[i] for name, column in columns.items()} for i in range(len(points))]
+
+
+def absolute(distribution: Distribution, key: str, value: Any, tables: Tables, mission: str) -> Any:
+    """The value of a draw of a key, which may be relative to that in a mission's tables.
+
+    Raises:
+        InputError: it is relative, and the mission has no number there.
+    """
+    return _times(value_at(tables, place_of(key)), value, key, mission) if distribution.relative else value
+
+
+def _times(own: Any, factor: Any, key: str, mission: str) -> Any:
+    """A mission's own value times a factor, or times one factor for each entry of a list."""
+    if isinstance(own, (list, tuple)):
+        factors = factor if isinstance(factor, list) else [factor] * len(own)
+        if len(factors) == len(own):
+            return [_times(x, f, key, mission) for x, f in zip(own, factors, strict=True)]
+    elif isinstance(own, (int, float)) and not isinstance(own, bool) and not isinstance(factor, list):
+        return own * factor
+    what = "is not set" if own is MISSING else f"= {own!r}"
+    raise InputError(
+        f"draw.{key}: relative = true, but in mission {mission} the key {what}; it must be as many numbers"
+    )

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from tandemlift.analysis.studies.design.draws import Drawn, dimensions_of, drawn_keys, values_at
+from tandemlift.analysis.studies.design.draws import Drawn, absolute, dimensions_of, drawn_keys, values_at
 from tandemlift.analysis.studies.design.grids import grid_axes
 from tandemlift.analysis.studies.design.keys import changes_in, columns_of, with_keys
 from tandemlift.analysis.studies.design.persons import check_has_person, person_changes, random_person
@@ -17,7 +17,7 @@ from tandemlift.analysis.studies.design.settings import MAX_ROWS, CaseTable, Stu
 from tandemlift.analysis.studies.design.variants import Variant
 from tandemlift.core.errors import InputError
 from tandemlift.missions import Mission, tables_of
-from tandemlift.missions.changes import MISSING, Tables, place_of, value_at
+from tandemlift.missions.changes import Tables
 from tandemlift.missions.loading import MissionTemplate
 
 SEED = "mission.seed"
@@ -185,9 +185,7 @@ class StudyPlan:
 
     def _absolute(self, key: str, value: Any, variant: int) -> Any:
         """The value of a draw, which may be relative to the mission's own."""
-        if not self.drawn[key].relative:
-            return value
-        return _times(value_at(self._own[variant][1], place_of(key)), value, key, self.variants[variant].mission)
+        return absolute(self.drawn[key], key, value, self._own[variant][1], self.variants[variant].mission)
 
     def mission(self, row: StudyRow) -> Mission:
         """The mission of a row.
@@ -239,17 +237,3 @@ class StudyPlan:
                 "controller by a mission file, or fly it in a study of its own."
             )
         return f"controller {self.variants[variant].controller}: {many} is refused: {refusals[0]}{hint}"
-
-
-def _times(own: Any, factor: Any, key: str, mission: str) -> Any:
-    """A mission's own value times a factor, or times one factor for each entry of a list."""
-    if isinstance(own, (list, tuple)):
-        factors = factor if isinstance(factor, list) else [factor] * len(own)
-        if len(factors) == len(own):
-            return [_times(x, f, key, mission) for x, f in zip(own, factors, strict=True)]
-    elif isinstance(own, (int, float)) and not isinstance(own, bool) and not isinstance(factor, list):
-        return own * factor
-    what = "is not set" if own is MISSING else f"= {own!r}"
-    raise InputError(
-        f"draw.{key}: relative = true, but in mission {mission} the key {what}; it must be as many numbers"
-    )

@@ -1,0 +1,1 @@
+"""Environments of Gymnasium: tasks of this field over flights that step together."""
