@@ -9,7 +9,6 @@ flight.metrics()["final_position_m"]
 from __future__ import annotations
 
 import importlib
-import sys
 from typing import TYPE_CHECKING, Any
 
 from tandemlift.core.files import __version__ as __version__
@@ -96,7 +95,3 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted([*globals(), *_HOMES])
-
-
-if "gymnasium" in sys.modules:
-    __getattr__("register_environments")()

@@ -5,28 +5,30 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import gymnasium
 import numpy as np
-from gymnasium.spaces import Box
-from gymnasium.vector import AutoresetMode, VectorEnv
-from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from tandemlift.analysis.learning.actions import ActionLevel
-from tandemlift.analysis.learning.tasks import TASKS, Level, Task
+from tandemlift.analysis.learning.tasks import TASKS, LearningTask, Level
 from tandemlift.analysis.studies.design.draws import absolute, dimensions_of, drawn_keys, values_at
 from tandemlift.analysis.studies.design.persons import random_person
-from tandemlift.core.errors import InputError, shown, suggestion
+from tandemlift.core.errors import InputError, extra, shown, suggestion
 from tandemlift.core.types import Array
 from tandemlift.missions import load_mission, tables_of
 from tandemlift.simulation.blocks.block import Block
+
+with extra("gymnasium", "an environment for learning"):
+    import gymnasium
+    from gymnasium.spaces import Box
+    from gymnasium.vector import AutoresetMode, VectorEnv
+    from gymnasium.vector.utils import batch_space
 
 Observations = NDArray[np.float32]
 SHARED = "person.delay"  # of all flights of a block: not drawn
 SEEDS = 2**31
 
 
-def task_named(name: str) -> Task:
+def task_named(name: str) -> LearningTask:
     """A task by its name.
 
     Raises:

@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-from tandemlift.analysis.learning.tasks import TASKS
-from tandemlift.core.errors import InputError
+from typing import Any, cast
 
-HOME = "tandemlift.analysis.learning.environments"
+from tandemlift.analysis.learning.tasks import TASKS
+from tandemlift.core.errors import extra
 
 
 def register_environments() -> None:
-    """Register `tandemlift/FollowHand-v0` and the others with Gymnasium, as `import tandemlift` does once it is loaded.
+    """Register `tandemlift/Transport-v0` and the other environments with Gymnasium.
 
     Raises:
         InputError: Gymnasium is not installed.
     """
-    try:
+    with extra("gymnasium", "an environment for learning"):
         from gymnasium.envs.registration import register, registry
-    except ImportError:
-        raise InputError("gymnasium is not installed: pip install 'tandemlift[gymnasium]'") from None
-    for name in TASKS:
-        if f"tandemlift/{name}-v0" not in registry:
-            register(
-                f"tandemlift/{name}-v0",
-                entry_point=f"{HOME}:FlightEnv",
-                vector_entry_point=f"{HOME}:FlightVectorEnv",
-                kwargs={"task": name},
-                order_enforce=True,
-            )
+
+    from tandemlift.analysis.learning.environments import FlightEnv, FlightVectorEnv
+
+    for task in TASKS:
+        name = f"tandemlift/{task}-v0"
+        if name not in registry:
+            alone, many = cast("Any", FlightEnv), cast("Any", FlightVectorEnv)  # whose first argument has a name
+            register(name, entry_point=alone, vector_entry_point=many, kwargs={"task": task})

@@ -23,7 +23,7 @@ STRONG = 5.0  # N: a person's force that outweighs flying
 TURN = ((5.0, 0.0), (10.0, 3.0), (15.0, 0.0), (20.0, 3.0), (25.0, 3.0))  # m: the corridor of `zigzag`
 
 
-class Task(NamedTuple):
+class LearningTask(NamedTuple):
     """A task.
 
     Attributes:
@@ -85,7 +85,7 @@ def way(block: Block, goal: Array) -> Array:
 
 FLOWN = ("velocity", "attitude", "rates")
 TASKS = {
-    "Transport": Task(
+    "Transport": LearningTask(
         "Carry the load to a goal, and keep it there.",
         "iris",
         LIFTED,
@@ -96,7 +96,7 @@ TASKS = {
         seen=("position", *FLOWN),
         goal=(3.0, 3.0, 0.5),
     ),
-    "FollowHand": Task(
+    "FollowHand": LearningTask(
         "Follow the hand of a person who leads the load along a path, so that it has to push least.",
         "iris",
         {
@@ -111,7 +111,7 @@ TASKS = {
         rewarded=ease,
         seen=(*FLOWN, "push_estimate", "admittance_velocity"),
     ),
-    "Corridor": Task(
+    "Corridor": LearningTask(
         "Lead the load through a winding corridor, by pushing it, and touch no wall.",
         "zigzag",
         {**LIFTED, "person.model": "none"},
@@ -121,7 +121,7 @@ TASKS = {
         rewarded=way,
         seen=("position", *FLOWN),
     ),
-    "Gusts": Task(
+    "Gusts": LearningTask(
         "Hold the load where it is in wind and gusts.",
         "gusts",
         {**LIFTED, "wind.gusts.0.start": 7.0, "wind.gusts.1.start": 15.0},
@@ -131,7 +131,7 @@ TASKS = {
         rewarded=accuracy,
         seen=("position", "reference_position", *FLOWN),
     ),
-    "RotorLoss": Task(
+    "RotorLoss": LearningTask(
         "Stay in the air where a rotor is lost.",
         "rotor-loss",
         {**LIFTED, "faults.0.time": 6.0},
