@@ -5,7 +5,7 @@ And what they write at the end of a step: the next state, a row of the log, metr
 
 from __future__ import annotations
 
-from tandemlift.compiler.tracer import Function, Module, Place, Symbol, double
+from tandemlift.compiler.tracer import LEAVES, Function, Module, Place, Symbol, double
 from tandemlift.core.types import leaves
 from tandemlift.simulation.preparation.external_inputs import HALVES, SPAN
 from tandemlift.simulation.preparation.memory import AT, MEMORY, POINTERS, ScratchLayout
@@ -110,7 +110,7 @@ class StepWriter:
 
     def store_values(self, f: Function, at: int, values: Symbols) -> None:
         """Write values to scratch memory."""
-        f.put("%work", at, values)
+        f.update("%work", at, values)
 
     @property
     def keeps_touches(self) -> bool:
@@ -166,37 +166,57 @@ def _write_samples_of_lanes(step: StepWriter, f: Function, row: str, logged: str
                 f.store(f.load("%work", at, "double"), log, f.integer("add", to, m), "double")
 
 
-def write_next_state(step: StepWriter, f: Function, k: str) -> None:
-    """Write the state of the flight after step k, and exchange delayed values with the delay lines.
-
-    The record of touches is written in steps near floor or walls only; in others it stays.
-    """
-    after, detectors = list(step.traced.next_state), leaf_offset(step.templates.model, "flight_state", "detectors")
-    watches = not step.graph.rolls_from
-    if watches:
-        after = after[: detectors.at]
+def _numbers_of_each_step(step: StepWriter) -> Symbols:
+    """The numbers of the next state that every step writes: not those of detectors, nor touches, which stay."""
+    after = list(step.traced.next_state)
+    if not step.graph.rolls_from:
+        after = after[: leaf_offset(step.templates.model, "flight_state", "detectors").at]
     if step.keeps_touches:
         at, size = step.touches
-        touches, after[at : at + size] = after[at : at + size], step.traced.touches_before
-    if watches:
-        f.values([*after, *_read_by_detectors(step, detectors)])
-    f.put("%flight", 0, after, "fly")
+        after[at : at + size] = step.traced.touches_before
+    return after
+
+
+def write_early(step: StepWriter, f: Function, more: Symbols, done: set[int], *unknown: str) -> None:
+    """Compute `more`, and write the numbers of the next state that need no `unknown` kind of input; see `update`."""
+    f.update("%flight", 0, _numbers_of_each_step(step), "fly", more, done, step.all_roots, unknown)
+
+
+def write_next_state(step: StepWriter, f: Function, k: str, done: set[int] | None = None) -> None:
+    """Write the state of the flight after step k, and exchange delayed values with the delay lines.
+
+    The record of touches is written in steps near floor or walls only; in others it stays. `done`: numbers written
+    already.
+    """
+    after, detectors = _numbers_of_each_step(step), leaf_offset(step.templates.model, "flight_state", "detectors")
+    watches = not step.graph.rolls_from
+    read = _read_by_detectors(step, f, [s.node for s in after], detectors) if watches else []
+    if f.orders:
+        f.hold(s.node for s in read if step.graph.ops[s.node] == "in" and s.node not in f.same)
+    f.update("%flight", 0, after, "fly", read, done)
     if step.keeps_touches:
         near = f.load("%work", step.near * step.lanes, "double")
         with f.when(f.op(f"fcmp one double {near}, 0.0")):
-            f.put("%flight", at, touches)
+            at, size = step.touches
+            f.put("%flight", at, step.traced.next_state[at : at + size])
     if watches:
         _write_detectors(step, f, detectors)
     if step.templates.has_delays:
         _write_delays(step, f, k)
 
 
-def _read_by_detectors(step: StepWriter, at: LeafSpan) -> list[Symbol]:
-    """The detectors' inputs from the state before the step, read before the state is written; their counters."""
+def _read_by_detectors(step: StepWriter, f: Function, roots: list[int], at: LeafSpan) -> list[Symbol]:
+    """The detectors' inputs from the state before the step, read before the state is written; their counters.
+
+    `roots`: of the state that is written before; what it needs is known to the detectors, but in a block no input.
+    """
     g, state = step.graph, step.traced.next_state[at.at : at.at + at.size]
-    needed = g.needed([s.node for s in state])
-    inputs = [n for n in needed if g.ops[n] == "in" and g.args[n][0] == "fly" and g.args[n][1] < at.at]
-    return [*(Symbol(g, n, g.types[n]) for n in inputs), *(state[i] for i in _counters(step))]
+    counters = [state[i] for i in _counters(step)]
+    early = set(g.needed([*roots, *(s.node for s in counters)])) if f.orders else set()
+    known = {n for n in early if g.ops[n] not in LEAVES} | f.known() if f.orders else ()
+    inputs = [n for n in g.needed([s.node for s in state], known) if g.ops[n] == "in"]
+    old = [n for n in inputs if g.args[n][0] == "fly" and (g.args[n][1] < at.at or n in early)]
+    return [*(Symbol(g, n, g.types[n]) for n in (*old, *f.same.keys() & set(inputs))), *counters]
 
 
 def _counters(step: StepWriter) -> list[int]:
