@@ -18,11 +18,11 @@ from tandemlift.codegen.c_statements import Statements
 from tandemlift.codegen.c_text import FunctionHead, function
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import ZERO
+from tandemlift.simulation.loop import external_inputs
+from tandemlift.simulation.loop.external_inputs import ROWS, draw_count
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation import external_inputs
-from tandemlift.simulation.preparation.external_inputs import ROWS, draw_count
 from tandemlift.simulation.preparation.memory import COUNTS
-from tandemlift.simulation.preparation.step_writer import COMMAND_LINE
+from tandemlift.simulation.preparation.step_end import COMMAND_LINE
 from tandemlift.simulation.preparation.templates import templates_from
 from tandemlift.simulation.preparation.traced_step import Symbols, TracedStep
 

@@ -16,8 +16,8 @@ from tandemlift.codegen.c_text import FunctionHead, function
 from tandemlift.codegen.c_types import Names, leaf_paths
 from tandemlift.compiler.tracer import LEAVES, Function, Module, Place, Symbol, symbols
 from tandemlift.core.types import rebuilt
+from tandemlift.simulation.loop.external_inputs import ROWS
 from tandemlift.simulation.preparation.assemble import AssembledFlight
-from tandemlift.simulation.preparation.external_inputs import ROWS
 from tandemlift.simulation.preparation.memory import ScratchLayout
 from tandemlift.simulation.preparation.precompute import ScratchValues
 from tandemlift.simulation.preparation.traced_assembly import TracedAssembly

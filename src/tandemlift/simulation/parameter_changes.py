@@ -18,6 +18,7 @@ from tandemlift.core.types import Array, flat, leaves
 from tandemlift.core.vector import Absent, layout
 from tandemlift.missions import changed
 from tandemlift.missions.recording import read_recording
+from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset
 
@@ -154,6 +155,9 @@ class ParameterChanges:
         while self.next_row < len(steps) and steps[self.next_row] <= k:
             self.next_row += 1
         return self.moved.hands[self.next_row - 1] if self.next_row > row else None
+
+
+HAND_PARTS = {name: leaf_offset(HAND_RELEASED, name) for name in HAND_RELEASED._fields}  # places in the hand's numbers
 
 
 def hand_place(p: FlightPlan) -> slice:

@@ -19,8 +19,9 @@ from tandemlift.parts.interaction.caller_inputs import CallerInput
 from tandemlift.parts.interaction.outside_push import OutsidePush
 from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.simulation.loop.log_sample import Sample
-from tandemlift.simulation.preparation import FlightStart, LoopCode, PythonController, TimeGrid
+from tandemlift.simulation.preparation import FlightStart, LoopCode, PythonController, TimeGrid, leaf_offset
 from tandemlift.simulation.preparation.assemble import assemble
+from tandemlift.simulation.preparation.templates import LeafSpan
 from tandemlift.simulation.preparation.traced_assembly import assembled_by_graph
 
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second
@@ -79,6 +80,10 @@ class FlightPlan:
     def sample(self) -> Sample:
         """The layout of a row of the log."""
         return self.loop_code.templates.sample
+
+    def place(self, *path: str) -> LeafSpan:
+        """The place of a part of the flight among its numbers, by its path from `FlightModel`."""
+        return leaf_offset(self.model, *path)
 
     @property
     def stepwise(self) -> bool:

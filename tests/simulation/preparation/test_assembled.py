@@ -7,7 +7,7 @@ import tandemlift as tl
 from tandemlift.compiler.tracer import TraceError
 from tandemlift.core.vector import ZERO, Absent, Vec3
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.simulation.loop.delays import Delayed
+from tandemlift.simulation.loop.sources import Delayed
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation.assemble import assemble, delay_lines_from
 from tandemlift.simulation.preparation.memory import aligned

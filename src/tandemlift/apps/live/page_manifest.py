@@ -27,9 +27,8 @@ from tandemlift.missions.changes import Tables
 from tandemlift.missions.keys import allowed, bounds, plain
 from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.outcome import NOT_FINITE, cause_of, limit_of
-from tandemlift.simulation.parameter_changes import LATER, NO_EFFECT, scheduled_change
+from tandemlift.simulation.parameter_changes import HAND_PARTS, LATER, NO_EFFECT, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND, MISSION
 from tandemlift.simulation.stepping import GUIDANCE_MEMORY
 
@@ -100,14 +99,14 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
             for i, f in enumerate(mission.faults)
         ],
         "never": NEVER,
-        "hand": {name: leaf_offset(HAND_RELEASED, name) for name in HAND_RELEASED._fields},
+        "hand": HAND_PARTS,
         "released": flat(HAND_RELEASED),
         "engine": ENGINE,
-        "plant": leaf_offset(plan.model, "plant"),
-        "lost": leaf_offset(plan.model, "flight_state", "ended").at,
-        "hover_time": leaf_offset(plan.model, "flight_state", *checks.HOVER_TIME).at if rule.tare_duration else -1,
-        "guidance": [leaf_offset(plan.model, *path) for path in (("pilot", "guidance"), GUIDANCE_MEMORY)],
-        "ending": [leaf_offset(plan.model, *path) for path in ENDING_PARTS],
+        "plant": plan.place("plant"),
+        "lost": plan.place("flight_state", "ended").at,
+        "hover_time": plan.place("flight_state", *checks.HOVER_TIME).at if rule.tare_duration else -1,
+        "guidance": [plan.place(*path) for path in (("pilot", "guidance"), GUIDANCE_MEMORY)],
+        "ending": [plan.place(*path) for path in ENDING_PARTS],
         "frame": frame_fields(plan),
         "challenge": _challenge(plan),
         "phase_times": list(phase_times(tables["phases"])),

@@ -24,7 +24,10 @@ LAW: ContextVar[Callable[..., Any] | None] = ContextVar("law", default=None)  # 
 
 
 class Graph:
-    """Nodes by number, in the order of their creation: arguments come first; `laws`: which law made each first."""
+    """Nodes by number, in the order of their creation: arguments come first.
+
+    `laws`: which law made each first. `uniform`: for kinds of inputs, whether each node depends on no other.
+    """
 
     def __init__(self, rolls_from: int = 0) -> None:
         self.ops: list[str] = []
@@ -33,6 +36,7 @@ class Graph:
         self.counts: list[int] = []
         self.laws: list[Callable[..., Any] | None] = []
         self.rolls_from = rolls_from
+        self.uniform: dict[frozenset[str], list[bool]] = {}
         self._known: dict[Any, int] = {}
 
     def node(self, op: str, args: tuple[Any, ...], kind: str, count: int = -1) -> int:
@@ -63,6 +67,13 @@ class Graph:
             if self.ops[node] not in LEAVES:
                 stack += self.args[node]
         return sorted(seen)
+
+    def dependent(self, kinds: Container[str]) -> list[bool]:
+        """For each node, whether it depends on an input of these kinds."""
+        found = list[bool]()
+        for op, args in zip(self.ops, self.args, strict=True):
+            found.append(args[0] in kinds if op == "in" else op != "const" and any(found[a] for a in args))
+        return found
 
     def input(self, kind: str, index: int = 0, type: str = "f") -> Symbol:
         """An input: a number that is known only when the graph is evaluated."""

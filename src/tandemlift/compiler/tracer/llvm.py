@@ -7,18 +7,18 @@ known only there.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
 from tandemlift.compiler.tracer.graph import LEAVES, Graph
+from tandemlift.compiler.tracer.order import NumbersInMemory, best_order, urgency
 from tandemlift.compiler.tracer.rolled import GraphText, Place, Sets
 from tandemlift.compiler.tracer.symbol import Symbol
 from tandemlift.compiler.tracer.text import BASE, Module, constant
 
 BINARY = frozenset(["fadd", "fsub", "fmul", "fdiv", "add", "sub", "mul", "and", "or", "xor", "shl", "ashr"])
 INTRINSICS = {"fma": "fma", "sqrt": "sqrt", "fabs": "fabs", "floor": "floor"}
-CYCLES = {"fma": 4, "fmul": 3, "fadd": 3, "fsub": 3, "fdiv": 13, "sqrt": 20, "select": 2}  # approximate latency
 Read = Callable[[int], "str | Place"]
 
 
@@ -35,15 +35,20 @@ class Function(GraphText):
     Attributes:
         read: for each kind of input, a function from its index to its text or place.
         kept: nodes computed elsewhere before, each with a function to its text or place.
+        same: inputs that are computed in this function, each with the node that computes it.
         sets: large sets of numbers.
+        orders: whether nodes are written in an order of few waiting values, and memory is read where it is used.
+        seldom: whether what is written now runs seldom, and needs no other order than that of creation.
     """
 
     def __init__(self, module: Module, graph: Graph, lanes: int, head: str, uniform: Iterable[str] = ()) -> None:
         super().__init__(module, lanes, head)
-        self.graph, self.sets = graph, Sets(self)
+        self.graph, self.sets, self.orders = graph, Sets(self), lanes > 1 and not graph.rolls_from
+        self.same, self.seldom = dict[int, int](), False
         self.read: dict[str, Read] = {}
         self.kept: dict[int, Callable[[], str | Place]] = {}
-        self._uniform_kinds, self._uniform = frozenset(uniform), list[bool]()
+        self._uniform_kinds = frozenset(uniform)
+        self._uniform = graph.uniform.setdefault(self._uniform_kinds, [])
         self._values: dict[int, str] = {}
         self._spread: dict[int, str] = {}
 
@@ -109,7 +114,7 @@ class Function(GraphText):
         return BASE[type] if uniform or self.lanes == 1 else f"<{self.lanes} x {BASE[type]}>"
 
     def _operand(self, node: int, spread: bool) -> str:
-        g = self.graph
+        g, node = self.graph, self.same.get(node, node)
         if g.ops[node] == "const":
             text = constant(g.args[node][0])
             return f"splat ({BASE[g.types[node]]} {text})" if spread and self.lanes > 1 else text
@@ -117,30 +122,35 @@ class Function(GraphText):
             if node not in self._spread:
                 self._spread[node] = self.spread(self._values[node], BASE[g.types[node]])
             return self._spread[node]
+        if node not in self._values:
+            return self._text_of(self._given(node))
         return self._values[node]
 
-    def _missing(self, roots: list[int]) -> list[int]:
-        g, seen = self.graph, set[int]()
-        stack = list(roots)
+    def _given(self, node: int) -> str | Place:
+        if node in self.kept:
+            return self.kept[node]()
+        kind, index = self.graph.args[node]
+        return self.read[kind](index)
+
+    def _missing(self, roots: Iterable[int]) -> list[int]:
+        seen, stack = set[int](), list(roots)
         while stack:
             node = stack.pop()
+            node = self.same.get(node, node)
             if node in seen or node in self._values or node in self.sets.places:
                 continue
             seen.add(node)
             if not self.is_leaf(node):
-                stack += g.args[node]
-        return sorted(seen) if self.lanes > 1 or g.rolls_from else self._by_urgency(sorted(seen))
+                stack += self.graph.args[node]
+        return sorted(seen)
 
-    def _by_urgency(self, nodes: list[int]) -> list[int]:
-        """Nodes in the order of the longest chain of operations that depends on them, longest first."""
-        g, urgency = self.graph, dict.fromkeys(nodes, 0)
-        for node in reversed(nodes):
-            if g.ops[node] not in LEAVES and node not in self.kept:
-                after = urgency[node] + CYCLES.get(g.ops[node], 1)
-                for argument in g.args[node]:
-                    if argument in urgency and urgency[argument] < after:
-                        urgency[argument] = after
-        return sorted(nodes, key=lambda node: (-urgency[node], node))
+    def _operands(self, nodes: list[int]) -> dict[int, Sequence[int]]:
+        """Each of some nodes with those among them that it needs; leaves need none."""
+        among, args, same = set(nodes), self.graph.args, self.same
+        return {
+            n: [] if self.is_leaf(n) else [a for a in dict.fromkeys(same.get(a, a) for a in args[n]) if a in among]
+            for n in nodes
+        }
 
     def is_leaf(self, node: int) -> bool:
         """Whether a node is available without its arguments."""
@@ -151,9 +161,67 @@ class Function(GraphText):
         nodes = self._missing(roots)
         if any(self.graph.counts[node] for node in nodes):
             self.sets.write(nodes, roots)
+        elif self.orders:
+            self._write_ordered(nodes, NumbersInMemory([], "", roots))
         else:
+            if self.lanes == 1 and not self.graph.rolls_from:
+                after = urgency(self.graph, self._operands(nodes))
+                nodes.sort(key=lambda node: (-after[node], node))
             for node in nodes:
                 self.write_number(node)
+
+    def _write_ordered(self, nodes: list[int], to: NumbersInMemory, base: str = "", at: str | int = 0) -> None:
+        """Write nodes in an order of few waiting values; with `base`, numbers to memory as soon as that is possible."""
+        work = [node for node in nodes if not self.is_leaf(node)]
+        for node in set(nodes).difference(work):
+            if self.is_uniform(node):
+                self.write_number(node)
+        operands = dict.fromkeys(work, ()) if self.seldom else self._operands(work)
+        order, stores = best_order(self.graph, operands, to, self.same, seldom=self.seldom)
+        for place, node in enumerate([-1, *order], -1):
+            if node >= 0:
+                self.write_number(node)
+            for i, value in [(i, self.operand(to.numbers[i])) for i in stores.get(place, ())]:
+                self.store(value, base, self.integer("add", at, i))
+
+    def hold(self, nodes: Iterable[int]) -> None:
+        """Read inputs now, whatever is written to memory later."""
+        self._values |= {node: self._operand(node, spread=False) for node in nodes}
+
+    def update(
+        self,
+        base: str,
+        at: str | int,
+        symbols: Sequence[Symbol],
+        kind: str = "",
+        more: Sequence[Symbol] = (),
+        done: set[int] | None = None,
+        later: Sequence[Symbol] = (),
+        unknown: Container[str] = (),
+    ) -> None:
+        """Write numbers to consecutive memory, in which the inputs of `kind` stand, and no other of their inputs.
+
+        In a block, each is written as soon as nothing reads the old one any more. `more` are computed too. `done` holds
+        the places of numbers written before, and gets theirs. While kinds of input are `unknown`, only those numbers
+        are written that need none of them, and replace nothing that `later` will read.
+        """
+        if not self.orders:
+            if more:
+                self.values([*symbols, *more])
+            self.put(base, at, symbols, kind)
+            return
+        g, done, late = self.graph, set() if done is None else done, set[int]()
+        numbers, also = ([self.same.get(s.node, s.node) for s in given] for given in (symbols, more))
+        if unknown:
+            depends = g.dependent(unknown)
+            late = {i for i, n in enumerate(numbers) if depends[n]}
+        nodes = self._missing([*[n for i, n in enumerate(numbers) if i not in late | done], *also])
+        if unknown:
+            known = {n for n in nodes if not self.is_leaf(n)} | self.known() | self.kept.keys()
+            read = [g.args[n] for n in g.needed([s.node for s in later], known) if g.ops[n] == "in"]
+            late |= {i for of, i in read if of == kind}
+        self._write_ordered(nodes, NumbersInMemory(numbers, kind, also, late | done), base, at)
+        done |= set(range(len(numbers))) - late
 
     def write_number(self, node: int) -> None:
         """Compute a number whose arguments are already computed."""
@@ -161,10 +229,8 @@ class Function(GraphText):
         op, args = g.ops[node], g.args[node]
         if op == "const" or node in self._values:  # the reader of an input may compute other nodes
             return
-        if op == "in":
-            self._values[node] = self._text_of(self.read[args[0]](args[1]))
-        elif node in self.kept:
-            self._values[node] = self._text_of(self.kept[node]())
+        if self.is_leaf(node):
+            self._values[node] = self._text_of(self._given(node))
         elif op.startswith("get "):
             at = self.sets.places[args[0]]
             self._values[node] = self.load(at.base, self.integer("add", at.first, int(op[4:]) * at.stride))

@@ -4,7 +4,7 @@ The inertial measurement unit (IMU) holds an accelerometer at the payload's orig
 force-torque sensors at the joints run on its clock; all read in body axes. The motion measurement reads position and
 velocity of the system's centre of mass in world axes, and the attitude. An additional sensor is a device of its own
 (`additional_sensors`). Between samples the last one is held, no longer fresh. Delays from the sensors to the pilot are
-in the loop (`simulation.loop.delays`).
+in the loop (`simulation.loop.sources`).
 """
 
 from __future__ import annotations

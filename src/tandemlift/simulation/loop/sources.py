@@ -1,4 +1,4 @@
-"""The pilot's sources of state, push and walls: the truth, the measurement or the estimate."""
+"""The pilot's sources of state, push and walls: the truth, the measurement or the estimate; and what comes late."""
 
 from __future__ import annotations
 
@@ -134,3 +134,23 @@ def push_without_drag(vehicle: NominalVehicle, state: State, force: Vec3, moment
 
 READS: dict[str, Source] = {"truth": TruthSource(), "measurement": MeasurementSource(), "estimate": EstimateSource()}
 MAPS: dict[str, KnownWalls | Absent] = {"none": Absent(), "walls": KnownWalls()}
+
+
+# ---- Delay lines: of readings on their way to the pilot, of commands to the rotors, of the view of a person
+
+
+class Delayed(NamedTuple):
+    """Marks a delayed signal; the number of steps is data of the loop."""
+
+
+class DelayLines(NamedTuple):
+    """Delays of the IMU and motion readings, of the rotor commands and of the person's view.
+
+    Each is `Delayed` or `Absent`; those of additional sensors' readings by name.
+    """
+
+    imu: Delayed | Absent
+    motion: Delayed | Absent
+    command: Delayed | Absent
+    view: Delayed | Absent
+    additional: tuple[Delayed | Absent, ...] = Absent()

@@ -40,7 +40,6 @@ from tandemlift.parts.pilot.pilot import (
 )
 from tandemlift.parts.rotors.rotors import Rotors, RotorState, rotors_step
 from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState
-from tandemlift.simulation.loop.delays import DelayLines
 from tandemlift.simulation.loop.detectors import Detectors, FindingLimits, detect
 from tandemlift.simulation.loop.ending import (
     CrashLimits,
@@ -71,7 +70,7 @@ from tandemlift.simulation.loop.perception import (
     usable,
 )
 from tandemlift.simulation.loop.running_metrics import RunningMetrics, contribution_of, count
-from tandemlift.simulation.loop.sources import PilotSources, read_push, read_state
+from tandemlift.simulation.loop.sources import DelayLines, PilotSources, read_push, read_state
 
 
 class FlightState(NamedTuple):

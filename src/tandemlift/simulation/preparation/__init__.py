@@ -6,8 +6,8 @@ A flight is a flat array of the numbers of a `FlightModel`; a block holds LANES 
 instruction serves all of them. The laws are the same, and so is every bit of the result.
 """
 
+from tandemlift.simulation.loop.external_inputs import GAUSSIAN, GUST, HALVES, LANES, SPAN, InputTables
 from tandemlift.simulation.preparation.compiled_flight import LoopCode
-from tandemlift.simulation.preparation.external_inputs import GAUSSIAN, GUST, HALVES, LANES, SPAN, InputTables
 from tandemlift.simulation.preparation.memory import FlightMemory, FlightStart, TimeGrid
 from tandemlift.simulation.preparation.templates import COMMAND, GIVEN, PythonController, Templates, leaf_offset
 

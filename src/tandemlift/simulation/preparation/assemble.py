@@ -37,7 +37,7 @@ from tandemlift.parts.sensors.readings import (
 )
 from tandemlift.parts.sensors.sensor_faults import sensor_faults_from
 from tandemlift.parts.sensors.sensors_table import SensorsTable, sensors_from
-from tandemlift.simulation.loop.delays import Delayed, DelayLines
+from tandemlift.simulation.loop.external_inputs import InputTables, input_tables_from, near_walls_from, push_kind
 from tandemlift.simulation.loop.fault_tolerant_perception import (
     FaultySensors,
     FaultySensorsState,
@@ -49,9 +49,8 @@ from tandemlift.simulation.loop.fault_tolerant_perception import (
 from tandemlift.simulation.loop.perception import Estimators, EstimatorState
 from tandemlift.simulation.loop.random_numbers import key_from_seed
 from tandemlift.simulation.loop.running_metrics import EMPTY, NO_EFFORT, RunningMetrics
-from tandemlift.simulation.loop.sources import MAPS, READS, PilotSources
+from tandemlift.simulation.loop.sources import MAPS, READS, Delayed, DelayLines, PilotSources
 from tandemlift.simulation.loop.step import FlightModel, FlightState, StepInputs, StepNoise
-from tandemlift.simulation.preparation.external_inputs import InputTables, input_tables_from, near_walls_from, push_kind
 from tandemlift.simulation.preparation.limits import (
     crash_limits_from,
     finding_limits_from,

@@ -120,12 +120,12 @@ def write_solver(module: Module, solver: TracedSolver, lanes: int) -> None:
     search = solver.problem_size
     f.read = {"problem": lambda i: Place("%s", i), "search": lambda i: Place("%s", search + i)}
     with f.scope():
-        f.put("%s", search, solver.begun, "search")
+        f.update("%s", search, solver.begun, "search")
     f.label("first")
     f.label("search")
     f.lines.append("  %step = phi i64 [ 1, %first ], [ %next, %goes_on ]")
     with f.scope():
-        f.put("%s", search, solver.after, "search")
+        f.update("%s", search, solver.after, "search")
     f.lines.append("  %next = add i64 %step, 1")
     ended = f.load("%s", search + len(solver.after) - 1)
     goes_on = f.any(f.op(f"fcmp oeq {f.vector} {ended}, {f.zero}"))

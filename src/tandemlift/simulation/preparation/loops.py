@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from tandemlift.compiler.tracer import LEAVES, Function, Place, Symbol, double
-from tandemlift.simulation.preparation.external_inputs import SPAN
+from tandemlift.simulation.loop.external_inputs import SPAN
 from tandemlift.simulation.preparation.limit_solver import write_limits, write_solver
 from tandemlift.simulation.preparation.precompute import (
     ScratchValues,
@@ -22,7 +22,8 @@ from tandemlift.simulation.preparation.precompute import (
     write_surroundings,
     write_walls,
 )
-from tandemlift.simulation.preparation.step_writer import StepWriter, write_next_state, write_sample
+from tandemlift.simulation.preparation.step_end import write_early, write_next_state, write_sample
+from tandemlift.simulation.preparation.step_writer import StepWriter
 from tandemlift.simulation.preparation.traced_step import Symbols
 
 
@@ -90,6 +91,8 @@ class LoopWriter(StepWriter):
         if not self.traced.body_in_free_air:
             if self.graph.rolls_from or self.largest:
                 self.store_values(f, self.moved, self.traced.body_in_contact)
+            elif f.orders:
+                f.same |= {self.graph.input("moved", i).node: s.node for i, s in enumerate(self.traced.body_in_contact)}
             else:
                 f.read["moved"] = lambda i: f.value(self.traced.body_in_contact[i])  # computed where it is read
             return
@@ -99,9 +102,11 @@ class LoopWriter(StepWriter):
         for name, values in bodies.items():
             f.lines.append(f"{name}:")
             f.store(double(float(name == near)), "%work", self.near * self.lanes, "double")
+            f.seldom = name == near
             with f.scope():
                 self.store_values(f, self.moved, values if name == near else values[: self.moved_touches])
             f.do(f"br label %{done}")
+        f.seldom = False
         f.lines.append(f"{done}:")
 
     def _choose_body(self, f: Function, near: str, feet: str, clear: str) -> None:
@@ -152,7 +157,7 @@ class LoopWriter(StepWriter):
         f.do(f"br i1 {self.is_halted(f)}, label %over, label %step")
         f.lines.append("step:")
         self.begin_step(f, "%k")
-        sample, go_on = self._step_in_pieces(f, kept) if self.largest else self._step_in_place(f)
+        sample, go_on = self._step_in_pieces(f, kept) if self.largest else self._step_in_place(f, steps)
         sample()
         ends = "over" if self.lanes == 1 else "ahead"
         f.do(f"br i1 {f.op(f'icmp eq i64 %k, {steps}')}, label %{ends}, label %on")
@@ -166,13 +171,31 @@ class LoopWriter(StepWriter):
         self.export("fly")
         return self.module.text
 
-    def _step_in_place(self, f: Function) -> StepHalves:
+    def _step_in_place(self, f: Function, steps: str) -> StepHalves:
+        x, done = self.traced, set[int]()
+        early = f.orders and bool(x.limits or x.body_in_free_air)
+
         def sample() -> None:
+            if early:
+                final = f.op(f"icmp eq i64 %k, {steps}")
+                before = f.at("%work", self.scratch.take("before", self.state_size))
+                self._copy_state(f, final, "%flight", before)
+            if early and x.limits:
+                write_early(self, f, [x.limits.beyond, *x.limits.plain], done, "solved", "moved")
             self.limit_thrusts(f)
+            if early and x.body_in_free_air:
+                write_early(self, f, x.body.acting, done, "moved")
             self.step_body(f)
             write_sample(self, f, "%k")
+            if early:
+                self._copy_state(f, final, before, "%flight")
 
-        return StepHalves(sample, lambda: write_next_state(self, f, "%k"))
+        return StepHalves(sample, lambda: write_next_state(self, f, "%k", done))
+
+    def _copy_state(self, f: Function, is_last: str, source: str, to: str) -> None:
+        """Copy the numbers that change from step to step in the last step, which takes a sample and changes none."""
+        with f.when(is_last), f.repeat(self.state_size) as i:
+            f.store(f.load(source, i), to, i)
 
     def _step_in_pieces(self, f: Function, kept: ScratchValues) -> StepHalves:
         """Write a step as functions of some `largest` operations each, which are called one after another."""

@@ -18,7 +18,7 @@ from tandemlift.parts.interaction.person import PathLeg
 from tandemlift.parts.mechanics.push import GaussianPush
 from tandemlift.parts.mechanics.wall_geometry import Wall
 from tandemlift.parts.mechanics.wind import Gust
-from tandemlift.simulation.preparation.external_inputs import ROWS, InputTables
+from tandemlift.simulation.loop.external_inputs import ROWS, InputTables
 
 Numbers = NDArray[np.float64]
 Words = NDArray[np.int64]

@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 from tandemlift.compiler.tracer import LEAVES, Function, Graph, Place, Symbol, symbols
 from tandemlift.core.types import leaves
-from tandemlift.simulation.preparation.external_inputs import HALVES, ROWS, SPAN
+from tandemlift.simulation.loop.external_inputs import HALVES, ROWS, SPAN
 from tandemlift.simulation.preparation.memory import MEMORY, ScratchLayout
 from tandemlift.simulation.preparation.step_writer import StepWriter
 from tandemlift.simulation.preparation.templates import leaf_offset

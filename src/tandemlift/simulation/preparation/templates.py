@@ -122,7 +122,7 @@ NONE = LeafSpan(0, 0)
 
 
 class DelayedSpans(tuple[LeafSpan, ...]):
-    """The delayed parts of a flight, in the order of `simulation.loop.delays.DelayLines`; additional sensors one by
+    """The delayed parts of a flight, in the order of `simulation.loop.sources.DelayLines`; additional sensors one by
     one.
 
     Each is a span of the flight's numbers, empty without delay. A row of the delay lines holds them one after another.

@@ -23,6 +23,15 @@ from tandemlift.parts.controllers import control
 from tandemlift.parts.mechanics.push import push_at, push_moment
 from tandemlift.parts.mechanics.wind import gust_velocity
 from tandemlift.parts.pilot.pilot import control_input, with_command
+from tandemlift.simulation.loop.external_inputs import (
+    ROWS,
+    draw_count,
+    draw_normals,
+    floor_is_near,
+    nearest_walls,
+    push_is_active,
+    walls_are_due,
+)
 from tandemlift.simulation.loop.step import (
     PilotOutput,
     StepInputs,
@@ -33,15 +42,6 @@ from tandemlift.simulation.loop.step import (
     step_body,
     with_caller_thrusts,
     with_person,
-)
-from tandemlift.simulation.preparation.external_inputs import (
-    ROWS,
-    draw_count,
-    draw_normals,
-    floor_is_near,
-    nearest_walls,
-    push_is_active,
-    walls_are_due,
 )
 from tandemlift.simulation.preparation.limit_solver import LimitProblem, limit_thrusts
 from tandemlift.simulation.preparation.templates import COMMAND, Templates
