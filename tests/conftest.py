@@ -6,12 +6,15 @@ import os
 import shutil
 import signal
 import sys
+from pathlib import Path
 
 import hypothesis
 import pytest
 from quick import Quick
+from repository import SUPPORT
 
 from tandemlift.analysis.linearization.step_graph import GRAPHS
+from tandemlift.core.caching import LastUsed
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.simulation.plan import LOOP_CODE
 
@@ -55,10 +58,14 @@ def _controllers_of_a_module():
 
 
 def free_memory(module):
-    """Give back what a module's tests made and what its functions cached, to the system too."""
-    for value in vars(module).values():
-        if hasattr(value, "cache_clear") and value.__module__ == module.__name__:
-            value.cache_clear()
+    """Give back what a module's tests made, and what its functions and those that tests share cached."""
+    shared = [one for one in sys.modules.values() if Path(getattr(one, "__file__", None) or "").parent == SUPPORT]
+    for one in (module, *shared):
+        for value in vars(one).values():
+            if hasattr(value, "cache_clear") and value.__module__ == one.__name__:
+                value.cache_clear()
+            elif isinstance(value, LastUsed):
+                value.clear()
     LOOP_CODE.clear()
     GRAPHS.clear()
     if "jax" in sys.modules:
