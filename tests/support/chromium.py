@@ -39,6 +39,9 @@ SETTINGS = {
     "ground.model": "floor",
     "compliance.yaw.model": "compliant",
     "admittance.threshold": 0.3,
+    "phases.lift_start": 0.2,  # s: tests wait for the lift and for landings
+    "phases.lift_duration": 2.0,
+    "phases.land_duration": 4.0,
 }
 SIZE = {"width": 800, "height": 450}
 MS = 1e3 * PATIENCE
