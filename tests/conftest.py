@@ -6,6 +6,7 @@ import os
 import shutil
 import signal
 import sys
+import warnings
 from pathlib import Path
 
 import hypothesis
@@ -84,6 +85,22 @@ def _memory_of_a_module(request):
 @pytest.fixture(autouse=True)
 def _controllers_of_a_test():
     yield from forgetting_controllers()
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch, capsys):
+    """Run the command line in an empty folder: (exit code, standard output, standard error)."""
+    from tandemlift.apps.cli.main import main
+
+    monkeypatch.chdir(tmp_path)
+
+    def call(*arguments):
+        monkeypatch.setattr(sys, "argv", ["tandemlift", *arguments])
+        with warnings.catch_warnings(), pytest.raises(SystemExit) as ended:
+            main()
+        return ended.value.code or 0, *capsys.readouterr()
+
+    return call
 
 
 @pytest.fixture(scope="session")
