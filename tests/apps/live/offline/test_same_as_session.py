@@ -151,14 +151,6 @@ def check_same(session, flight, message, seconds):
         assert untimed(status) == statuses[status["recorded_s"]], message
 
 
-@pytest.fixture
-def session(tmp_path):
-    one = Session(page_mission("hover"), out=tmp_path)
-    one.prepare()
-    yield one
-    one.stop()
-
-
 def test_it_flies_and_answers_as_a_session_to_the_last_bit(session, flight, tmp_path):
     for message, seconds in MOVES:
         check_same(session, flight, message, seconds)
