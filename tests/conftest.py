@@ -23,6 +23,10 @@ if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # of a job in the backgro
     signal.signal(signal.SIGINT, lambda *_: None)
 os.environ.setdefault("TANDEMLIFT_OPTIMISE", "0")  # hundreds of variants fly once each: what is tested is asked for
 LIBC = ctypes.CDLL(None) if os.name == "posix" else None
+M_MMAP_THRESHOLD, M_ARENA_MAX = -3, -8  # names and numbers of glibc
+if hasattr(LIBC, "mallopt"):  # large arrays go back to the system when they are freed, and threads share two heaps
+    LIBC.mallopt(M_MMAP_THRESHOLD, 1 << 20)
+    LIBC.mallopt(M_ARENA_MAX, 2)
 LOOP_CODE.most = 10  # a process tests hundreds of variants, and seldom one again
 SLOW = hypothesis.HealthCheck.too_slow
 hypothesis.settings.register_profile("tandemlift", deadline=None, suppress_health_check=[SLOW], derandomize=True)
