@@ -72,7 +72,7 @@ def in_short_blocks(text: str) -> str:
 
 def compiled(text: str, level: Level = BEST) -> bytes:
     """The object code of a module for this processor."""
-    text = text if level.passes else in_short_blocks(text)
+    text = text if level.code else in_short_blocks(text)
     return _object(text, llvm.get_process_triple(), _target(level.code), level)
 
 
