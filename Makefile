@@ -48,7 +48,9 @@ imports: .venv/dev  ## imports go downward only
 	$(BIN)/lint-imports
 
 tests: .venv/dev ## all tests
-	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto  # a process for each core: threads of linear algebra would only wait
+	@# a process for each core, whose threads of linear algebra would only wait, and one more: some tests wait for pages;
+	@# bytecode is kept, whatever the shell says: tests start hundreds of processes
+	PYTHONDONTWRITEBYTECODE= OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 ))
 
 quick: .venv/dev ## what neither compiles a flight, starts a process nor browses; the first run learns which
 	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto -q --quick

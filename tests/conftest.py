@@ -6,12 +6,16 @@ import os
 import shutil
 import signal
 import sys
+import warnings
+from pathlib import Path
 
 import hypothesis
 import pytest
 from quick import Quick
+from repository import SUPPORT
 
 from tandemlift.analysis.linearization.step_graph import GRAPHS
+from tandemlift.core.caching import LastUsed
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.simulation.plan import LOOP_CODE
 
@@ -19,6 +23,10 @@ if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # of a job in the backgro
     signal.signal(signal.SIGINT, lambda *_: None)
 os.environ.setdefault("TANDEMLIFT_OPTIMISE", "0")  # hundreds of variants fly once each: what is tested is asked for
 LIBC = ctypes.CDLL(None) if os.name == "posix" else None
+M_MMAP_THRESHOLD, M_ARENA_MAX = -3, -8  # names and numbers of glibc
+if hasattr(LIBC, "mallopt"):  # large arrays go back to the system when they are freed, and threads share two heaps
+    LIBC.mallopt(M_MMAP_THRESHOLD, 1 << 20)
+    LIBC.mallopt(M_ARENA_MAX, 2)
 LOOP_CODE.most = 10  # a process tests hundreds of variants, and seldom one again
 SLOW = hypothesis.HealthCheck.too_slow
 hypothesis.settings.register_profile("tandemlift", deadline=None, suppress_health_check=[SLOW], derandomize=True)
@@ -55,10 +63,14 @@ def _controllers_of_a_module():
 
 
 def free_memory(module):
-    """Give back what a module's tests made and what its functions cached, to the system too."""
-    for value in vars(module).values():
-        if hasattr(value, "cache_clear") and value.__module__ == module.__name__:
-            value.cache_clear()
+    """Give back what a module's tests made, and what its functions and those that tests share cached."""
+    shared = [one for one in sys.modules.values() if Path(getattr(one, "__file__", None) or "").parent == SUPPORT]
+    for one in (module, *shared):
+        for value in vars(one).values():
+            if hasattr(value, "cache_clear") and value.__module__ == one.__name__:
+                value.cache_clear()
+            elif isinstance(value, LastUsed):
+                value.clear()
     LOOP_CODE.clear()
     GRAPHS.clear()
     if "jax" in sys.modules:
@@ -77,6 +89,22 @@ def _memory_of_a_module(request):
 @pytest.fixture(autouse=True)
 def _controllers_of_a_test():
     yield from forgetting_controllers()
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch, capsys):
+    """Run the command line in an empty folder: (exit code, standard output, standard error)."""
+    from tandemlift.apps.cli.main import main
+
+    monkeypatch.chdir(tmp_path)
+
+    def call(*arguments):
+        monkeypatch.setattr(sys, "argv", ["tandemlift", *arguments])
+        with warnings.catch_warnings(), pytest.raises(SystemExit) as ended:
+            main()
+        return ended.value.code or 0, *capsys.readouterr()
+
+    return call
 
 
 @pytest.fixture(scope="session")

@@ -8,6 +8,7 @@ import pytest
 import tomli_w
 from as_toml import to_toml
 from for_all import for_all
+from law_values import IRIS
 from mission_schema import EVERYTHING, SCHEMA
 from patience import completed
 
@@ -72,17 +73,7 @@ def test_the_paper_mission_leaves_out_only_what_it_has_no_part_of():
     assert all(q["spins"] == [1, -1, 1, -1] for q in rest["vehicle"]["quadrotors"])
 
 
-QUADROTOR = {
-    "mass": 1.5,
-    "inertia": [0.029125, 0.029125, 0.055225],
-    "layout": "+",
-    "arm": 0.25,
-    "thrust_constant": 5.84e-6,
-    "max_speed": 1100.0,
-    "torque_per_thrust": 0.06,
-    "lag_up": 0.0125,
-    "lag_down": 0.025,
-}
+QUADROTOR = IRIS | {"inertia": list(IRIS["inertia"])}
 BEAM = {"mass": 0.5, "length": 2.0, "radius": 0.05}
 PUSHES = [
     ("z", 14, 1.5, 0.5),

@@ -5,9 +5,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, hamilton
+from tandemlift.compiler.machine_code.functions import compiled
+from tandemlift.compiler.machine_code.machine import QUICK
+from tandemlift.core.vector import ZERO, Absent, Quat, hamilton
 from tandemlift.parts.mechanics.push import CentralPush
-from tandemlift.parts.mechanics.rigid_body import State, motion
+from tandemlift.parts.mechanics.rigid_body import motion
 from tandemlift.parts.pilot.pilot import PilotInput, decide
 from tandemlift.parts.rotors.allocation import wrench
 from tandemlift.simulation.preparation.assemble import assemble
@@ -37,17 +39,20 @@ def continuous():
     model = assemble(lifting(0.001)).model
     begin = model.flight_state.state
 
-    def rate(t, y):
-        state = State(Vec3(*y[0:3]), Vec3(*y[3:6]), Quat(*y[6:10]), Vec3(*y[10:13]))
-        decision, _ = decide(
-            model.pilot, model.flight_state.memory, PilotInput(state, ZERO, ZERO, 0.0, Absent()), t, 1.0
-        )
-        u = wrench(model.plant.effect, decision.thrusts)
-        return np.concatenate(motion(model.plant.body, state, u, CentralPush(ZERO)))
+    def rate(t, state):
+        given = PilotInput(state, ZERO, ZERO, 0.0, Absent())
+        decision, _ = decide(model.pilot, model.flight_state.memory, given, t, 1.0)
+        return motion(model.plant.body, state, wrench(model.plant.effect, decision.thrusts), CentralPush(ZERO))
 
-    times = np.arange(0.0, DURATION + 0.25, 0.5)
+    code = compiled(rate, 0.0, begin, level=QUICK)
     solution = solve_ivp(
-        rate, (0.0, DURATION), np.concatenate(begin), method="DOP853", rtol=1e-8, atol=1e-11, t_eval=times
+        lambda t, y: code(np.array([[t, *y]]))[0],
+        (0.0, DURATION),
+        np.concatenate(begin),
+        method="DOP853",
+        rtol=1e-8,
+        atol=1e-11,
+        t_eval=np.arange(0.0, DURATION + 0.25, 0.5),
     )
     assert solution.success
     return solution.y.T

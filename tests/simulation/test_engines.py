@@ -5,6 +5,7 @@ from importlib import metadata
 
 import numpy as np
 import pytest
+from flights import in_both
 from storm import DT, storm
 
 import tandemlift as tl
@@ -19,12 +20,6 @@ WEAK = {
 FAR = {"walls": [{"start": [900.0, 0.0], "end": [900.0, 1.0]}]}
 
 
-def both(mission):
-    """A mission flown in both engines."""
-    pytest.importorskip("mujoco")
-    return tl.fly(mission), tl.fly(mission, engine="mujoco")
-
-
 def apart(a, b, name, part=slice(None)):
     return np.abs(a[name][part] - b[name][part]).max()
 
@@ -36,7 +31,7 @@ def take_off(flight):
 
 @pytest.fixture(scope="module")
 def iris():
-    return both(tl.load_mission("iris", {"mission.duration": 20.0, "mission.log_interval": DT}))
+    return in_both(tl.load_mission("iris", {"mission.duration": 20.0, "mission.log_interval": DT}))
 
 
 DIFFERENT = {"plant.mass_scale": 0.9, "plant.inertia_scale": [0.7, 1.3, 1.5], "disturbance.moment": [0.1, 0.05, 0.02]}
@@ -44,7 +39,7 @@ DIFFERENT = {"plant.mass_scale": 0.9, "plant.inertia_scale": [0.7, 1.3, 1.5], "d
 
 @pytest.mark.parametrize("changes", [{}, DIFFERENT], ids=["as known", "as it really is"])
 def test_half_a_minute_of_the_papers_mission_is_the_same_in_both(changes):
-    a, b = both(tl.load_mission("paper", HALF_MINUTE | changes))
+    a, b = in_both(tl.load_mission("paper", HALF_MINUTE | changes))
     assert np.abs(a["rates"]).max() > 0.2  # rad/s
     assert apart(a, b, "position") < 1e-6  # m
     assert apart(a, b, "attitude") < 1e-6
@@ -109,7 +104,7 @@ def test_a_vehicle_pressed_against_a_wall_by_the_wind_is_so_in_both(by_hand):
 
 
 def test_a_flight_that_is_lost_is_lost_in_both_at_the_same_time():
-    a, b = both(tl.load_mission("paper", WEAK))
+    a, b = in_both(tl.load_mission("paper", WEAK))
     assert b.ending.quantity == a.ending.quantity
     assert b.ending.time == pytest.approx(a.ending.time, abs=0.02)
     assert b.metrics()["steps"] == round(b.ending.time / DT)

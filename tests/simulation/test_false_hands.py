@@ -42,7 +42,8 @@ FALSE = {  # on top of mission iris, without a push
         ([3.4, -3.6, 0.0], 17.6, 1.0, 6.2), ([-1.5, 3.4, 1.1], 42.2, 0.5), ([1.9, -2.5, 0.0], 31.5, 1.0)
     ),
 }
-QUIET = {"pushes": []}
+SPARSE = {"mission.log_interval": 0.05}  # s: a few logs in memory, not hundreds of megabytes of them
+QUIET = {"pushes": [], **SPARSE}
 
 
 def steady(force, start=15.0, lasts=30.0, width=0.2):
@@ -112,7 +113,7 @@ def test_it_stays_in_another_engine_too():
 
 
 def test_without_confirmation_a_finding_has_the_distance_by_which_the_reference_moved(flights):
-    flight = tl.fly(tl.load_mission("iris", {**QUIET, **FALSE["joints"], "estimator.confirmation": "none"}))
+    flight = tl.fly(tl.load_mission("iris", {"pushes": [], **FALSE["joints"], "estimator.confirmation": "none"}))
     (found,) = of_kind(flight, "response-without-push")
     moved = np.linalg.norm(flight["admittance_position"] - flight["admittance_position"][0], axis=1)
     assert found.value == pytest.approx(moved[flight.time <= found.time + found.duration].max(), rel=0.01)
@@ -158,15 +159,13 @@ def test_a_push_of_one_newton_is_followed_for_half_a_minute(direction):
 
 def test_a_hand_is_followed_closer_to_its_true_push_than_without_confirmation():
     how = {"motion": {}, "none": {"estimator.confirmation": "none"}, "truth": {"pilot.push": "truth"}}
-    many = [
-        tl.load_mission("iris", {**changes, "mission.seed": seed}) for changes in how.values() for seed in range(24)
-    ]
-    flights = tl.fly_many(many)
-    ends = dict(zip(how, np.array([f["position"][-1] for f in flights]).reshape(3, 24, 3), strict=True))
+    many = [tl.load_mission("iris", {**c, "mission.seed": seed}) for c in how.values() for seed in range(24)]
+    metrics = tl.fly_many(many, keep="metrics")
+    ends = dict(zip(how, np.array([m["final_position_m"] for m in metrics]).reshape(3, 24, 3), strict=True))
     far = {name: np.linalg.norm(ends[name] - ends["truth"], axis=1) for name in ("motion", "none")}
     assert np.median(far["motion"]) < 0.7 * np.median(far["none"])
     assert far["motion"].max() < 0.4  # of nearly 9 m
-    assert not flights[0].findings
+    assert not metrics[0]["findings"]
 
 
 def test_a_push_of_little_more_than_half_a_newton_is_felt_within_55_milliseconds():

@@ -4,6 +4,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from flights import in_both
 from passing import thrown
 
 import tandemlift as tl
@@ -21,11 +22,6 @@ BODIES = [
 ]
 SEVERAL = {"vehicle.payload.shape": "bodies", "vehicle.payload.bodies": BODIES}
 SLIPPERY = {"ground.friction": 0.0}  # MuJoCo's friction holds, ours creeps
-
-
-def in_both(mission):
-    pytest.importorskip("mujoco")
-    return tl.fly(mission), tl.fly(mission, engine="mujoco")
 
 
 def test_mass_centre_and_inertia_are_those_that_mujoco_gives_the_bodies():

@@ -4,6 +4,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from flights import in_both
 from passing import thrown
 
 import tandemlift as tl
@@ -15,11 +16,6 @@ pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.core.errors.FlightWa
 SIZE = [0.8, 3.0, 0.3]
 BOX = {"vehicle.payload.shape": "box", "vehicle.payload.size": SIZE}
 SLIPPERY = {"ground.friction": 0.0}  # MuJoCo's friction holds, ours creeps
-
-
-def in_both(mission):
-    pytest.importorskip("mujoco")
-    return tl.fly(mission), tl.fly(mission, engine="mujoco")
 
 
 def test_mass_and_inertia_of_a_box_are_those_that_mujoco_gives_it():

@@ -50,6 +50,16 @@ def test_optimised_code_gives_the_bits_of_quick_code(name, changes, empty):
         assert different(a, b) == []
 
 
+def test_blocks_of_any_length_give_the_same_bits(empty, monkeypatch):
+    mission, flights = tl.load_mission("iris", {"mission.duration": 20.0}), []
+    for number, length in enumerate((10**9, 2)):
+        monkeypatch.setattr(code.machine, "BLOCK", length)
+        monkeypatch.setenv("TANDEMLIFT_CACHE", f"{store.folder()}{number}")
+        plan.LOOP_CODE.clear()
+        flights.append(tl.fly(mission))
+    assert different(*flights) == []
+
+
 def test_code_is_exchanged_in_the_middle_of_a_flight(empty):
     mission = lanes("iris")[2]
     whole = tl.fly(mission)

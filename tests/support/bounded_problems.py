@@ -16,6 +16,7 @@ from scipy.optimize import lsq_linear
 from tandemlift.compiler.machine_code.machine import BEST, QUICK, Loaded
 from tandemlift.compiler.machine_code.machine import compiled as object_code
 from tandemlift.compiler.tracer import Function, Module, Place
+from tandemlift.core.caching import LastUsed
 from tandemlift.core.types import flat
 from tandemlift.core.vector import each, vec3
 from tandemlift.parts.mechanics.rigid_body import Wrench
@@ -147,14 +148,12 @@ class Code:
         return np.array([*flat(bounded), *flat(held), 0.0, 0.0, 0.0])
 
 
-CODES: dict[tuple[int, int, int], Code] = {}
+CODES = LastUsed[Code](32)
 
 
 def code_of(bounded: BoundedProblem, lanes: int = 1, rolls_from: int = 0) -> Code:
     key = len(bounded.limits), lanes, rolls_from
-    if key not in CODES:
-        CODES[key] = Code(bounded, lanes, rolls_from)
-    return CODES[key]
+    return CODES.of(key, lambda: Code(bounded, lanes, rolls_from))
 
 
 def compiled(p: BoundedProblem, held: AllocationState, most: int) -> tuple[AllocationState, int]:

@@ -16,6 +16,7 @@ import patient_server
 import pytest
 from patience import PATIENCE, ended, joined, said, until
 from PIL import Image
+from sessions import GUIDED, THRESHOLD
 
 from tandemlift.apps.live.session.frames import read_frames
 
@@ -33,12 +34,11 @@ FLAGS = (
     *("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run"),
     *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
 )
-SETTINGS = {
-    "pilot.guidance": "interactive",
-    "phases.rotors": "flight",
-    "ground.model": "floor",
-    "compliance.yaw.model": "compliant",
-    "admittance.threshold": 0.3,
+SETTINGS = GUIDED | {
+    "admittance.threshold": THRESHOLD,
+    "phases.lift_start": 0.2,  # s: tests wait for the lift and for landings
+    "phases.lift_duration": 2.0,
+    "phases.land_duration": 4.0,
 }
 SIZE = {"width": 800, "height": 450}
 MS = 1e3 * PATIENCE

@@ -1,6 +1,7 @@
 """Flights that differ from lane to lane, and the differences between two flights."""
 
 import numpy as np
+import pytest
 
 import tandemlift as tl
 from tandemlift.simulation.preparation import LANES
@@ -9,6 +10,12 @@ LOST = {5: 60.0, 7: -90.0}  # lanes, and what throws them over [N m]
 
 
 IDEAL = 1000.0  # times as much is needed, where thrusts have no limit
+
+
+def in_both(mission):
+    """A mission flown in the compiled engine and in MuJoCo."""
+    pytest.importorskip("mujoco")
+    return tl.fly(mission), tl.fly(mission, engine="mujoco")
 
 
 def lanes(name, **changes):

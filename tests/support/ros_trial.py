@@ -4,6 +4,8 @@ import types as plain
 from collections import defaultdict
 
 from rosbags.typesys import Stores, get_typestore
+from sessions import GUIDED as BY_HAND
+from sessions import THRESHOLD
 
 from tandemlift.apps.export.messages import MessageTypes, modern
 from tandemlift.apps.live.session.session import Session
@@ -70,15 +72,7 @@ def wrench(frame, force=(0.0, 0.0, 0.0), torque=(0.0, 0.0, 0.0)):
     )
 
 
-GUIDED = {
-    "pilot.guidance": "interactive",
-    "phases.rotors": "flight",
-    "ground.model": "floor",
-    "compliance.yaw.model": "compliant",
-    "admittance.threshold": 0.3,
-    "phases.lift_start": 0.0,
-    "phases.lift_duration": 1.0,
-}
+GUIDED = BY_HAND | {"admittance.threshold": THRESHOLD, "phases.lift_start": 0.0, "phases.lift_duration": 1.0}
 UP = 2.0  # s
 
 

@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.compiler.machine_code.machine import QUICK
+from tandemlift.core.caching import LastUsed
 from tandemlift.core.law import law
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Absent, Quat, each, total, vec3
@@ -151,16 +152,13 @@ class Arena:
         return ThrownFlight(self._loop(self._world, self._begun(start), given), self.plant, self.mass, self.inertia)
 
 
-ARENAS: dict[str, Arena] = {}
+ARENAS = LastUsed[Arena](2)  # of megabytes each
 
 
 def arena(mission: str = "iris", *changes: tuple[str, Any]) -> Arena:
-    """The arena of a mission with changes, made once."""
-    name = repr((mission, changes))
-    if name not in ARENAS:
-        level = {"ground.height": 0.0, "pushes": [], "initial.position": [0.0, 0.0, 1.0]}
-        ARENAS[name] = Arena(tl.load_mission(mission, level | dict(changes)))
-    return ARENAS[name]
+    """The arena of a mission with changes; the last ones are kept."""
+    level = {"ground.height": 0.0, "pushes": [], "initial.position": [0.0, 0.0, 1.0]}
+    return ARENAS.of(repr((mission, changes)), lambda: Arena(tl.load_mission(mission, level | dict(changes))))
 
 
 def random_throw(rng: np.random.Generator, speed: float, height: tuple[float, float]) -> State:

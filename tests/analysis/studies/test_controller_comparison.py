@@ -2,8 +2,6 @@
 
 import json
 import re
-import sys
-import warnings
 
 import numpy as np
 import pytest
@@ -20,7 +18,6 @@ from tandemlift.analysis.studies.comparison_scores import (
     parts_of,
     scores,
 )
-from tandemlift.apps.cli.main import main
 from tandemlift.missions import built_in, tables_of
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.pictures.report.study.comparison import write_comparison
@@ -29,20 +26,6 @@ from tandemlift.pictures.report.study.comparison_figures import draw_errors, dra
 SHORT = ("--set", "mission.duration=0.6")
 WILD = ("lambda_1=0", "lambda_2=0", "xi=[4,2,11,0.1,0.1,0.1]")  # of nftsmc
 TWO = ("--controllers", "nftsmc,pid")
-
-
-@pytest.fixture
-def run(tmp_path, monkeypatch, capsys):
-    """Run the command line in an empty folder: (exit code, standard output, standard error)."""
-    monkeypatch.chdir(tmp_path)
-
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["tandemlift", *arguments])
-        with warnings.catch_warnings(), pytest.raises(SystemExit) as ended:
-            main()
-        return ended.value.code or 0, *capsys.readouterr()
-
-    return call
 
 
 def test_a_comparison_writes_a_page_and_numbers_and_prints_a_row_each(run, tmp_path):

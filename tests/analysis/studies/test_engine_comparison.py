@@ -2,7 +2,6 @@
 
 import json
 import re
-import sys
 
 import numpy as np
 import pytest
@@ -11,26 +10,11 @@ from scipy.spatial.transform import Rotation
 import tandemlift as tl
 from tandemlift.analysis.studies.comparison import in_engines
 from tandemlift.analysis.studies.comparison_scores import differences, largest_differences
-from tandemlift.apps.cli.main import main
 from tandemlift.core.errors import InputError
 from tandemlift.missions import tables_of
 
 pytest.importorskip("mujoco")
 SHORT = {"mission.duration": 2.0}
-
-
-@pytest.fixture
-def run(tmp_path, monkeypatch, capsys):
-    """Run `tandemlift compare` in an empty folder: (exit code, standard output, standard error)."""
-    monkeypatch.chdir(tmp_path)
-
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["tandemlift", "compare", *arguments])
-        with pytest.raises(SystemExit) as ended:
-            main()
-        return ended.value.code or 0, *capsys.readouterr()
-
-    return call
 
 
 def made(seed, count=50, **channels):
@@ -70,7 +54,9 @@ def test_a_flight_that_ended_early_is_compared_as_far_as_it_came():
 
 
 def test_a_mission_is_flown_in_each_engine_and_the_page_and_numbers_say_so(run, tmp_path):
-    code, printed, _ = run("paper", "--engines", "compiled,mujoco", "--set", "mission.duration=2.0", "--out", "o")
+    code, printed, _ = run(
+        "compare", "paper", "--engines", "compiled,mujoco", "--set", "mission.duration=2.0", "--out", "o"
+    )
     assert code == 0
     assert sorted(p.name for p in (tmp_path / "o").iterdir()) == [
         *("engines.csv", "engines.html", "engines.json", "engines.tex")
@@ -102,7 +88,7 @@ def test_a_mission_is_flown_in_each_engine_and_the_page_and_numbers_say_so(run, 
     ids=["an unknown one", "one alone", "none", "controllers too"],
 )
 def test_bad_input_is_refused_and_nothing_is_written(arguments, pieces, run, tmp_path):
-    code, _, said = run("paper", *arguments)
+    code, _, said = run("compare", "paper", *arguments)
     assert code == 2
     assert [piece for piece in pieces if piece not in said] == []
     assert list(tmp_path.iterdir()) == []

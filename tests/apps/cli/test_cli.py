@@ -1,15 +1,13 @@
 import json
 import os
 import re
-import sys
-import warnings
 from pathlib import Path
 
 import pytest
 from as_toml import to_toml
 
 import tandemlift as tl
-from tandemlift.apps.cli.main import cli, main
+from tandemlift.apps.cli.main import cli
 from tandemlift.missions import built_in, load_mission
 from tandemlift.pictures.figures.registry import figures
 
@@ -44,20 +42,6 @@ ALWAYS = ("reference", "path", "tracking", "inputs", "interaction", "joints")
 DRAWN = {f"{name}.{kind}" for name in ALWAYS for kind in ("png", "pdf")}
 SHORT = ("--no-figures", "--set", "mission.duration=0.5")
 WILD = ("lambda_1=0", "lambda_2=0", "xi=[4,2,11,0.1,0.1,0.1]")
-
-
-@pytest.fixture
-def run(tmp_path, monkeypatch, capsys):
-    """Run the command line in an empty folder: (exit code, standard output, standard error)."""
-    monkeypatch.chdir(tmp_path)
-
-    def call(*arguments: str) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["tandemlift", *arguments])
-        with warnings.catch_warnings(), pytest.raises(SystemExit) as ended:
-            main()
-        return ended.value.code or 0, *capsys.readouterr()
-
-    return call
 
 
 def check_refused(outcome: tuple[int, str, str]) -> str:

@@ -11,7 +11,6 @@ import pytest
 from exported import SAMPLES, eventful, flight_of
 
 import tandemlift as tl
-from tandemlift.apps.cli.main import main
 from tandemlift.apps.export import bags
 from tandemlift.apps.export.write import export
 
@@ -153,20 +152,6 @@ def test_what_cannot_be_written_leaves_what_was_there(ending, flight, tmp_path, 
     assert "cannot be written: No space left on device" in refusal(flight, old)
     assert old.read_text() == "mine"
     assert sorted(p.name for p in tmp_path.iterdir()) == [f"folder.{ending}", old.name]
-
-
-@pytest.fixture
-def run(tmp_path, monkeypatch, capsys):
-    """Run the command line in an empty folder: (exit code, standard output, standard error)."""
-    monkeypatch.chdir(tmp_path)
-
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["tandemlift", *arguments])
-        with pytest.raises(SystemExit) as ended:
-            main()
-        return ended.value.code or 0, *capsys.readouterr()
-
-    return call
 
 
 @pytest.mark.parametrize("given", ["saved", "saved/flight.npz"])

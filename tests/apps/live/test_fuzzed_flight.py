@@ -9,6 +9,7 @@ import pytest
 from hostile import hostile, rude
 from live_page import Running, put_page
 from patience import until
+from sessions import GUIDED, THRESHOLD
 
 import tandemlift as tl
 from tandemlift.apps.live import viewers
@@ -21,13 +22,7 @@ from tandemlift.apps.live.session.session import Session
 
 SOCKETS, HOSTILE, RUDE = 5, 15_000, 6_000  # sockets, and messages through each of them
 AT_ONCE = 250
-GUIDED = {
-    "pilot.guidance": "interactive",
-    "phases.rotors": "flight",
-    "ground.model": "floor",
-    "compliance.yaw.model": "compliant",
-    "admittance.threshold": 0.3,
-}
+MISSION = GUIDED | {"admittance.threshold": THRESHOLD}
 
 
 class Noting(Session):
@@ -57,7 +52,7 @@ class CountingDispatcher(Dispatcher):
 def flown(tmp_path, monkeypatch):
     """A flight in hover, and its server."""
     monkeypatch.setattr(viewers, "MAX_MESSAGES", math.inf)  # else the first two thousand in a second are the last
-    flight = Noting(tl.load_mission("hover", GUIDED), out=tmp_path / "out")
+    flight = Noting(tl.load_mission("hover", MISSION), out=tmp_path / "out")
     flight.prepare()
     flight.heard = []
     for _ in range(round(8.0 / flight._flight.dt)):

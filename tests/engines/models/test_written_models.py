@@ -7,7 +7,6 @@ import pytest
 from exported import flight_of
 
 import tandemlift as tl
-from tandemlift.apps.cli.main import main
 from tandemlift.apps.export.write import export
 
 
@@ -67,20 +66,6 @@ def test_a_model_that_cannot_be_written_leaves_what_was_there(ending, mujoco, tm
 
     monkeypatch.setattr(Path, "write_bytes", full)
     assert "cannot be written: No space left on device" in check_refused(tl.load_mission("paper"), path)
-
-
-@pytest.fixture
-def run(tmp_path, monkeypatch, capsys):
-    """Run the command line in an empty folder: (exit code, standard output, standard error)."""
-    monkeypatch.chdir(tmp_path)
-
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["tandemlift", *arguments])
-        with pytest.raises(SystemExit) as ended:
-            main()
-        return ended.value.code or 0, *capsys.readouterr()
-
-    return call
 
 
 def test_the_command_writes_a_mission_with_a_changed_key_and_a_plugin(run, tmp_path):

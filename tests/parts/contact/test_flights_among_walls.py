@@ -12,6 +12,7 @@ from law_values import flat, free_body, rebuilt, record
 from machine_code import Loop
 from scipy.spatial.transform import Rotation
 
+from tandemlift.compiler.machine_code.machine import QUICK
 from tandemlift.core.algebra import sqrt, where
 from tandemlift.core.law import law
 from tandemlift.core.vector import ZERO, Quat, Vec3, dot, vec3
@@ -91,7 +92,7 @@ def loop_among(count):
     w = walls_of(FLAT)
     world = World(w, parts_layout_from(FLAT), free_body(FLAT.mass, FLAT.inertia), ZERO)
     fixed = Surroundings(world, record("Table", [WALL] * count), no_walls_near(w))
-    return Loop(step_of, fixed, Moving(at(ZERO), no_walls_near(w)), Given(STEP, 1.0))
+    return Loop(step_of, fixed, Moving(at(ZERO), no_walls_near(w)), Given(STEP, 1.0), QUICK)
 
 
 @pytest.fixture(scope="module")

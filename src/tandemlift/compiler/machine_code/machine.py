@@ -21,6 +21,7 @@ class Level(NamedTuple):
 
 
 QUICK, BEST, BEST_OF_VECTORS = Level(0, 0), Level(1, 2, vectors=True), Level(0, 2)
+BLOCK = 800  # instructions, beyond which unoptimised compilation of a block takes time with the square of its length
 LIBRARIES = iter(range(1 << 62))
 
 
@@ -57,8 +58,21 @@ def _object(text: str, triple: str, target: Any, level: Level) -> bytes:
     return code
 
 
+def in_short_blocks(text: str) -> str:
+    """A module whose long blocks are cut into shorter ones that follow each other; what it computes stays the same."""
+    lines, length = list[str](), 0
+    for number, line in enumerate(text.split("\n")):
+        lines.append(line)
+        length = length + 1 if line.startswith("  ") else 0  # a label or a function begins a block
+        if length >= BLOCK and line.startswith("  %v"):  # neither a φ, which begins a block, nor memory on the stack
+            lines += [f"  br label %cut{number}", f"cut{number}:"]
+            length = 0
+    return "\n".join(lines)
+
+
 def compiled(text: str, level: Level = BEST) -> bytes:
     """The object code of a module for this processor."""
+    text = text if level.code else in_short_blocks(text)
     return _object(text, llvm.get_process_triple(), _target(level.code), level)
 
 

@@ -4,7 +4,7 @@ import pytest
 from patience import until
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="package")
 def live(tmp_path_factory):
     from chromium import Live
 
@@ -15,7 +15,7 @@ def live(tmp_path_factory):
         one.close()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="package")
 def browser():
     from chromium import launched
 

@@ -1,7 +1,7 @@
 """Another mission from the page: its menu, and files that are dropped on it or chosen."""
 
 import pytest
-from chromium import opened
+from chromium import Live, opened
 from patience import until
 
 import tandemlift as tl
@@ -14,6 +14,16 @@ DROP = """([name, text]) => {
   const surface = document.getElementById("surface");
   for (const kind of ["dragover", "drop"]) surface.dispatchEvent(new DragEvent(kind, dropped));
 }"""
+
+
+@pytest.fixture(scope="module")
+def live(tmp_path_factory):
+    """A flight of its own, for its mission is exchanged."""
+    one = Live(tmp_path_factory.mktemp("live"))
+    try:
+        yield one
+    finally:
+        one.close()
 
 
 @pytest.fixture

@@ -25,6 +25,14 @@ def flight(hover):
     one.close()
 
 
+@pytest.fixture
+def session(tmp_path):
+    one = Session(page_mission("hover"), out=tmp_path)
+    one.prepare()
+    yield one
+    one.stop()
+
+
 @pytest.fixture(scope="session")
 def packed_by_hand():
     return packed_mission(page_mission("hover", BY_HAND | TENDER), "guided by hand")

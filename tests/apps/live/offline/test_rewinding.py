@@ -5,8 +5,6 @@ import pytest
 from sessions import fly, say, seen
 
 import tandemlift as tl
-from tandemlift.apps.live.page_modules import page_mission
-from tandemlift.apps.live.session.session import Session
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import fly_stepwise
 
@@ -27,14 +25,6 @@ ANEW = (
     ("set", {"key": "admittance.damping", "value": 4.0}, 0.5),
 )
 OF_THE_HAND = {"held", "hand_point", "hand_target", "seq"}
-
-
-@pytest.fixture
-def session(tmp_path):
-    one = Session(page_mission("hover"), out=tmp_path)
-    one.prepare()
-    yield one
-    one.stop()
 
 
 def do(session, moves):
