@@ -43,9 +43,7 @@ export class App implements FlightListener, ShellPage {
   readonly camera: ChaseCamera;
   current: Frame | null = null;
   private readonly stage: Stage;
-  private readonly themes = new ThemeSwitch((theme) => {
-    this.recolor(theme);
-  });
+  private readonly themes = new ThemeSwitch((theme) => this.recolor(theme));
   private readonly grab: Grab;
   private readonly force: ForceInput;
   private readonly shell: Shell;

@@ -90,9 +90,7 @@ export class Session {
   /** The latest frame. */
   frame(): Float32Array<ArrayBuffer> {
     const frame = new Float32Array(this.layout.size);
-    this.eachValue((field, values) => {
-      frame.set(values, this.layout.place(field).start);
-    });
+    this.eachValue((field, values) => frame.set(values, this.layout.place(field).start));
     const { hand } = this;
     const own = { held: "held", hand_point: "grip", hand_target: "target", push_point: "grip" } as const;
     for (const [field, part] of Object.entries(own)) {

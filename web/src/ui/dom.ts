@@ -61,8 +61,6 @@ export function choice<T extends string>(
 
 export function toggle(text: string, on: boolean, act: (on: boolean) => void): HTMLElement {
   const input = el("input", { type: "checkbox", checked: on });
-  input.addEventListener("change", () => {
-    act(input.checked);
-  });
+  input.addEventListener("change", () => act(input.checked));
   return el("label", { class: "toggle" }, input, el("span", {}, text));
 }

@@ -60,9 +60,7 @@ export function helpDialog(replay: boolean): HTMLDialogElement {
     el("dd", {}, text),
   ]);
   const close = el("button", { type: "button", class: "go" }, "Close");
-  close.addEventListener("click", () => {
-    dialog.close();
-  });
+  close.addEventListener("click", () => dialog.close());
   const hold = "One page holds the beam at a time. It lets go when it loses the focus or the connection.";
   const notes = replay ? [] : [el("p", {}, hold)];
   const parts = [el("h2", {}, replay ? "A saved flight" : "Push the beam yourself"), el("dl", {}, ...keys)];

@@ -47,9 +47,7 @@ export class Laboratory {
       () => this.history!.flown,
       () => page.current?.scalar("time") ?? NaN,
     );
-    this.timeline = new Timeline((time) => {
-      this.choose(time);
-    });
+    this.timeline = new Timeline((time) => this.choose(time));
     this.back = button("play", "Now", "The last seconds, and no chosen moment", () => {
       this.window.follow();
       this.choose(null);

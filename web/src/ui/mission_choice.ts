@@ -30,9 +30,7 @@ export class MissionChoice {
   }
 
   scene({ missions, mission }: FlightScene): void {
-    const fly = (name: string): void => {
-      this.fly({ type: "fly", mission: name });
-    };
+    const fly = (name: string): void => this.fly({ type: "fly", mission: name });
     if (missions) this.menu ??= new MissionMenu(missions, fly);
     this.flown = mission;
     this.menu?.show(mission);

@@ -58,9 +58,7 @@ export class Plot {
     this.plot = graphics === "light" ? onProcessor(make) : make();
     this.cursor = new PlotCursor(this.plot, look.curves, look.rows);
     listen(this.plot, window, listener);
-    new ResizeObserver(() => {
-      this.fit();
-    }).observe(this.body);
+    new ResizeObserver(() => this.fit()).observe(this.body);
   }
 
   update(columns: uPlot.AlignedData): void {

@@ -84,9 +84,7 @@ export class Shell {
   private texts = 0;
 
   constructor(private readonly page: ShellPage) {
-    this.notices = new Notices(() => {
-      page.retry();
-    });
+    this.notices = new Notices(() => page.retry());
     this.findings = new Findings(this.notices);
     this.missions = new MissionChoice(page.send.bind(page), this.notices, this.question);
     this.bar = new StatusBar(page.replay !== null);
@@ -94,9 +92,7 @@ export class Shell {
     this.panel = new Panel(byId("panel"), page, this.undo.element);
     this.laboratory = new Laboratory(page, (text) => this.notices.show(text, "done"));
     this.help = helpDialog(page.replay !== null);
-    this.saving = new SaveDialog((name) => {
-      page.send({ type: "save", name });
-    });
+    this.saving = new SaveDialog((name) => page.send({ type: "save", name }));
     byId("show-help").addEventListener("click", () => {
       this.help.showModal();
       this.help.scrollTop = 0; // the focus is at its end
@@ -108,9 +104,7 @@ export class Shell {
     this.makeViews();
     this.challenge = new Challenge((name) => this.saving.open(name), () => page.send({ type: "reset" }));
     if (!page.replay) this.makeDock();
-    this.ended = new EndedCard(() => {
-      page.send({ type: "reset" });
-    });
+    this.ended = new EndedCard(() => page.send({ type: "reset" }));
     window.addEventListener("keydown", this.key);
   }
 
@@ -223,9 +217,7 @@ export class Shell {
 
   private makeViews(): void {
     const { page } = this;
-    const views = choice("View", VIEWS, "behind", (view) => {
-      page.look(view);
-    });
+    const views = choice("View", VIEWS, "behind", (view) => page.look(view));
     byId("views").replaceChildren(views, this.show.button);
   }
 
@@ -280,8 +272,6 @@ function foldable(name: string, part: string, open: boolean): void {
     place.hidden = !on;
     document.body.classList.toggle(`no-${part}`, !on);
   };
-  handle.addEventListener("click", () => {
-    set(place.hidden !== false);
-  });
+  handle.addEventListener("click", () => set(place.hidden !== false));
   set(open);
 }
