@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 import zipfile
 from pathlib import Path
 
@@ -176,6 +177,31 @@ def panel(page, key):
     if group.get_attribute("open") is None:
         group.locator("summary").click()
     return box
+
+
+def pushed(page, seconds=0.5):
+    """Push by a key."""
+    page.keyboard.down("KeyD")
+    time.sleep(seconds)
+    page.keyboard.up("KeyD")
+
+
+def resized(page, size):
+    """Give the page a size, and wait until its plots stand still in it."""
+    page.set_viewport_size(size)
+    boxes = [None]
+
+    def still():
+        boxes.append(page.locator(".plot .u-over").first.bounding_box())
+        page.evaluate("new Promise((done) => setTimeout(done, 300))")
+        return boxes[-1] == boxes[-2] and page.evaluate("window.innerWidth") == size["width"]
+
+    until(still, "plots of that size")
+
+
+def paused(page):
+    """Whether the flight stands still."""
+    return page.locator("#dock span:text-is('Continue')").count() == 1
 
 
 def seconds_flown(page):

@@ -31,12 +31,9 @@ function fly(index: FlightIndex): void {
     window.history.replaceState(null, "", `#mission=${mission}`);
     flight.open(mission, []);
   });
-  window.addEventListener("hashchange", () => {
-    flight.restart();
-    menu.show(flight.mission);
-  });
+  flight.opened = (mission) => menu.show(mission);
+  window.addEventListener("hashchange", () => flight.restart());
   new App(flight, null, [ownFlightGroup(flight, address)]).start();
-  menu.show(flight.mission);
 }
 
 /** Shows a flight that the page carries, or that of the page's server. */

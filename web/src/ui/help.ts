@@ -35,7 +35,7 @@ const REPLAY_KEYS: Line[] = [
 ];
 const VIEW_KEYS: Line = ["1 2 3 4 \u00b7 F", "view from behind, the side, above, on board \u00b7 follow the vehicle"];
 const LEGEND: [string, string, string][] = [
-  ["best", "amber shape", "your best run, in a challenge"],
+  ["best", "amber shape", "the ghost of a comparison, or your best run in a challenge"],
   ["push", "red arrow", "true push on the beam; the curved one is its moment about the centre of mass"],
   ["hand", "violet hoop", "the admittance's threshold: a push whose arrow does not pass it moves nothing"],
   ["hand", "violet box and spring", "the hand; inside the box a pull is below the threshold and moves nothing"],

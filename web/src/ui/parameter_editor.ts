@@ -1,6 +1,7 @@
 // One parameter in the panel: sliders and numbers per axis, a choice, or a switch; a button restores its value.
 
 import type { PageMessage, ParameterValue, SceneParameter } from "../wire/messages.generated.ts";
+import { same } from "../wire/parameters.ts";
 import { el, icon } from "./dom.ts";
 import { SliderScale, formatNumber } from "./numbers.ts";
 
@@ -122,8 +123,4 @@ export class ParameterEditor {
     this.askedAt = performance.now();
     this.set(this.asked);
   }
-}
-
-function same(a: ParameterValue, b: ParameterValue): boolean {
-  return JSON.stringify(a) === JSON.stringify(b);
 }

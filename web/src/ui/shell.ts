@@ -6,14 +6,12 @@ import type { ChaseCamera, View } from "../view/camera.ts";
 import type { FrameRate, Graphics, GraphicsChoice } from "../view/graphics.ts";
 import type { Frame } from "../wire/frames.ts";
 import type { Latency } from "../wire/latency.ts";
-import {
-  type FlightScene,
-  type PageMessage,
-  type ParameterValue,
-  type StatusMessage,
-} from "../wire/messages.generated.ts";
+import type { PageMessage, ParameterValue, SceneMission, StatusMessage } from "../wire/messages.generated.ts";
+import { withValue } from "../wire/parameters.ts";
 import type { Replay } from "../wire/replay.ts";
+import type { Compare, FlownScene, FlownStatus } from "../wire/source.ts";
 import { Challenge } from "./challenge.ts";
+import { Comparison } from "./comparison.ts";
 import { Dock } from "./dock.ts";
 import { byId, choice } from "./dom.ts";
 import { timedName } from "./file_names.ts";
@@ -52,6 +50,8 @@ export interface ShellPage {
   readonly latency: Latency;
   readonly frameRate: FrameRate;
   readonly current: Frame | null;
+  readonly companions: readonly SceneMission[] | undefined;
+  readonly compare: Compare | undefined;
   send(message: PageMessage): void;
   retry(): void;
   look(view: View): void;
@@ -72,6 +72,8 @@ export class Shell {
   private readonly video = new VideoRecorder();
   private readonly laboratory: Laboratory;
   readonly challenge: Challenge;
+  private readonly comparison: Comparison;
+  private flown!: FlownScene; // with the settings as they are now
   private readonly senses: SensesOfFlight;
   private readonly show: ShowMenu;
   private readonly undo: Undo;
@@ -89,6 +91,7 @@ export class Shell {
     this.missions = new MissionChoice(page.send.bind(page), this.notices, this.question);
     this.bar = new StatusBar(page.replay !== null);
     this.undo = new Undo(page.send.bind(page));
+    this.comparison = new Comparison(page.compare);
     this.panel = new Panel(byId("panel"), page, this.undo.element);
     this.laboratory = new Laboratory(page, (text) => this.notices.show(text, "done"));
     this.help = helpDialog(page.replay !== null);
@@ -113,7 +116,7 @@ export class Shell {
     return this.video.running;
   }
 
-  scene(scene: FlightScene): void {
+  scene(scene: FlownScene): void {
     [this.mission, this.floor] = [scene.mission, scene.floor];
     this.bar.scene(scene);
     this.panel.scene(scene);
@@ -122,6 +125,8 @@ export class Shell {
     this.missions.scene(scene);
     this.senses.begin(scene);
     this.challenge.begin(scene);
+    this.comparison.begin(this.page.companions);
+    this.tellSettings(scene);
     this.dock?.reset(this.missions.open);
     if (!this.page.replay || !scene.replay) return;
     const { element } = this.laboratory.timeline;
@@ -134,9 +139,10 @@ export class Shell {
     if (frame.scalar("held") > 0) this.pulled = true;
   }
 
-  status(status: StatusMessage): void {
+  status(status: FlownStatus): void {
     this.bar.status(status);
     this.challenge.status(status);
+    this.comparison.status(status);
     this.dock?.status(status);
     if (!this.page.replay) this.ended.status(status);
     this.panel.markFailed(status.failed_rotors);
@@ -149,6 +155,7 @@ export class Shell {
     this.panel.changed(key, value, duration);
     this.laboratory.changed(key, value);
     this.challenge.changed(key, value);
+    this.tellSettings({ ...this.flown, parameters: withValue(this.flown.parameters, key, value) });
     this.undo.changed(key, value, performance.now());
   }
 
@@ -211,8 +218,19 @@ export class Shell {
       save: () => this.saving.open(timedName(this.mission)),
       film: () => this.toggleVideo(),
     });
-    byId("dock").prepend(this.challenge.element);
+    this.undo.element.append(this.comparison.menu);
+    byId("dock").prepend(this.comparison.element, this.challenge.element);
     byId("dock").lastElementChild!.append(this.challenge.button);
+  }
+
+  /** The settings as they are now. */
+  private tellSettings(scene: FlownScene): void {
+    this.comparison.show(scene);
+    this.flown = scene;
+  }
+
+  private views(): HTMLElement[] {
+    return [...byId("views").querySelectorAll<HTMLElement>(".choice button")];
   }
 
   private makeViews(): void {
@@ -247,8 +265,7 @@ export class Shell {
 
   private keys(): Map<string, () => void> {
     const { player } = this;
-    const views = [...byId("views").querySelectorAll<HTMLElement>(".choice button")];
-    const keys = new Map(views.map((one, i) => [`Digit${i + 1}`, () => one.click()]));
+    const keys = new Map(this.views().map((one, i) => [`Digit${i + 1}`, () => one.click()]));
     keys.set("KeyF", () => this.show.follow.click());
     if (player) {
       keys.set("KeyP", () => player.toggle());
