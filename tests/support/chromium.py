@@ -41,6 +41,11 @@ SETTINGS = {
     "compliance.yaw.model": "compliant",
     "admittance.threshold": 0.3,
 }
+DROP = """([name, text]) => {
+  const data = new DataTransfer();
+  data.items.add(new File([text], name));
+  window.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
+}"""
 SIZE = {"width": 800, "height": 450}
 MS = 1e3 * PATIENCE
 
@@ -227,3 +232,8 @@ def grabbed(page, live):
     page.mouse.down()
     live.wait(lambda seen: seen["held"] == 1.0, "hold of the beam")
     return x, y
+
+
+def dropped(page, text, name="talk.toml"):
+    """Drop a file on the page."""
+    page.evaluate(DROP, [name, text])

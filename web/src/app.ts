@@ -213,8 +213,8 @@ export class App implements FlightListener, ShellPage {
   private draw(frame: Frame, picture: Picture, now: number, passed: number): void {
     picture.update(frame, this.grab.hand, this.shown, this.remarks.now(frame));
     picture.showEnding(this.end ? `${this.end.outcome} here, ${this.end.time.toFixed(2)} s` : "", this.end?.place ?? null);
-    const { ghost } = frame;
-    picture.rival.show(ghost?.drawable ? { position: ghost.vector("position"), attitude: ghost.attitude } : this.shell.challenge.rival);
+    const along = frame.ghost?.drawable ? frame.ghost : null;
+    picture.rival.show(along ? along.pose : this.shell.challenge.rival);
     this.camera.update(picture.vehicle.group, this.grab.pulling, passed);
     this.grab.flush();
     this.force.flush(this.grab.pulling);

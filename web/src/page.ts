@@ -8,6 +8,7 @@ import "./style/plots.css";
 import "./style/timeline.css";
 import "./style/panel.css";
 import "./style/dialogs.css";
+import "./style/lecture.css";
 import "./style/own_flight.css";
 import "./style/small_windows.css";
 

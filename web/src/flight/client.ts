@@ -6,7 +6,7 @@ import { withValue } from "../wire/parameters.ts";
 import type { Comparing, FlightListener, FlightSource, FlownScene } from "../wire/source.ts";
 import { type Link, linkOf, type Setting } from "./link.ts";
 import type { FlightIndex, MissionEntry } from "./manifest.ts";
-import type { FromWorker, OpenRequest, ToWorker } from "./protocol.ts";
+import type { FromWorker, ToWorker } from "./protocol.ts";
 
 export class OwnFlight implements FlightSource {
   private worker: Worker | null = null;
@@ -50,7 +50,7 @@ export class OwnFlight implements FlightSource {
   /** Flies what the page's address says. */
   restart(): void {
     const { mission, settings } = this.begin();
-    const entry = this.missions.find(({ name }) => name === mission) ?? this.missions[0];
+    const entry = this.entry(mission ?? "") ?? this.missions[0];
     this.open(entry.name, settings);
     if (mission !== null && entry.name !== mission) this.refuseMission(mission);
   }
@@ -73,15 +73,20 @@ export class OwnFlight implements FlightSource {
   }
 
   send(message: PageMessage): number | null {
+    if (message.type === "fly" && this.entry(message.mission)) this.open(message.mission, []);
     if (!this.layout) return null;
     this.seq += 1;
     this.post(this.worker!, { ...message, seq: this.seq });
     return this.seq;
   }
 
-  private async sendFlight(type: OpenRequest["type"], worker: Worker, mission: string, settings: Setting[]): Promise<void> {
+  private entry(mission: string): MissionEntry | undefined {
+    return this.missions.find(({ name }) => name === mission);
+  }
+
+  private async sendFlight(type: "open" | "along", worker: Worker, name: string, settings: Setting[]): Promise<void> {
     const index = { ...this.index, missions: [] };
-    const entry = this.missions.find(({ name }) => name === mission)!;
+    const entry = this.entry(name)!;
     const file = entry.file === undefined ? null : await download(entry.file);
     if (worker === this.worker) this.post(worker, { type, index, entry, settings, file });
   }

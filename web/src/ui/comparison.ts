@@ -11,7 +11,7 @@ const SAME = "The ghost has the same settings: change one, and see.";
 const NO_GHOST = "not here: only a page without a server (tandemlift page) flies two";
 
 export class Comparison {
-  readonly menu = el("select", { title: "Fly a second flight under the same hand, as a ghost", "aria-label": "Compare" });
+  readonly menu = el("select", { title: "Fly a second flight under the same hand", "aria-label": "Compare" });
   readonly element = el("div", { id: "comparison", class: "refusal-row", hidden: true });
   private readonly text = el("span");
   private readonly ended = el("span");
@@ -30,7 +30,9 @@ export class Comparison {
   }
 
   begin(companions: readonly SceneMission[] = []): void {
-    const entries = companions.map(({ name, title }) => el("option", { value: name, title }, `with ${name}, from the start`));
+    const entries = companions.map(({ name, title }) =>
+      el("option", { value: name, title }, `with ${name}, from the start`),
+    );
     const keep = el("option", { value: "", disabled: !this.compare }, this.compare ? KEEP : NO_GHOST);
     this.menu.replaceChildren(el("option", { hidden: true }, "Compare \u2026"), keep, ...entries);
   }

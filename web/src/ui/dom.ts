@@ -64,3 +64,15 @@ export function toggle(text: string, on: boolean, act: (on: boolean) => void): H
   input.addEventListener("change", () => act(input.checked));
   return el("label", { class: "toggle" }, input, el("span", {}, text));
 }
+
+/** Lets a button show and hide a part of the page. */
+export function foldable(name: string, part: string, open: boolean): void {
+  const [handle, place] = [byId(name), byId(part)];
+  const set = (on: boolean): void => {
+    handle.setAttribute("aria-pressed", String(on));
+    place.hidden = !on;
+    document.body.classList.toggle(`no-${part}`, !on);
+  };
+  handle.addEventListener("click", () => set(place.hidden !== false));
+  set(open);
+}

@@ -29,6 +29,7 @@ const KEYS: Line[] = [
   ["R \u00b7 Ctrl+Z", "fly again to the chosen moment, and try again from there \u00b7 undo a setting"],
   ["L \u00b7 K \u00b7 P", "lift \u00b7 land \u00b7 pause"],
 ];
+const LECTURE_KEY: Line = ["T", "lecture: full screen, large type, one quantity, the steps of a script"];
 const REPLAY_KEYS: Line[] = [
   ["P", "play or pause"],
   ["Left, Right", "one second back, on"],
@@ -48,7 +49,8 @@ const LEGEND: [string, string, string][] = [
 export function helpLines(replay: boolean, touch: boolean): Line[] {
   const pull = touch ? FINGERS : MOUSE;
   const look = touch ? [FINGERS_VIEW, FINGERS_PLOTS] : [MOUSE_VIEW, MOUSE_PLOTS];
-  return replay ? [...look, ...REPLAY_KEYS, VIEW_KEYS] : [...pull, ...look, ...KEYS, VIEW_KEYS];
+  const own = replay ? [...look, ...REPLAY_KEYS] : [...pull, ...look, ...KEYS];
+  return [...own, VIEW_KEYS, LECTURE_KEY];
 }
 
 export function helpDialog(replay: boolean): HTMLDialogElement {

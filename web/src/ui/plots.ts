@@ -19,7 +19,7 @@ const NAMES = ["x", "y", "z"];
 const DASHED = { dash: [4, 3], width: 1 };
 const PALE = { width: 4, alpha: 0.4 };
 const MOST = 6; // curves of a plot beside which those of a ghost can be read
-const NAMED: [Curve, string][] = [[{ name: "", color: "--soft" }, "now"], [{ name: "", color: "--soft", ...PALE }, "ghost"]];
+const GREY: Curve = { name: "", color: "--soft" };
 const FRONTS: ColorName[] = ["--front-1", "--front-2", "--front-3", "--front-4"];
 const REARS: ColorName[] = ["--rear-1", "--rear-2", "--rear-3", "--rear-4"];
 
@@ -33,7 +33,7 @@ type Column = Float64Array | (number | null)[];
 /** The columns of a plot's curves, by that of a name. */
 type Columns = (of: (name: string) => Float64Array) => Float64Array[];
 
-const vector = (of: (name: string) => Float64Array, field: string): Float64Array[] => [0, 1, 2].map((i) => of(`${field}${i}`));
+const vector = (of: Parameters<Columns>[0], field: string): Float64Array[] => [0, 1, 2].map((i) => of(`${field}${i}`));
 
 /** A curve for each axis. */
 const along = (look: (name: string, i: number) => Partial<Curve>): Curve[] =>
@@ -82,10 +82,11 @@ export class Plots {
     const solid = look.curves.map(({ dash }) => !dash);
     const own = look.curves.filter((_, i) => solid[i]);
     const pale = own.map((curve) => ({ ...curve, ...PALE, name: GHOST + curve.name, label: "" }));
-    const plot = make({ ...look, curves: [...pale, ...own], keys: NAMED.map(([curve, name]) => key(curve, name)) });
-    const shown = (whose: string): Column[] => of(whose).filter((_, i) => solid[i]);
-    const ghosts = (): Column[] => shown(GHOST).map((one) => Array.from(one, (value) => (Number.isNaN(value) ? null : value)));
-    return { plot, columns: () => [...ghosts(), ...shown("")] };
+    const keys = [key(GREY, "now"), key({ ...GREY, ...PALE }, "ghost")];
+    const plot = make({ ...look, curves: [...pale, ...own], keys });
+    const shown = (whose: string): Float64Array[] => of(whose).filter((_, i) => solid[i]);
+    const present = (column: Float64Array): Column => Array.from(column, (one) => (Number.isNaN(one) ? null : one));
+    return { plot, columns: () => [...shown(GHOST).map(present), ...shown("")] };
   }
 
   private pushes(): PlotWithData {

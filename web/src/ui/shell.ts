@@ -13,13 +13,14 @@ import type { Compare, FlownScene, FlownStatus } from "../wire/source.ts";
 import { Challenge } from "./challenge.ts";
 import { Comparison } from "./comparison.ts";
 import { Dock } from "./dock.ts";
-import { byId, choice } from "./dom.ts";
+import { byId, choice, foldable } from "./dom.ts";
 import { timedName } from "./file_names.ts";
 import { helpDialog } from "./help.ts";
 import { EndedCard } from "./ended_card.ts";
 import { Findings } from "./findings.ts";
 import { hintOf } from "./hint.ts";
 import { Laboratory } from "./laboratory.ts";
+import { Lecture } from "./lecture.ts";
 import { MissionChoice } from "./mission_choice.ts";
 import { Notices } from "./notices.ts";
 import { Panel } from "./panel.ts";
@@ -73,7 +74,7 @@ export class Shell {
   private readonly laboratory: Laboratory;
   readonly challenge: Challenge;
   private readonly comparison: Comparison;
-  private flown!: FlownScene; // with the settings as they are now
+  private readonly lecture: Lecture;
   private readonly senses: SensesOfFlight;
   private readonly show: ShowMenu;
   private readonly undo: Undo;
@@ -88,7 +89,13 @@ export class Shell {
   constructor(private readonly page: ShellPage) {
     this.notices = new Notices(() => page.retry());
     this.findings = new Findings(this.notices);
-    this.missions = new MissionChoice(page.send.bind(page), this.notices, this.question);
+    const load = (name: string, text: string): void => this.lecture.load(name, text);
+    this.missions = new MissionChoice(page.send.bind(page), this.notices, this.question, load);
+    this.lecture = new Lecture(page, {
+      look: (view) => this.views()[Object.keys(VIEWS).indexOf(view)].click(),
+      choose: () => this.missions.choose(),
+      tell: (title, reason) => this.question.tell(title, reason),
+    });
     this.bar = new StatusBar(page.replay !== null);
     this.undo = new Undo(page.send.bind(page));
     this.comparison = new Comparison(page.compare);
@@ -96,10 +103,7 @@ export class Shell {
     this.laboratory = new Laboratory(page, (text) => this.notices.show(text, "done"));
     this.help = helpDialog(page.replay !== null);
     this.saving = new SaveDialog((name) => page.send({ type: "save", name }));
-    byId("show-help").addEventListener("click", () => {
-      this.help.showModal();
-      this.help.scrollTop = 0; // the focus is at its end
-    });
+    byId("show-help").addEventListener("click", () => this.openHelp());
     foldable("show-panel", "panel", window.innerWidth >= NARROW && page.replay === null);
     foldable("show-plots", "plots", window.innerHeight >= LOW && window.parent === window); // a page around it has its own
     this.senses = new SensesOfFlight(page.shown);
@@ -127,6 +131,7 @@ export class Shell {
     this.challenge.begin(scene);
     this.comparison.begin(this.page.companions);
     this.tellSettings(scene);
+    this.lecture.begun();
     this.dock?.reset(this.missions.open);
     if (!this.page.replay || !scene.replay) return;
     const { element } = this.laboratory.timeline;
@@ -136,6 +141,7 @@ export class Shell {
   frame(frame: Frame): void {
     this.laboratory.frame(frame);
     this.challenge.frame(frame);
+    this.lecture.frame(frame);
     if (frame.scalar("held") > 0) this.pulled = true;
   }
 
@@ -145,6 +151,7 @@ export class Shell {
     this.comparison.status(status);
     this.dock?.status(status);
     if (!this.page.replay) this.ended.status(status);
+    this.lecture.status(status);
     this.panel.markFailed(status.failed_rotors);
     this.hint(status);
     this.findings.status(status.findings ?? []);
@@ -155,7 +162,7 @@ export class Shell {
     this.panel.changed(key, value, duration);
     this.laboratory.changed(key, value);
     this.challenge.changed(key, value);
-    this.tellSettings({ ...this.flown, parameters: withValue(this.flown.parameters, key, value) });
+    this.tellSettings({ ...this.lecture.scene, parameters: withValue(this.lecture.scene.parameters, key, value) });
     this.undo.changed(key, value, performance.now());
   }
 
@@ -200,6 +207,7 @@ export class Shell {
   tick(now: number): void {
     const { page } = this;
     this.laboratory.tick(now);
+    this.lecture.tick(now);
     const { threshold } = this.laboratory;
     if (page.current && threshold) this.senses.update(page.current, threshold, now);
     if (page.current) this.player?.update(page.current.scalar("time"));
@@ -226,7 +234,7 @@ export class Shell {
   /** The settings as they are now. */
   private tellSettings(scene: FlownScene): void {
     this.comparison.show(scene);
-    this.flown = scene;
+    this.lecture.scene = scene;
   }
 
   private views(): HTMLElement[] {
@@ -237,6 +245,12 @@ export class Shell {
     const { page } = this;
     const views = choice("View", VIEWS, "behind", (view) => page.look(view));
     byId("views").replaceChildren(views, this.show.button);
+    byId("show").append(this.lecture.button);
+  }
+
+  private openHelp(): void {
+    this.help.showModal();
+    this.help.scrollTop = 0; // the focus is at its end
   }
 
   private toggleVideo(): void {
@@ -267,6 +281,7 @@ export class Shell {
     const { player } = this;
     const keys = new Map(this.views().map((one, i) => [`Digit${i + 1}`, () => one.click()]));
     keys.set("KeyF", () => this.show.follow.click());
+    keys.set("KeyT", () => this.lecture.toggle());
     if (player) {
       keys.set("KeyP", () => player.toggle());
       keys.set("ArrowLeft", () => player.step(-1));
@@ -279,16 +294,4 @@ export class Shell {
     }
     return keys;
   }
-}
-
-/** Lets a button show and hide a part of the page. */
-function foldable(name: string, part: string, open: boolean): void {
-  const [handle, place] = [byId(name), byId(part)];
-  const set = (on: boolean): void => {
-    handle.setAttribute("aria-pressed", String(on));
-    place.hidden = !on;
-    document.body.classList.toggle(`no-${part}`, !on);
-  };
-  handle.addEventListener("click", () => set(place.hidden !== false));
-  set(open);
 }

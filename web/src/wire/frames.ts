@@ -70,6 +70,10 @@ export class Frame {
     return this.values.length === 2 * size ? new Frame(this.layout, this.values.subarray(size)) : null;
   }
 
+  get pose(): { position: Vector; attitude: Quaternion } {
+    return { position: this.vector("position"), attitude: this.attitude };
+  }
+
   get attitude(): Quaternion {
     const { start, length } = this.layout.place("attitude");
     const v = this.values;

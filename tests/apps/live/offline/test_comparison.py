@@ -124,24 +124,23 @@ def test_both_begin_again_each_with_its_settings(opened, hover, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def smoother():
-    """The same vehicle with another setting of its controller, which no page changes in flight."""
-    mission = page_mission("hover", {"mission.name": "hover-smooth", "controller.boundary_layer": 0.5})
-    return packed_mission(mission, "a smooth controller")
+def by_pid():
+    """The same mission by another controller."""
+    return packed_mission(page_mission("hover", {"mission.name": "pid"}, "pid"), "by PID")
 
 
-def test_another_mission_of_the_page_flies_along_from_the_start(opened, hover, smoother, tmp_path):
+def test_another_controller_of_the_page_flies_along_from_the_start(opened, hover, by_pid, tmp_path):
     flight = opened(hover)
     check_done(flight, BEFORE)
-    (scene,) = flight.along(smoother)
-    assert (scene["mission"], scene["ghost"]["mission"]) == ("hover", "hover-smooth")
+    (scene,) = flight.along(by_pid)
+    assert (scene["mission"], scene["ghost"]["mission"]) == ("hover", "pid")
     check_done(flight, AFTER)
     own, ghost = both(flight, tmp_path)
     stiff = opened(hover)
     check_done(stiff, BEFORE)
     stiff.say("reset")
     check_same_bits(own, alone(stiff, *AFTER, folder=tmp_path / "a"))
-    check_same_bits(ghost, alone(opened(smoother), *AFTER, folder=tmp_path / "b"))
+    check_same_bits(ghost, alone(opened(by_pid), *AFTER, folder=tmp_path / "b"))
     assert np.abs(own - ghost).max() > 0.001
 
 
