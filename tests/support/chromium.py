@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 import zipfile
 from pathlib import Path
 
@@ -40,6 +41,11 @@ SETTINGS = GUIDED | {
     "phases.lift_duration": 2.0,
     "phases.land_duration": 4.0,
 }
+DROP = """([name, text]) => {
+  const data = new DataTransfer();
+  data.items.add(new File([text], name));
+  window.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
+}"""
 SIZE = {"width": 800, "height": 450}
 MS = 1e3 * PATIENCE
 
@@ -178,6 +184,31 @@ def panel(page, key):
     return box
 
 
+def pushed(page, seconds=0.5):
+    """Push by a key."""
+    page.keyboard.down("KeyD")
+    time.sleep(seconds)
+    page.keyboard.up("KeyD")
+
+
+def resized(page, size):
+    """Give the page a size, and wait until its plots stand still in it."""
+    page.set_viewport_size(size)
+    boxes = [None]
+
+    def still():
+        boxes.append(page.locator(".plot .u-over").first.bounding_box())
+        page.evaluate("new Promise((done) => setTimeout(done, 300))")
+        return boxes[-1] == boxes[-2] and page.evaluate("window.innerWidth") == size["width"]
+
+    until(still, "plots of that size")
+
+
+def paused(page):
+    """Whether the flight stands still."""
+    return page.locator("#dock span:text-is('Continue')").count() == 1
+
+
 def seconds_flown(page):
     """The time of the flight that the page shows [s]."""
     return float(page.inner_text("#meters .time dd").removesuffix("s").replace("–", "-1"))
@@ -201,3 +232,8 @@ def grabbed(page, live):
     page.mouse.down()
     live.wait(lambda seen: seen["held"] == 1.0, "hold of the beam")
     return x, y
+
+
+def dropped(page, text, name="talk.toml"):
+    """Drop a file on the page."""
+    page.evaluate(DROP, [name, text])

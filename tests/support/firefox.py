@@ -80,6 +80,12 @@ class Firefox:
         """Let go."""
         self._act({"type": "pointer", "id": "mouse", "actions": [{"type": "pointerUp", "button": 0}]})
 
+    def press(self, key: str) -> None:
+        """Press a key, by its character in WebDriver."""
+        self._act(
+            {"type": "key", "id": "keys", "actions": [{"type": kind, "value": key} for kind in ("keyDown", "keyUp")]}
+        )
+
     def _act(self, actions: dict[str, Any]) -> None:
         self.command("input.performActions", context=self._page, actions=[actions])
 

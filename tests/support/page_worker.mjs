@@ -51,7 +51,7 @@ async function handle(line) {
   const request = JSON.parse(line);
   if (request.fly !== undefined) fly(request.fly, request.dt);
   else self.onmessage({ data: request });
-  while (request.type === "open" && !said.length) await new Promise((done) => setTimeout(done, 1));
+  while (["open", "along"].includes(request.type) && !said.length) await new Promise((done) => setTimeout(done, 1));
   process.stdout.write(`${JSON.stringify(said.splice(0), hex)}\n`);
 }
 

@@ -21,17 +21,16 @@ import { beamAxis } from "./view/vehicle.ts";
 import type { Frame } from "./wire/frames.ts";
 import { Latency } from "./wire/latency.ts";
 import {
-  type FlightScene,
   type PageMessage,
   type ParameterValue,
   type SceneEnding,
-  type StatusMessage,
+  type SceneMission,
   STIFFNESS,
   THRESHOLD,
 } from "./wire/messages.generated.ts";
 import { perAxis } from "./wire/parameters.ts";
 import type { Replay } from "./wire/replay.ts";
-import type { FlightListener, FlightSource } from "./wire/source.ts";
+import type { Compare, FlightListener, FlightSource, FlownScene, FlownStatus } from "./wire/source.ts";
 
 const REDRAW_AFTER = 100; // ms: overlays may have been switched although nothing moved
 
@@ -41,11 +40,10 @@ export class App implements FlightListener, ShellPage {
   readonly latency = new Latency();
   readonly frameRate = new FrameRate();
   readonly camera: ChaseCamera;
+  readonly compare: Compare | undefined;
   current: Frame | null = null;
   private readonly stage: Stage;
-  private readonly themes = new ThemeSwitch((theme) => {
-    this.recolor(theme);
-  });
+  private readonly themes = new ThemeSwitch((theme) => this.recolor(theme));
   private readonly grab: Grab;
   private readonly force: ForceInput;
   private readonly shell: Shell;
@@ -79,6 +77,7 @@ export class App implements FlightListener, ShellPage {
     });
     this.camera = new ChaseCamera(camera, surface);
     this.force = new ForceInput(camera, this.hand, send, replay === null);
+    this.compare = source.compare?.bind(source);
     this.shell = new Shell(this);
   }
 
@@ -103,6 +102,10 @@ export class App implements FlightListener, ShellPage {
     const seq = this.source.send(message);
     if (seq !== null && since !== undefined) this.latency.note(seq, since, performance.now());
     return seq;
+  }
+
+  get companions(): readonly SceneMission[] | undefined {
+    return this.source.companions;
   }
 
   get canvas(): HTMLCanvasElement {
@@ -139,7 +142,7 @@ export class App implements FlightListener, ShellPage {
 
   // FlightListener
 
-  scene(scene: FlightScene): void {
+  scene(scene: FlownScene): void {
     const first = this.picture === null;
     this.grab.release();
     this.current = null;
@@ -160,7 +163,7 @@ export class App implements FlightListener, ShellPage {
     this.shell.frame(frame);
   }
 
-  status(status: StatusMessage): void {
+  status(status: FlownStatus): void {
     if (status.holder !== "you") this.grab.cancel(status.last_grab); // the server has let go
     this.remarks.status(status);
     this.end = status.ending;
@@ -210,7 +213,8 @@ export class App implements FlightListener, ShellPage {
   private draw(frame: Frame, picture: Picture, now: number, passed: number): void {
     picture.update(frame, this.grab.hand, this.shown, this.remarks.now(frame));
     picture.showEnding(this.end ? `${this.end.outcome} here, ${this.end.time.toFixed(2)} s` : "", this.end?.place ?? null);
-    picture.rival.show(this.shell.challenge.rival);
+    const along = frame.ghost?.drawable ? frame.ghost : null;
+    picture.rival.show(along ? along.pose : this.shell.challenge.rival);
     this.camera.update(picture.vehicle.group, this.grab.pulling, passed);
     this.grab.flush();
     this.force.flush(this.grab.pulling);

@@ -8,6 +8,7 @@ import "./style/plots.css";
 import "./style/timeline.css";
 import "./style/panel.css";
 import "./style/dialogs.css";
+import "./style/lecture.css";
 import "./style/own_flight.css";
 import "./style/small_windows.css";
 
@@ -31,12 +32,9 @@ function fly(index: FlightIndex): void {
     window.history.replaceState(null, "", `#mission=${mission}`);
     flight.open(mission, []);
   });
-  window.addEventListener("hashchange", () => {
-    flight.restart();
-    menu.show(flight.mission);
-  });
+  flight.opened = (mission) => menu.show(mission);
+  window.addEventListener("hashchange", () => flight.restart());
   new App(flight, null, [ownFlightGroup(flight, address)]).start();
-  menu.show(flight.mission);
 }
 
 /** Shows a flight that the page carries, or that of the page's server. */

@@ -1,8 +1,9 @@
 // The flight in a worker of the page, as a source for the rest of the page; the same messages as with a server.
 
 import { Frame, Layout } from "../wire/frames.ts";
-import type { PageMessage, SceneMessage, SceneParameter } from "../wire/messages.generated.ts";
-import type { FlightListener, FlightSource } from "../wire/source.ts";
+import type { PageMessage, SceneParameter } from "../wire/messages.generated.ts";
+import { withValue } from "../wire/parameters.ts";
+import type { Comparing, FlightListener, FlightSource, FlownScene } from "../wire/source.ts";
 import { type Link, linkOf, type Setting } from "./link.ts";
 import type { FlightIndex, MissionEntry } from "./manifest.ts";
 import type { FromWorker, ToWorker } from "./protocol.ts";
@@ -14,6 +15,8 @@ export class OwnFlight implements FlightSource {
   private seq = 0;
   private parameters: SceneParameter[] = [];
   mission = "";
+  /** Is told the mission that is flown. */
+  opened: (mission: string) => void = () => undefined;
 
   constructor(
     private readonly index: FlightIndex,
@@ -34,6 +37,10 @@ export class OwnFlight implements FlightSource {
     return this.index.missions;
   }
 
+  get companions(): readonly MissionEntry[] {
+    return this.missions.filter(({ name }) => name !== this.mission);
+  }
+
   start(listener: FlightListener): void {
     this.listener = listener;
     listener.connected();
@@ -43,7 +50,7 @@ export class OwnFlight implements FlightSource {
   /** Flies what the page's address says. */
   restart(): void {
     const { mission, settings } = this.begin();
-    const entry = this.missions.find(({ name }) => name === mission) ?? this.missions[0];
+    const entry = this.entry(mission ?? "") ?? this.missions[0];
     this.open(entry.name, settings);
     if (mission !== null && entry.name !== mission) this.refuseMission(mission);
   }
@@ -57,20 +64,31 @@ export class OwnFlight implements FlightSource {
       if (worker === this.worker) this.receive(data);
     };
     this.worker = worker;
-    void this.sendFlight(worker, this.missions.find(({ name }) => name === mission)!, settings);
+    void this.sendFlight("open", worker, mission, settings);
+  }
+
+  compare(what: Comparing, mission = ""): void {
+    if (what === "fly") void this.sendFlight("along", this.worker!, mission, []);
+    else this.post(this.worker!, { type: "compare", what });
   }
 
   send(message: PageMessage): number | null {
+    if (message.type === "fly" && this.entry(message.mission)) this.open(message.mission, []);
     if (!this.layout) return null;
     this.seq += 1;
     this.post(this.worker!, { ...message, seq: this.seq });
     return this.seq;
   }
 
-  private async sendFlight(worker: Worker, entry: MissionEntry, settings: Setting[]): Promise<void> {
+  private entry(mission: string): MissionEntry | undefined {
+    return this.missions.find(({ name }) => name === mission);
+  }
+
+  private async sendFlight(type: "open" | "along", worker: Worker, name: string, settings: Setting[]): Promise<void> {
     const index = { ...this.index, missions: [] };
+    const entry = this.entry(name)!;
     const file = entry.file === undefined ? null : await download(entry.file);
-    if (worker === this.worker) this.post(worker, { type: "open", index, entry, settings, file });
+    if (worker === this.worker) this.post(worker, { type, index, entry, settings, file });
   }
 
   private post(worker: Worker, message: ToWorker): void {
@@ -91,7 +109,7 @@ export class OwnFlight implements FlightSource {
         to.status(message);
         break;
       case "changed":
-        this.parameters = this.parameters.map((one) => (one.key === message.key ? { ...one, value: message.value } : one));
+        this.parameters = withValue(this.parameters, message.key, message.value);
         to.changed(message.key, message.value, message.duration);
         break;
       case "refused":
@@ -106,10 +124,11 @@ export class OwnFlight implements FlightSource {
     }
   }
 
-  private scene(message: SceneMessage): void {
-    this.layout = new Layout(message.fields);
-    this.parameters = message.parameters;
-    this.listener!.scene(message);
+  private scene(scene: FlownScene): void {
+    this.layout = new Layout(scene.fields);
+    [this.mission, this.parameters] = [scene.mission, scene.parameters];
+    this.opened(this.mission);
+    this.listener!.scene(scene);
   }
 
   private refuseMission(mission: string): void {

@@ -19,9 +19,7 @@ export class HandControl {
     private readonly flight: Flight,
     private readonly module: FlightModule,
     private readonly page: PageManifest,
-  ) {
-    flight.hold(Float64Array.from(page.released));
-  }
+  ) {}
 
   /** Takes hold at a point or at the centre of mass; `attitude`: of the vehicle. */
   grab({ point, target, at }: Message<"grab">, attitude: ArrayLike<number>): void {

@@ -1,6 +1,7 @@
 // A link that holds a mission and settings: page.html#mission=iris&admittance.mass=2&wind.velocity=3,0,0
 
 import type { ParameterValue, SceneParameter } from "../wire/messages.generated.ts";
+import { same } from "../wire/parameters.ts";
 
 export type Setting = readonly [key: string, value: number | string | readonly number[]];
 
@@ -18,7 +19,7 @@ export function readLink(hash: string): Link {
 
 /** The link of a mission with the parameters that differ from the mission's own. */
 export function linkOf(mission: string, parameters: readonly SceneParameter[]): string {
-  const altered = parameters.filter(({ value, initial }) => JSON.stringify(value) !== JSON.stringify(initial ?? value));
+  const altered = parameters.filter(({ value, initial }) => !same(value, initial ?? value));
   const entries = altered.map(({ key, value }) => `${key}=${encodeURIComponent(textOf(value)).replaceAll("%2C", ",")}`);
   return `#${[`mission=${encodeURIComponent(mission)}`, ...entries].join("&")}`;
 }

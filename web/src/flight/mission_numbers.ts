@@ -1,5 +1,6 @@
 // A mission as it is now: its tables and its numbers by their keys.
 
+import { same } from "../wire/parameters.ts";
 import type { FlightManifest, Tables, TomlValue } from "./manifest.ts";
 
 export type Value = number | readonly number[];
@@ -26,7 +27,7 @@ export class MissionNumbers {
 
   /** Whether a value would change the mission; one number stands for all of a list. */
   differs(key: string, value: Value): boolean {
-    return JSON.stringify(this.shaped(key, value)) !== JSON.stringify(this.value(key));
+    return !same(this.shaped(key, value), this.value(key));
   }
 
   /** Sets a key; false if the module does not take it as numbers. */

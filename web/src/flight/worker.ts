@@ -1,8 +1,8 @@
 // The worker: opens a flight, flies it in real time, and answers the page.
 
 import { bytes, NOT_LIVE } from "../wire/replay.ts";
+import { FlownMission } from "./flown_mission.ts";
 import { BrokenFlight, unpacked } from "./manifest.ts";
-import { FlightModule } from "./module.ts";
 import type { FromWorker, OpenRequest, ToWorker } from "./protocol.ts";
 import { RealTimeLoop } from "./real_time.ts";
 import { Refusal } from "./refusal.ts";
@@ -14,12 +14,17 @@ function post(message: FromWorker, moved: Transferable[] = []): void {
   self.postMessage(message, { transfer: moved });
 }
 
+let session: Session | null = null;
 let loop: RealTimeLoop | null = null;
 
 async function open(request: OpenRequest): Promise<void> {
   const [manifest, code] = unpacked(await content(request), request.entry, request.index);
-  const module = new FlightModule(await WebAssembly.compile(code), manifest.module);
-  const session = new Session(module, manifest, clock, post);
+  const flown = new FlownMission(await WebAssembly.compile(code), manifest);
+  if (request.type === "along") {
+    session?.accompany(flown);
+    return;
+  }
+  session = new Session(flown, clock, post);
   const refused = session.take(request.settings);
   post({ type: "scene", ...session.scene });
   for (const answer of refused) post(answer);
@@ -33,15 +38,18 @@ async function content({ entry, file }: OpenRequest): Promise<Uint8Array<ArrayBu
 }
 
 self.onmessage = ({ data }: MessageEvent<ToWorker>): void => {
-  if (data.type === "open") {
+  if ("entry" in data) {
     open(data).catch((error: unknown) => {
       const known = error instanceof BrokenFlight || error instanceof Refusal;
-      fail(known ? error.message : `${data.index.broken} (${String(error)})`);
+      const reason = known ? error.message : `${data.index.broken} (${String(error)})`;
+      if (data.type === "along") post({ type: "refused", what: "compare", reason });
+      else fail(reason);
     });
-    return;
+  } else if (data.type === "compare") session?.compare(data.what);
+  else {
+    const { seq, ...rest } = data;
+    loop?.receive(rest, seq);
   }
-  const { seq, ...rest } = data;
-  loop?.receive(rest, seq);
 };
 
 /** Says why the flight cannot be flown. */

@@ -44,10 +44,6 @@ export class ForceInput {
     document.addEventListener("visibilitychange", this.release);
   }
 
-  get pushing(): boolean {
-    return size(this.sent) > 0;
-  }
-
   /** Once per picture: sends the force if it has changed; none while the mouse pulls. */
   flush(pulling: boolean): void {
     if (!this.listening) return;

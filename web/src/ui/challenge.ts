@@ -3,6 +3,7 @@
 import type { Pose } from "../view/vehicle.ts";
 import type { Frame } from "../wire/frames.ts";
 import type { FlightScene, ParameterValue, StatusMessage, StatusScore } from "../wire/messages.generated.ts";
+import { same } from "../wire/parameters.ts";
 import { button, el } from "./dom.ts";
 import { timedName } from "./file_names.ts";
 import { keep, kept, keptData } from "./storage.ts";
@@ -55,7 +56,7 @@ export class Challenge {
     this.scene = scene;
     this.best = (keptData(this.place) as Run | null) ?? null;
     this.altered.clear();
-    for (const { key, value, initial } of scene.parameters) this.altered.set(key, differs(value, initial ?? value));
+    for (const { key, value, initial } of scene.parameters) this.altered.set(key, !same(value, initial ?? value));
     this.restart();
     this.button.hidden = !scene.corridor;
     this.show(this.on);
@@ -63,7 +64,7 @@ export class Challenge {
 
   changed(key: string, value: ParameterValue): void {
     const parameter = this.scene?.parameters.find((one) => one.key === key);
-    if (parameter) this.altered.set(key, differs(value, parameter.initial ?? parameter.value));
+    if (parameter) this.altered.set(key, !same(value, parameter.initial ?? parameter.value));
   }
 
   frame(frame: Frame): void {
@@ -142,5 +143,3 @@ export class Challenge {
     this.element.hidden = !on || !this.scene?.corridor;
   }
 }
-
-const differs = (a: ParameterValue, b: ParameterValue): boolean => JSON.stringify(a) !== JSON.stringify(b);

@@ -91,9 +91,7 @@ export class Dock {
 
   /** Stops the rotors; in the air only after a question. */
   private stop(): void {
-    const stop = (): void => {
-      this.send({ type: "ask", what: "stop" });
-    };
+    const stop = (): void => this.send({ type: "ask", what: "stop" });
     const height = this.actions.height();
     const from = height === null ? "" : ` from ${height.toFixed(1)} m`;
     if (this.airborne) this.question.ask("Stop all rotors?", `The rotors stop and it falls${from}.`, "Stop", stop);
@@ -127,9 +125,7 @@ export class Dock {
   }
 
   private request(what: "lift" | "land", title: string, kind?: string): HTMLButtonElement {
-    const ask = (): void => {
-      this.ask(what);
-    };
+    const ask = (): void => this.ask(what);
     return button(what, what === "lift" ? "Lift" : "Land", title, ask, kind);
   }
 
@@ -144,9 +140,7 @@ export class Dock {
   }
 
   private resetButton(): HTMLButtonElement {
-    return button("reset", "Reset", "Begin the flight again", () => {
-      this.send({ type: "reset" });
-    });
+    return button("reset", "Reset", "Begin the flight again", () => this.send({ type: "reset" }));
   }
 }
 

@@ -61,8 +61,18 @@ export function choice<T extends string>(
 
 export function toggle(text: string, on: boolean, act: (on: boolean) => void): HTMLElement {
   const input = el("input", { type: "checkbox", checked: on });
-  input.addEventListener("change", () => {
-    act(input.checked);
-  });
+  input.addEventListener("change", () => act(input.checked));
   return el("label", { class: "toggle" }, input, el("span", {}, text));
+}
+
+/** Lets a button show and hide a part of the page. */
+export function foldable(name: string, part: string, open: boolean): void {
+  const [handle, place] = [byId(name), byId(part)];
+  const set = (on: boolean): void => {
+    handle.setAttribute("aria-pressed", String(on));
+    place.hidden = !on;
+    document.body.classList.toggle(`no-${part}`, !on);
+  };
+  handle.addEventListener("click", () => set(place.hidden !== false));
+  set(open);
 }

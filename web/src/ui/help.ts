@@ -29,13 +29,14 @@ const KEYS: Line[] = [
   ["R \u00b7 Ctrl+Z", "fly again to the chosen moment, and try again from there \u00b7 undo a setting"],
   ["L \u00b7 K \u00b7 P", "lift \u00b7 land \u00b7 pause"],
 ];
+const LECTURE_KEY: Line = ["T", "lecture: full screen, large type, one quantity, the steps of a script"];
 const REPLAY_KEYS: Line[] = [
   ["P", "play or pause"],
   ["Left, Right", "one second back, on"],
 ];
 const VIEW_KEYS: Line = ["1 2 3 4 \u00b7 F", "view from behind, the side, above, on board \u00b7 follow the vehicle"];
 const LEGEND: [string, string, string][] = [
-  ["best", "amber shape", "your best run, in a challenge"],
+  ["best", "amber shape", "the ghost of a comparison, or your best run in a challenge"],
   ["push", "red arrow", "true push on the beam; the curved one is its moment about the centre of mass"],
   ["hand", "violet hoop", "the admittance's threshold: a push whose arrow does not pass it moves nothing"],
   ["hand", "violet box and spring", "the hand; inside the box a pull is below the threshold and moves nothing"],
@@ -48,7 +49,8 @@ const LEGEND: [string, string, string][] = [
 export function helpLines(replay: boolean, touch: boolean): Line[] {
   const pull = touch ? FINGERS : MOUSE;
   const look = touch ? [FINGERS_VIEW, FINGERS_PLOTS] : [MOUSE_VIEW, MOUSE_PLOTS];
-  return replay ? [...look, ...REPLAY_KEYS, VIEW_KEYS] : [...pull, ...look, ...KEYS, VIEW_KEYS];
+  const own = replay ? [...look, ...REPLAY_KEYS] : [...pull, ...look, ...KEYS];
+  return [...own, VIEW_KEYS, LECTURE_KEY];
 }
 
 export function helpDialog(replay: boolean): HTMLDialogElement {
@@ -60,9 +62,7 @@ export function helpDialog(replay: boolean): HTMLDialogElement {
     el("dd", {}, text),
   ]);
   const close = el("button", { type: "button", class: "go" }, "Close");
-  close.addEventListener("click", () => {
-    dialog.close();
-  });
+  close.addEventListener("click", () => dialog.close());
   const hold = "One page holds the beam at a time. It lets go when it loses the focus or the connection.";
   const notes = replay ? [] : [el("p", {}, hold)];
   const parts = [el("h2", {}, replay ? "A saved flight" : "Push the beam yourself"), el("dl", {}, ...keys)];

@@ -2,8 +2,10 @@
 
 import type { Frame } from "../wire/frames.ts";
 import type { FlightScene, FrameFieldName } from "../wire/messages.generated.ts";
+import type { FlownScene } from "../wire/source.ts";
 import type { Stretch } from "./time_window.ts";
 
+export const GHOST = "ghost "; // begins the names of a ghost's columns
 const RATE = 20; // samples/s that are kept
 const FIRST_SIZE = 1024; // samples, doubled when they are taken
 const LOST = 2; // s without a frame, as after a lost connection: what is older is forgotten
@@ -21,12 +23,24 @@ export class History {
       ...vectors.flatMap((name) => [0, 1, 2].map((i) => `${name}${i}`)),
       ...Array.from({ length: rotors }, (_, i) => `thrusts${i}`),
     ];
-    for (const name of names) this.columns.set(name, new Float64Array(FIRST_SIZE));
+    for (const name of [...names, ...names.slice(1).map((one) => GHOST + one)]) {
+      this.columns.set(name, new Float64Array(FIRST_SIZE));
+    }
   }
 
   /** Whether frames of a scene continue this flight. */
   continues(scene: FlightScene): boolean {
     return scene.mission === this.scene.mission && String(scene.fields) === String(this.scene.fields);
+  }
+
+  /** A ghost begins, or has changed places with the flight. */
+  ghost(before: FlownScene["ghost"], now: FlownScene["ghost"]): void {
+    const swapped = before && now && before.swaps !== now.swaps;
+    for (const [name, column] of [...this.columns].filter(([one]) => one.startsWith(GHOST))) {
+      const own = name.slice(GHOST.length);
+      if (swapped) this.columns.set(name, this.columns.get(own)!).set(own, column);
+      else if (!before) column.fill(NaN);
+    }
   }
 
   /** First and last time [s]. */
@@ -90,8 +104,10 @@ function grown(column: Float64Array): Float64Array {
   return larger;
 }
 
-function valueOf(frame: Frame, name: string): number {
+function valueOf(frame: Frame | null, name: string): number {
+  if (!frame) return NaN;
   if (name === "time") return frame.scalar(name);
+  if (name.startsWith(GHOST)) return valueOf(frame.ghost, name.slice(GHOST.length));
   const cut = name.search(/\d+$/);
   const field = name.slice(0, cut) as FrameFieldName;
   return frame.layout.has(field) ? frame.values[frame.layout.place(field).start + Number(name.slice(cut))] : NaN;

@@ -2,14 +2,15 @@
 
 import type { Graphics } from "../view/graphics.ts";
 import type { Frame } from "../wire/frames.ts";
-import type { FlightScene, PageMessage, ParameterValue, StatusMessage, Vector } from "../wire/messages.generated.ts";
+import type { PageMessage, ParameterValue, StatusMessage, Vector } from "../wire/messages.generated.ts";
 import { THRESHOLD } from "../wire/messages.generated.ts";
 import { perAxis } from "../wire/parameters.ts";
 import type { Replay } from "../wire/replay.ts";
+import type { FlownScene } from "../wire/source.ts";
 import { button, byId, el } from "./dom.ts";
 import { History } from "./history.ts";
 import { Marks } from "./marks.ts";
-import { formatNumber } from "./numbers.ts";
+import { worded } from "./numbers.ts";
 import { Plots } from "./plots.ts";
 import { TimeWindow } from "./time_window.ts";
 import { Timeline } from "./timeline.ts";
@@ -30,7 +31,7 @@ export interface LaboratoryPage {
 export class Laboratory {
   readonly timeline: Timeline;
   private readonly window: TimeWindow;
-  private scene: FlightScene | null = null;
+  private scene: FlownScene | null = null;
   private history: History | null = null;
   private plots: Plots | null = null;
   private marks = new Marks();
@@ -47,9 +48,7 @@ export class Laboratory {
       () => this.history!.flown,
       () => page.current?.scalar("time") ?? NaN,
     );
-    this.timeline = new Timeline((time) => {
-      this.choose(time);
-    });
+    this.timeline = new Timeline((time) => this.choose(time));
     this.back = button("play", "Now", "The last seconds, and no chosen moment", () => {
       this.window.follow();
       this.choose(null);
@@ -64,10 +63,11 @@ export class Laboratory {
   }
 
   /** Plots of what was flown: of the whole of a replay, else what frames show from now on. */
-  show(scene: FlightScene): void {
+  show(scene: FlownScene): void {
     const { replay, graphics } = this.page;
-    this.scene = scene;
     if (!this.history?.continues(scene)) [this.history, this.marks] = [new History(scene), new Marks()];
+    this.history.ghost(this.scene?.ghost, scene.ghost);
+    this.scene = scene;
     if (replay) for (const frame of replay.frames()) this.keep(frame);
     this.marks.findings(scene.replay?.findings ?? []);
     for (const { time, text } of scene.replay?.changes ?? []) this.marks.setting(time, text);
@@ -87,8 +87,7 @@ export class Laboratory {
     const { page, scene, plots } = this;
     if (plots && key === THRESHOLD) plots.threshold = perAxis(value);
     const parameter = scene?.parameters.find((one) => one.key === key);
-    const words = [value].flat().map((one) => (typeof one === "number" ? formatNumber(one) : String(one)));
-    const text = `${parameter?.label ?? key} \u2192 ${words.join(", ")} ${parameter?.unit ?? ""}`;
+    const text = `${parameter?.label ?? key} \u2192 ${worded(value)} ${parameter?.unit ?? ""}`;
     if (page.current) this.marks.setting(page.current.scalar("time"), text.trim());
   }
 

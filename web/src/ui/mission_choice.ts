@@ -2,6 +2,7 @@
 
 import { type FlightScene, MAX_SIZE, type FlyMessage } from "../wire/messages.generated.ts";
 import { el } from "./dom.ts";
+import { isScript } from "./lecture_script.ts";
 import { MissionMenu } from "./mission_menu.ts";
 import type { Notices } from "./notices.ts";
 import type { Question } from "./question.ts";
@@ -18,6 +19,7 @@ export class MissionChoice {
     private readonly send: (message: FlyMessage) => void,
     private readonly notices: Notices,
     private readonly question: Question,
+    private readonly script: (name: string, text: string) => void,
   ) {
     window.addEventListener("dragover", this.drag);
     window.addEventListener("dragleave", this.drag);
@@ -30,9 +32,7 @@ export class MissionChoice {
   }
 
   scene({ missions, mission }: FlightScene): void {
-    const fly = (name: string): void => {
-      this.fly({ type: "fly", mission: name });
-    };
+    const fly = (name: string): void => this.fly({ type: "fly", mission: name });
     if (missions) this.menu ??= new MissionMenu(missions, fly);
     this.flown = mission;
     this.menu?.show(mission);
@@ -76,7 +76,10 @@ export class MissionChoice {
     }
     const mission = file.name.slice(-MAX_NAME);
     try {
-      this.fly({ type: "fly", mission, toml: await file.slice(0, MAX_SIZE).text() });
+      const toml = await file.slice(0, MAX_SIZE).text();
+      if (isScript(toml)) this.script(mission, toml);
+      else if (this.open) this.fly({ type: "fly", mission, toml });
+      else this.refused(`${mission}: ${NO_SERVER}`);
     } catch {
       this.refused(`${mission}: cannot be read`);
     }
@@ -85,7 +88,7 @@ export class MissionChoice {
   private readonly drag = (event: DragEvent): void => {
     if (!event.dataTransfer?.types.includes("Files")) return;
     event.preventDefault();
-    document.body.classList.toggle("dropping", event.type === "dragover" && this.open);
+    document.body.classList.toggle("dropping", event.type === "dragover");
   };
 
   private readonly drop = (event: DragEvent): void => {
@@ -93,7 +96,6 @@ export class MissionChoice {
     const files = event.dataTransfer?.files;
     if (!files?.length) return;
     event.preventDefault();
-    if (this.open) void this.take(files);
-    else this.refused(`${files[0].name}: ${NO_SERVER}`);
+    void this.take(files);
   };
 }

@@ -19,23 +19,17 @@ export class Notices {
     const same = [...this.place.children].find((one) => one.textContent === text);
     same?.remove();
     const notice = el("p", { class: kind }, text);
-    notice.addEventListener("click", () => {
-      notice.remove();
-    });
+    notice.addEventListener("click", () => notice.remove());
     this.place.append(notice);
     while (this.place.children.length > MAX_NOTICES) this.place.firstElementChild?.remove();
-    window.setTimeout(() => {
-      notice.remove();
-    }, SHOWN_FOR);
+    window.setTimeout(() => notice.remove(), SHOWN_FOR);
     return notice;
   }
 
   /** Shows a sentence until it is pressed. */
   explain(sentence: string): void {
     const notice = el("p", { class: "refused" }, sentence);
-    notice.addEventListener("click", () => {
-      notice.remove();
-    });
+    notice.addEventListener("click", () => notice.remove());
     this.place.append(notice);
   }
 

@@ -1,5 +1,7 @@
 // Numbers as text, and the scales of sliders.
 
+import type { ParameterValue } from "../wire/messages.generated.ts";
+
 /** A number with four figures at most. */
 export function formatNumber(value: number): string {
   if (value === 0 || !Number.isFinite(value)) return String(value);
@@ -31,4 +33,10 @@ export class SliderScale {
     const raw = this.logarithmic ? low * (high / low) ** fraction : low + fraction * (high - low);
     return Number(raw.toPrecision(3));
   }
+}
+
+/** A value of a parameter in words; one number for all of a list that are the same. */
+export function worded(value: ParameterValue): string {
+  const parts = [value].flat().map((one) => (typeof one === "number" ? formatNumber(one) : String(one)));
+  return [...new Set(parts)].length === 1 ? parts[0] : parts.join(", ");
 }

@@ -108,17 +108,13 @@ export class Panel {
       this.page.setGraphics(value);
     });
     const themes = { auto: "automatic", light: "light", dark: "dark" };
-    const colours = choice("Colours", themes, this.page.theme, (value) => {
-      this.page.setTheme(value);
-    });
+    const colours = choice("Colours", themes, this.page.theme, (value) => this.page.setTheme(value));
     return [row("Graphics", graphics), row("Colours", colours)];
   }
 
   private restoreAll(): HTMLElement {
     const all = el("button", { type: "button", class: "restore-all" }, icon("back"), "Restore all values");
-    all.addEventListener("click", () => {
-      this.page.send({ type: "restore" });
-    });
+    all.addEventListener("click", () => this.page.send({ type: "restore" }));
     return all;
   }
 }

@@ -1,6 +1,7 @@
 // One parameter in the panel: sliders and numbers per axis, a choice, or a switch; a button restores its value.
 
 import type { PageMessage, ParameterValue, SceneParameter } from "../wire/messages.generated.ts";
+import { same } from "../wire/parameters.ts";
 import { el, icon } from "./dom.ts";
 import { SliderScale, formatNumber } from "./numbers.ts";
 
@@ -34,9 +35,7 @@ export class ParameterEditor {
     this.value = parameter.value;
     this.initial = parameter.initial ?? parameter.value;
     const back = el("button", { type: "button", class: "back", title: "Restore the mission's value" }, icon("back"));
-    back.addEventListener("click", () => {
-      send({ type: "restore", key: parameter.key });
-    });
+    back.addEventListener("click", () => send({ type: "restore", key: parameter.key }));
     const unit = el("small", {}, parameter.unit ?? "");
     const name = el("div", { class: "name", title: parameter.key }, el("span", {}, parameter.label), unit, back);
     this.fields = this.makeFields();
@@ -53,9 +52,7 @@ export class ParameterEditor {
     this.refuse("");
     this.show(value);
     this.element.classList.add("ramping");
-    window.setTimeout(() => {
-      this.element.classList.remove("ramping");
-    }, 1000 * duration);
+    window.setTimeout(() => this.element.classList.remove("ramping"), 1000 * duration);
   }
 
   refuse(reason: string): void {
@@ -68,9 +65,7 @@ export class ParameterEditor {
   private show(value: ParameterValue): void {
     this.value = value;
     const parts = [value].flat();
-    this.fields.forEach((field, i) => {
-      field.show(parts[i]);
-    });
+    this.fields.forEach((field, i) => field.show(parts[i]));
     this.element.classList.toggle("altered", !same(value, this.initial));
   }
 
@@ -86,17 +81,13 @@ export class ParameterEditor {
   private select(choices: string[]): Field {
     const options = choices.map((one) => el("option", { value: one }, one));
     const select = el("select", { "aria-label": this.parameter.label }, ...options);
-    select.addEventListener("change", () => {
-      this.set(choices[select.selectedIndex]);
-    });
+    select.addEventListener("change", () => this.set(choices[select.selectedIndex]));
     return { row: select, show: (value) => (select.value = String(value)) };
   }
 
   private checkbox(): Field {
     const input = el("input", { type: "checkbox" });
-    input.addEventListener("change", () => {
-      this.set(input.checked);
-    });
+    input.addEventListener("change", () => this.set(input.checked));
     const row = el("label", { class: "toggle" }, input, el("span", {}, "on"));
     return { row, show: (value) => (input.checked = value === true) };
   }
@@ -109,15 +100,11 @@ export class ParameterEditor {
       if (entry.value !== "" && Number.isFinite(value)) this.enter(i, value);
       else this.show(this.value);
     };
-    entry.addEventListener("change", () => {
-      enter(Number(entry.value));
-    });
+    entry.addEventListener("change", () => enter(Number(entry.value)));
     const slide = low !== undefined && high !== undefined && high > low ? new SliderScale(low, high) : null;
     const bar = el("input", { type: "range", min: 0, max: 1000, "aria-label": `${name}, slider`, disabled: !slide });
     bar.addEventListener("input", () => (entry.value = formatNumber(slide!.value(bar.valueAsNumber))));
-    bar.addEventListener("change", () => {
-      enter(slide!.value(bar.valueAsNumber));
-    });
+    bar.addEventListener("change", () => enter(slide!.value(bar.valueAsNumber)));
     const row = el("div", { class: "number" }, el("span", { class: `axis ${axis}` }, axis), bar, entry);
     const show = (value: number | string | boolean): void => {
       entry.defaultValue = entry.value = formatNumber(Number(value));
@@ -136,8 +123,4 @@ export class ParameterEditor {
     this.askedAt = performance.now();
     this.set(this.asked);
   }
-}
-
-function same(a: ParameterValue, b: ParameterValue): boolean {
-  return JSON.stringify(a) === JSON.stringify(b);
 }

@@ -15,6 +15,7 @@ export interface Curve {
   label?: string; // in the legend
   dash?: number[];
   width?: number;
+  alpha?: number;
 }
 
 export interface PlotOptions {
@@ -26,6 +27,7 @@ export interface PlotOptions {
   headroom?: number; // above the curves, as a fraction of the span
   under?: (plot: uPlot) => void; // drawn below the curves
   more?: HTMLElement;
+  keys?: HTMLElement[]; // in the legend, after those of the curves
   rows: number; // of values that stand below one another
 }
 
@@ -48,7 +50,7 @@ export class Plot {
     private readonly window: TimeWindow,
     listener: PlotListener,
   ) {
-    const keys = look.curves.flatMap((curve) => (curve.label ? [key(curve, curve.label)] : []));
+    const keys = look.curves.flatMap((curve) => (curve.label ? [key(curve, curve.label)] : [])).concat(look.keys ?? []);
     const head = el("header", {}, el("b", {}, look.title), look.more ?? el("small", {}, look.unit));
     head.append(el("span", { class: "keys" }, ...keys));
     this.card = el("article", { class: "plot" }, head, this.body);
@@ -58,9 +60,7 @@ export class Plot {
     this.plot = graphics === "light" ? onProcessor(make) : make();
     this.cursor = new PlotCursor(this.plot, look.curves, look.rows);
     listen(this.plot, window, listener);
-    new ResizeObserver(() => {
-      this.fit();
-    }).observe(this.body);
+    new ResizeObserver(() => this.fit()).observe(this.body);
   }
 
   update(columns: uPlot.AlignedData): void {
@@ -99,11 +99,13 @@ function onProcessor<T>(make: () => T): T {
   }
 }
 
-function key(curve: Curve, text: string): HTMLElement {
+/** A curve's entry in the legend. */
+export function key(curve: Curve, text: string): HTMLElement {
   // one letter is coloured itself; more have a piece of their line
   const named = text.length > 1;
-  const mark = el(named ? "i" : "b", { class: curve.dash ? "dashed" : "" }, named ? "" : text);
+  const mark = el(named ? "i" : "b", { class: curve.dash ? "dashed" : curve.name ? "" : "flight" }, named ? "" : text);
   mark.style.color = `var(${curve.color})`;
+  if (curve.alpha) Object.assign(mark.style, { borderTopWidth: `${curve.width}px`, opacity: curve.alpha });
   return el("span", {}, mark, named ? text : "");
 }
 
@@ -126,7 +128,7 @@ function options(look: PlotOptions): uPlot.Options {
       },
       { stroke: INK, font: FONT, grid: HAIR, ticks: { show: false }, size: axisSize, gap: 3, space: 22 },
     ],
-    series: [{}, ...look.curves.map(({ color, dash, width }) => series(color, dash, width))],
+    series: [{}, ...look.curves.map(series)],
   };
 }
 
@@ -145,8 +147,8 @@ function textWidth({ ctx }: uPlot, texts: string[]): number {
   return widest;
 }
 
-function series(name: ColorName, dash: number[] | undefined, width = 1.5): uPlot.Series {
-  return { stroke: () => color(name), width, points: { show: false }, ...(dash && { dash }) };
+function series({ color: name, dash, width = 1.5, alpha = 1 }: Curve): uPlot.Series {
+  return { stroke: () => color(name), width, alpha, points: { show: false }, ...(dash && { dash }) };
 }
 
 const seconds = (value: number): string => (value < 0 ? "" : `${Number(value.toFixed(3))} s`);

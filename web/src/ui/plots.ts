@@ -4,26 +4,36 @@ import type uPlot from "uplot";
 
 import { ahead } from "../view/rotors.ts";
 import type { Graphics } from "../view/graphics.ts";
-import type { FlightScene, Vector } from "../wire/messages.generated.ts";
+import type { Vector } from "../wire/messages.generated.ts";
+import type { FlownScene } from "../wire/source.ts";
 import type { ColorName } from "./colors.ts";
 import { choice } from "./dom.ts";
-import type { History } from "./history.ts";
+import { GHOST, type History } from "./history.ts";
 import type { Marks } from "./marks.ts";
 import { phaseTint } from "./phases.ts";
-import { band, type Curve, level, Plot, type PlotOptions } from "./plot.ts";
+import { band, type Curve, key, level, Plot, type PlotOptions } from "./plot.ts";
 import type { TimeWindow } from "./time_window.ts";
 
 const AXES: ColorName[] = ["--axis-x", "--axis-y", "--axis-z"];
 const NAMES = ["x", "y", "z"];
 const DASHED = { dash: [4, 3], width: 1 };
+const PALE = { width: 4, alpha: 0.4 };
+const MOST = 6; // curves of a plot beside which those of a ghost can be read
+const GREY: Curve = { name: "", color: "--soft" };
 const FRONTS: ColorName[] = ["--front-1", "--front-2", "--front-3", "--front-4"];
 const REARS: ColorName[] = ["--rear-1", "--rear-2", "--rear-3", "--rear-4"];
 
 /** A plot, and the columns that it shows. */
 interface PlotWithData {
   plot: Plot;
-  columns: () => Float64Array[];
+  columns: () => Column[];
 }
+type Column = Float64Array | (number | null)[];
+
+/** The columns of a plot's curves, by that of a name. */
+type Columns = (of: (name: string) => Float64Array) => Float64Array[];
+
+const vector = (of: Parameters<Columns>[0], field: string): Float64Array[] => [0, 1, 2].map((i) => of(`${field}${i}`));
 
 /** A curve for each axis. */
 const along = (look: (name: string, i: number) => Partial<Curve>): Curve[] =>
@@ -36,7 +46,7 @@ export class Plots {
   private turn = 0;
 
   constructor(
-    private readonly scene: FlightScene,
+    private readonly scene: FlownScene,
     private readonly place: HTMLElement,
     private readonly graphics: Graphics,
     private readonly history: History,
@@ -63,13 +73,20 @@ export class Plots {
     for (const { plot } of this.all) plot.point();
   }
 
-  private plot(look: PlotOptions): Plot {
+  /** A plot; where a ghost flies along, its curves in place of dashed ones, paler and below, if they are few. */
+  private plot(look: PlotOptions, columns: Columns): PlotWithData {
     const looked = (): void => this.point();
-    return new Plot(look, this.graphics, this.window, { looked, chose: this.chose });
-  }
-
-  private vector(field: string): Float64Array[] {
-    return [0, 1, 2].map((i) => this.history.column(`${field}${i}`));
+    const make = (all: PlotOptions): Plot => new Plot(all, this.graphics, this.window, { looked, chose: this.chose });
+    const of = (whose: string): Float64Array[] => columns((name) => this.history.column(whose + name));
+    if (!this.scene.ghost || look.curves.length > MOST) return { plot: make(look), columns: () => of("") };
+    const solid = look.curves.map(({ dash }) => !dash);
+    const own = look.curves.filter((_, i) => solid[i]);
+    const pale = own.map((curve) => ({ ...curve, ...PALE, name: GHOST + curve.name, label: "" }));
+    const keys = [key(GREY, "now"), key({ ...GREY, ...PALE }, "ghost")];
+    const plot = make({ ...look, curves: [...pale, ...own], keys });
+    const shown = (whose: string): Float64Array[] => of(whose).filter((_, i) => solid[i]);
+    const present = (column: Float64Array): Column => Array.from(column, (one) => (Number.isNaN(one) ? null : one));
+    return { plot, columns: () => [...shown(GHOST).map(present), ...shown("")] };
   }
 
   private pushes(): PlotWithData {
@@ -81,8 +98,8 @@ export class Plots {
         level(plot, -limit, "--level");
       }
     };
-    const plot = this.plot({ title: "Push", unit: "N", curves: [...pilot, ...actual], least: 1.2, under, rows: 3 });
-    return { plot, columns: () => [...this.vector("pilot_push"), ...this.vector("push")] };
+    const look = { title: "Push", unit: "N", curves: [...pilot, ...actual], least: 1.2, under, rows: 3 };
+    return this.plot(look, (of) => [...vector(of, "pilot_push"), ...vector(of, "push")]);
   }
 
   private tracking(): PlotWithData {
@@ -91,16 +108,13 @@ export class Plots {
     const more = choice("What is shown", { position: "m", error: "\u0394 cm" }, "position", (value) => {
       this.asError = value === "error";
     });
-    const plot = this.plot({ title: "Position", unit: "", curves: [...reference, ...actual], least: 0.5, more, rows: 3 });
-    const positions = () => [...this.vector("reference"), ...this.vector("position")];
-    return { plot, columns: () => (this.asError ? this.error() : positions()) };
-  }
-
-  /** Reference and position minus the reference [cm]. */
-  private error(): Float64Array[] {
-    const [reference, actual] = [this.vector("reference"), this.vector("position")];
-    const gaps = actual.map((column, i) => column.map((value, k) => 100 * (value - reference[i][k])));
-    return [...reference.map((column) => new Float64Array(column.length)), ...gaps];
+    const look = { title: "Position", unit: "", curves: [...reference, ...actual], least: 0.5, more, rows: 3 };
+    return this.plot(look, (of) => {
+      const [wanted, flown] = [vector(of, "reference"), vector(of, "position")];
+      if (!this.asError) return [...wanted, ...flown];
+      const gaps = flown.map((column, i) => column.map((value, k) => 100 * (value - wanted[i][k])));
+      return [...wanted.map((column) => new Float64Array(column.length)), ...gaps];
+    });
   }
 
   private thrusts(): PlotWithData {
@@ -117,8 +131,8 @@ export class Plots {
       ...(i === 0 && { label: "front" }),
       ...(i === 1 && { label: "rear" }),
     }));
-    const plot = this.plot({ title: "Thrusts", unit: "N", curves: labelled, least: 4, fromZero: true, under, rows: 4 });
-    return { plot, columns: () => curves.map((_, i) => this.history.column(`thrusts${i}`)) };
+    const look = { title: "Thrusts", unit: "N", curves: labelled, least: 4, fromZero: true, under, rows: 4 };
+    return this.plot(look, (of) => curves.map((_, i) => of(`thrusts${i}`)));
   }
 
   private disturbance(): PlotWithData {
@@ -130,7 +144,6 @@ export class Plots {
       }
     };
     const look = { title: "Disturbance, phase", unit: "N", curves, least: 1, under, rows: 3 };
-    const plot = this.plot({ ...look, headroom: 0.3 }); // for the names
-    return { plot, columns: () => this.vector("disturbance") };
+    return this.plot({ ...look, headroom: 0.3 }, (of) => vector(of, "disturbance")); // for the names
   }
 }

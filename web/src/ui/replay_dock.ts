@@ -20,9 +20,7 @@ export class ReplayDock {
     timeline: HTMLElement,
     record: () => void,
   ) {
-    this.player = button("pause", "", "Play or pause (P)", () => {
-      this.toggle();
-    });
+    this.player = button("pause", "", "Play or pause (P)", () => this.toggle());
     const options = SPEEDS.map((factor) =>
       el("option", { value: factor, selected: Number(factor) === speed }, `\u00d7${factor}`),
     );

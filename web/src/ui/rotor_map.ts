@@ -30,9 +30,7 @@ export class RotorMap {
     for (const quadrotor of quadrotors) {
       const [x, y] = quadrotor.position;
       picture.append(svg("circle", { class: "guard", cx: -y, cy: -x, r: quadrotor.guard }));
-      quadrotor.rotors.forEach((_, i) => {
-        picture.append(this.rotor(quadrotor, i));
-      });
+      quadrotor.rotors.forEach((_, i) => picture.append(this.rotor(quadrotor, i)));
     }
     this.element = el("div", { class: "rotors" }, picture, this.note);
     this.arm(-1);
@@ -46,9 +44,7 @@ export class RotorMap {
 
   /** Marks the rotors that have stopped for good. */
   markFailed(rotors: readonly number[]): void {
-    this.buttons.forEach((spot, i) => {
-      spot.classList.toggle("failed", rotors.includes(i));
-    });
+    this.buttons.forEach((spot, i) => spot.classList.toggle("failed", rotors.includes(i)));
   }
 
   private rotor(quadrotor: SceneQuadrotor, i: number): SVGElement {
@@ -62,9 +58,7 @@ export class RotorMap {
     const path = `M${place.cx - cross} ${place.cy - cross}l${arm} ${arm}m0 ${-arm}l${-arm} ${arm}`;
     const label = `Stop rotor ${number + 1}`;
     const spot = svg("g", { role: "button", tabindex: 0, "aria-label": label }, fill, rim, svg("path", { d: path }));
-    spot.addEventListener("click", () => {
-      this.press(number);
-    });
+    spot.addEventListener("click", () => this.press(number));
     spot.addEventListener("keydown", (event) => {
       if (event.key === "Enter") this.press(number);
     });
@@ -82,16 +76,12 @@ export class RotorMap {
       return;
     }
     this.arm(rotor);
-    this.timer = window.setTimeout(() => {
-      this.arm(-1);
-    }, CONFIRM_WITHIN);
+    this.timer = window.setTimeout(() => this.arm(-1), CONFIRM_WITHIN);
   }
 
   private arm(rotor: number): void {
     this.armed = rotor;
-    this.buttons.forEach((spot, i) => {
-      spot.classList.toggle("armed", i === rotor);
-    });
+    this.buttons.forEach((spot, i) => spot.classList.toggle("armed", i === rotor));
     this.note.textContent =
       rotor < 0 ? "Press a rotor twice to stop it." : `Press rotor ${rotor + 1} again to stop it for good.`;
   }

@@ -10,17 +10,13 @@ export class SaveDialog {
 
   constructor(private readonly save: (name: string) => void) {
     const cancel = el("button", { type: "button" }, "Cancel");
-    cancel.addEventListener("click", () => {
-      this.dialog.close();
-    });
+    cancel.addEventListener("click", () => this.dialog.close());
     const title = el("h2", {}, "Save the flight so far");
     const actions = el("div", { class: "actions" }, cancel, this.submit);
     const label = el("label", { for: "save-name" }, "Name");
     const form = el("form", {}, title, label, this.name, this.reason, actions);
     this.name.setAttribute("aria-describedby", "save-reason");
-    this.name.addEventListener("input", () => {
-      this.show("");
-    });
+    this.name.addEventListener("input", () => this.show(""));
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       this.show("", true);

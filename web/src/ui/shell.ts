@@ -6,22 +6,21 @@ import type { ChaseCamera, View } from "../view/camera.ts";
 import type { FrameRate, Graphics, GraphicsChoice } from "../view/graphics.ts";
 import type { Frame } from "../wire/frames.ts";
 import type { Latency } from "../wire/latency.ts";
-import {
-  type FlightScene,
-  type PageMessage,
-  type ParameterValue,
-  type StatusMessage,
-} from "../wire/messages.generated.ts";
+import type { PageMessage, ParameterValue, SceneMission, StatusMessage } from "../wire/messages.generated.ts";
+import { withValue } from "../wire/parameters.ts";
 import type { Replay } from "../wire/replay.ts";
+import type { Compare, FlownScene, FlownStatus } from "../wire/source.ts";
 import { Challenge } from "./challenge.ts";
+import { Comparison } from "./comparison.ts";
 import { Dock } from "./dock.ts";
-import { byId, choice } from "./dom.ts";
+import { byId, choice, foldable } from "./dom.ts";
 import { timedName } from "./file_names.ts";
 import { helpDialog } from "./help.ts";
 import { EndedCard } from "./ended_card.ts";
 import { Findings } from "./findings.ts";
 import { hintOf } from "./hint.ts";
 import { Laboratory } from "./laboratory.ts";
+import { Lecture } from "./lecture.ts";
 import { MissionChoice } from "./mission_choice.ts";
 import { Notices } from "./notices.ts";
 import { Panel } from "./panel.ts";
@@ -52,6 +51,8 @@ export interface ShellPage {
   readonly latency: Latency;
   readonly frameRate: FrameRate;
   readonly current: Frame | null;
+  readonly companions: readonly SceneMission[] | undefined;
+  readonly compare: Compare | undefined;
   send(message: PageMessage): void;
   retry(): void;
   look(view: View): void;
@@ -72,6 +73,8 @@ export class Shell {
   private readonly video = new VideoRecorder();
   private readonly laboratory: Laboratory;
   readonly challenge: Challenge;
+  private readonly comparison: Comparison;
+  private readonly lecture: Lecture;
   private readonly senses: SensesOfFlight;
   private readonly show: ShowMenu;
   private readonly undo: Undo;
@@ -84,23 +87,23 @@ export class Shell {
   private texts = 0;
 
   constructor(private readonly page: ShellPage) {
-    this.notices = new Notices(() => {
-      page.retry();
-    });
+    this.notices = new Notices(() => page.retry());
     this.findings = new Findings(this.notices);
-    this.missions = new MissionChoice(page.send.bind(page), this.notices, this.question);
+    const load = (name: string, text: string): void => this.lecture.load(name, text);
+    this.missions = new MissionChoice(page.send.bind(page), this.notices, this.question, load);
+    this.lecture = new Lecture(page, {
+      look: (view) => this.views()[Object.keys(VIEWS).indexOf(view)].click(),
+      choose: () => this.missions.choose(),
+      tell: (title, reason) => this.question.tell(title, reason),
+    });
     this.bar = new StatusBar(page.replay !== null);
     this.undo = new Undo(page.send.bind(page));
+    this.comparison = new Comparison(page.compare);
     this.panel = new Panel(byId("panel"), page, this.undo.element);
     this.laboratory = new Laboratory(page, (text) => this.notices.show(text, "done"));
     this.help = helpDialog(page.replay !== null);
-    this.saving = new SaveDialog((name) => {
-      page.send({ type: "save", name });
-    });
-    byId("show-help").addEventListener("click", () => {
-      this.help.showModal();
-      this.help.scrollTop = 0; // the focus is at its end
-    });
+    this.saving = new SaveDialog((name) => page.send({ type: "save", name }));
+    byId("show-help").addEventListener("click", () => this.openHelp());
     foldable("show-panel", "panel", window.innerWidth >= NARROW && page.replay === null);
     foldable("show-plots", "plots", window.innerHeight >= LOW && window.parent === window); // a page around it has its own
     this.senses = new SensesOfFlight(page.shown);
@@ -108,9 +111,7 @@ export class Shell {
     this.makeViews();
     this.challenge = new Challenge((name) => this.saving.open(name), () => page.send({ type: "reset" }));
     if (!page.replay) this.makeDock();
-    this.ended = new EndedCard(() => {
-      page.send({ type: "reset" });
-    });
+    this.ended = new EndedCard(() => page.send({ type: "reset" }));
     window.addEventListener("keydown", this.key);
   }
 
@@ -119,7 +120,7 @@ export class Shell {
     return this.video.running;
   }
 
-  scene(scene: FlightScene): void {
+  scene(scene: FlownScene): void {
     [this.mission, this.floor] = [scene.mission, scene.floor];
     this.bar.scene(scene);
     this.panel.scene(scene);
@@ -128,6 +129,9 @@ export class Shell {
     this.missions.scene(scene);
     this.senses.begin(scene);
     this.challenge.begin(scene);
+    this.comparison.begin(this.page.companions);
+    this.tellSettings(scene);
+    this.lecture.begun();
     this.dock?.reset(this.missions.open);
     if (!this.page.replay || !scene.replay) return;
     const { element } = this.laboratory.timeline;
@@ -137,14 +141,17 @@ export class Shell {
   frame(frame: Frame): void {
     this.laboratory.frame(frame);
     this.challenge.frame(frame);
+    this.lecture.frame(frame);
     if (frame.scalar("held") > 0) this.pulled = true;
   }
 
-  status(status: StatusMessage): void {
+  status(status: FlownStatus): void {
     this.bar.status(status);
     this.challenge.status(status);
+    this.comparison.status(status);
     this.dock?.status(status);
     if (!this.page.replay) this.ended.status(status);
+    this.lecture.status(status);
     this.panel.markFailed(status.failed_rotors);
     this.hint(status);
     this.findings.status(status.findings ?? []);
@@ -155,6 +162,7 @@ export class Shell {
     this.panel.changed(key, value, duration);
     this.laboratory.changed(key, value);
     this.challenge.changed(key, value);
+    this.tellSettings({ ...this.lecture.scene, parameters: withValue(this.lecture.scene.parameters, key, value) });
     this.undo.changed(key, value, performance.now());
   }
 
@@ -199,6 +207,7 @@ export class Shell {
   tick(now: number): void {
     const { page } = this;
     this.laboratory.tick(now);
+    this.lecture.tick(now);
     const { threshold } = this.laboratory;
     if (page.current && threshold) this.senses.update(page.current, threshold, now);
     if (page.current) this.player?.update(page.current.scalar("time"));
@@ -217,16 +226,31 @@ export class Shell {
       save: () => this.saving.open(timedName(this.mission)),
       film: () => this.toggleVideo(),
     });
-    byId("dock").prepend(this.challenge.element);
+    this.undo.element.append(this.comparison.menu);
+    byId("dock").prepend(this.comparison.element, this.challenge.element);
     byId("dock").lastElementChild!.append(this.challenge.button);
+  }
+
+  /** The settings as they are now. */
+  private tellSettings(scene: FlownScene): void {
+    this.comparison.show(scene);
+    this.lecture.scene = scene;
+  }
+
+  private views(): HTMLElement[] {
+    return [...byId("views").querySelectorAll<HTMLElement>(".choice button")];
   }
 
   private makeViews(): void {
     const { page } = this;
-    const views = choice("View", VIEWS, "behind", (view) => {
-      page.look(view);
-    });
+    const views = choice("View", VIEWS, "behind", (view) => page.look(view));
     byId("views").replaceChildren(views, this.show.button);
+    byId("show").append(this.lecture.button);
+  }
+
+  private openHelp(): void {
+    this.help.showModal();
+    this.help.scrollTop = 0; // the focus is at its end
   }
 
   private toggleVideo(): void {
@@ -255,9 +279,9 @@ export class Shell {
 
   private keys(): Map<string, () => void> {
     const { player } = this;
-    const views = [...byId("views").querySelectorAll<HTMLElement>(".choice button")];
-    const keys = new Map(views.map((one, i) => [`Digit${i + 1}`, () => one.click()]));
+    const keys = new Map(this.views().map((one, i) => [`Digit${i + 1}`, () => one.click()]));
     keys.set("KeyF", () => this.show.follow.click());
+    keys.set("KeyT", () => this.lecture.toggle());
     if (player) {
       keys.set("KeyP", () => player.toggle());
       keys.set("ArrowLeft", () => player.step(-1));
@@ -270,18 +294,4 @@ export class Shell {
     }
     return keys;
   }
-}
-
-/** Lets a button show and hide a part of the page. */
-function foldable(name: string, part: string, open: boolean): void {
-  const [handle, place] = [byId(name), byId(part)];
-  const set = (on: boolean): void => {
-    handle.setAttribute("aria-pressed", String(on));
-    place.hidden = !on;
-    document.body.classList.toggle(`no-${part}`, !on);
-  };
-  handle.addEventListener("click", () => {
-    set(place.hidden !== false);
-  });
-  set(open);
 }

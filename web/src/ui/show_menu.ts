@@ -52,9 +52,7 @@ export class ShowMenu {
     this.follow = toggle("camera follows (F)", true, follow);
     this.menu.replaceChildren(...toggles(SEEN), el("hr"), ...toggles(felt), el("hr"), this.follow);
     this.button.append(icon("eye"), el("span", {}, "Show"));
-    this.button.addEventListener("click", () => {
-      this.open(this.menu.hidden !== false);
-    });
+    this.button.addEventListener("click", () => this.open(this.menu.hidden !== false));
     window.addEventListener("pointerdown", ({ target }) => {
       if (target instanceof Node && !this.menu.contains(target) && !this.button.contains(target)) this.open(false);
     });

@@ -17,9 +17,7 @@ export class VideoRecorder {
     if (!mimeType) return "this browser cannot record a video";
     const parts: Blob[] = [];
     this.recorder = new MediaRecorder(canvas.captureStream(RATE), { mimeType, videoBitsPerSecond: BITS });
-    this.recorder.ondataavailable = ({ data }) => {
-      parts.push(data);
-    };
+    this.recorder.ondataavailable = ({ data }) => parts.push(data);
     this.recorder.onstop = () => {
       const ending = mimeType.includes("mp4") ? "mp4" : "webm";
       download(new Blob(parts, { type: mimeType }), `${name}.${ending}`);
@@ -39,7 +37,5 @@ function download(content: Blob, name: string): void {
   link.href = URL.createObjectURL(content);
   link.download = name;
   link.click();
-  window.setTimeout(() => {
-    URL.revokeObjectURL(link.href);
-  }, 60_000);
+  window.setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }

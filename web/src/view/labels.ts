@@ -17,9 +17,7 @@ export class Label {
     this.element.hidden = true;
     layer.append(this.element);
     // read here: reading it with every picture would force a layout each time
-    new ResizeObserver(() => {
-      [this.width, this.height] = [layer.clientWidth, layer.clientHeight];
-    }).observe(layer);
+    new ResizeObserver(() => ([this.width, this.height] = [layer.clientWidth, layer.clientHeight])).observe(layer);
   }
 
   hide(): void {

@@ -38,9 +38,7 @@ export class Stage {
     this.sun.shadow.normalBias = 0.01;
     this.sun.shadow.radius = 3;
     this.build(graphics);
-    new ResizeObserver(() => {
-      this.resize();
-    }).observe(surface);
+    new ResizeObserver(() => this.resize()).observe(surface);
   }
 
   /** Makes a new renderer: antialiasing of an existing one cannot be switched. */

@@ -38,21 +38,15 @@ export class Connection implements FlightSource {
   private open(): void {
     const socket = new WebSocket(this.address);
     socket.binaryType = "arraybuffer";
-    socket.onmessage = ({ data }: MessageEvent<ArrayBuffer | string>) => {
-      this.receive(data);
-    };
-    socket.onclose = () => {
-      this.closed();
-    };
+    socket.onmessage = ({ data }: MessageEvent<ArrayBuffer | string>) => this.receive(data);
+    socket.onclose = () => this.closed();
     this.socket = socket;
   }
 
   private closed(): void {
     this.socket = null;
     this.listener?.disconnected(performance.now() + this.wait);
-    this.timer = window.setTimeout(() => {
-      this.open();
-    }, this.wait);
+    this.timer = window.setTimeout(() => this.open(), this.wait);
     this.wait = Math.min(2 * this.wait, LONGEST_WAIT);
   }
 

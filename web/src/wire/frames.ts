@@ -64,6 +64,16 @@ export class Frame {
     return this.values.subarray(start, start + length);
   }
 
+  /** The ghost at the same moment, if one flies along: its values come after the flight's own. */
+  get ghost(): Frame | null {
+    const { size } = this.layout;
+    return this.values.length === 2 * size ? new Frame(this.layout, this.values.subarray(size)) : null;
+  }
+
+  get pose(): { position: Vector; attitude: Quaternion } {
+    return { position: this.vector("position"), attitude: this.attitude };
+  }
+
   get attitude(): Quaternion {
     const { start, length } = this.layout.place("attitude");
     const v = this.values;

@@ -35,6 +35,7 @@ DEFAULT, OUT = "zigzag", Path("out/live")
 port_option = click.option(
     "--port", type=int, default=PORT, show_default=True, help="TCP port of the page; 0 for any free one."
 )
+script_option = click.option("--script", metavar="FILE", help="Begin with the script of a lecture, a .toml file.")
 no_browser_option = click.option("--no-browser", is_flag=True, help="Only print the address.")
 
 
@@ -49,6 +50,7 @@ no_browser_option = click.option("--no-browser", is_flag=True, help="Only print 
     help="Address to listen on. If other machines can reach it, the page's address carries a token; a QR code has it.",
 )
 @click.option("--out", metavar="DIR", default=str(OUT), show_default=True, help="Folder for flights saved in the page.")
+@script_option
 @no_browser_option
 @set_option
 @controller_option()
@@ -61,6 +63,7 @@ def live(
     no_browser: bool,
     settings: tuple[str, ...],
     controller: str | None,
+    script: str | None = None,
 ) -> None:
     """Fly MISSION in real time, and push it by hand in the browser.
 
@@ -75,6 +78,7 @@ def live(
       tandemlift live zigzag --out out/mine
       tandemlift live hover --set admittance.mass=2 --port 0 --no-browser
       tandemlift live hover --controller my_pd.py
+      tandemlift live hover --script lecture.toml
 
     \b
     Exit code:
@@ -85,12 +89,13 @@ def live(
 
     check_live_installed()
     engine_named(engine)
-    from tandemlift.apps.live.page_files import page_files
+    from tandemlift.apps.live.page_files import page_files, with_script
     from tandemlift.apps.live.server import PageServer
     from tandemlift.apps.live.session.session import Session
 
+    files = with_script(page_files(), script)
     session = Session(load(mission, settings, controller), engine, Path(out))
-    serve_until_interrupt(PageServer(page_files(), session, host, port), f"{mission}, live", browser=not no_browser)
+    serve_until_interrupt(PageServer(files, session, host, port), f"{mission}, live", browser=not no_browser)
     exit_now(0)  # a thread may still be compiling
 
 
@@ -168,8 +173,11 @@ def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
 @click.argument("missions", nargs=-1, shell_complete=MISSIONS)
 @click.option("--out", metavar="DIR", help="Write the page as files for a web server.")
 @click.option("--html", metavar="FILE", help="Write the page as one file, which works from disk.")
+@script_option
 @controller_option("Controller to fly all of them")
-def page(missions: tuple[str, ...], out: str | None, html: str | None, controller: str | None) -> None:
+def page(
+    missions: tuple[str, ...], out: str | None, html: str | None, script: str | None, controller: str | None
+) -> None:
     """Write a page that flies in the browser, without a server.
 
     The page flies by itself, and is pushed by hand. MISSIONS are those of its menu, the first of which it begins with:
@@ -182,6 +190,7 @@ def page(missions: tuple[str, ...], out: str | None, html: str | None, controlle
       tandemlift page --out out/page
       tandemlift page zigzag mine.toml --html corridor.html
       tandemlift page hover --controller my_pd.py --html mine.html
+      tandemlift page hover --script lecture.toml --html lecture.html
 
     \b
     Exit code:
@@ -194,10 +203,12 @@ def page(missions: tuple[str, ...], out: str | None, html: str | None, controlle
     if out and Path(out).is_file():
         raise InputError(f"--out {out}: is a file, not a folder")
     from tandemlift.apps.live import page_modules, pages
+    from tandemlift.apps.live.page_files import page_files, with_script
 
+    files = with_script(page_files(), script)
     with progress_bar("Compiling", "missions", shown=sys.stderr.isatty()) as progress:
         flights = page_modules.packed_flights(missions or page_modules.MISSIONS, controller, progress)
-    for line in pages.write_page(flights, Path(out) if out else None, one_file):
+    for line in pages.write_page(flights, Path(out) if out else None, one_file, files):
         echo(line)
 
 

@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from tandemlift.core.errors import InputError
-from tandemlift.core.files import DATA
+from tandemlift.core.errors import InputError, shown
+from tandemlift.core.files import DATA, toml_tables
 
 PAGE_FOLDER = DATA / "page"
 MEDIA_TYPES = {
@@ -24,6 +24,7 @@ MEDIA_TYPES = {
     ".ico": "image/x-icon",
     ".woff2": "font/woff2",
 }
+MAX_SCRIPT = 65_536  # bytes of the script of a lecture
 SCRIPT = r"<script\b[^>]*\bsrc=[\"']?(?:\./|/)?page\.js[\"']?[^>]*>\s*</script>"
 STYLE = r"<link\b[^>]*\bhref=[\"']?(?:\./|/)?page\.css[\"']?[^>]*>"
 
@@ -74,6 +75,36 @@ def text_element(name: str, script: str) -> str:
 def with_data(html: str, element: str) -> str:
     """A page with an element of data before the script that reads it."""
     return re.sub(f"(?={SCRIPT})", lambda _: element, html, count=1, flags=re.I)
+
+
+def with_element(files: Mapping[str, bytes], element: str) -> dict[str, bytes]:
+    """The files of a page with an element of data in it."""
+    html = with_data(page_text(files, "/index.html"), element).encode()
+    return {**files, "/": html, "/index.html": html}
+
+
+def with_script(files: Mapping[str, bytes], script: str | Path | None) -> Mapping[str, bytes]:
+    """The files of a page that begins with the script of a lecture, if there is one; the page checks its steps.
+
+    Raises:
+        InputError: the script cannot be read, is longer than `MAX_SCRIPT`, or is no TOML file with steps.
+    """
+    if script is None:
+        return files
+    path = Path(script)
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"--script {script}: cannot be read: {error.strerror}") from None
+    if len(content) > MAX_SCRIPT:
+        raise InputError(f"--script {script}: has {len(content)} bytes: must have {MAX_SCRIPT} at most")
+    try:
+        tables = toml_tables(text := content.decode())
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"--script {script} is not valid TOML: {error}") from None
+    if not isinstance(steps := tables.get("steps"), list) or not steps:
+        raise InputError(f"--script {script}: steps = {shown(steps)}: must be one table [[steps]] or more")
+    return with_element(files, data_element("script", {"name": path.name, "text": text}))
 
 
 def with_policy(html: str, policy: str) -> str:

@@ -10,7 +10,6 @@ from typing import Any
 from tandemlift.apps.live.page_files import (
     data_element,
     in_one_file,
-    page_files,
     page_text,
     text_element,
     with_data,
@@ -62,13 +61,14 @@ def offline_html(flights: Sequence[PackedFlight], files: Mapping[str, bytes]) ->
     return in_one_file(html, files, IN_ONE_FILE)
 
 
-def write_page(flights: Sequence[PackedFlight], folder: Path | None, one_file: Path | None) -> Iterator[str]:
-    """Write a page as files for a web server, as one file, or both; yields a line about each.
+def write_page(
+    flights: Sequence[PackedFlight], folder: Path | None, one_file: Path | None, files: Mapping[str, bytes]
+) -> Iterator[str]:
+    """Write a page of some files as files for a web server, as one file, or both; yields a line about each.
 
     Raises:
-        InputError: the page was not built, or a file cannot be written.
+        InputError: a file cannot be written.
     """
-    files = page_files()
     if folder is not None:
         written = offline_files(flights, files)
         for name, content in written.items():

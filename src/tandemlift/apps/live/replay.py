@@ -12,7 +12,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.apps.live.page_files import data_element, in_one_file, page_files, page_text, with_data
+from tandemlift.apps.live.page_files import data_element, in_one_file, page_files, page_text, with_data, with_element
 from tandemlift.apps.live.session.frames import (
     RATE,
     arrays_of,
@@ -68,8 +68,7 @@ def scene_and_frames(flight: Flight) -> tuple[FlightScene, NDArray[np.float32]]:
 
 def replay_files(flight: Flight, files: Mapping[str, bytes]) -> dict[str, bytes]:
     """The files of the page, with a flight in its data element."""
-    html = with_data(page_text(files, "/index.html"), replay_element(flight)).encode()
-    return {**files, "/": html, "/index.html": html}
+    return with_element(files, replay_element(flight))
 
 
 def replay_html(flight: Flight, files: Mapping[str, bytes], most: int = MAX_FRAMES) -> str:

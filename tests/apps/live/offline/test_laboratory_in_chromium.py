@@ -3,7 +3,7 @@
 import time
 
 import numpy as np
-from chromium import opened, panel, save, seconds_flown
+from chromium import opened, panel, pushed, resized, save, seconds_flown
 from patience import until
 
 import tandemlift as tl
@@ -12,25 +12,6 @@ from tandemlift.simulation.stepping import fly_stepwise
 
 NOW = "#time button[title^='The last seconds']:not([hidden])"  # without its word on a phone
 WIDE, PHONE = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
-
-
-def pushed(page, seconds=0.5):
-    page.keyboard.down("KeyD")
-    time.sleep(seconds)
-    page.keyboard.up("KeyD")
-
-
-def resized(page, size):
-    """Give the page a size, and wait until its plots stand still in it."""
-    page.set_viewport_size(size)
-    boxes = [None]
-
-    def still():
-        boxes.append(page.locator(".plot .u-over").first.bounding_box())
-        page.evaluate("new Promise((done) => setTimeout(done, 300))")
-        return boxes[-1] == boxes[-2] and page.evaluate("window.innerWidth") == size["width"]
-
-    until(still, "plots of that size")
 
 
 def area(page, plot=0):

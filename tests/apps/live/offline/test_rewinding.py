@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
+from own_flight import check_done, check_flies_again
 from sessions import fly, say, seen
 
 import tandemlift as tl
-from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.stepping import fly_stepwise
 
 GRAB = {"point": (0.1, 0.4, 0.0), "target": (0.3, 0.2, 1.2), "at": "point"}
 PAST = (
@@ -33,24 +32,11 @@ def do(session, moves):
         fly(session, seconds)
 
 
-def check_done(flight, moves):
-    for kind, what, seconds in moves:
-        said = flight.say(kind, **what)
-        assert not [one for one in said if one["type"] == "refused"]
-        flight.fly(seconds)
-
-
 def check_stands_as_before(now, before):
     assert now.keys() == before.keys()
     for name in before.keys() - OF_THE_HAND:
         np.testing.assert_array_equal(now[name], before[name], name)
     assert now["held"] == 0.0
-
-
-def check_flies_again(file, last):
-    plan = FlightPlan(tl.load_mission(file))
-    again = fly_stepwise(plan, plan.steps + 1, 1)
-    np.testing.assert_array_equal(again.last.view(np.int64), last.view(np.int64))
 
 
 def test_a_session_stands_at_the_chosen_time_as_it_was_and_what_is_saved_is_the_new_flight(session, tmp_path):
