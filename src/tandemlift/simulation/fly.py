@@ -74,7 +74,7 @@ def _fly_compiled(
             unflat(states[:, i], p.model.flight_state),
             early[i],
             min(memory.k, p.steps),
-            memory.log[i].copy(),
+            memory.log[i].copy() if count > 1 else memory.log[0],  # a copy lets go of the other lanes' logs
             last[:, i].copy(),
             wall,
         )

@@ -57,6 +57,8 @@ class Pilot:
         self._numbers = np.array(flat(self._start))
         self.thrusts: Array = np.zeros(4 * len(mission.vehicle.quadrotors))
         self._input = np.zeros(leaves(INPUT))
+        self._measurement, self._moment, self._requests = self._input[:16], self._input[16:19], self._input[19:23]
+        self._has_moment, self._last_requests = False, (False, False, False, False)
 
     @cached_property
     def _sample(self) -> Callable[[], int]:
@@ -102,12 +104,13 @@ class Pilot:
         if type(measurement) is not np.ndarray or measurement.shape != SHAPE or measurement.dtype != FLOAT64:
             given = f"{getattr(measurement, 'dtype', type(measurement).__name__)} {np.shape(measurement)}"
             raise InputError(f"measurement is {given}: must be a float64 array of shape {SHAPE}")
-        pilot_input = self._input
-        pilot_input[:16], pilot_input[16:19], pilot_input[19:23] = (
-            measurement,
-            0.0 if moment is None else moment,
-            (land, lift, stop, enabled),
-        )
+        self._measurement[:] = measurement
+        if moment is not None or self._has_moment:
+            self._moment[:] = 0.0 if moment is None else moment
+            self._has_moment = moment is not None
+        requests = land, lift, stop, enabled
+        if requests != self._last_requests:
+            self._requests[:] = self._last_requests = requests
         self._sample()
         return self.thrusts
 
