@@ -67,7 +67,7 @@ examples: .venv/dev  ## run the scripts of examples/, whose numbers are asserted
 
 test-learning: .venv/dev  ## environments by Stable-Baselines3, a policy that learns; installs it, and PyTorch, into .venv-learning
 	test -x .venv-learning/bin/python || $(BIN)/python -m venv .venv-learning
-	.venv-learning/bin/pip install --disable-pip-version-check --quiet -e '.[gymnasium]' pytest pytest-timeout pytest-xdist stable-baselines3
+	.venv-learning/bin/pip install --disable-pip-version-check --quiet -e '.[gymnasium]' -r tools/dev.txt stable-baselines3
 	.venv-learning/bin/pytest -p no:xdist -m learning tests/analysis/learning
 
 test-pythons:    ## the fast tests under each installed Python from 3.11 to 3.13
