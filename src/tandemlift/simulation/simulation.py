@@ -127,11 +127,14 @@ class Simulation:
         if self.over:
             raise InputError(f"{self._why_over()}; reset() begins anew")
         self._set_inputs(push, thrusts, point, velocity)
-        began, end = time.perf_counter(), self.k + (steps if steps == 1 else count_of("steps", steps))
+        began, left = time.perf_counter(), steps if steps == 1 else count_of("steps", steps)
         try:
-            while self.k < end and not self.over:
+            while True:
                 self._stepper.step(self.k, external=self._external)
                 self._log_and_advance()
+                left -= 1
+                if not left or self.over:
+                    break
         except EngineLost as error:
             self._interruption = interruption(self.time, error)
             raise
@@ -142,17 +145,24 @@ class Simulation:
         """Write the caller's inputs of a step."""
         x = self._external
         x.fill(0.0)
-        for name, value in (("push", push), ("point", point), ("thrusts", thrusts), ("velocity", velocity)):
-            if value is not None:
-                place, meaning, flag = self._held[name]
-                x[place] = numbers(name, value, place.stop - place.start, meaning)
-                if flag is not None:
-                    x[flag] = 1.0
+        if push is not None:
+            self._hold("push", push)
+        if thrusts is not None:
+            self._hold("thrusts", thrusts)
+        if velocity is not None:
+            self._hold("velocity", velocity)
         if point is not None:
+            self._hold("point", point)
             if push is None:
                 raise InputError(f"point = {shown(point)}: must come with a push")
             given = x[self._held["point"].place].tolist()
             accepted(on_vehicle_checks("point", given, Vehicle.from_settings(self.mission.vehicle)))
+
+    def _hold(self, name: str, value: Any) -> None:
+        place, meaning, flag = self._held[name]
+        self._external[place] = numbers(name, value, place.stop - place.start, meaning)
+        if flag is not None:
+            self._external[flag] = 1.0
 
     def _log_and_advance(self) -> None:
         """Log the sample of the step just taken, if it is due, and count the step."""
