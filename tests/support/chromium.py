@@ -162,6 +162,12 @@ def middle_of_the_beam(page):
     return until(seen, "a beam on the page")
 
 
+def with_still_camera(page):
+    """Let the camera follow no longer, once it shows the beam: a still cursor is a still target."""
+    middle_of_the_beam(page)
+    page.keyboard.press("f")
+
+
 def stopped(page):
     """Stop the rotors in the air, and answer the question; once the page knows that the vehicle flies."""
     until(lambda: page.text_content("#mode") in ("guided", "holding"), "a status on the page")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from chromium import middle_of_the_beam, opened, rests
+from chromium import middle_of_the_beam, opened, rests, with_still_camera
 from patience import until
 
 LATE = """() => {
@@ -35,7 +35,7 @@ def late(browser, live):
 
 def test_statuses_from_before_a_grab_that_come_after_it_do_not_end_it(late, live):
     live.wait(rests, "rest")
-    late.keyboard.press("f")
+    with_still_camera(late)
     x, y = middle_of_the_beam(late)
     late.evaluate("() => (window.late = [])")
     until(lambda: late.evaluate("window.late.length") > 12, "statuses that wait")

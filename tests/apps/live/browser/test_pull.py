@@ -3,13 +3,13 @@
 import time
 
 import numpy as np
-from chromium import grabbed, middle_of_the_beam, opened, panel, rests
+from chromium import grabbed, middle_of_the_beam, opened, panel, rests, with_still_camera
 from patience import until
 from scipy.spatial.transform import Rotation
 
 
 def test_grabbed_and_pulled_the_beam_follows_the_cursor_and_rests_when_it_is_let_go(page, live):
-    page.keyboard.press("f")  # the camera does not follow: a still cursor is a still target
+    with_still_camera(page)
     before = live.wait(rests, "rest")
     x, y = middle_of_the_beam(page)
     page.mouse.move(x, y)
