@@ -93,7 +93,7 @@ def test_derivatives_of_the_prediction_are_those_of_central_differences(mpc, pla
 def test_thrusts_solve_the_program_within_their_limits_as_scipy_does(mpc, planned, states):
     model, plan = planned
     low = plan._replace(states=np.tile(np.eye(13)[6], (mpc.NODES + 1, 1)))
-    far = np.eye(13)[6] + 3.0 * np.eye(13)[0]  # 3 m away: some thrusts are at their limits
+    far = np.eye(13)[6] + 1.0 * np.eye(13)[0]  # 1 m away: some thrusts are at their limits
     wanted = np.tile(np.eye(13)[6], (mpc.NODES + 1, 1))
     program = mpc.condensed(model, low, far, wanted, LOAD)
     root = np.linalg.cholesky(program.hessian)
