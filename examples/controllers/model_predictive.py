@@ -21,7 +21,7 @@ from tandemlift.core.algebra import Quat, Vec3
 from tandemlift.core.keys import Positive, Positive3, key
 
 NODES = 20
-TOLERANCE = 1e-6  # of the quadratic program: thrusts within 1e-6 N of those at 1e-8
+TOLERANCE = 1e-6  # of the quadratic program: its thrusts are right to a millinewton
 POSITION, VELOCITY, ATTITUDE, RATES = slice(3), slice(3, 6), slice(6, 10), slice(10, 13)
 GRAVITY, UP = 9.81, np.array([[0.0], [0.0], [1.0]])  # m/s²; world z
 Times = tuple[float, float]
