@@ -175,3 +175,10 @@ def test_a_lane_may_not_change_to_another_kind_of_rate():
     block = tl.Block(mission("iris"), 2)
     with pytest.raises(tl.InputError, match=r"sensors\.interval"):
         block.reset(1, keys={"sensors.interval": 0.004})
+
+
+def test_a_watchdog_does_not_take_joints_for_frozen_that_are_held_between_their_samples():
+    keys = {"supervision.model": "on", "supervision.watchdog.frozen_samples": 10, "sensors.joints.interval": 0.02}
+    flight = tl.fly(mission("iris", 5.0, **keys))
+    assert flight.outcome == "flying"
+    assert not flight.findings
