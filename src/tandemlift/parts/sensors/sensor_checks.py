@@ -35,10 +35,10 @@ def additional_checks(table: SensorsTable) -> Iterator[CheckResult]:
 
 def first_sample_checks(table: SensorsTable, step: float) -> Iterator[CheckResult]:
     """Check for first samples that are not within an interval between samples."""
-    for clock in clocks_of(table):
-        if round(clock.first_sample / step) >= steps_of(clock.interval or 0.0, step):
-            often = "set, and above it" if clock.interval is None else f"above it, and is {clock.interval}"
-            yield refused(f"{clock.key}.first_sample = {clock.first_sample}: {clock.key}.interval must be {often}")
+    for _, key, interval, first in clocks_of(table):
+        if round(first / step) >= steps_of(interval or 0.0, step):
+            often = "set, and above it" if interval is None else f"above it, and is {interval}"
+            yield refused(f"{key}.first_sample = {first}: {key}.interval must be {often}")
 
 
 def range_warnings(table: SensorsTable, vehicle: Vehicle, thrusts: Array) -> Iterator[CheckResult]:

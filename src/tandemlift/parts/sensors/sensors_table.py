@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal, NamedTuple, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import AfterValidator, Field
 
@@ -239,24 +239,15 @@ def joint_steps(s: SensorsTable, step: float) -> int | None:
     return None if s.joints.interval is None else steps_of(s.joints.interval, step)
 
 
-class SensorClock(NamedTuple):
-    """The device that a clock serves, the key of its table, its `interval` and its `first_sample` [s]."""
-
-    device: str
-    key: str
-    interval: float | None
-    first_sample: float
-
-
-def clocks_of(s: SensorsTable) -> Iterator[SensorClock]:
-    """The clocks of all devices."""
-    yield SensorClock("imu", "sensors", s.interval, s.first_sample)
-    yield SensorClock("joints", "sensors.joints", s.joints.interval, s.joints.first_sample)
-    yield SensorClock("motion", "sensors.motion", s.motion.interval, s.motion.first_sample)
+def clocks_of(s: SensorsTable) -> Iterator[tuple[str, str, float | None, float]]:
+    """Of every device: (its name, the key of its table, `interval`, `first_sample`)."""
+    yield "imu", "sensors", s.interval, s.first_sample
+    yield "joints", "sensors.joints", s.joints.interval, s.joints.first_sample
+    yield "motion", "sensors.motion", s.motion.interval, s.motion.first_sample
     for i, own in enumerate(s.additional):
-        yield SensorClock(own.name, f"sensors.additional.{i}", own.interval, own.first_sample)
+        yield own.name, f"sensors.additional.{i}", own.interval, own.first_sample
 
 
 def first_samples(s: SensorsTable, step: float) -> dict[str, int]:
     """The steps before the first sample of each device."""
-    return {clock.device: round(clock.first_sample / step) for clock in clocks_of(s)}
+    return {device: round(first / step) for device, _, _, first in clocks_of(s)}
