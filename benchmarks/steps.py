@@ -5,7 +5,7 @@ code throughout. With `--base PATH` the same is measured in another checkout, tu
 over the pairs. How a base of Numba is set up is said in `compiling.py`.
 
 A block's eight flights differ in their seed and in what the body weighs; with real rotors two of them lose one, at
-different times.
+different times. In missions with "rates" the IMU gives 250 samples a second, the motion measurement 125.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from waiting import PATIENCE
 MISSIONS = (
     *("one-push", "paper", "flight-ready", "hover", "four", "off-centre-push", "heavy-payload"),
     *("gusts", "iris", "rotor-loss", "doorway", "narrow", "narrow-zigzag", "zigzag"),
+    *("iris, rates", "zigzag, rates"),
 )
 PILOTS = ("paper", "iris")
 KINDS = ("alone", "block", "pilot")
@@ -47,15 +48,20 @@ def best(code):
     while not code.is_best:
         time.sleep(0.05)
 
+def load(name, changes={}):
+    name, _, rates = name.partition(", ")
+    slow = {"sensors.interval": 0.004, "sensors.motion.interval": 0.008} if rates else {}
+    return tl.load_mission(name, {**slow, **changes})
+
 def lane(name, i):
-    base = tl.load_mission(name)
+    base = load(name)
     changes = {"mission.seed": i, "plant.mass_scale": 1.0 + 0.002 * i}
     fault = {"quadrotor": 1, "rotor": 1 + i % 4, "time": 10.0 + i if i in (2, 5) else 1e6, "efficiency": 0.0}
     can_fail = base.actuators.model == "rotors" and not base.faults
-    return tl.load_mission(name, {**changes, **({"faults": [fault]} if can_fail else {})})
+    return load(name, {**changes, **({"faults": [fault]} if can_fail else {})})
 
 def step(name, kind, repeats=5):
-    missions = [tl.load_mission(name)] if kind == "alone" else [lane(name, i) for i in range(8)]
+    missions = [load(name)] if kind == "alone" else [lane(name, i) for i in range(8)]
     if traced:
         exec(PLAN, globals())
         best(loop_code(FlightPlan(missions[0])).loop(len(missions)))

@@ -14,7 +14,8 @@ from tandemlift.parts.estimation.navigation import NavigationState, Navigator, n
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, estimate, push_estimator, start_push
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.sensors.readings import Readings, Sensors, readings_of, sense, sensors, start_sensing, zero_noise
+from tandemlift.parts.sensors.readings import Readings, Sensors, readings_of, sense
+from tandemlift.parts.sensors.start_sensors import sensors, start_sensing, zero_noise
 
 STEP = 1e-3
 SETS = Vec3(*[each(2)(0.0, 0.0)] * 3)

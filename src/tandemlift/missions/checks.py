@@ -59,6 +59,7 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from lifts.lift_checks(m.hover)
     yield from sensors.delay_checks(_delays(m.actuators, s, m.person), step)
     yield from sensors.additional_checks(s)
+    yield from sensors.first_sample_checks(s, step)
     yield from reading_checks(m.pilot, s.model)
     yield from estimator.tare_checks(m.estimator, s.interval, step)
     yield from compensation_checks(m.estimator.wind_compensation, m.vehicle.quadrotors)

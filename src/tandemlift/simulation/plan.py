@@ -19,9 +19,8 @@ from tandemlift.parts.interaction.caller_inputs import CallerInput
 from tandemlift.parts.interaction.outside_push import OutsidePush
 from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.simulation.loop.log_sample import Sample
-from tandemlift.simulation.preparation import FlightStart, LoopCode, PythonController, TimeGrid, leaf_offset
+from tandemlift.simulation.preparation import FlightStart, LeafSpan, LoopCode, PythonController, TimeGrid, leaf_offset
 from tandemlift.simulation.preparation.assemble import assemble
-from tandemlift.simulation.preparation.templates import LeafSpan
 from tandemlift.simulation.preparation.traced_assembly import assembled_by_graph
 
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second

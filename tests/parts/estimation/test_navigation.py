@@ -16,7 +16,8 @@ from tandemlift.parts.estimation.navigation import Navigator, navigator
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotated_by
 from tandemlift.parts.sensors.noise_bias_drift import SensorGrade
-from tandemlift.parts.sensors.readings import Sensors, sensors
+from tandemlift.parts.sensors.readings import Sensors
+from tandemlift.parts.sensors.start_sensors import sensors
 
 CENTRE = np.array([0.02, -0.03, 0.0642857])
 LEVEL = np.array([0.0, 0.0, 9.81])

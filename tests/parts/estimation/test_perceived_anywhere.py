@@ -16,7 +16,7 @@ from tandemlift.parts.estimation.navigation import navigator
 from tandemlift.parts.estimation.push_estimate import push_estimator
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.sensors.noise_bias_drift import SensorGrade
-from tandemlift.parts.sensors.readings import sensors
+from tandemlift.parts.sensors.start_sensors import sensors
 
 BATCH = 6
 P = paper_parts()

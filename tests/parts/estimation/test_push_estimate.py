@@ -28,7 +28,7 @@ from tandemlift.parts.estimation.push_estimate import (
     start_push,
 )
 from tandemlift.parts.sensors.noise_bias_drift import SensorGrade
-from tandemlift.parts.sensors.readings import sensors
+from tandemlift.parts.sensors.start_sensors import sensors
 
 NOISE = {
     "force": SensorGrade(noise=0.05),

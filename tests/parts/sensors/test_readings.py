@@ -15,16 +15,8 @@ from tandemlift.core.vector import ZERO, Quat, Vec3, each, spread, vec3
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.noise_bias_drift import SensorGrade
-from tandemlift.parts.sensors.readings import (
-    Readings,
-    SensorNoise,
-    Sensors,
-    readings_of,
-    sense,
-    sensors,
-    start_sensing,
-    zero_noise,
-)
+from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, readings_of, sense
+from tandemlift.parts.sensors.start_sensors import sensors, start_sensing, zero_noise
 
 STEP = 1e-3
 SETS = Vec3(*[each(2)(0.0, 0.0)] * 3)

@@ -30,7 +30,10 @@ from tandemlift.simulation.preparation.traced_assembly import (
 
 INTERACTIVE = ("hover", "zigzag", "iris", "doorway", "rotor-loss")
 MISSIONS = [*built_in(), *[f"{name}, interactive" for name in INTERACTIVE], "iris, other parts"]
-ROUNDED = r"(sensors|actuators|person)\.(motion\.|additional\.\d+\.)?(delay|interval)|sensor_faults\.\d+\.(time|until)"
+ROUNDED = (
+    r"(sensors|actuators|person)\.(joints\.|motion\.|additional\.\d+\.)?(delay|interval|first_sample)|"
+    r"sensor_faults\.\d+\.(time|until)"
+)
 PLANNED = r"mission\.(duration|step|log_interval)|vehicle\.quadrotors\.\d+\.heading"
 
 OTHER_PARTS = {  # what no built-in mission has: other devices and faults, turbulence, a full tensor of inertia
@@ -100,7 +103,7 @@ def test_every_number_is_an_input_or_fixed_for_a_reason(name):
     fixed = [key for key in traced.fixed if key in numbers]
     assert all(re.fullmatch(f"{PLANNED}|{ROUNDED}", key) for key in fixed), fixed
     assert all(len(reason) > 20 for reason in traced.fixed.values())
-    assert len(traced.keys) >= 0.96 * len(numbers)
+    assert len(traced.keys) >= 0.95 * len(numbers)
 
 
 def test_a_key_of_the_graph_changes_that_number_of_a_mission():

@@ -140,6 +140,7 @@ def sensor_period(sensors: Any) -> int:
     if isinstance(sensors, Absent):
         return 1
     devices = [sensors.imu, sensors.motion, *sensors.additional]
+    devices += [] if isinstance(sensors.joints, Absent) else [sensors.joints]
     return math.lcm(*[round(device.period) for device in devices])
 
 

@@ -16,8 +16,7 @@ from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_at
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.wind import gust_velocity
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation import GAUSSIAN, GUST, InputTables
-from tandemlift.simulation.preparation.templates import leaf_offset
+from tandemlift.simulation.preparation import GAUSSIAN, GUST, InputTables, leaf_offset
 
 LOOP = ("push_force", "push_moment", "disturbance_force", "disturbance_moment", "wind_velocity")
 BODY = ("rotor_thrusts", *LOOP)

@@ -16,8 +16,8 @@ from tandemlift.analysis.linearization.step_derivative import StepDerivative, St
 from tandemlift.analysis.linearization.step_graph import StateChoice, StepGraph
 from tandemlift.core.types import Array, leaves
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import delayed_spans
 from tandemlift.simulation.preparation.step_end import COMMAND_LINE
-from tandemlift.simulation.preparation.templates import delayed_spans
 
 
 class DelayedNumber(NamedTuple):

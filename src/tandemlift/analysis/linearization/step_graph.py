@@ -17,7 +17,8 @@ from tandemlift.core.types import is_value, leaves
 from tandemlift.core.vector import ZERO, Absent, Mat3
 from tandemlift.parts.mechanics.push import PointPush, PushSamples
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation.templates import leaf_offset, templates_from
+from tandemlift.simulation.preparation import leaf_offset
+from tandemlift.simulation.preparation.templates import templates_from
 from tandemlift.simulation.preparation.traced_step import TracedStep
 
 NO_PUSH = PointPush(ZERO, Mat3(ZERO, ZERO, ZERO))

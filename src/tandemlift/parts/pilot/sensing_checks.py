@@ -20,7 +20,7 @@ from tandemlift.parts.guidance.guidance import PilotTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.schedule_checks import Schedule
 from tandemlift.parts.rotors.hover_loads import SIGMAS, WindOnParts
-from tandemlift.parts.sensors.sensors_table import JointSensors, SensorsTable
+from tandemlift.parts.sensors.sensors_table import JointSensors, SensorsTable, noise_scale
 
 REMOVED = 0.75  # fraction of the wind on the payload that estimator.wind_compensation subtracts
 CARRIED = 2.0  # m, displacement by gusts that is accepted in turbulence, as in mission gusts
@@ -91,9 +91,13 @@ def push_bandwidths(pilot: PilotTable, estimator: EstimatorTable, by_hand: Compl
 
 def noise_of(s: SensorsTable, vehicle: Vehicle, bandwidths: Sequence[float], step: float) -> float:
     """Standard deviation of the measured push [N] at the input of the dead band, behind low-passes [rad/s]."""
-    interval = max(s.interval, step)
-    sample = math.sqrt(vehicle.count * s.joints.force_noise**2 + (vehicle.payload.mass * s.accelerometer.noise) ** 2)
-    return sample * math.sqrt(min([0.25 * bandwidth * interval for bandwidth in bandwidths] + [1.0]))
+
+    def left(noise: float, interval: float) -> float:
+        often = max(interval, step)
+        return noise * noise_scale(s, often) * math.sqrt(min([0.25 * b * often for b in bandwidths] + [1.0]))
+
+    joints = left(s.joints.force_noise, s.interval if s.joints.interval is None else s.joints.interval)
+    return math.hypot(math.sqrt(vehicle.count) * joints, left(vehicle.payload.mass * s.accelerometer.noise, s.interval))
 
 
 class SensorDrift(NamedTuple):
@@ -127,12 +131,15 @@ def noise_check(noise: float, threshold: float) -> CheckResult:
 def sampling_checks(s: SensorsTable, push: float, estimate: float | None) -> Iterator[CheckResult]:
     """Compare sampling intervals plus delays with the largest for a push, and for an estimate [s]."""
     served = [("sensors", s.interval, s.delay, push, "pushes are detected too late, or missed")]
+    if s.joints.interval is not None:
+        served.append(("sensors.joints", s.joints.interval, s.delay, push, "pushes are detected too late, or missed"))
     if estimate is not None:
         served.append(("sensors.motion", s.motion.interval, s.motion.delay, estimate, "the estimate drifts and jumps"))
     for key, interval, delay, serves, then in served:
         limit = max(serves, SELDOM)
         text = (
-            f"{key}.interval = {interval:g} s and {key}.delay = {delay:g} s make more than {limit:.3g} s: {then}; "
+            f"{key}.interval = {interval:g} s and {key.removesuffix('.joints')}.delay = {delay:g} s make more than "
+            f"{limit:.3g} s: {then}; "
             "lower them"
         )
         yield judged("sampling", interval + delay, limit, "s", text, subject=key)

@@ -1,10 +1,10 @@
 """Readings of all sensors: every device samples on its own clock and holds its last sample.
 
 The inertial measurement unit (IMU) holds an accelerometer at the payload's origin and a gyroscope; the
-force-torque sensors at the joints run on its clock; all read in body axes. The motion measurement reads position and
-velocity of the system's centre of mass in world axes, and the attitude. An additional sensor is a device of its own
-(`additional_sensors`). Between samples the last one is held, no longer fresh. Delays from the sensors to the pilot are
-in the loop (`simulation.loop.sources`).
+force-torque sensors at the joints run on its clock, or on one of their own: then a sample of the IMU holds the last one
+of theirs. All read in body axes. The motion measurement reads position and velocity of the system's centre of mass in
+world axes, and the attitude. An additional sensor is a device of its own (`additional_sensors`). Between samples the
+last one is held, no longer fresh. Delays from the sensors to the pilot are in the loop (`simulation.loop.sources`).
 """
 
 from __future__ import annotations
@@ -18,24 +18,9 @@ from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Quat, Vec3
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.sensors.noise_bias_drift import (
-    PERFECT,
-    AttitudeNoise,
-    ChannelModel,
-    Drift,
-    NoError,
-    Sample,
-    SensorGrade,
-    WhiteNoise,
-    next_drift,
-    no_noise,
-    read,
-    sensor_model,
-    start_drift,
-)
+from tandemlift.parts.sensors.noise_bias_drift import ChannelModel, Drift, Sample, next_drift, read
 from tandemlift.parts.sensors.sensor_registry import true_value
 
-NONE = Absent()
 T = TypeVar("T")
 
 
@@ -53,6 +38,13 @@ class ImuChannels(NamedTuple, Generic[T]):
     frame: T
 
 
+class JointChannels(NamedTuple, Generic[T]):
+    """One value for each quantity of joints with a clock of their own; as in `ImuChannels`."""
+
+    joint_force: T
+    joint_torque: T
+
+
 class MotionChannels(NamedTuple, Generic[T]):
     """One value for each quantity of the motion measurement: position [m], velocity [m/s] and attitude."""
 
@@ -67,7 +59,7 @@ class AdditionalChannels(NamedTuple, Generic[T]):
     value: T
 
 
-Channels: TypeAlias = ImuChannels[T] | MotionChannels[T] | AdditionalChannels[T]
+Channels: TypeAlias = ImuChannels[T] | JointChannels[T] | MotionChannels[T] | AdditionalChannels[T]
 
 
 class ImuReading(NamedTuple):
@@ -78,6 +70,14 @@ class ImuReading(NamedTuple):
     joint_force: Vec3
     joint_torque: Vec3
     frame: Quat
+    fresh: Number
+
+
+class JointReading(NamedTuple):
+    """A sample of `JointChannels`, body axes; `fresh` is 1 in the step in which it was taken, else 0."""
+
+    joint_force: Vec3
+    joint_torque: Vec3
     fresh: Number
 
 
@@ -97,7 +97,7 @@ class AdditionalReading(NamedTuple):
     fresh: Number
 
 
-R = TypeVar("R", ImuReading, MotionReading, AdditionalReading)
+R = TypeVar("R", ImuReading, JointReading, MotionReading, AdditionalReading)
 
 
 class Readings(NamedTuple):
@@ -123,8 +123,12 @@ class Device(Protocol):
 class DeviceModel(NamedTuple):
     """A device: the models of its channels, and the steps from one sample to the next."""
 
-    channels: ImuChannels[ChannelModel] | MotionChannels[ChannelModel]
+    channels: ImuChannels[ChannelModel] | JointChannels[ChannelModel] | MotionChannels[ChannelModel]
     period: Number
+
+
+class Seldom(NamedTuple):
+    """Marks a device of which compiled loops compute nothing between samples: neither it nor the IMU always samples."""
 
 
 class DeviceState(NamedTuple, Generic[R]):
@@ -133,14 +137,16 @@ class DeviceState(NamedTuple, Generic[R]):
     reading: R
     drift: Channels[Drift]
     wait: Number
+    seldom: Seldom | Absent = Absent()
 
 
 class Sensors(NamedTuple):
-    """All devices; the additional ones by name."""
+    """All devices; the additional ones by name. `joints` is `Absent` where they run on the IMU's clock."""
 
     imu: DeviceModel
     motion: DeviceModel
     additional: Any = Absent()
+    joints: DeviceModel | Absent = Absent()
 
 
 class SensorState(NamedTuple):
@@ -149,6 +155,7 @@ class SensorState(NamedTuple):
     imu: DeviceState[ImuReading]
     motion: DeviceState[MotionReading]
     additional: Any = Absent()
+    joints: DeviceState[JointReading] | Absent = Absent()
 
 
 class SensorNoise(NamedTuple):
@@ -157,6 +164,7 @@ class SensorNoise(NamedTuple):
     imu: ImuChannels[Drift]
     motion: MotionChannels[Drift]
     additional: Any = Absent()
+    joints: JointChannels[Drift] | Absent = Absent()
 
 
 @law
@@ -175,13 +183,27 @@ def sample_device(k: Device, m: DeviceState[R], truth: Channels[Sample], normals
     held: list[Sample] = [selected(due, new, old) for new, old in zip(samples, m.reading[:-1], strict=True)]
     drift = [next_drift(*channel, fresh) for channel in zip(k.channels, m.drift, normals, strict=True)]
     reading, after = type(m.reading)._make([*held, fresh]), type(m.drift)(*drift)
-    return DeviceState(reading, after, where(due, k.period, m.wait) - 1.0)
+    return DeviceState(reading, after, where(due, k.period, m.wait) - 1.0, m.seldom)
 
 
 @law
 def true_imu(state: State, perfect: PerfectReadings, believed: Quat) -> ImuChannels[Sample]:
     """The readings of the IMU and the joints' sensors without errors."""
     return ImuChannels(perfect.specific_force, state.rates, perfect.joint_force, perfect.joint_torque, believed)
+
+
+@law(absent="m")
+def sample_joints(
+    k: DeviceModel, m: DeviceState[JointReading], perfect: PerfectReadings, normals: JointChannels[Drift]
+) -> DeviceState[JointReading]:
+    """The memory, after a step, of joints with a clock of their own."""
+    return sample_device(k, m, JointChannels(perfect.joint_force, perfect.joint_torque), normals)
+
+
+@law(absent="perfect")
+def with_sampled_joints(k: DeviceModel, m: DeviceState[JointReading], perfect: PerfectReadings) -> PerfectReadings:
+    """Readings in which the last samples of the joints stand, if they have a clock of their own."""
+    return perfect._replace(joint_force=m.reading.joint_force, joint_torque=m.reading.joint_torque)
 
 
 @law
@@ -205,9 +227,11 @@ def sense(
         sample_device(sensor, memory, true_additional(sensor, state, perfect), normals)
         for sensor, memory, normals in zip(k.additional, m.additional, noise.additional, strict=True)
     ]
-    imu = sample_device(k.imu, m.imu, true_imu(state, perfect, believed), noise.imu)
+    joints = sample_joints(k.joints, m.joints, perfect, noise.joints)
+    seen = with_sampled_joints(k.joints, joints, perfect)
+    imu = sample_device(k.imu, m.imu, true_imu(state, seen, believed), noise.imu)
     motion = sample_device(k.motion, m.motion, true_motion(state), noise.motion)
-    after = SensorState(imu, motion, type(m.additional)(*more))
+    after = SensorState(imu, motion, type(m.additional)(*more), joints)
     return readings_of(after), after
 
 
@@ -221,77 +245,3 @@ def readings_of(m: SensorState) -> Readings:
 def by_name(names: tuple[str, ...]) -> Any:
     """The type of values by name, one for each additional sensor; `Absent` for none."""
     return NamedTuple("_".join(("ByName", *names)), [(name, Any) for name in names]) if names else Absent
-
-
-def sensors(
-    count: int,
-    step: float,
-    force: SensorGrade = PERFECT,
-    torque: SensorGrade = PERFECT,
-    accelerometer: SensorGrade = PERFECT,
-    gyroscope: SensorGrade = PERFECT,
-    position_noise: float = 0.0,
-    velocity_noise: float = 0.0,
-    attitude_noise: float = 0.0,
-    imu_period: int = 1,
-    motion_period: int = 1,
-    additional: tuple[Device, ...] = NONE,
-) -> Sensors:
-    """The sensors of a vehicle of `count` quadrotors; by default perfect and sampled every step.
-
-    Args:
-        count: number of quadrotors N.
-        step: of the simulation [s].
-        force: of the joints' force [N]; `bias` and `misalignment` may be N × 3.
-        torque: of the joints' torque [N·m], likewise.
-        accelerometer: of the specific force [m/s²].
-        gyroscope: of the rates [rad/s].
-        position_noise: σ of a motion sample's position [m].
-        velocity_noise: σ of its velocity [m/s].
-        attitude_noise: σ of its attitude, about each body axis [rad].
-        imu_period: of the IMU and the joints, in whole steps.
-        motion_period: of the motion measurement, in whole steps.
-        additional: parameters of additional sensors by name (`by_name`).
-    """
-    interval = step * imu_period
-    imu: ImuChannels[ChannelModel] = ImuChannels(
-        specific_force=sensor_model(accelerometer, interval),
-        rates=sensor_model(gyroscope, interval),
-        joint_force=sensor_model(force, interval, count),
-        joint_torque=sensor_model(torque, interval, count),
-        frame=NoError(),
-    )
-    noise = WhiteNoise(position_noise), WhiteNoise(velocity_noise), AttitudeNoise(attitude_noise)
-    motion: MotionChannels[ChannelModel] = MotionChannels(*noise)
-    return Sensors(DeviceModel(imu, float(imu_period)), DeviceModel(motion, float(motion_period)), additional)
-
-
-def zero_noise(k: Sensors) -> SensorNoise:
-    """Standard normals of 0 for one step of these sensors."""
-    imu, motion = ImuChannels(*map(no_noise, k.imu.channels)), MotionChannels(*map(no_noise, k.motion.channels))
-    more = [AdditionalChannels(*map(no_noise, sensor.channels)) for sensor in k.additional]
-    return SensorNoise(imu, motion, type(k.additional)(*more))
-
-
-def start_sensing(k: Sensors, state: State, perfect: PerfectReadings, believed: Quat) -> SensorState:
-    """The memory before the first step: readings of a state, with bias but without noise, and not fresh.
-
-    Every device takes its first sample in the first step.
-    """
-    noise = zero_noise(k)
-
-    def start(
-        k: Device, drift: Channels[Drift], truth: Channels[Sample], normals: Channels[Drift], kind: type[R]
-    ) -> DeviceState[R]:
-        return DeviceState(kind._make([*sample_channels(k.channels, drift, truth, normals), 0.0]), drift, 0.0)
-
-    imu, motion = ImuChannels(*map(start_drift, k.imu.channels)), MotionChannels(*map(start_drift, k.motion.channels))
-    more = []
-    for device, normals in zip(k.additional, noise.additional, strict=True):
-        drift, truth = AdditionalChannels(*map(start_drift, device.channels)), true_additional(device, state, perfect)
-        more.append(start(device, drift, truth, normals, AdditionalReading))
-    return SensorState(
-        start(k.imu, imu, true_imu(state, perfect, believed), noise.imu, ImuReading),
-        start(k.motion, motion, true_motion(state), noise.motion, MotionReading),
-        by_name(getattr(k.additional, "_fields", ()))(*more),
-    )

@@ -8,7 +8,7 @@ from tandemlift.core.errors import CheckResult, refused, shown, suggestion, warn
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.sensors.sensor_list import ADDITIONAL, DEVICES, SENSORS, sensors_named
-from tandemlift.parts.sensors.sensors_table import SensorFaultTable, SensorsTable
+from tandemlift.parts.sensors.sensors_table import SensorFaultTable, SensorsTable, clocks_of, steps_of
 
 MAX_DELAY = 10_000  # steps
 
@@ -31,6 +31,14 @@ def additional_checks(table: SensorsTable) -> Iterator[CheckResult]:
             yield refused(f"{key}: must be different from the sensors above it")
     if table.additional and table.model == "none":
         yield refused('sensors.model = "none": must be "simulated" where there are additional sensors')
+
+
+def first_sample_checks(table: SensorsTable, step: float) -> Iterator[CheckResult]:
+    """Check for first samples that are not within an interval between samples."""
+    for _, key, interval, first in clocks_of(table):
+        if round(first / step) >= steps_of(interval or 0.0, step):
+            often = "set, and above it" if interval is None else f"above it, and is {interval}"
+            yield refused(f"{key}.first_sample = {first}: {key}.interval must be {often}")
 
 
 def range_warnings(table: SensorsTable, vehicle: Vehicle, thrusts: Array) -> Iterator[CheckResult]:

@@ -2,27 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 from typing import Annotated, Literal, TypeAlias
 
-import numpy as np
 from pydantic import AfterValidator, Field
 
+from tandemlift.core.algebra import sqrt
 from tandemlift.core.keys import Axes3, Delay, NonNegative, Positive, Size, Table, key, must
-from tandemlift.core.types import Array
-from tandemlift.core.vector import Absent
-from tandemlift.parts.sensors.noise_bias_drift import SensorGrade, scalar_sensor_model, sensor_model
-from tandemlift.parts.sensors.readings import (
-    AdditionalChannels,
-    Device,
-    SensorNoise,
-    Sensors,
-    by_name,
-    sensors,
-    zero_noise,
-)
-from tandemlift.parts.sensors.sensor_list import ADDITIONAL, DEVICES, SENSORS, additional_sensor, sensors_on
-from tandemlift.parts.sensors.sensor_registry import PARAMETERS
+from tandemlift.parts.sensors.sensor_list import ADDITIONAL, DEVICES, SENSORS, sensors_on
 
 FINEST = 1e-9  # resolution of a sensor, in its unit
 BOUNDLESS = "without a bound"
@@ -47,6 +34,9 @@ RANGE = "largest reading, either way"
 FINE = f"0 for none, or at least {FINEST:g}"
 THE_SENSORS = "the sensor's unit"
 STEPS = "at most 10,000 steps"
+OFTEN = "time between samples, rounded to whole steps; 0 samples at every step"
+FIRST = "time of the first sample, rounded to whole steps: offsets stagger the sensors"
+WITHIN = "below the time between samples"
 
 
 class JointSensors(Table):
@@ -65,6 +55,14 @@ class JointSensors(Table):
     misalignment: Turn = key(
         0.0, "rad", "standard deviation of the sensor's rotation about each axis, which is drawn from the seed"
     )
+    interval: Interval | None = key(
+        None,
+        "s",
+        "time between samples, rounded to whole steps; a sample of the imu holds the last one of the joints",
+        unset="joints are sampled with the imu",
+        example=0.002,
+    )
+    first_sample: NonNegative = key(0.0, "s", FIRST, rule=f"{WITHIN}, which must be set")
 
 
 class Accelerometer(Table):
@@ -94,7 +92,8 @@ class MotionSensor(Table):
     position_noise: Size = key(0.0, "m", f"position: {NOISE}")
     velocity_noise: Size = key(0.0, "m/s", f"velocity: {NOISE}")
     attitude_noise: Size = key(0.0, "rad", f"attitude: {NOISE}, about each body axis")
-    interval: Interval = key(0.0, "s", "time between samples, rounded to whole steps; 0 samples at every step")
+    interval: Interval = key(0.0, "s", OFTEN)
+    first_sample: NonNegative = key(0.0, "s", FIRST, rule=WITHIN)
     delay: Delay = key(
         0.0,
         "s",
@@ -125,7 +124,8 @@ class AdditionalSensorTable(Table):
     drift: Size = key(0.0, f"{THE_SENSORS}/√s", DRIFT)
     resolution: Resolution = key(0.0, THE_SENSORS, STEP, rule=FINE)
     range: Positive = key(1e6, THE_SENSORS, RANGE, source=BOUNDLESS)
-    interval: Interval = key(0.0, "s", "time between samples, rounded to whole steps; 0 samples at every step")
+    interval: Interval = key(0.0, "s", OFTEN)
+    first_sample: NonNegative = key(0.0, "s", FIRST, rule=WITHIN)
     delay: Delay = key(
         0.0,
         "s",
@@ -138,8 +138,9 @@ class SensorsTable(Table):
     """`[sensors]`: simulated sensors; errors are independent along each axis.
 
     There are a force-torque sensor at every joint, an accelerometer and a gyroscope, all on one clock, the inertial
-    measurement unit's (imu), and a motion measurement with a clock of its own. The pilot receives a sample one step
-    after it was taken, or later by its delay.
+    measurement unit's (imu), unless the joints have their own, and a motion measurement with a clock of its own. The
+    pilot receives a sample one step after it was taken, or later by its delay. Where the imu does not sample at every
+    step, the pilot's estimators step with the samples that arrive, and hold their estimates in between.
     """
 
     model: Literal["none", "simulated"] = key(
@@ -150,6 +151,16 @@ class SensorsTable(Table):
     )
     interval: Interval = key(
         0.0, "s", "time between samples of the imu and the joints, rounded to whole steps; 0 samples at every step"
+    )
+    first_sample: NonNegative = key(0.0, "s", FIRST, rule=WITHIN)
+    noise_interval: Positive | None = key(
+        None,
+        "s",
+        "time between samples with the noise of the tables joints, accelerometer and gyroscope: at other intervals the "
+        "density of the noise is the same, so that noise changes with 1/√interval; with 1 s, these keys are densities "
+        "in their unit/√Hz, as data sheets give them",
+        unset="their noise is that of a sample, whatever the interval",
+        example=0.001,
     )
     delay: Delay = key(
         0.0,
@@ -218,62 +229,25 @@ def steps_of(interval: float, step: float) -> int:
     return max(1, round(interval / step))
 
 
-def sensors_from(
-    s: SensorsTable, count: int, step: float, chance: np.random.Generator
-) -> tuple[Sensors | Absent, SensorNoise | Absent]:
-    """The sensors of `count` joints and of the body, and the layout of their noise; or `Absent`.
-
-    `chance` draws biases and misalignments; `step` [s] is that of the simulation.
-    """
-    if s.model == "none":
-        return Absent(), Absent()
-    turns = chance.standard_normal((count, 3)) * s.joints.misalignment
-    devices = sensors(
-        count=count,
-        step=step,
-        force=_joint_grade(s.joints, "force", turns, chance),
-        torque=_joint_grade(s.joints, "torque", turns, chance),
-        accelerometer=_inertial_grade(s.accelerometer, chance),
-        gyroscope=_inertial_grade(s.gyroscope, chance),
-        position_noise=s.motion.position_noise,
-        velocity_noise=s.motion.velocity_noise,
-        attitude_noise=s.motion.attitude_noise,
-        imu_period=steps_of(s.interval, step),
-        motion_period=steps_of(s.motion.interval, step),
-        additional=_additional_sensors(s.additional, step, chance),
-    )
-    return devices, zero_noise(devices)
+def noise_scale(s: SensorsTable, interval: float) -> float:
+    """Noise of a sample of the imu or the joints over that of their tables, at an interval [s] between samples."""
+    return 1.0 if s.noise_interval is None else sqrt(s.noise_interval / interval)
 
 
-def _joint_grade(s: JointSensors, kind: str, turns: Array, chance: np.random.Generator) -> SensorGrade:
-    """The sensors at the joints, of kind "force" or "torque"; `turns` (N × 3) of their axes [rad]."""
-    noise, bias, drift, resolution, limit = (
-        getattr(s, f"{kind}_{error}") for error in ("noise", "bias", "drift", "resolution", "range")
-    )
-    return SensorGrade(
-        noise=noise,
-        bias=chance.standard_normal(turns.shape) * bias,
-        drift=drift,
-        resolution=resolution,
-        limit=limit,
-        misalignment=turns,
-    )
+def joint_steps(s: SensorsTable, step: float) -> int | None:
+    """The sampling interval of joints with a clock of their own in whole steps; None without."""
+    return None if s.joints.interval is None else steps_of(s.joints.interval, step)
 
 
-def _inertial_grade(s: InertialSensor, chance: np.random.Generator) -> SensorGrade:
-    return SensorGrade(noise=s.noise, bias=chance.standard_normal((1, 3)) * s.bias, drift=s.drift, limit=s.range)
+def clocks_of(s: SensorsTable) -> Iterator[tuple[str, str, float | None, float]]:
+    """Of every device: (its name, the key of its table, `interval`, `first_sample`)."""
+    yield "imu", "sensors", s.interval, s.first_sample
+    yield "joints", "sensors.joints", s.joints.interval, s.joints.first_sample
+    yield "motion", "sensors.motion", s.motion.interval, s.motion.first_sample
+    for i, own in enumerate(s.additional):
+        yield own.name, f"sensors.additional.{i}", own.interval, own.first_sample
 
 
-def _additional_sensors(
-    tables: Sequence[AdditionalSensorTable], step: float, chance: np.random.Generator
-) -> tuple[Device, ...]:
-    """The parameters of additional sensors by name; `Absent` for none."""
-    return by_name(tuple(s.name for s in tables))(*[_additional(s, step, chance) for s in tables])
-
-
-def _additional(s: AdditionalSensorTable, step: float, chance: np.random.Generator) -> Device:
-    is_vector, period = additional_sensor(s.name).width == 3, steps_of(s.interval, step)
-    bias = chance.standard_normal(3 if is_vector else None) * s.bias
-    grade = SensorGrade(noise=s.noise, bias=bias, drift=s.drift, resolution=s.resolution, limit=s.range)
-    model = (sensor_model if is_vector else scalar_sensor_model)(grade, step * period)
-    return PARAMETERS[s.name](AdditionalChannels(model), float(period))
+def first_samples(s: SensorsTable, step: float) -> dict[str, int]:
+    """The steps before the first sample of each device."""
+    return {device: round(first / step) for device, _, _, first in clocks_of(s)}

@@ -39,7 +39,7 @@ from tandemlift.parts.sensors.health import (
     not_finite,
 )
 from tandemlift.parts.sensors.readings import ImuReading, MotionReading, Readings
-from tandemlift.parts.sensors.sensors_table import SensorsTable, steps_of
+from tandemlift.parts.sensors.sensors_table import SensorsTable, joint_steps, steps_of
 from tandemlift.parts.sensors.substitutes import (
     SETTLING_TIME,
     MeanBiases,
@@ -270,15 +270,16 @@ def state_not_finite(s: State) -> Number:
 def watchdog_from(w: WatchTable, s: SensorsTable, step: float) -> Watchdog:
     """The watchdogs on every sensor, for steps of `step` [s]; a sensor without noise is never frozen."""
 
-    def frozen(noise: Number) -> Number:
-        return where(noise > 0.0, float(w.frozen_samples), math.inf)
+    def frozen(noise: Number, held: int = 1) -> Number:
+        return where(noise > 0.0, float(w.frozen_samples * held), math.inf)
 
+    held = -(-(joint_steps(s, step) or 1) // steps_of(s.interval, step))  # samples of the imu with one of the joints
     interval = step * steps_of(s.motion.interval, step)
     return Watchdog(
         stale_time=w.stale_time,
         invalid_time=w.invalid_time,
         sensors=PerSensor(
-            joints=JointLimits(w.max_force, w.max_torque, frozen(s.joints.force_noise)),
+            joints=JointLimits(w.max_force, w.max_torque, frozen(s.joints.force_noise, held)),
             accelerometer=VectorLimits(w.max_specific_force, frozen(s.accelerometer.noise)),
             gyroscope=VectorLimits(w.max_rates, frozen(s.gyroscope.noise)),
             position=VectorLimits(w.max_position, frozen(s.motion.position_noise)),

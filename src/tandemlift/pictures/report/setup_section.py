@@ -146,7 +146,13 @@ def _sensors(flight: Flight) -> Iterator[Row]:
         yield "Sensors", "none: the pilot reads true values"
         return
     drawn = "noise, bias and misalignment are standard deviations; the seed gives biases and misalignments"
+    if s.noise_interval is not None:
+        drawn += (
+            f"; noise on board is that of samples every {describe(s.noise_interval, 'ms', 1e3)}, its density is kept"
+        )
     yield "Sensors on board", f"{_every(s.interval, s.delay)}; {drawn}"
+    if s.joints.interval is not None:
+        yield "Joints", f"{_every(s.joints.interval, s.delay)}, with the next sample on board"
     for kind, (unit, name) in JOINTS.items():
         noise, bias, drift, step = (getattr(s.joints, f"{kind}_{x}") for x in ("noise", "bias", "drift", "resolution"))
         errors = _errors(unit, noise=(noise, ""), bias=(bias, ""), drift=(drift, "/√s"), steps=(step, ""))

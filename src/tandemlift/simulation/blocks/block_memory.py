@@ -9,9 +9,8 @@ from functools import cached_property
 
 import numpy as np
 
-from tandemlift.simulation.preparation import LANES, FlightMemory, FlightStart, LoopCode, TimeGrid
+from tandemlift.simulation.preparation import LANES, FlightMemory, FlightStart, LeafSpan, LoopCode, TimeGrid
 from tandemlift.simulation.preparation.memory import AT, NEVER, WORDS, Numbers, Words, aligned
-from tandemlift.simulation.preparation.templates import LeafSpan
 
 WORTH = 2e-4  # s of flight code in a call, from which on threads share it
 

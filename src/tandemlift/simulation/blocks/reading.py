@@ -15,8 +15,7 @@ from tandemlift.simulation.blocks.ended_flights import EndedFlights
 from tandemlift.simulation.blocks.lanes import Lanes, lane_numbers
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation import LANES, leaf_offset
-from tandemlift.simulation.preparation.templates import LeafSpan
+from tandemlift.simulation.preparation import LANES, LeafSpan, leaf_offset
 from tandemlift.simulation.results import RawResult, SampleChannels, metrics_of
 
 

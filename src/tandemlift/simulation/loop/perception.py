@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
+from tandemlift.core.algebra import chosen, maximum
 from tandemlift.core.law import choice, law
 from tandemlift.core.phases import LAND
 from tandemlift.core.types import Number, PerRotor
@@ -49,10 +50,17 @@ class PerceptionData(NamedTuple):
     known: EstimatedFlight
 
 
+class Sampling(NamedTuple):
+    """The estimators step with the IMU's samples, so many seconds apart, and not with the pilot."""
+
+    interval: Number
+
+
 class Estimators(NamedTuple):
     """The estimators of push and state, the nominal vehicle, the start of the tare, and the checks of the push.
 
-    The checks are the detector of contacts, and the confirmation by other loads on the vehicle.
+    The checks are the detector of contacts, and the confirmation by other loads on the vehicle. `sampling` is `Absent`
+    where the IMU samples at every step.
     """
 
     push: PushEstimator
@@ -61,6 +69,7 @@ class Estimators(NamedTuple):
     tare: TareAtTime | TareInHover
     contact: ContactDetector | Absent
     confirmation: PushConfirmation | Absent
+    sampling: Sampling | Absent
 
 
 class TareAtTime(NamedTuple):
@@ -71,13 +80,23 @@ class TareInHover(NamedTuple):
     """The tare begins in steady hover."""
 
 
+class HeldEstimates(NamedTuple):
+    """The last estimates of push, state and contact; `fresh` is 1 in a step in which a sample changed one, else 0."""
+
+    push: PushEstimate
+    state: State
+    contact: ContactEstimate | Absent
+    fresh: Number
+
+
 class EstimatorState(NamedTuple):
-    """Memory of the estimators."""
+    """Memory of the estimators; `held` is `Absent` where they run in every step."""
 
     push: PushEstimatorState
     state: NavigationState
     contact: ContactState | Absent
     confirmation: ConfirmationState | Absent
+    held: HeldEstimates | Absent = Absent()
 
 
 class Estimates(NamedTuple):
@@ -135,6 +154,38 @@ def estimate_all(
     """
 
 
+@law(absent="dt")
+def time_between(sampling: Sampling, dt: Number) -> Number:
+    """The time from one step of the estimators to the next [s]; `dt`: of the pilot."""
+    return sampling.interval
+
+
+@law(absent=("new", "after"))
+def held_between(
+    sampling: Sampling, memory: EstimatorState, readings: Readings, new: Estimates, after: EstimatorState
+) -> tuple[Estimates, EstimatorState]:
+    """(estimates, memory) in a step with these readings: the new ones of what they serve, else the last.
+
+    State estimation steps with samples of IMU and motion measurement, all else with those of the IMU.
+    """
+    last: Any = memory.held  # never `Absent`: this is called where estimates are held
+    by_imu = readings.imu.fresh
+    by_any = maximum(by_imu, readings.motion.fresh)
+    held = HeldEstimates(
+        push=chosen(by_imu, new.push, last.push),
+        state=chosen(by_any, new.state, last.state),
+        contact=chosen(by_imu, new.contact, last.contact),
+        fresh=by_any,
+    )
+    return new._replace(push=held.push, state=held.state, contact=held.contact), EstimatorState(
+        push=chosen(by_imu, after.push, memory.push),
+        state=chosen(by_any, after.state, memory.state),
+        contact=chosen(by_imu, after.contact, memory.contact),
+        confirmation=chosen(by_imu, after.confirmation, memory.confirmation),
+        held=held,
+    )
+
+
 @estimate_all.register(Estimators)
 def _estimated(
     estimators: Estimators,
@@ -145,6 +196,7 @@ def _estimated(
     t: Number,
     dt: Number,
 ) -> tuple[Estimates, EstimatorState]:
+    dt = time_between(estimators.sampling, dt)
     push, push_memory = estimate(estimators.push, memory.push, readings.imu, t)
     state, state_memory = navigate(estimators.state, memory.state, readings)
     imu = about_center(estimators.push.off_center, readings.imu, push_memory.angular)
@@ -163,7 +215,8 @@ def _estimated(
         dt,
     )
     estimates = Estimates(push, state, estimators.vehicle, contact)
-    return estimates, EstimatorState(push_memory, state_memory, contact_memory, confirmation)
+    after = EstimatorState(push_memory, state_memory, contact_memory, confirmation)
+    return held_between(estimators.sampling, memory, readings, estimates, after)
 
 
 @choice(absent=NO_SURROUNDINGS)

@@ -7,9 +7,10 @@ instruction serves all of them. The laws are the same, and so is every bit of th
 """
 
 from tandemlift.simulation.loop.external_inputs import GAUSSIAN, GUST, HALVES, LANES, SPAN, InputTables
+from tandemlift.simulation.loop.sources import LeafSpan, delayed_spans, leaf_offset
 from tandemlift.simulation.preparation.compiled_flight import LoopCode
 from tandemlift.simulation.preparation.memory import FlightMemory, FlightStart, TimeGrid
-from tandemlift.simulation.preparation.templates import COMMAND, GIVEN, PythonController, Templates, leaf_offset
+from tandemlift.simulation.preparation.templates import COMMAND, GIVEN, PythonController, Templates
 
 __all__ = [
     "COMMAND",
@@ -22,9 +23,11 @@ __all__ = [
     "FlightMemory",
     "FlightStart",
     "InputTables",
+    "LeafSpan",
     "LoopCode",
     "PythonController",
     "Templates",
     "TimeGrid",
+    "delayed_spans",
     "leaf_offset",
 ]

@@ -33,10 +33,10 @@ from tandemlift.parts.sensors.readings import (
     SensorState,
     by_name,
     readings_of,
-    start_sensing,
 )
 from tandemlift.parts.sensors.sensor_faults import sensor_faults_from
-from tandemlift.parts.sensors.sensors_table import SensorsTable, sensors_from
+from tandemlift.parts.sensors.sensors_table import SensorsTable, first_samples
+from tandemlift.parts.sensors.start_sensors import sensors_from, start_sensing
 from tandemlift.simulation.loop.external_inputs import InputTables, input_tables_from, near_walls_from, push_kind
 from tandemlift.simulation.loop.fault_tolerant_perception import (
     FaultySensors,
@@ -126,7 +126,8 @@ def start_perception(
     sensing: Any = Absent()
     readings: Any = Absent()
     if not isinstance(devices, Absent):
-        sensing = start_sensing(devices, state, at_rest(), state.attitude)
+        waits = first_samples(mission.sensors, step)
+        sensing = start_sensing(devices, state, at_rest(), state.attitude, waits)
         readings = readings_of(sensing)
     estimators, known = start_estimators(mission, vehicle, state, readings)
     if mission.supervision.model != "none":

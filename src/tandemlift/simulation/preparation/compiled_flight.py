@@ -11,10 +11,11 @@ from tandemlift.compiler.machine_code.code import Code, Written
 from tandemlift.compiler.machine_code.store import key_of
 from tandemlift.compiler.tracer import Function
 from tandemlift.core.progress import always
+from tandemlift.simulation.loop.sources import delayed_spans
 from tandemlift.simulation.loop.step import FlightModel, StepInputs
 from tandemlift.simulation.preparation.loops import LoopWriter
 from tandemlift.simulation.preparation.memory import AT, WORDS
-from tandemlift.simulation.preparation.templates import PythonController, delayed_spans, templates_from
+from tandemlift.simulation.preparation.templates import PythonController, templates_from
 from tandemlift.simulation.preparation.traced_step import TracedStep
 
 CALL = ("contexts", "first", "end", "stop", "actions", "rows", "lanes", "place", "halted")  # words of `fly_blocks`

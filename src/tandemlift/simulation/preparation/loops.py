@@ -17,12 +17,13 @@ from tandemlift.simulation.preparation.precompute import (
     ScratchValues,
     steady,
     write_draw,
+    write_draw_of_part,
     write_gust,
     write_push,
     write_surroundings,
     write_walls,
 )
-from tandemlift.simulation.preparation.step_end import write_early, write_next_state, write_sample
+from tandemlift.simulation.preparation.step_end import write_early, write_estimates, write_next_state, write_sample
 from tandemlift.simulation.preparation.step_writer import StepWriter
 from tandemlift.simulation.preparation.traced_step import Symbols
 
@@ -47,7 +48,7 @@ class LoopWriter(StepWriter):
         begins = self.begins_span(f, k)
         with f.when(f.op(f"icmp eq i64 {f.integer('and', k, SPAN - 1)}, 0")):
             self.call(f, "sum_pushes", f"i64 {k}")
-            if self.draws and lanes == 1:
+            if self.free_draws and lanes == 1:
                 self.call(f, "draw_noise", f"i64 {k}")
         if x.has_floor or x.has_person:
             with f.when(f.any(begins)):
@@ -56,7 +57,7 @@ class LoopWriter(StepWriter):
             truth = "i1" if lanes == 1 else f"<{lanes} x i1>"
             self.call(f, "find_walls", f"{f.vector} {f.op(f'uitofp {truth} {begins} to {f.vector}')}")
         self.bind_inputs(f, k)
-        if self.draws and lanes > 1:
+        if self.free_draws and lanes > 1:
             self.call(f, "draw_noise", f"i64 {k}")
         if self.has_gusts:
             self.call(f, "sum_gusts", f"{f.vector} {f.read['t'](0)}")
@@ -71,7 +72,7 @@ class LoopWriter(StepWriter):
         f.read |= {
             "t": lambda i: t,
             "hand": lambda i: Place(hand, i),
-            "noise": lambda i: Place(noise, i * pace, pace),
+            "noise": lambda i: Place("%work", self.drawn[i]) if i in self.drawn else Place(noise, i * pace, pace),
             "gust": lambda i: Place("%work", self.gust + i),
             "answer": lambda i: Place("%work", self.answer + i),
             "external": lambda i: Place("%work", self.external + i),
@@ -130,8 +131,11 @@ class LoopWriter(StepWriter):
     def write_outside(self) -> None:
         """The functions that form a step's inputs from outside."""
         write_push(self)
-        if self.draws:
-            write_draw(self)
+        if self.free_draws:
+            write_draw(self, "draw_noise", self.free_draws)
+        for number, part in enumerate(self.held):
+            if part.noise.size:
+                write_draw_of_part(self, f"draw_noise{number}", part)
         if self.has_gusts:
             write_gust(self)
         if self.templates.has_floor or self.templates.has_person:
@@ -143,6 +147,7 @@ class LoopWriter(StepWriter):
 
     def write_loop(self) -> str:
         """`fly`: steps k to stop − 1, fewer if a flight alone ends before; it returns the step reached."""
+        self.hold_parts()
         self.write_outside()
         f = self.function("fly_", result="i64")
         begin, stop, steps = self.context_word(f, "k"), self.context_word(f, "stop"), self.context_word(f, "steps")
@@ -176,10 +181,11 @@ class LoopWriter(StepWriter):
         early = f.orders and bool(x.limits or x.body_in_free_air)
 
         def sample() -> None:
-            if early:
+            if early or self.held:
                 final = f.op(f"icmp eq i64 %k, {steps}")
                 before = f.at("%work", self.scratch.take("before", self.state_size))
                 self._copy_state(f, final, "%flight", before)
+            write_estimates(self, f)
             if early and x.limits:
                 write_early(self, f, [x.limits.beyond, *x.limits.plain], done, "solved", "moved")
             self.limit_thrusts(f)
@@ -187,7 +193,7 @@ class LoopWriter(StepWriter):
                 write_early(self, f, x.body.acting, done, "moved")
             self.step_body(f)
             write_sample(self, f, "%k")
-            if early:
+            if early or self.held:
                 self._copy_state(f, final, before, "%flight")
 
         return StepHalves(sample, lambda: write_next_state(self, f, "%k", done))
@@ -284,7 +290,7 @@ class LoopWriter(StepWriter):
         f.values(Symbol(self.graph, n, "f") for n in nodes if f.is_uniform(n))
         with f.when(f.op(f"icmp ne i64 {self.context_word(f, 'fresh')}, 0")):
             self.call(f, "sum_pushes", f"i64 {k}")
-            if self.draws and self.lanes == 1:
+            if self.free_draws and self.lanes == 1:
                 self.call(f, "draw_noise", f"i64 {k}")
             f.store(double(float(self.templates.has_floor)), "%work", self.low * self.lanes, "double")
             f.put("%work", self.moved + self.moved_touches, self.traced.touches_before)

@@ -5,14 +5,14 @@ Scratch memory keeps the values that are constant within a flight, and those tha
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from tandemlift.compiler.tracer import LEAVES, Function, Graph, Place, Symbol, symbols
 from tandemlift.core.types import leaves
 from tandemlift.simulation.loop.external_inputs import HALVES, ROWS, SPAN
+from tandemlift.simulation.loop.sources import HeldPart, leaf_offset
 from tandemlift.simulation.preparation.memory import MEMORY, ScratchLayout
 from tandemlift.simulation.preparation.step_writer import StepWriter
-from tandemlift.simulation.preparation.templates import leaf_offset
 from tandemlift.simulation.preparation.traced_step import Symbols
 
 
@@ -56,17 +56,18 @@ def _add_to(f: Function, at: str | int, more: Symbols) -> None:
         f.store(f.op(f"fadd {f.vector} {f.load(place, m)}, {value}"), place, m)
 
 
-def write_draw(step: StepWriter) -> None:
-    """Standard normals of one step in every lane; for a flight alone, of all steps of the span that holds step k."""
+def write_draw(step: StepWriter, name: str, draws: Sequence[int]) -> None:
+    """Draws of one step in every lane; for a flight alone, of all steps of the span that holds step k."""
     lanes = step.lanes if step.lanes > 1 else step.draw_lanes
     uniform = () if step.lanes > 1 else ("key",)
-    f = Function(step.module, step.graph, lanes, f"internal void @draw_noise({MEMORY}, i64 %k) #1", uniform)
+    f = Function(step.module, step.graph, lanes, f"internal void @{name}({MEMORY}, i64 %k) #1", uniform)
     keys = step.context_word(f, "keys")
     if step.lanes > 1:
         own = step.own(f, "%k")
         f.read = {"number": lambda m: own, "key": lambda m: f.load(keys, m)}
-        for m, value in enumerate(v for four in step.traced.normals for v in f.values(four)):
-            f.store(value, "%work", step.noise + m)
+        for i in draws:
+            for m, value in enumerate(f.values(step.traced.normals[i])):
+                f.store(value, "%work", step.noise + 4 * i + m)
         f.end()
         return
     first = f.integer("and", "%k", -SPAN)
@@ -77,9 +78,30 @@ def write_draw(step: StepWriter) -> None:
         base = f.spread(f.integer("add", first, f.integer("mul", j, lanes)), "i64")
         numbers = f.op(f"add {kind} {base}, {ramp}")
         f.read["number"] = lambda m: numbers
-        for m, value in enumerate(v for four in step.traced.normals for v in f.values(four)):
-            at = f.integer("add", f.integer("mul", j, lanes), step.noise + m * SPAN)
-            f.store(value, f.at("%work", at, "double"))
+        for i in draws:
+            for m, value in enumerate(f.values(step.traced.normals[i])):
+                at = f.integer("add", f.integer("mul", j, lanes), step.noise + (4 * i + m) * SPAN)
+                f.store(value, f.at("%work", at, "double"))
+    f.end()
+
+
+def write_draw_of_part(step: StepWriter, name: str, part: HeldPart) -> None:
+    """Standard normals of step k for a held part; for a flight alone, several draws at once."""
+    draws, lanes = step.draws_of(part), step.lanes_of(part)
+    if step.lanes > 1:
+        write_draw(step, name, draws)
+        return
+    head = f"internal void @{name}({MEMORY}, i64 %k) #1"
+    f = Function(step.module, step.graph, lanes, head, ("key", "number"))
+    keys, to = step.context_word(f, "keys"), step.drawn[part.noise.at] - part.noise.at % 4 * lanes
+    f.read = {"key": lambda m: f.load(keys, m, "double"), "number": lambda m: "%k"}
+    for first in range(0, len(draws), lanes):
+        numbers = [str(draws[0] + first + lane) for lane in range(lanes)]
+        text = numbers[0] if lanes == 1 else f"<{', '.join(f'i64 {n}' for n in numbers)}>"
+        f.read["draw"] = {0: text}.__getitem__
+        with f.afresh():
+            for m, value in enumerate(f.values(step.traced.normals_of_draw)):
+                f.store(value, f.at("%work", to + 4 * first + m * lanes, "double"))
     f.end()
 
 

@@ -17,7 +17,7 @@ from tandemlift.parts.estimation.disturbance_observer import start_observer
 from tandemlift.parts.estimation.navigation import navigator_from, start_navigation
 from tandemlift.parts.estimation.off_center import off_center_at
 from tandemlift.parts.estimation.push_confirmation import start_confirmation
-from tandemlift.parts.estimation.push_estimate import push_estimator, start_push
+from tandemlift.parts.estimation.push_estimate import estimate, push_estimator, start_push
 from tandemlift.parts.estimation.wind_compensation import payload_drag_from
 from tandemlift.parts.guidance.available import start_available
 from tandemlift.parts.guidance.compliance_table import ComplianceTable, compliance_from, push_filters
@@ -44,7 +44,14 @@ from tandemlift.parts.rotors.detection_table import start_detection
 from tandemlift.parts.rotors.rotor_faults import RotorFaults, known_faults
 from tandemlift.parts.sensors.readings import Readings
 from tandemlift.parts.sensors.sensors_table import steps_of
-from tandemlift.simulation.loop.perception import Estimators, EstimatorState, TareAtTime, TareInHover
+from tandemlift.simulation.loop.perception import (
+    Estimators,
+    EstimatorState,
+    HeldEstimates,
+    Sampling,
+    TareAtTime,
+    TareInHover,
+)
 from tandemlift.simulation.loop.sources import NominalVehicle
 
 
@@ -131,7 +138,9 @@ def start_estimators(
     """The estimators of a mission and their memory at t = 0, for the nominal vehicle; or `Absent`."""
     if isinstance(readings, Absent):
         return Absent(), Absent()
-    e, s, step = mission.estimator, mission.sensors, mission.mission.step
+    e, s, period = mission.estimator, mission.sensors, steps_of(mission.sensors.interval, mission.mission.step)
+    step = mission.mission.step
+    interval, sampling = step * period, Sampling(step * period) if period > 1 else Absent()
     payload, quadrotors = vehicle.payload, vehicle.quadrotors
     push = push_estimator(
         mass=payload.mass,
@@ -139,8 +148,7 @@ def start_estimators(
         joints=[np.subtract(q.joint_position, payload.center_of_mass) for q in quadrotors],
         quadrotors=[np.subtract(q.position, payload.center_of_mass) for q in quadrotors],
         quadrotor_masses=[q.mass for q in quadrotors],
-        step=step,
-        imu_period=steps_of(s.interval, step),
+        step=interval,
         length=math.inf if payload.span is None else payload.span,
         bandwidth=e.push_bandwidth,
         min_force=e.min_force,
@@ -148,7 +156,7 @@ def start_estimators(
         tare_duration=e.tare_duration,
         identify_mass=e.identify_mass,
         disagreement_limit=e.disagreement_limit,
-        windage=Absent() if e.wind_compensation == "none" else payload_drag_from(vehicle, e.wind_bandwidth, step),
+        windage=Absent() if e.wind_compensation == "none" else payload_drag_from(vehicle, e.wind_bandwidth, interval),
         system=-vehicle.payload_center,
         off_center=off_center_at(payload.center_of_mass),
     )
@@ -156,16 +164,18 @@ def start_estimators(
     drag = vehicle.drag
     believed = NominalVehicle(vec3(vehicle.payload_center), vec3(drag.force), vec3(drag.moment))
     tare = TareInHover() if e.tare == "hover" else TareAtTime()
-    contact, no_contact = start_contact_detection(mission.contact, vehicle, step)
+    contact, no_contact = start_contact_detection(mission.contact, vehicle, interval)
     confirmation, unconfirmed = start_confirmation(
         e,
         vehicle,
-        step,
+        interval,
         threshold=mission.admittance.threshold,
         moment_threshold=mission.compliance.yaw.threshold,
         limited=mission.allocation.method == "constrained",
     )
-    known = Estimators(push, observer, believed, tare, contact, confirmation)
-    return known, EstimatorState(
-        start_push(push, readings.imu), start_navigation(observer, state), no_contact, unconfirmed
-    )
+    known = Estimators(push, observer, believed, tare, contact, confirmation, sampling)
+    pushed = start_push(push, readings.imu)
+    first, _ = estimate(push, pushed, readings.imu, 0.0)
+    touching = Absent() if isinstance(no_contact, Absent) else no_contact.contact
+    held = Absent() if isinstance(sampling, Absent) else HeldEstimates(first, state, touching, 0.0)
+    return known, EstimatorState(pushed, start_navigation(observer, state), no_contact, unconfirmed, held)

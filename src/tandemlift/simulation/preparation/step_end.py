@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from tandemlift.compiler.tracer import LEAVES, Function, Symbol, double
+import functools
+
+from tandemlift.compiler.tracer import LEAVES, Function, Place, Symbol, double
+from tandemlift.simulation.loop.sources import HeldPart, LeafSpan, leaf_offset
 from tandemlift.simulation.preparation.step_writer import StepWriter
-from tandemlift.simulation.preparation.templates import LeafSpan, leaf_offset
 from tandemlift.simulation.preparation.traced_step import Symbols
 
 COMMAND_LINE = 2  # the delay line of the rotor commands: without delay, a command acts in its own step
@@ -75,12 +77,35 @@ def _numbers_of_each_step(step: StepWriter) -> Symbols:
     if step.keeps_touches:
         at, size = step.touches
         after[at : at + size] = step.traced.touches_before
-    return after
+    return step.unless_held(after)
+
+
+def write_estimates(step: StepWriter, f: Function) -> None:
+    """Write the estimates if a sample has come in any lane."""
+    for part in step.held:
+        if not part.noise.size:
+            write_held(step, f, "0", part)
+
+
+def write_held(step: StepWriter, f: Function, k: str, part: HeldPart) -> None:
+    """Write the numbers of a held part if one of its steps has come in any lane; from then on they are read there."""
+    after, number = step.traced.next_state, step.held.index(part)
+    step.fresh[number] = f.any(f.op(f"fcmp une {f.vector} {f.value(after[part.fresh])}, {f.zero}"))
+    held = {after[i].node: i for i in part.places}
+    read = step.graph.needed([s.node for s in step.all_roots], held.keys() | f.known() | f.kept.keys())
+    own = {step.graph.input("fly", i).node for i in part.places}
+    f.hold(node for node in read if node in own)
+    with f.when(step.fresh[number]):
+        if part.noise.size:
+            step.call(f, f"draw_noise{number}", f"i64 {k}")
+        f.update("%flight", 0, step.unless_held(after, part), "fly")
+    f.kept |= {node: functools.partial(Place, "%flight", i) for node, i in held.items()}
 
 
 def write_early(step: StepWriter, f: Function, more: Symbols, done: set[int], *unknown: str) -> None:
     """Compute `more`, and write the numbers of the next state that need no `unknown` kind of input; see `update`."""
-    f.update("%flight", 0, _numbers_of_each_step(step), "fly", more, done, step.all_roots, unknown)
+    noise = ("noise",) if step.held else ()  # of held parts, drawn later
+    f.update("%flight", 0, _numbers_of_each_step(step), "fly", more, done, step.all_roots, (*unknown, *noise))
 
 
 def write_next_state(step: StepWriter, f: Function, k: str, done: set[int] | None = None) -> None:
@@ -90,7 +115,9 @@ def write_next_state(step: StepWriter, f: Function, k: str, done: set[int] | Non
     already.
     """
     after, detectors = _numbers_of_each_step(step), leaf_offset(step.templates.model, "flight_state", "detectors")
-    watches = not step.graph.rolls_from
+    watches, held = not step.graph.rolls_from, [part for part in step.held if part.noise.size]
+    for part in held:
+        write_held(step, f, k, part)
     read = _read_by_detectors(step, f, [s.node for s in after], detectors) if watches else []
     if f.orders:
         f.hold(s.node for s in read if step.graph.ops[s.node] == "in" and s.node not in f.same)
@@ -102,6 +129,10 @@ def write_next_state(step: StepWriter, f: Function, k: str, done: set[int] | Non
             f.put("%flight", at, step.traced.next_state[at : at + size])
     if watches:
         _write_detectors(step, f, detectors)
+    for part in held:
+        with f.when(step.fresh[step.held.index(part)]):
+            for to, of in part.copies.items():
+                f.store(f.load("%flight", of), "%flight", to)
     if step.templates.has_delays:
         _write_delays(step, f, k)
 
@@ -114,7 +145,8 @@ def _read_by_detectors(step: StepWriter, f: Function, roots: list[int], at: Leaf
     g, state = step.graph, step.traced.next_state[at.at : at.at + at.size]
     counters = [state[i] for i in _counters(step)]
     early = set(g.needed([*roots, *(s.node for s in counters)])) if f.orders else set()
-    known = {n for n in early if g.ops[n] not in LEAVES} | f.known() if f.orders else ()
+    known = {n for n in early if g.ops[n] not in LEAVES} | f.known() if f.orders else set[int]()
+    known |= {step.traced.next_state[i].node for part in step.held for i in part.places}
     inputs = [n for n in g.needed([s.node for s in state], known) if g.ops[n] == "in"]
     old = [n for n in inputs if g.args[n][0] == "fly" and (g.args[n][1] < at.at or n in early)]
     return [*(Symbol(g, n, g.types[n]) for n in (*old, *f.same.keys() & set(inputs))), *counters]

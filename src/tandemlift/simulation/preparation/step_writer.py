@@ -5,8 +5,8 @@ from __future__ import annotations
 from tandemlift.compiler.tracer import Function, Module, Place, double
 from tandemlift.core.types import leaves
 from tandemlift.simulation.loop.external_inputs import HALVES, SPAN
+from tandemlift.simulation.loop.sources import HeldPart, delayed_spans, held_parts, leaf_offset
 from tandemlift.simulation.preparation.memory import AT, MEMORY, POINTERS, ScratchLayout
-from tandemlift.simulation.preparation.templates import delayed_spans, leaf_offset
 from tandemlift.simulation.preparation.traced_step import Symbols, TracedStep
 
 UNIFORM = ("dt",)
@@ -28,6 +28,7 @@ class StepWriter:
         self.module, self.scratch, self.draw_lanes, self.largest = Module(), ScratchLayout(), draw_lanes, largest
         self.moves_body = True
         self.width, self.draws = leaves(self.templates.given.hand.start), 0
+        self.held, self.drawn, self.fresh = list[HeldPart](), dict[int, int](), dict[int, str]()
         self.state_size = leaves(self.templates.model.flight_state)
         self.vector = "double" if lanes == 1 else f"<{lanes} x double>"
         self.delayed = delayed_spans(self.templates.model)
@@ -44,6 +45,44 @@ class StepWriter:
         x = self.traced
         end = [*x.next_state, *x.sample, *self.body_roots(), *self.limit_roots()]
         return [*end, *x.asked, *x.body.acting, *x.body.push]
+
+    def hold_parts(self) -> None:
+        """Compute the held parts of the state, and what serves only them, in no other steps than theirs."""
+        if self.graph.rolls_from or self.largest:
+            return
+        self.held = held_parts(self.templates.model, self.templates.given.noise)
+        for part in self.held if self.lanes == 1 else []:  # number i of draw j of a vector of `lanes` of them
+            draws, lanes = self.draws_of(part), self.lanes_of(part)
+            first = self.scratch.take("drawn_", 4 * lanes * -(-len(draws) // lanes))
+            for leaf in range(part.noise.at, part.noise.at + part.noise.size):
+                vector, lane = divmod(draws.index(leaf // 4), lanes)
+                self.drawn[leaf] = first + (4 * vector + leaf % 4) * lanes + lane
+
+    @staticmethod
+    def draws_of(part: HeldPart) -> list[int]:
+        """The draws, of four random numbers each, that a held part needs."""
+        return list(range(part.noise.at // 4, -(-(part.noise.at + part.noise.size) // 4))) if part.noise.size else []
+
+    def lanes_of(self, part: HeldPart) -> int:
+        """Draws of a held part that one instruction makes, in a flight alone."""
+        return min(self.draw_lanes, 1 << (len(self.draws_of(part)) - 1).bit_length())
+
+    @property
+    def free_draws(self) -> list[int]:
+        """The draws that are needed in every step: all but those of held parts alone."""
+        only = {i for part in self.held for i in range(part.noise.at, part.noise.at + part.noise.size)}
+        total = leaves(self.templates.given.noise)
+        return [i for i in range(self.draws) if any(j not in only for j in range(4 * i, min(4 * i + 4, total)))]
+
+    def unless_held(self, values: Symbols, written: HeldPart | None = None) -> Symbols:
+        """Numbers of the next state, those of held parts as they were; only those of one part where it is given."""
+        kept = [i for part in self.held for i in (*part.places, *part.copies)]
+        if written:
+            kept = sorted(set(range(len(values))) - set(written.places))
+        values = list(values)
+        for i in kept:
+            values[i] = self.graph.input("fly", i)
+        return values
 
     def _lay_out_scratch(self) -> None:
         x, take = self.templates, self.scratch.take

@@ -223,6 +223,12 @@ class TracedStep:
         return [self.numbers(self.trace(draw_normals)(number, i, *keys)) for i in draws]
 
     @cached_property
+    def normals_of_draw(self) -> Symbols:
+        """The four standard normals of step `number` from one draw, which is an input."""
+        number, draw = (self.graph.input(kind, type="i") for kind in ("number", "draw"))
+        return self.numbers(self.trace(draw_normals)(number, draw, *[self.graph.input("key", i) for i in (0, 1)]))
+
+    @cached_property
     def wall_search(self) -> tuple[Symbol, Symbols, Symbols]:
         """1 where the nearest walls are `due`: as a span `begins`, and if fast; they at first, and with a row more."""
         before, g = self.model.flight_state.near, self.graph
