@@ -15,6 +15,7 @@ from tandemlift.core.files import __version__ as __version__
 
 if TYPE_CHECKING:
     from tandemlift.analysis.learning.registration import register_environments
+    from tandemlift.analysis.linearization.differentiable_step import jax_step
     from tandemlift.analysis.linearization.linear_model import LinearModel
     from tandemlift.analysis.linearization.linearize import linearize
     from tandemlift.analysis.linearization.mission_check import check
@@ -50,6 +51,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "feel": "pictures.report.study.feel_report",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
+    "jax_step": "analysis.linearization.differentiable_step",
     "linearize": "analysis.linearization.linearize",
     "load_controller": "parts.controllers.user_controller",
     "load_mission": "missions",
@@ -76,6 +78,7 @@ __all__ = [
     "feel",
     "fly",
     "fly_many",
+    "jax_step",
     "linearize",
     "load_controller",
     "load_mission",

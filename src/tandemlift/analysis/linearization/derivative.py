@@ -1,15 +1,11 @@
 """Values of a graph's nodes with their derivatives, node by node: forward differentiation in double precision.
 
-A node's derivative is a row with an entry for each seed; None where the node depends on no seed. Rounding to an
-integer, comparisons and truths have none. A selection has that of the selected branch. A sensor's quantization is
-replaced by a straight line, because the derivative of a staircase is 0 almost everywhere.
-
-The elementary functions split a double into exponent and mantissa by its bits. So an integer made of the bits of x
-carries dx / x: a change of the exponent alone keeps it, and `bitcast_f` multiplies it by the new number.
+A node's derivative is a row with an entry for each seed; None where the node depends on no seed.
 """
 
 from __future__ import annotations
 
+import functools
 import math
 import struct
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -18,36 +14,13 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from tandemlift.compiler.tracer import LEAVES, Graph
+from tandemlift.compiler.tracer.differentiation import PARTIALS, smooth_arguments
 from tandemlift.compiler.tracer.valued_graph import OPERATIONS
 from tandemlift.core.types import Array
-from tandemlift.parts.sensors.noise_bias_drift import displayed
 
-ROUNDS = 2.0**52  # adding a constant of at least this size rounds to an integer
 ROUNDED = 1e-9  # relative, of values that are equal
 CURVED = 100.0  # excess of a value's change on a short distance over that of its derivative
 LARGEST = 1e150  # of a factor whose product is split exactly
-SMOOTH = ("fadd", "fsub", "fmul", "fdiv", "fneg", "fabs", "fma", "sqrt", "bitcast_f")
-FIRST_ONLY = ("bitcast_i", "add", "sub")  # of the bits of a number
-
-
-def is_rounding(graph: Graph, node: int) -> bool:
-    """Whether a sum rounds to an integer, by adding a constant so large that no fraction remains."""
-    op, args = graph.ops[node], graph.args[node]
-    if op not in ("fadd", "fma") or graph.laws[node] is displayed.scalar:
-        return False
-    ends = args if op == "fadd" else args[2:]
-    constants = [graph.args[a][0] for a in ends if graph.ops[a] == "const" and graph.types[a] == "f"]
-    return any(abs(struct.unpack("<d", c)[0]) >= ROUNDS for c in constants)
-
-
-def smooth_arguments(graph: Graph, node: int) -> Sequence[int]:
-    """The arguments of a node by which its derivative can pass, both branches of a selection among them."""
-    op, args = graph.ops[node], graph.args[node]
-    if op == "select":
-        return args[1:]
-    if op in SMOOTH:
-        return () if is_rounding(graph, node) else args
-    return args[:1] if op in FIRST_ONLY else ()
 
 
 def once_rounded(a: float, b: float, c: float) -> float:
@@ -84,33 +57,16 @@ def _scaled(row: Row, factor: float) -> Row:
     return None if row is None else row * factor
 
 
-def _quotient(x: Sequence[float], d: Sequence[Row], v: float) -> Row:
-    top = difference(d[0], _scaled(d[1], v))
-    return None if top is None else top / np.float64(x[1])
+def row_of(op: str, x: Sequence[Any], d: Sequence[Row], v: Any) -> Row:
+    """The derivative of an operation's result v, from its operands x and their derivatives.
 
-
-def _root(x: Sequence[float], d: Sequence[Row], v: float) -> Row:
-    """The derivative of a root; 0 at 0 if the argument has none either, as for a sum of squares."""
-    if d[0] is None or (v == 0.0 and not d[0].any()):
+    That of a root is 0 at 0 if the argument has none either, as for a sum of squares.
+    """
+    if op == "select":
+        return d[1] if x[0] else d[2]
+    if op == "sqrt" and v == 0.0 and d[0] is not None and not d[0].any():
         return d[0]
-    return d[0] * (0.5 / np.float64(v))
-
-
-ROW: dict[str, Callable[[Sequence[Any], Sequence[Any], Any], Any]] = {  # of values, rows and the result's value
-    "fadd": lambda x, d, v: _sum(*d),
-    "fsub": lambda x, d, v: difference(*d),
-    "fmul": lambda x, d, v: _sum(_scaled(d[0], x[1]), _scaled(d[1], x[0])),
-    "fdiv": _quotient,
-    "fneg": lambda x, d, v: _scaled(d[0], -1.0),
-    "fabs": lambda x, d, v: _scaled(d[0], -1.0) if x[0] < 0.0 else d[0],
-    "fma": lambda x, d, v: _sum(_sum(_scaled(d[0], x[1]), _scaled(d[1], x[0])), d[2]),
-    "sqrt": _root,
-    "select": lambda x, d, v: d[1] if x[0] else d[2],
-    "bitcast_i": lambda x, d, v: None if d[0] is None or not x[0] else d[0] / x[0],
-    "add": lambda x, d, v: d[0],
-    "sub": lambda x, d, v: d[0],
-    "bitcast_f": lambda x, d, v: _scaled(d[0], v),
-}
+    return functools.reduce(_sum, map(_scaled, d, PARTIALS[op](x, v)), None)
 
 
 class Sides(NamedTuple):
@@ -182,11 +138,8 @@ class Derivative:
                 x = [values[a] for a in args]
                 values[node] = v = VALUE[op](*x)
                 d = [rows[a] for a in args]
-                row = ROW.get(op)
-                if row is None or all(r is None for r in d) or is_rounding(g, node):
-                    rows[node] = None
-                else:
-                    rows[node] = row(x, d, v)
+                passes = any(rows[a] is not None for a in smooth_arguments(g, node))
+                rows[node] = row_of(op, x, d, v) if passes else None
                 if sides:
                     self._take_side(node, op, args, x, d)
 

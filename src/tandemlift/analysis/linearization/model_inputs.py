@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.analysis.linearization.step_graph import NO_PUSH
-from tandemlift.analysis.linearization.variables import Variable
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import flat, unflat
 from tandemlift.core.vector import Absent, Quat, Vec3
+from tandemlift.flight.state_variables import Variable
 from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_at
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.wind import gust_velocity

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -29,12 +30,14 @@ class OperatingPoint(NamedTuple):
         k: the step.
         numbers: of the flight.
         ring: its delay lines, a row for each step.
+        external: inputs of the step's caller; by default none act.
     """
 
     plan: FlightPlan
     k: int
     numbers: Array
     ring: Array
+    external: Sequence[float] = ()
 
 
 def calm_time(mission: Mission) -> float:

@@ -126,6 +126,7 @@ def step_inputs(r: LinearizationPlan, numbers: Array, step: int) -> StepSeeds:
     p, kept = r.point.plan, r.choice.kept
     given = given_at(p.tables, (r.point.k + step) * p.dt, p.dt)
     given["noise"] = [0.0] * leaves(p.given.noise)
+    given["external"] = [*r.point.external] or [0.0] * leaves(p.given.external)
     eye = np.eye(len(kept) + len(r.inputs))
     rows: dict[str, list[Any]] = {"fly": [None] * len(numbers), "hand": [None] * len(given["hand"]), "gust": [None] * 3}
     for seed, index in zip(eye, kept, strict=False):

@@ -11,10 +11,10 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from tandemlift.analysis.linearization.derivative import smooth_arguments
+from tandemlift.compiler.tracer.differentiation import smooth_arguments
 from tandemlift.core.caching import LastUsed
 from tandemlift.core.types import is_value, leaves
-from tandemlift.core.vector import ZERO, Absent, Mat3
+from tandemlift.core.vector import ZERO, Mat3
 from tandemlift.parts.mechanics.push import PointPush, PushSamples
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset
@@ -56,6 +56,7 @@ class StepGraph:
 
     Args:
         p: the plan of such a flight.
+        given: the layout of the inputs from outside; by default those of the plan, with pushes at points.
 
     Attributes:
         traced: the step.
@@ -64,9 +65,8 @@ class StepGraph:
         names: of these numbers, dotted.
     """
 
-    def __init__(self, p: FlightPlan) -> None:
-        hand = PushSamples(NO_PUSH, NO_PUSH, NO_PUSH)
-        templates = templates_from(p.model, p.given._replace(hand=hand, external=Absent()))
+    def __init__(self, p: FlightPlan, given: Any = None) -> None:
+        templates = templates_from(p.model, given or p.given._replace(hand=PushSamples(NO_PUSH, NO_PUSH, NO_PUSH)))
         self.traced = TracedStep(templates, fuses=p.mission.mission.fma, rolls=False)
         self.graph, self.sample = self.traced.graph, templates.sample
         self.next = [s.node for s in self.traced.next_state]

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra import clip, maximum, sqrt, where
 from tandemlift.core.arrays import array
-from tandemlift.core.law import choice, elementwise
+from tandemlift.core.law import STAIRCASES, choice, elementwise
 from tandemlift.core.types import Array, Number, number
 from tandemlift.core.vector import ZERO, Absent, Mat3, Quat, Vec3, apply, each, is_set, spread, vec3
 from tandemlift.parts.mechanics.rotation import quaternion_from_rotation_vector, rotated_by, rotation_from_quaternion
@@ -100,6 +100,7 @@ def displayed(x: Number, limit: Number, step: Number, per_step: Number) -> Numbe
     return where(step > 0.0, whole * step, held)
 
 
+STAIRCASES.append(displayed.scalar)
 ChannelModel: TypeAlias = SensorModel | ScalarSensorModel | WhiteNoise | AttitudeNoise | NoError
 Sample: TypeAlias = Number | Vec3 | Quat
 Drift: TypeAlias = Number | Vec3 | Absent

@@ -1,0 +1,203 @@
+"""An `IteratedStep` as a function of JAX: with `jit`, `vmap`, `scan`, `jvp` and `grad`, on the processor."""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, get_args
+
+import numpy as np
+
+from tandemlift.compiler.machine_code import machine, store
+from tandemlift.compiler.machine_code.iterated import ARGUMENTS, INPUTS, IteratedStep, Kind
+from tandemlift.core.errors import InputError, extra, shown
+from tandemlift.core.types import Array
+
+LOADED: dict[str, machine.Loaded] = {}  # handlers that XLA knows, by their names
+
+
+class JaxStep:
+    """A step of a flight as a function of JAX; see `tandemlift.jax_step`.
+
+    Attributes:
+        state: numbers at the start (n,).
+        parameters: of the mission (m,).
+        state_names: of the state's numbers, dotted.
+        parameter_names: of the parameters, dotted.
+        places: of parts of the state, by their names.
+        actions: number of actions.
+        steps: of a call.
+    """
+
+    def __init__(
+        self,
+        code: IteratedStep,
+        start: tuple[Array, Array],
+        names: tuple[Sequence[str], Sequence[str]],
+        places: Mapping[str, slice],
+        steps: int,
+        kinks: Callable[[Array, Array, Array, float], list[Any]],
+    ) -> None:
+        self._code, self._kinks, self._handlers = code, kinks, dict[tuple[Kind, bool], str]()
+        self.state, self.parameters = start
+        self.state_names, self.parameter_names = map(tuple, names)
+        self.places, self.steps, self.actions = dict(places), steps, code.sizes["action"]
+
+    def __call__(self, state: Any, parameters: Any = None, action: Any = None) -> Any:
+        """The state (n,) after a call's steps, during which the action is held.
+
+        Args:
+            state: at the start (n,).
+            parameters: of the mission (m,); by default `parameters`.
+            action: (actions,); by default 0.
+
+        Raises:
+            InputError: an argument has another shape, or JAX computes in single precision.
+        """
+        states = self.all(state, parameters, action)
+        return states[(self.steps - 1) * len(self.state) :]
+
+    def all(self, state: Any, parameters: Any = None, action: Any = None) -> Any:
+        """The states after each step of a call, one after another (steps · n,); arguments as for a call."""
+        jax = _jax()
+        if not jax.config.jax_enable_x64:
+            raise InputError('JAX computes in single precision: first jax.config.update("jax_enable_x64", True)')
+        arrays = [jax.numpy.asarray(x, dtype=float) for x in self._with_defaults(state, parameters, action)]
+        for name, array in zip(INPUTS, arrays, strict=True):
+            if array.shape != (self._code.sizes[name],):
+                raise InputError(f"{name}: an array {array.shape}: must have the shape {(self._code.sizes[name],)}")
+        (states,) = _primitives()["advance"].bind(*arrays, step=self, with_parameters=True)
+        return states
+
+    def read(self, state: Any, name: str) -> Any:
+        """A part of the state: "position", "velocity", "attitude", "rates", or one of the chosen channels.
+
+        Raises:
+            InputError: the state has no such part.
+        """
+        if name not in self.places:
+            raise InputError(f"{shown(name)}: must be one of {', '.join(self.places)}; others by channels=(…)")
+        return state[..., self.places[name]]
+
+    def kinks(self, state: Any, parameters: Any = None, action: Any = None, tolerance: float = 1e-4) -> list[Any]:
+        """The kinks near a state, as `linearize` reports them: there the derivative holds on one side only.
+
+        Args:
+            state: at the start of a step (n,).
+            parameters: of the mission (m,); by default `parameters`.
+            action: (actions,); by default 0.
+            tolerance: the largest distance of a kink, in the unit of a state or input.
+        """
+        state, parameters, action = map(np.asarray, self._with_defaults(state, parameters, action))
+        return self._kinks(state, parameters, action, tolerance)
+
+    def _with_defaults(self, state: Any, parameters: Any, action: Any) -> tuple[Any, Any, Any]:
+        given = self.parameters if parameters is None else parameters
+        return state, given, np.zeros(self.actions) if action is None else action
+
+    def sizes(self, with_parameters: bool) -> dict[str, int]:
+        """The sizes of arguments and results by the names in `ARGUMENTS`."""
+        return self._code.sizes_of(self.steps, with_parameters)
+
+    def handler(self, kind: Kind, with_parameters: bool) -> str:
+        """The name by which XLA calls a handler, which is compiled on first use."""
+        with_parameters = with_parameters and kind != "advance"
+        if (kind, with_parameters) not in self._handlers:
+            text = self._code.written(kind, self.steps, with_parameters, _version())
+            self._handlers[kind, with_parameters] = _registered(kind, text)
+        return self._handlers[kind, with_parameters]
+
+
+def _registered(kind: Kind, text: str) -> str:
+    """The name of a handler that XLA knows, compiled unless it is on disk."""
+    key = store.key_of_module(text, {})
+    name = f"tandemlift_{kind}_{key}"
+    if name not in LOADED:
+        entry = store.read(f"{key}-best")
+        if entry is None:
+            code = machine.compiled(machine.in_short_blocks(text), machine.BEST_OF_VECTORS)
+            entry = store.StoredCode({}, code)
+            store.write(f"{key}-best", entry)
+        LOADED[name] = machine.Loaded(entry.code, [kind])
+        ffi = _jax().ffi
+        ffi.register_ffi_target(name, ffi.pycapsule(LOADED[name].addresses[kind]), platform="cpu")
+    return name
+
+
+def _jax() -> Any:
+    """JAX.
+
+    Raises:
+        InputError: it is not installed.
+    """
+    with extra("jax", "jax_step"):
+        import jax
+    return jax
+
+
+@functools.cache
+def _version() -> tuple[int, int]:
+    """The version of XLA's interface for handlers."""
+    header = (Path(_jax().ffi.include_dir()) / "xla/ffi/api/c_api.h").read_text()
+    major, minor = (int(re.findall(rf"#define XLA_FFI_API_{part} (\d+)", header)[0]) for part in ("MAJOR", "MINOR"))
+    return major, minor
+
+
+@functools.cache
+def _primitives() -> dict[Kind, Any]:
+    """The three functions as primitives of JAX; their arrays may have leading dimensions, equal in all."""
+    from jax.extend.core import Primitive
+    from jax.interpreters import ad, batching, mlir
+
+    jax = _jax()
+    made: dict[Kind, Any] = {kind: Primitive(f"tandemlift_{kind}") for kind in get_args(Kind)}
+
+    def define(kind: Kind, primitive: Any) -> None:
+        primitive.multiple_results = True
+
+        @functools.cache
+        def jitted(step: JaxStep, with_parameters: bool) -> Any:
+            return jax.jit(functools.partial(primitive.bind, step=step, with_parameters=with_parameters))
+
+        @primitive.def_abstract_eval
+        def shapes(*arrays: Any, step: JaxStep, with_parameters: bool) -> list[Any]:
+            sizes, lanes = step.sizes(with_parameters), arrays[0].shape[:-1]
+            return [jax.core.ShapedArray((*lanes, sizes[name]), arrays[0].dtype) for name in ARGUMENTS[kind][1]]
+
+        def lower(context: Any, *arrays: Any, step: JaxStep, with_parameters: bool) -> Any:
+            return jax.ffi.ffi_lowering(step.handler(kind, with_parameters))(context, *arrays)
+
+        def batch(arrays: Sequence[Any], axes: Sequence[int | None], **settings: Any) -> Any:
+            count = next(x.shape[axis] for x, axis in zip(arrays, axes, strict=True) if axis is not None)
+            first = [_in_front(x, axis, count) for x, axis in zip(arrays, axes, strict=True)]
+            return primitive.bind(*first, **settings), (0,) * len(ARGUMENTS[kind][1])
+
+        primitive.def_impl(lambda *arrays, **settings: jitted(**settings)(*arrays))
+        mlir.register_lowering(primitive, lower, platform="cpu")
+        batching.primitive_batchers[primitive] = batch
+
+    def _in_front(x: Any, axis: int | None, count: int) -> Any:
+        return jax.numpy.broadcast_to(x, (count, *x.shape)) if axis is None else jax.numpy.moveaxis(x, axis, 0)
+
+    def advance_with_tangent(arrays: Sequence[Any], moved: Sequence[Any], *, step: JaxStep, **_: Any) -> Any:
+        (states,) = made["advance"].bind(*arrays, step=step, with_parameters=True)
+        with_parameters = type(moved[1]) is not ad.Zero
+        given = [ad.instantiate_zeros(x) for x in moved]
+        given[1] = given[1] if with_parameters else given[1][..., :0]
+        between = states[..., : step.sizes(True)["between"]]
+        return [states], made["tangent"].bind(*arrays, between, *given, step=step, with_parameters=with_parameters)
+
+    def transposed(bars: Sequence[Any], *arrays: Any, step: JaxStep, with_parameters: bool) -> list[Any]:
+        (bar,) = map(ad.instantiate_zeros, bars)
+        found = made["cotangent"].bind(*arrays[:4], bar, step=step, with_parameters=with_parameters)
+        return [None] * 4 + [
+            one if ad.is_undefined_primal(x) else None for one, x in zip(found, arrays[4:], strict=True)
+        ]
+
+    for kind, primitive in made.items():
+        define(kind, primitive)
+    ad.primitive_jvps[made["advance"]] = advance_with_tangent
+    ad.primitive_transposes[made["tangent"]] = transposed
+    return made

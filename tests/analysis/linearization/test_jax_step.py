@@ -1,0 +1,218 @@
+"""`tl.jax_step`: the bits of a simulation; derivatives against JAX over the same laws and against differences."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from law_values import flat, rebuilt
+from linearized import QUIET, linearized
+
+import tandemlift as tl
+from tandemlift.core.errors import InputError
+from tandemlift.parts.mechanics.push import push_at
+from tandemlift.simulation.loop.step import step_flight
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import GAUSSIAN
+
+pytestmark = pytest.mark.usefixtures("jax")
+
+WEAK = {  # rotors that can do little more than hover, and follow although no thrust is left
+    **{f"vehicle.quadrotors.{i}.max_speed": 862.0 for i in (0, 1)},
+    **{"compliance.thrust_fraction": 1.0, "compliance.following.time": 5.0},
+}
+
+
+@cache
+def step_of(name, actions="push", begin=0.0, steps=1, channels=()):
+    return tl.jax_step(name, actions=actions, begin=begin, steps=steps, channels=channels)
+
+
+def flown(step, simulation, actions):
+    """The state of a step and of a simulation, in turn, with actions by name."""
+    import jax
+
+    call, state = jax.jit(step), step.state
+    for action in actions:
+        state = call(state, step.parameters, np.concatenate(list(action.values())))
+        simulation.step(**action)
+    return np.array(state), simulation
+
+
+@pytest.mark.parametrize(
+    ("name", "actions"),
+    [
+        ("paper", [{"push": np.array([0.3 * k % 2, -0.5, 0.1])} for k in range(60)]),
+        ("hover", [{"thrusts": np.linspace(2.0, 2.1, 8) + 0.01 * k} for k in range(40)]),
+        ("one-push", [{"velocity": np.array([0.4, 0.1 * (k % 5), 0.0])} for k in range(40)]),
+    ],
+)
+def test_a_step_has_the_bits_of_a_simulation(name, actions):
+    step, simulation = step_of(name, next(iter(actions[0]))), tl.Simulation(name)
+    state, simulation = flown(step, simulation, actions)
+    size = step.state_names.index("step")
+    assert state[size] == len(actions)
+    assert np.array_equal(state[:size], simulation._stepper.a[:size], equal_nan=True)
+
+
+def of_step(step, state, parameters, action):
+    """The next state by JAX over the laws in plain Python, operation by operation; without delays and gusts."""
+    import jax.numpy as jnp
+
+    plan = FlightPlan(tl.load_mission("paper"), interactive=True)
+    size, k = step.state_names.index("step"), round(float(step.state[-1]))
+    model = rebuilt(list(jnp.concatenate([state[:size], parameters])), plan.model)
+    hand, width = plan.given.hand, len(flat(GAUSSIAN))
+    rows = [i for i, name in enumerate(step.parameter_names) if name.startswith("pushes.")]
+    table = parameters[np.array(rows)].reshape(-1, width)
+    sums = []
+    for half in range(3):
+        total = hand.start
+        for row in table:
+            total = total + push_at(hand.start, rebuilt(list(row), GAUSSIAN), (2 * k + half) * (0.5 * plan.dt))
+        sums.append(total)
+    external = plan.given.external._replace(force=type(plan.given.external.force)(*action))
+    given = plan.given._replace(hand=type(hand)(*sums), external=external, person=model.flight_state.person)
+    after, _ = step_flight(model, given, k * plan.dt, plan.dt)
+    return jnp.stack([jnp.asarray(x, dtype=float) for x in flat(after)])
+
+
+@pytest.mark.learning  # JAX compiles each operation of the laws: a minute
+@pytest.mark.parametrize("begin", [4.9, 21.3])
+def test_cotangents_are_those_of_jax_over_the_same_laws(begin, jax):
+    step = step_of("paper", begin=begin)
+    size = step.state_names.index("step")
+    arguments = step.state, step.parameters, np.array([0.4, -0.2, 0.1])
+    wanted, back = jax.vjp(lambda *x: of_step(step, *x), *map(jax.numpy.asarray, arguments))
+    found, own_back = jax.vjp(step, *map(jax.numpy.asarray, arguments))
+    assert np.abs(found[:size] - wanted).max() < 1e-12
+    moved = sorted(i for i in step._code.smooth["state"] if i < size)
+    bars = np.zeros((2, size + 1))
+    bars[:, moved] = np.random.default_rng(2).standard_normal((2, len(moved)))
+    for bar in bars:
+        own, reference = own_back(jax.numpy.asarray(bar)), back(jax.numpy.asarray(bar[:size]))
+        for a, b, of in zip(own, reference, ("state", "parameter", "action"), strict=True):
+            kept = sorted(step._code.smooth[of] - {size})
+            largest = np.abs(np.array(b)[kept]).max()
+            assert np.abs(np.array(a)[kept] - np.array(b)[kept]).max() < 1e-10 * largest, of
+
+
+def carried(step, jax, steps, weights):
+    """A weighted sum of the motion after some steps with one push, as a function of parameters and push."""
+
+    def loss(parameters, push):
+        end, _ = jax.lax.scan(lambda x, _: (step(x, parameters, push), None), step.state, None, length=steps)
+        return weights @ end[:13]
+
+    return jax.jit(loss)
+
+
+def test_the_gradient_of_two_seconds_is_a_central_difference(jax):
+    step, push, h = step_of("paper", begin=6.0), np.array([0.5, 0.2, -0.1]), 1e-5
+    loss = carried(step, jax, 2000, np.arange(1.0, 14.0))
+    by_parameters, by_push = jax.jit(jax.grad(loss, (0, 1)))(step.parameters, push)
+    differences = [
+        float(loss(step.parameters, push + e) - loss(step.parameters, push - e)) / (2 * h) for e in h * np.eye(3)
+    ]
+    assert np.abs(by_push - np.array(differences)).max() < 1e-6 * np.abs(by_push).max()
+    for name in ("pilot.guidance.admittance.damping.x", "pilot.controller.position.xi.y", "plant.body.inverse_mass"):
+        i = step.parameter_names.index(name)
+        e = 1e-5 * step.parameters[i] * np.eye(1, len(step.parameters), i)[0]
+        difference = (loss(step.parameters + e, push) - loss(step.parameters - e, push)) / (2 * e[i])
+        assert by_parameters[i] == pytest.approx(float(difference), rel=2e-6), name
+
+
+def test_tangents_batches_and_steps_of_a_call_agree(jax):
+    one, ten = step_of("hover"), step_of("hover", steps=10)
+    rng, jnp = np.random.default_rng(0), jax.numpy
+    pushes, direction = rng.standard_normal((4, 3)), rng.standard_normal(3)
+
+    def by_ones(push):
+        return jax.lax.scan(lambda x, _: (one(x, None, push), None), one.state, None, length=10)[0]
+
+    def by_ten(push):
+        return ten(ten.state, None, push)
+
+    assert np.array_equal(by_ten(pushes[0]), by_ones(pushes[0]))
+    together = jax.jit(jax.vmap(by_ten))(pushes)
+    assert np.array_equal(together, jnp.stack([by_ten(push) for push in pushes]))
+    weights = rng.standard_normal(13)
+    gradients = [jax.vmap(jax.grad(lambda u, by=by: weights @ by(u)[:13]))(pushes) for by in (by_ones, by_ten)]
+    assert np.allclose(*gradients, rtol=1e-12, atol=1e-18)
+    _, moved = jax.jvp(by_ten, (pushes[0],), (direction,))
+    assert weights @ moved[:13] == pytest.approx(float(gradients[0][0] @ direction), rel=1e-10)
+
+
+def test_a_channel_of_the_sample_is_a_part_of_the_state_with_a_derivative(jax):
+    step, simulation, h = step_of("hover", channels=("rotor_thrusts",)), tl.Simulation("hover"), 1e-6
+    push = np.array([0.5, 0.0, 0.0])
+    simulation.step(push=push)
+    state = step(step(step.state, None, push), None, push)
+    simulation.step(push=push)
+    assert np.array_equal(step.read(state, "rotor_thrusts"), simulation["rotor_thrusts"])
+
+    def first(mass):
+        parameters = jax.numpy.asarray(step.parameters).at[i].multiply(mass)
+        return step.read(step(state, parameters, push), "rotor_thrusts").sum()
+
+    i = step.parameter_names.index("pilot.controller.feedforward")
+    assert jax.grad(first)(1.0) == pytest.approx(float(first(1.0 + h) - first(1.0 - h)) / (2 * h), rel=1e-6)
+
+
+@pytest.mark.learning  # it compiles the longest mission, both ways
+@pytest.mark.parametrize(("at", "limits_active"), [(13.433, True), (0.3, False)], ids=["limits", "floor"])
+def test_the_derivatives_of_real_rotors_and_sensors_are_those_of_linearize(at, limits_active, jax):
+    """Rotors at their limits, delayed sensors, and the floor below it at the start."""
+    changes = QUIET | WEAK
+    of = linearized("iris", changes, at, steps=1)
+    assert of.made.steps[0].limits_active == limits_active
+    assert of.made.steps[0].may_touch != limits_active
+    step = tl.jax_step(tl.load_mission("iris", changes), begin=at)
+    numbers, names = [*of.recipe.choice.kept], list(step.state_names)
+    kept = numbers + [under_way(step, of, i, ago) for i, ago in of.recipe.waiting]
+    eye = np.eye(len(names))[kept]
+    after, moved = map(np.array, jax.jit(jax.vmap(lambda d: jax.jvp(step, (step.state,), (d,))))(eye))
+    assert np.allclose(after[0][kept], of.made.x1, rtol=1e-12, atol=1e-12)
+    largest = 1.0 + np.abs(of.made.A).max(axis=1, keepdims=True)
+    assert (np.abs(moved[:, kept].T - of.made.A) / largest).max() < 1e-9
+    _, back = jax.vjp(step, jax.numpy.asarray(step.state))
+    rows = np.array(jax.jit(jax.vmap(back))(eye)[0])
+    assert (np.abs(rows[:, kept] - of.made.A) / largest).max() < 1e-9
+
+
+def under_way(step, of, place, ago):
+    """The place in the state of a value written `ago` steps ago."""
+    before = sum(one.under_way for one in of.recipe.delayed[:place])
+    return step.state_names.index("under_way.0") + before + ago - 1
+
+
+def test_what_cannot_be_differentiated_is_refused(jax):
+    with pytest.raises(InputError, match="walls and corridor: 10 walls, must be none"):
+        tl.jax_step("zigzag")
+    with pytest.raises(InputError, match=r"unknown actions 'wrench'; there are push, thrusts, velocity"):
+        tl.jax_step("hover", actions="wrench")
+    with pytest.raises(InputError, match="steps = 0: must be a whole number of at least 1"):
+        tl.jax_step("hover", steps=0)
+    step = step_of("hover")
+    with pytest.raises(InputError, match=r"action: an array \(2,\): must have the shape \(3,\)"):
+        step(step.state, None, np.zeros(2))
+    with pytest.raises(InputError, match=r'"speed": must be one of position, velocity, attitude, rates'):
+        step.read(step.state, "speed")
+
+
+def test_single_precision_is_refused(jax):
+    jax.config.update("jax_enable_x64", False)
+    try:
+        with pytest.raises(InputError, match="jax_enable_x64"):
+            step_of("hover")(step_of("hover").state)
+    finally:
+        jax.config.update("jax_enable_x64", True)
+
+
+def test_kinks_near_a_state_are_reported_at_the_edge_of_the_dead_band():
+    step = step_of("hover")
+    threshold = tl.load_mission("hover").admittance.threshold[0]
+    (kink,) = step.kinks(step.state, None, [threshold, 0.0, 0.0])
+    assert (kink.law, kink.distance) == ("soft_threshold", 0.0)
+    assert step.kinks(step.state, None, [2.0 * threshold, 0.0, 0.0]) == []
