@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from tandemlift.analysis.linearization.mission_check import check
     from tandemlift.analysis.studies.study import study
     from tandemlift.analysis.studies.table import Study, load_study
-    from tandemlift.analysis.studies.tuning.tune import tune
+    from tandemlift.analysis.studies.tuning.tune import train, tune
     from tandemlift.codegen.mission_module import compile_mission
     from tandemlift.core.errors import FlightWarning, InputError
     from tandemlift.flight.record import Flight
@@ -59,6 +59,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "plot": "pictures.figures.registry",
     "register_environments": "analysis.learning.registration",
     "study": "analysis.studies.study",
+    "train": "analysis.studies.tuning.tune",
     "tune": "analysis.studies.tuning.tune",
 }
 
@@ -86,6 +87,7 @@ __all__ = [
     "plot",
     "register_environments",
     "study",
+    "train",
     "tune",
 ]
 

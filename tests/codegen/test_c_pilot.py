@@ -61,10 +61,13 @@ def build(source, *options, compiler="gcc"):
     return program
 
 
-@pytest.mark.parametrize("name", ["paper", "iris"])
-def test_its_thrusts_have_the_bits_of_the_native_pilot(name, tmp_path):
+POLICY = {"compliance.policy.model": "network"}
+
+
+@pytest.mark.parametrize(("name", "changes"), [("paper", {}), ("iris", {}), ("iris", POLICY)], ids=str)
+def test_its_thrusts_have_the_bits_of_the_native_pilot(name, changes, tmp_path):
     need("gcc")
-    mission = unfused(tl.load_mission(name, {"mission.duration": 30.0}))
+    mission = unfused(tl.load_mission(name, {"mission.duration": 30.0, **changes}))
     in_c, native = PilotInC(mission, tmp_path), tl.Pilot(mission)
     rows = measurements(mission, 200)
     found = np.array([(in_c.step(row).copy(), native.step(row).copy()) for row in rows])

@@ -11,6 +11,7 @@ from tandemlift.flight.channels import CHANNELS, DERIVED
 from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
 from tandemlift.parts.guidance.supervision import SupervisionChannels
+from tandemlift.parts.interaction.policy import PolicyChannels
 from tandemlift.simulation.loop.estimate_channels import ContactEstimateChannels, EstimatedChannels, MeasuredChannels
 from tandemlift.simulation.loop.log_sample import (
     ActuatorChannels,
@@ -35,6 +36,7 @@ GROUPS = {
     "disturbance": DisturbanceChannels,
     "guidance": HandGuidanceChannels,
     "supervised": SupervisionChannels,
+    "policy": PolicyChannels,
     "detection": DetectionChannels,
 }
 
@@ -77,6 +79,7 @@ WHOLE = BARE | {
     "pilot": {"state": "truth", "push": "measurement"},
     "wind.model": "air",
     "supervision.model": "on",
+    "compliance.policy.model": "network",
     "contact.model": "on",
     "detection.model": "residual",
 }
@@ -90,9 +93,11 @@ PARTS = {  # a part that a mission may have, what takes it out, and the group of
     "guidance, contact_estimate": {
         "pilot.guidance": "scheduled",
         "supervision.model": "none",
+        "compliance.policy.model": "none",
         "contact.model": "none",
     },
     "supervised": {"supervision.model": "none"},
+    "policy": {"compliance.policy.model": "none"},
     "detection": {"detection.model": "none"},
 }
 

@@ -24,6 +24,7 @@ from tandemlift.parts.contact import hull, impulses, spheres, touches, walls
 from tandemlift.parts.controllers import equations_of_motion, sliding_surface
 from tandemlift.parts.estimation import wind_compensation
 from tandemlift.parts.guidance import guidance
+from tandemlift.parts.interaction import policy
 from tandemlift.parts.mechanics import loads, low_pass, parts, rotation
 from tandemlift.parts.mechanics.push import PointPush
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench, motion
@@ -120,6 +121,10 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "feet that slip": (contact.grips_after_step, (FLOOR, GRIP, STATE)),
     "rotors, guards and beam on the floor": (hull.hull_contact, (HULL, 0.0, 0.0, STATE, M)),
     "loads of the floor on them": (hull.hull_loads, (LYING, FRAME, M)),
+    "damping by a policy": (
+        policy.policy_damping,
+        (policy.Policy(each(14)(*[0.0] * 14), each(6)(*[0.0] * 6), 0.0, V), low_pass.LowPassState(V, V), V, 0.0),
+    ),
     "a record of touches": (
         touches.record_after,
         (touches.TouchRecord(0.0, V, 0.0, 0.0, 0.0), touches.PartContacts(EIGHT, Vec3(EIGHT, EIGHT, EIGHT)), 0.0, 0.0),

@@ -180,6 +180,13 @@ GROUPS: tuple[ChannelGroup, ...] = (
         },
     ),
     ChannelGroup(
+        'With a policy (`compliance.policy.model = "network"`)',
+        {
+            "damping_factor_along": Channel("1", "", "factor of the virtual damping along the push", 1),
+            "damping_factor_across": Channel("1", "", "factor of the virtual damping across the push", 1),
+        },
+    ),
+    ChannelGroup(
         'With detection of a lost rotor (`detection.model = "residual"`)',
         {"failed_rotor": Channel("1", "", "number of the rotor that is classified as failed; 0 for none", 1)},
     ),

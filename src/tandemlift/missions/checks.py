@@ -25,6 +25,7 @@ from tandemlift.parts.guidance import supervision_table as supervision
 from tandemlift.parts.guidance.guidance import reading_checks
 from tandemlift.parts.interaction.admittance import admittance_checks, gate_checks
 from tandemlift.parts.interaction.person_table import PersonTable, person_checks, person_warnings
+from tandemlift.parts.interaction.policy import policy_checks
 from tandemlift.parts.interaction.requests import request_checks
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
@@ -74,6 +75,7 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from request_checks(m.requests, guidance)
     yield from estimator.hover_tare_checks(m.estimator, guidance)
     yield from gate_checks(m.admittance, guidance)
+    yield from policy_checks(m.compliance.policy, m.admittance.mass, m.admittance.damping, guidance, step)
     yield from contact_checks(m.contact, guidance, s.model, m.pilot.push)
     yield from supervision.limit_checks(m.supervision)
     yield from outcomes.fence_crash_checks(m.crash, m.supervision, m.initial)

@@ -199,6 +199,7 @@ class Mission(Table):
             "additional sensors": sum(ADDITIONAL[s.name].width for s in more if s.name in ADDITIONAL),
             "observer": 12 * (self.observer.model != "none"),
             "interactive guidance": 10 * (self.pilot.guidance == "interactive"),
+            "policy": 2 * (self.compliance.policy.model != "none"),
             "contact": 13 * (self.contact.model == "on"),
             "supervision": 2 * (self.supervision.model == "on"),
             "rotor-failure detection": 1 * (self.detection.model != "none"),

@@ -51,7 +51,7 @@ def motion(push, seconds, changes=None, across=100.0):
     g, m = guided(changes)
     k, m, out = g.compliance, m.compliance, []
     for i in range(round(seconds / H)):
-        m = compliance_step(k, m, vec3(push(i * H)), 1.0, 0.0, across, Absent(), H, Absent())
+        m = compliance_step(k, m, vec3(push(i * H)), 1.0, 0.0, across, Absent(), H, Absent(), Absent())
         out.append([*m.position, *m.velocity, *m.acceleration, *m.jerk])
     return np.array(out).reshape(-1, 4, 3).swapaxes(0, 1)
 

@@ -116,7 +116,7 @@ def lowest(clearance, push, start=1.0, seconds=8.0):
     m, heights = m.compliance, []
     for i in range(round(seconds / H)):
         k = above_ground(clearance, g.compliance, m, m.position.z + start)
-        m = compliance_step(k, m, vec3((0.0, 0.0, push(i * H))), 1.0, 0.0, 10.0, Absent(), H, Absent())
+        m = compliance_step(k, m, vec3((0.0, 0.0, push(i * H))), 1.0, 0.0, 10.0, Absent(), H, Absent(), Absent())
         heights.append(m.position.z + start)
     return np.array(heights)
 

@@ -18,7 +18,7 @@ from tandemlift.apps.cli.report import paper, plot, report
 from tandemlift.apps.cli.ros import gazebo, ros
 from tandemlift.apps.cli.run import run
 from tandemlift.apps.cli.study import study
-from tandemlift.apps.cli.tune import feel, tune
+from tandemlift.apps.cli.tune import feel, train, tune
 from tandemlift.core.errors import FlightWarning, InputError, suggestion
 from tandemlift.core.files import __version__
 from tandemlift.core.progress import watching
@@ -31,7 +31,7 @@ GROUPS: dict[str, tuple[click.Command, ...]] = {
     "Try first": (run, live, missions),
     "Write a mission": (new, template, explain, check, controllers, engines, schema, completion),
     "Look at a flight": (report, plot, render, replay),
-    "Fly many, compare, analyse": (compare, score, study, tune, feel, linearize, paper),
+    "Fly many, compare, analyse": (compare, score, study, tune, train, feel, linearize, paper),
     "Take it elsewhere": (gazebo, ros, page, export, compile),
 }
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,8 +23,7 @@ from tandemlift.apps.cli.flying import (
     set_option,
     style_option,
 )
-from tandemlift.core.errors import InputError, without_flight_warnings
-from tandemlift.core.files import toml_tables
+from tandemlift.core.errors import without_flight_warnings
 
 if TYPE_CHECKING:
     from tandemlift.analysis.studies.tuning.candidates import Cost
@@ -33,6 +32,21 @@ if TYPE_CHECKING:
 
 NOT_BETTER, INTERRUPTED = 1, 130
 FILES = ("tuned.toml", "evidence.json", "tune.html")
+
+
+def search_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options of a search."""
+    for option in (
+        click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-tuned]"),
+        set_option,
+        click.option("--strict", is_flag=True, help="A flight with findings counts as a bad outcome, too."),
+        click.option("--threads", type=click.IntRange(min=1), help="Threads that fly.  [default: one a processor]"),
+        click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of search and draws."),
+        click.option("--budget", type=int, metavar="N", help="Candidates to try.  [default: 60 populations]"),
+        click.option("--holdout", default=200, show_default=True, help="Flights that compare old and new in the end."),
+    ):
+        command = option(command)
+    return command
 
 
 @click.command()
@@ -56,16 +70,10 @@ FILES = ("tuned.toml", "evidence.json", "tune.html")
     "  [default: the controller's gains]",
 )
 @click.option("--draws", default="8", show_default=True, metavar="N|FILE", help="Flights that compare candidates.")
-@click.option("--holdout", default=200, show_default=True, help="Flights that compare old and new in the end.")
-@click.option("--budget", type=int, metavar="N", help="Candidates to try.  [default: 60 populations]")
 @click.option("--optimiser", metavar="cma|optuna", help="[default: cma; optuna for choices and several goals]")
 @click.option("--aim", default="mean", show_default=True, metavar="mean|worst", help="Which of all draws counts.")
-@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Seed of search and draws.")
-@click.option("--threads", type=click.IntRange(min=1), help="Threads that fly.  [default: one for each processor]")
 @controller_option("Tune this controller")
-@click.option("--strict", is_flag=True, help="A flight with findings counts as a bad outcome, too.")
-@set_option
-@click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-tuned]")
+@search_options
 def tune(
     mission: str,
     goals: tuple[str, ...],
@@ -102,22 +110,50 @@ def tune(
       2    bad input: one message, nothing is written
       130  Ctrl-C: the best so far is written, marked as unfinished
     """
+    from tandemlift.analysis.studies.tuning.goals import goal_of
+    from tandemlift.analysis.studies.tuning.parameters import range_of
     from tandemlift.analysis.studies.tuning.tune import tune as tuned
-    from tandemlift.missions import load_mission
-    from tandemlift.pictures.report.study.tuning_report import tuning_lines
 
-    changes, chosen = dict(map(parse_setting, settings)), controller and chosen_controller(controller).name
-    name = load_mission(mission, changes, controller=chosen).mission.name
-    how |= {
-        "parameters": dict(map(_range_of, parameters)),
-        "draws": _draws_of(draws),
-        "changes": changes,
-        "controller": chosen,
-    }
+    chosen = controller and chosen_controller(controller).name
+    how |= {"goals": dict(map(goal_of, goals)), "parameters": dict(map(range_of, parameters))}
+    _search(tuned, mission, settings, out, {**how, "draws": _draws_of(draws), "controller": chosen})
+
+
+@click.command()
+@click.argument("mission", shell_complete=MISSIONS)
+@click.option("--hidden", default=6, show_default=True, help="Hidden units of a new network.")
+@click.option("--persons", default=24, show_default=True, help="Random persons who compare candidates.")
+@search_options
+def train(mission: str, settings: tuple[str, ...], out: str | None, **how: Any) -> None:
+    """Train a policy for MISSION with which a person works least.
+
+    A small network that sets the virtual damping (`[compliance.policy]`). The search begins with the mission's own
+    weights, or with none: its admittance. Every candidate flies with the same random persons, old and new are then
+    compared with others; see docs/how-to/train-a-policy.md. Files and exit codes are those of `tandemlift tune`.
+
+    
+    Examples:
+      tandemlift train zigzag --budget 320
+      tandemlift train mine.toml --persons 16 --holdout 1000 --strict
+    """
+    from tandemlift.analysis.studies.tuning.tune import train as trained
+
+    _search(trained, mission, settings, out, how)
+
+
+def _search(
+    search: Callable[..., Tuning], mission: str, settings: tuple[str, ...], out: str | None, how: dict[str, Any]
+) -> None:
+    """Search, write and print the result, and exit with its code."""
+    from tandemlift.missions import load_mission
+    from tandemlift.pictures.report.study.tuning_report import tuning_lines, write_results
+
+    changes = dict(map(parse_setting, settings))
+    name = load_mission(mission, changes, controller=how.get("controller")).mission.name
     with results_folder(out, Path("out") / f"{name}-tuned", FILES) as folder:
         with compile_notices.together(), _progress() as progress:
-            found = tuned(mission, dict(map(_goal_of, goals)), **how, progress=progress)
-        _write(found, folder)
+            found = search(mission, changes=changes, progress=progress, **how)
+        write_results(found, folder)
     places = f"  mission: {folder / 'tuned.toml'}", f"  page: {folder / 'tune.html'}"
     for line in (*tuning_lines(found), *places):
         echo(line)
@@ -126,32 +162,6 @@ def tune(
         sys.exit(INTERRUPTED)
     if not found.is_better:
         sys.exit(NOT_BETTER)
-
-
-def _goal_of(text: str) -> tuple[str, Any]:
-    """The metric of METRIC[=TARGET], and its target or None."""
-    name, equals, literal = (part.strip() for part in text.partition("="))
-    return name, _literal(f"--minimize {text}", literal) if equals else None
-
-
-def _range_of(text: str) -> tuple[str, Any]:
-    """The key of KEY[=RANGE], and its range or None."""
-    key, equals, literal = (part.strip() for part in text.partition("="))
-    if not re.fullmatch(r"[A-Za-z0-9_*?\[\]]+(\.[A-Za-z0-9_*?\[\]]+)*", key):
-        raise InputError(
-            f"--parameter {text}: must be KEY or KEY=[low, high] with a dotted key, such as controller.gains.xi"
-        )
-    value = _literal(f"--parameter {text}", literal) if equals else None
-    if equals and not isinstance(value, list):
-        raise InputError(f"--parameter {text}: the range must be [low, high], or a list of words in quotes")
-    return key, value
-
-
-def _literal(where: str, literal: str) -> object:
-    try:
-        return toml_tables(f"value = {literal}")["value"]
-    except (ValueError, KeyError, RecursionError):
-        raise InputError(f"{where}: must be a TOML value, such as 0.01 or [0.01, 0.01, 0.005]") from None
 
 
 def _draws_of(text: str) -> int | str:
@@ -172,18 +182,6 @@ def _progress() -> Iterator[TuneProgress | None]:
             bar.update(done - bar.pos, f"cost {lowest.ratio:.4g}" + (f", {lowest.bad} bad" if lowest.bad else ""))
 
         yield update
-
-
-def _write(found: Tuning, folder: Path) -> None:
-    from tandemlift.pictures.drawing.style import save
-    from tandemlift.pictures.report.study.tuning_figures import drawn_figures
-    from tandemlift.pictures.report.study.tuning_report import write_tuning
-
-    found.save(folder)
-    for name, figure in drawn_figures(found).items():
-        for kind in ("png", "pdf"):
-            save(figure, folder / "figures" / f"{name}.{kind}")
-    write_tuning(found, folder / "tune.html")
 
 
 FEEL_FILES = ("feel.json", "feel.html", "feel.png", "feel.pdf")

@@ -9,6 +9,7 @@ from tandemlift.parts.interaction.admittance import Admittance
 from tandemlift.parts.interaction.compliance import Compliance, MotionLimits, PushFilters
 from tandemlift.parts.interaction.energy_tank import TankTable
 from tandemlift.parts.interaction.following import FollowingTable
+from tandemlift.parts.interaction.policy import PolicyTable, start_policy
 from tandemlift.parts.mechanics.low_pass import low_pass
 
 
@@ -81,6 +82,7 @@ class ComplianceTable(Table):
     following: FollowingTable = FollowingTable()
     yaw: YawTable = YawTable()
     tank: TankTable = TankTable()
+    policy: PolicyTable = PolicyTable()
 
 
 def push_filters(c: ComplianceTable, step: float) -> PushFilters:
@@ -100,4 +102,5 @@ def compliance_from(c: ComplianceTable, push: PushFilters, admittance: Admittanc
         limits=limits,
         force_lead=c.force_lead,
         reference_lead=c.reference_lead,
+        policy=start_policy(c.policy, admittance.damping),
     )

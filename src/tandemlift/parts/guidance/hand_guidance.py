@@ -56,6 +56,7 @@ from tandemlift.parts.interaction.following import (
     must_land,
     update_following,
 )
+from tandemlift.parts.interaction.policy import PolicyChannels, dissipated_with, policy_damping
 from tandemlift.parts.interaction.requests import requests_until, with_operator
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import State
@@ -106,6 +107,7 @@ class HandGuidanceChannels(NamedTuple):
     reference_yaw_rate: Number
     limited_reason: Number
     supervised: SupervisionChannels | Absent
+    policy: PolicyChannels | Absent
 
 
 @checked_input.register(HandGuidance)
@@ -164,10 +166,11 @@ def channels_from(
     heading: HeadingReference,
     limited: Number,
     supervision: SupervisionChannels | Absent,
+    policy: PolicyChannels | Absent,
 ) -> HandGuidanceChannels:
-    """The channels of a step; `limited`: the reason why it cannot follow, or 0; `supervision`: its channels."""
+    """The channels of a step; `limited`: reason why it cannot follow, or 0; channels of `supervision` and `policy`."""
     push = m.filtered.value - m.band.bias
-    return HandGuidanceChannels(phase.phase, push, m.band.active, damping, heading.rate, limited, supervision)
+    return HandGuidanceChannels(phase.phase, push, m.band.active, damping, heading.rate, limited, supervision, policy)
 
 
 @law
@@ -243,14 +246,16 @@ def _by_hand(
     phase, supervised, memory = supervised_phase(g, m, pilot_input, boundary, rotor_failed, t, dt)
     allowed = phase_output(g.phasing, phase, t)
     before = kept_out(boundary, grounded_at(allowed, m.compliance, state), dt)
+    eased, factors = policy_damping(g.compliance.policy, before.output, before.velocity, allowed.responding)
     dissipated = dot(before.velocity * g.compliance.admittance.damping, before.velocity)
+    dissipated = dissipated_with(eased, dissipated, before.velocity)
     damping, tank = passivity_damping(g.tank, m.tank, before.filtered.value, state.velocity, dissipated, dt)
     lifted = g.phasing.height * allowed.lift.value
     compliance = above_ground(g.clearance, g.compliance, before, before.position.z + lifted - phase.ground)
     compliance = fenced(g.supervision, compliance, before, lifted)
     horizontal = available_acceleration(g.available, disturbance.force, usable_thrust(g.available, t))
-    push, responding = pilot_input.push, allowed.responding
-    after = compliance_step(compliance, before, push, responding, damping, horizontal, boundary, dt, pilot_input.lead)
+    push, responding, given = pilot_input.push, allowed.responding, pilot_input.lead
+    after = compliance_step(compliance, before, push, responding, damping, horizontal, boundary, dt, given, eased)
     about_vertical = turning_out(boundary, apply(rotation_from_quaternion(state.attitude), pilot_input.moment).z)
     yaw = euler_from_quaternion(state.attitude).angles.z
     heading, turned = yaw_step(g.heading, m.heading, about_vertical, yaw, allowed, rotor_failed, dt)
@@ -272,7 +277,7 @@ def _by_hand(
         running=ThrustFraction(allowed.running),
         flying=allowed.flying * (1.0 - blind),
         learning=1.0 - presses_on_ground(phase, target.position.z, has_floor(g.clearance)),
-        channels=channels_from(allowed, after, damping, heading, following.reason, shown),
+        channels=channels_from(allowed, after, damping, heading, following.reason, shown, factors),
         wall=load_of_wall(boundary),
     )
     return guidance, HandGuidanceState(phase, after, tank, turned, moment, following, memory, contact)

@@ -19,6 +19,7 @@ from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3
 from tandemlift.parts.interaction.admittance import Admittance, anchored, soft_threshold
+from tandemlift.parts.interaction.policy import Policy, with_policy
 from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, V, low_pass_step
 
@@ -79,7 +80,7 @@ class Compliance(NamedTuple):
     """Low-pass of the push, dead-band, low-pass after it, M, C, K and T_d, limits.
 
     `force_lead` [s]: lead time of the push that the controller compensates. `reference_lead` [s]: lead time of the
-    reference's acceleration.
+    reference's acceleration. `policy`: of the damping, or `Absent`.
     """
 
     input_filter: LowPass
@@ -89,6 +90,7 @@ class Compliance(NamedTuple):
     limits: MotionLimits
     force_lead: Number
     reference_lead: Number
+    policy: Policy | Absent
 
 
 class ComplianceState(NamedTuple):
@@ -201,6 +203,7 @@ def compliance_step(
     boundary: object,
     dt: Number,
     lead: ReferenceVelocity | Absent,
+    eased: Vec3 | Absent,
 ) -> ComplianceState:
     """The memory after a step.
 
@@ -214,11 +217,13 @@ def compliance_step(
         boundary: which the reference must not cross, or `Absent`.
         dt: of the step [s].
         lead: a velocity of the reference in place of the response to the push, or `Absent`.
+        eased: the force by which a policy changes the damping [N, world axes], or `Absent`.
     """
     filtered = low_pass_step(k.input_filter, m.filtered, push)
     beyond, band = dead_band(k.band, m.band, filtered.value, enabled, dt)
     output = low_pass_step(k.output_filter, m.output, beyond)
-    free = led_by(lead, k.limits, m.velocity, enabled, admittance_acceleration(k, m, output.value, damping))
+    response = admittance_acceleration(k, m, with_policy(eased, output.value), damping)
+    free = led_by(lead, k.limits, m.velocity, enabled, response)
     bounded = speed_limited(free, m.velocity, k.limits.speed, k.limits.braking_gain)
     target = within(boundary, with_horizontal_limit(bounded, horizontal))
     acceleration = moved_towards(m.acceleration, target, k.limits.jerk * dt)

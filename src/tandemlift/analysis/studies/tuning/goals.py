@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.analysis.studies.tuning.parameters import toml_value
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.keys import is_number
 from tandemlift.core.types import Array
@@ -90,6 +91,16 @@ def goals_from(asked: str | Goal | Mapping[str, Any] | Iterable[str | Goal]) -> 
             raise InputError(f"--minimize {goal.name}: is given twice")
         _check_target(goal.name, goal.target)
     return tuple(goals)
+
+
+def goal_of(text: str) -> tuple[str, Any]:
+    """The metric of METRIC[=TARGET], and its target or None.
+
+    Raises:
+        InputError: the target is no value of TOML.
+    """
+    name, equals, literal = (part.strip() for part in text.partition("="))
+    return name, toml_value(f"--minimize {text}", literal) if equals else None
 
 
 def _check_target(name: str, target: Any) -> None:

@@ -44,7 +44,7 @@ class Optimiser(Protocol):
 class EvolutionStrategy:
     """CMA-ES: samples of a normal distribution that moves, grows and rotates towards the better half of them.
 
-    At first the components of one vector mostly change together, because gains are usually too high on all axes.
+    At first the positive components of one vector mostly change together, as gains are usually too high on all axes.
 
     Source: Hansen, The CMA Evolution Strategy: A Tutorial, arXiv 1604.00772; by the package `cma`. It uses nothing of a
     cost but the order of candidates.
@@ -70,7 +70,7 @@ class EvolutionStrategy:
         ends = [[0.0] * len(parameters), [c.of(c.parameter.high) for c in self._coordinates]]
         self._bounds = BoundTransform(ends)
         self._start = np.array(self._bounds.inverse([c.of(c.parameter.present) for c in self._coordinates]))
-        self._together = _together([p.key for p in parameters])
+        self._together = _together([p.key if p.is_log else p.name for p in parameters])
         self._strategy = _strategy(len(parameters), self.size, seed, step)
         self._asked: list[Array] = []
 

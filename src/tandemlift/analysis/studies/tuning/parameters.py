@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import fnmatch
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal, NamedTuple, get_args, get_origin
 
@@ -16,6 +17,7 @@ import numpy as np
 from pydantic import BaseModel
 
 from tandemlift.core.errors import InputError, shown, suggestion
+from tandemlift.core.files import toml_tables
 from tandemlift.core.keys import is_number
 from tandemlift.missions import Mission
 from tandemlift.missions.keys import bounds, innermost, plain
@@ -92,6 +94,31 @@ def _leaves(model: BaseModel, above: str) -> Iterator[_Leaf]:
                 yield from _leaves(entry, f"{key}.{i}.")
         else:
             yield _Leaf(key, field.annotation, tuple(field.metadata), value)
+
+
+def toml_value(where: str, literal: str) -> object:
+    """A value of TOML; `where` names it in the error."""
+    try:
+        return toml_tables(f"value = {literal}")["value"]
+    except (ValueError, KeyError, RecursionError):
+        raise InputError(f"{where}: must be a TOML value, such as 0.01 or [0.01, 0.01, 0.005]") from None
+
+
+def range_of(text: str) -> tuple[str, Any]:
+    """The key of KEY[=RANGE], and its range or None.
+
+    Raises:
+        InputError: it is none, or the range is no list.
+    """
+    key, equals, literal = (part.strip() for part in text.partition("="))
+    if not re.fullmatch(r"[A-Za-z0-9_*?\[\]]+(\.[A-Za-z0-9_*?\[\]]+)*", key):
+        raise InputError(
+            f"--parameter {text}: must be KEY or KEY=[low, high] with a dotted key, such as controller.gains.xi"
+        )
+    value = toml_value(f"--parameter {text}", literal) if equals else None
+    if equals and not isinstance(value, list):
+        raise InputError(f"--parameter {text}: the range must be [low, high], or a list of words in quotes")
+    return key, value
 
 
 def parameters_of(mission: Mission, ranges: Mapping[str, Range], factor: float) -> tuple[Tunable, ...]:

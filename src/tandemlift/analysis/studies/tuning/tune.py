@@ -1,4 +1,4 @@
-"""Tuning of a mission: the search, and the evidence on holdout draws."""
+"""Tuning of a mission, and training of its policy: the search, and the evidence on holdout draws."""
 
 from __future__ import annotations
 
@@ -25,6 +25,8 @@ from tandemlift.missions import Mission
 FACTORS = {"cma": 1000.0, "optuna": 10.0}  # by which a number may differ: a search that moves can go far
 POPULATIONS = 60  # of the default budget
 MOST_DRAWS = 1_000_000
+POLICY, WEIGHTS = "compliance.policy", (-4.0, 4.0)  # the range of a weight
+EFFORT = ("human_work_j", "human_force_mean_n")  # the work alone can be negative: the vehicle then shakes the hand
 
 
 class How(NamedTuple):
@@ -87,6 +89,49 @@ def tune(
         raise unknown("argument of tune", min(strange), How._fields)
     source = MissionSource(os.fspath(mission), dict(changes or {}), controller)
     return _tuned(source, goals_from(goals), How(**how), progress)
+
+
+def train(
+    mission: str | os.PathLike[str],
+    *,
+    changes: Mapping[str, Any] | None = None,
+    hidden: int = 6,
+    persons: int = 24,
+    progress: TuneProgress | None = None,
+    **how: Any,
+) -> Tuning:
+    """Train a policy that saves persons work and force, and compare it with the mission as it is on other persons.
+
+    It is a search for `compliance.policy.weights` on random persons, the same for all candidates. It begins with those
+    of the mission, or with zero, which are its admittance alone.
+
+    Args:
+        mission: name of a built-in mission, or path of a TOML file, with a person.
+        changes: changes of the mission by dotted key.
+        hidden: number of hidden units of a new network.
+        persons: number of persons in the search.
+        progress: as of `tune`.
+        how: holdout, budget, seed, threads and strict, as of `tune`.
+
+    Returns:
+        The result, whether it is better or not.
+
+    Raises:
+        InputError: bad input, the package is missing, or the mission has no person.
+    """
+    if strange := set(how) - {"holdout", "budget", "seed", "threads", "strict"}:
+        raise unknown("argument of train", min(strange), How._fields)
+    _check_count("--persons", persons)
+    source = MissionSource(os.fspath(mission), dict(changes or {}))
+    policy = source.load().compliance.policy
+    if policy.model == "none":
+        fresh = {f"{POLICY}.model": "network", f"{POLICY}.weights": policy.zeros(hidden)}
+        source = MissionSource(source.name, {**source.changes, **fresh})
+    seed, weights = how.get("seed", 0), f"{POLICY}.weights"
+    study = {"name": "persons", "missions": [source.name], "draws": persons, "seed": seed, "persons": "random"}
+    draws = {"study": study, "set": {key: value for key, value in source.changes.items() if key != weights}}
+    how |= {"parameters": {weights: WEIGHTS}, "draws": draws, "optimiser": "cma"}
+    return _tuned(source, goals_from(EFFORT), How(**how), progress)
 
 
 def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: TuneProgress | None) -> Tuning:

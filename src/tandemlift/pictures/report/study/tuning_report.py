@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Iterator, Mapping
 from html import escape
 from pathlib import Path
@@ -14,6 +13,7 @@ from tandemlift.analysis.studies.tuning.parameters import Tunable
 from tandemlift.analysis.studies.tuning.result import MISSION_FILE, Tuning
 from tandemlift.core.errors import shown
 from tandemlift.core.files import versions
+from tandemlift.pictures.drawing.style import save
 from tandemlift.pictures.report.page import DASH, html, html_figures, html_row, html_table, number, write_page
 from tandemlift.pictures.report.study import tuning_figures
 from tandemlift.pictures.report.study.tuning_figures import axis_label, shown_scale
@@ -23,19 +23,20 @@ HEADS = ("old median", "worst", "new median", "worst", "difference", "95 % from"
 FEW_DRAWS = 12  # draws whose changes are listed
 
 
-def write_tuning(found: Tuning, path: str | os.PathLike[str]) -> Path:
-    """Write the page of a tuning atomically as one HTML file without references.
+def write_results(found: Tuning, folder: Path) -> None:
+    """Write a tuning into a folder that is there: mission, evidence, figures, and the page, without references.
 
     Args:
-        found: from `tune`.
-        path: of the HTML file; its folder is there.
-
-    Returns:
-        The path.
+        found: from `tune` or `train`.
+        folder: of the files.
     """
-    path, drawn = Path(path), tuning_figures.drawn_figures(found)
-    return write_page(
-        path,
+    drawn = tuning_figures.drawn_figures(found)
+    found.save(folder)
+    for name, figure in drawn.items():
+        for kind in ("png", "pdf"):
+            save(figure, folder / "figures" / f"{name}.{kind}")
+    write_page(
+        folder / "tune.html",
         "tuning",
         name=found.name,
         about=what_was_done(found),
@@ -46,7 +47,7 @@ def write_tuning(found: Tuning, path: str | os.PathLike[str]) -> Path:
         values=html(_values(found)),
         draws=html(_draws(found)),
         file=MISSION_FILE,
-        mission=found.to_toml(path.parent),
+        mission=found.to_toml(folder),
         versions=f"Searched with {', '.join(f'{name} {version}' for name, version in versions('compiled').items())}.",
     )
 
