@@ -36,7 +36,7 @@ def additional_checks(table: SensorsTable) -> Iterator[CheckResult]:
 def first_sample_checks(table: SensorsTable, step: float) -> Iterator[CheckResult]:
     """Check for first samples that are not within an interval between samples."""
     for _, key, interval, first in clocks_of(table):
-        if round(first / step) >= steps_of(interval or 0.0, step):
+        if first / step >= steps_of(interval or 0.0, step) - 0.5:  # rounded, it is at the next sample
             often = "set, and above it" if interval is None else f"above it, and is {interval}"
             yield refused(f"{key}.first_sample = {first}: {key}.interval must be {often}")
 

@@ -91,7 +91,7 @@ def test_keys_go_through_the_steps_of_a_script_which_do_what_they_say(browser, a
     assert page.locator("#views button:text-is('side')").get_attribute("aria-pressed") == "true"
     page.keyboard.press("PageDown")
     until(lambda: value(page, "admittance.damping") == 7.0, "a setting")
-    strongest = until(lambda: (v := float(page.inner_text(".spotlight .value b"))) > 1.45 and v, "the push")
+    strongest = until(lambda: (v := float(page.inner_text(".spotlight .value b") or 0.0)) > 1.45 and v, "the push")
     assert strongest < 1.55
     until(lambda: float(page.inner_text(".spotlight .value b")) < 0.01, "its end")
     page.keyboard.press("Space")
