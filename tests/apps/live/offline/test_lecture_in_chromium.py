@@ -93,7 +93,7 @@ def test_keys_go_through_the_steps_of_a_script_which_do_what_they_say(browser, a
     until(lambda: value(page, "admittance.damping") == 7.0, "a setting")
     strongest = until(lambda: (v := float(page.inner_text(".spotlight .value b") or 0.0)) > 1.45 and v, "the push")
     assert strongest < 1.55
-    until(lambda: float(page.inner_text(".spotlight .value b")) < 0.01, "its end")
+    until(lambda: float(page.inner_text(".spotlight .value b") or 1.0) < 0.01, "its end")
     page.keyboard.press("Space")
     until(lambda: paused(page) and value(page, "admittance.damping") == 14.0, "a pause")
     assert "damping 7, now: 14" in page.inner_text("#comparison")
