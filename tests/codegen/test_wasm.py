@@ -37,9 +37,12 @@ def evaluate(request: pytest.FixtureRequest) -> Iterator[Callable[[str], Any]]:
         browser.close()
 
 
-def check_draws(name: str, folder: Path, *, duration: float, count: int, fly: Fly = wasm_flights) -> int:
+def check_draws(
+    name: str, folder: Path, *, duration: float, count: int, fly: Fly = wasm_flights, policy: str = "none"
+) -> int:
     """Fly draws of a mission in both; how many flights were lost."""
-    mission = changed(tl.load_mission(name, {"mission.fma": False}), "mission.duration", duration)
+    changes = {"mission.fma": False, "compliance.policy.model": policy}
+    mission = changed(tl.load_mission(name, changes), "mission.duration", duration)
     compile_mission(mission, "wasm32", folder)
     manifest = json.loads((folder / f"{name}.json").read_text())
     draws = drawn_numbers(mission, count, {n["key"] for n in manifest["numbers"]})
@@ -58,6 +61,10 @@ def check_draws(name: str, folder: Path, *, duration: float, count: int, fly: Fl
 @pytest.mark.parametrize("name", ["paper", "hover"])
 def test_a_module_flies_as_native_code(name: str, tmp_path: Path) -> None:
     assert check_draws(name, tmp_path, duration=3.0, count=5) == 1
+
+
+def test_a_module_flies_with_a_policy_as_native_code(tmp_path: Path) -> None:
+    check_draws("iris", tmp_path, duration=14.0, count=2, policy="network")
 
 
 @pytest.mark.targets
