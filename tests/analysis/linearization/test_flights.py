@@ -11,6 +11,7 @@ from tandemlift.missions import tables_of
 
 MOST_ROTORS = {f"vehicle.quadrotors.{i}.max_speed": 862.0 for i in (0, 1)}  # rad/s, little more than hovering takes
 FOLLOWING = {"compliance.thrust_fraction": 1.0, "compliance.following.time": 5.0}  # although no thrust is left
+POLICY = {"compliance.policy.model": "network"}
 MOVING = {"initial.euler": [0.05, -0.04, 0.1], "initial.position": [0.3, -0.2, 0.0]}
 
 
@@ -26,8 +27,8 @@ def check_differences(of, found, skipped=()):
 
 @pytest.mark.parametrize(
     ("name", "changes", "at"),
-    [("paper", MOVING, 22.3), ("hover", MOVING, 2.2), ("iris", QUIET, 13.6)],
-    ids=["paper", "hover", "iris: five steps, delays, sensors"],
+    [("paper", MOVING, 22.3), ("hover", MOVING, 2.2), ("iris", QUIET, 13.6), ("iris", QUIET | POLICY, 13.6)],
+    ids=["paper", "hover", "iris: five steps, delays, sensors", "policy"],
 )
 def test_a_period_is_that_of_the_compiled_flight(name, changes, at):
     of = linearized(name, changes, at)
