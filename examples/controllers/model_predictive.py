@@ -198,7 +198,7 @@ def condensed(
 
 
 def solve(m: Model, plan: Plan, start: np.ndarray, wanted: np.ndarray, load: np.ndarray) -> Plan:
-    """The plan after one Gauss-Newton step; arguments as of `condensed`."""
+    """The plan after one Gauss-Newton step, or as it is; arguments as of `condensed`."""
     began = perf_counter()
     program = condensed(m, plan, start, wanted, load)
     prepared = perf_counter()
@@ -206,16 +206,18 @@ def solve(m: Model, plan: Plan, start: np.ndarray, wanted: np.ndarray, load: np.
     solver.settings.eps_abs = solver.settings.eps_rel = TOLERANCE
     solver.settings.preconditioner_iter = 0  # box and weights are scaled well enough
     solver.setup(program.hessian, program.gradient, x_l=program.low, x_u=program.high)
-    solver.solve()
+    is_solved = solver.solve() == piqp.PIQP_SOLVED
+    SOLVES.append((perf_counter() - began, perf_counter() - prepared))
+    if not is_solved:  # the plan goes on, shifted by each solve
+        return plan._replace(wait=m.wait)
     change = np.clip(solver.result.x, program.low, program.high)
     states = plan.states + program.states @ np.append(change, 1.0)
-    SOLVES.append((perf_counter() - began, perf_counter() - prepared))
     return Plan(states, plan.thrusts + change.reshape(plan.thrusts.shape), m.wait)
 
 
 def shifted(m: Model, plan: Plan) -> Plan:
     """The plan one solve later: each node moves on by so much of the way to the next."""
-    part = m.interval / m.node
+    part = min(1.0, m.interval / m.node)
     states, thrusts = plan.states.copy(), plan.thrusts.copy()
     states[:-1] += part * (states[1:] - states[:-1])
     thrusts[:-1] += part * (thrusts[1:] - thrusts[:-1])

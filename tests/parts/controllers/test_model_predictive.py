@@ -104,6 +104,15 @@ def test_thrusts_solve_the_program_within_their_limits_as_scipy_does(mpc, planne
     np.testing.assert_allclose(change, best, atol=1e-3)  # N
 
 
+def test_without_a_solution_the_plan_stays(mpc, planned, monkeypatch):
+    model, plan = planned
+    level = np.tile(np.eye(13)[6], (mpc.NODES + 1, 1))
+    monkeypatch.setattr(mpc, "TOLERANCE", 0.0)  # which no solution reaches
+    after = mpc.solve(model, plan._replace(states=level), level[0] + 0.1, level, LOAD)
+    assert np.array_equal(after.thrusts, plan.thrusts)
+    assert after.wait == model.wait
+
+
 def test_the_wanted_states_follow_the_reference(mpc, planned):
     model = planned[0]
     reference = Reference(Trajectory(Vec3(1.0, 2.0, 3.0), Vec3(0.5, 0.0, 0.0), ZERO), yaw=0.4)

@@ -119,10 +119,8 @@ class IteratedStep:
         attributes = "#3" if name == SELDOM else "#1"
         f = self._function(module, form.graph, f"internal void @{name}({_pointers(kind)}) {attributes}")
         form.begin(f)
-        g, given = (
-            form.graph,
-            [n for n, op in enumerate(form.graph.ops) if op == "in" and form.graph.args[n][0] in INPUTS],
-        )
+        g = form.graph
+        given = [n for n, op in enumerate(g.ops) if op == "in" and g.args[n][0] in INPUTS]
         wanted = {n: g.args[n] for n in given if g.args[n][1] in self.smooth[g.args[n][0]]}
         if not with_parameters:
             wanted = {n: place for n, place in wanted.items() if place[0] != "parameter"}
