@@ -119,8 +119,8 @@ def train(
     Raises:
         InputError: bad input, the package is missing, or the mission has no person.
     """
-    if strange := set(how) - {"holdout", "budget", "seed", "threads", "strict"}:
-        raise unknown("argument of train", min(strange), How._fields)
+    if strange := set(how) - (allowed := {"holdout", "budget", "seed", "threads", "strict"}):
+        raise unknown("argument of train", min(strange), sorted(allowed))
     _check_count("--persons", persons)
     source = MissionSource(os.fspath(mission), dict(changes or {}))
     policy = source.load().compliance.policy
