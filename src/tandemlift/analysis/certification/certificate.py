@@ -1,0 +1,164 @@
+"""A certificate of a mission: tiers of claims, each tier with its assumptions first.
+
+A claim is a number, its bar and, where flights can confirm it, the parameter whose limit it predicts.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tandemlift.core.errors import InputError
+from tandemlift.core.files import atomic_write
+
+MET, MISSED, NO_BAR = "met", "missed", ""
+
+
+class FlownLimit(NamedTuple):
+    """The limit of a parameter as flights show it.
+
+    Attributes:
+        below: largest value at which the flights stayed stable.
+        above: smallest value at which one did not.
+        frequency: of its oscillation [rad/s]; NaN where it did not oscillate.
+        ended: what ended stability there: "oscillation", or an outcome of the flight.
+    """
+
+    below: float
+    above: float
+    frequency: float
+    ended: str
+
+
+class Claim(NamedTuple):
+    """One number of a certificate.
+
+    Attributes:
+        quantity: what it is, such as "disk margin".
+        subject: of which axis, rotor or parameter; "" for the whole vehicle.
+        value: the number; infinite where there is no limit within what is tried, None where it could not be computed.
+        unit: of value and bar.
+        bar: the least value that passes; None where no bar is usual.
+        text: what the number says, in one sentence.
+        frequency: at which the loop oscillates at this limit [rad/s]; NaN where it does not apply.
+        command: the command that flies it; "" where nothing can be flown.
+        parameter: name of the parameter, one of `parameters.PARAMETERS`, whose limit the number is; "" for none.
+        flown: that limit as flights show it, or None.
+    """
+
+    quantity: str
+    subject: str
+    value: float | None
+    unit: str
+    bar: float | None = None
+    text: str = ""
+    frequency: float = math.nan
+    command: str = ""
+    parameter: str = ""
+    flown: FlownLimit | None = None
+
+    @property
+    def verdict(self) -> str:
+        """ "met" or "missed" beside the bar; "" without one."""
+        if self.bar is None or self.value is None:
+            return NO_BAR
+        return MET if self.value >= self.bar else MISSED
+
+
+@dataclass(frozen=True)
+class Tier:
+    """A tier of a certificate.
+
+    Attributes:
+        name: "linear", "structured", "person", "nonlinear" or "statistics".
+        title: its heading.
+        assumptions: under which its claims hold, a sentence each.
+        claims: its numbers.
+        curves: data of its figures by name: plain numbers and lists.
+        files: texts that belong to it, such as a mission with the worst parameters, by file name.
+        reason: why it has no claims; "" if it has.
+    """
+
+    name: str
+    title: str
+    assumptions: tuple[str, ...]
+    claims: tuple[Claim, ...] = ()
+    curves: Mapping[str, Any] = field(default_factory=dict)
+    files: Mapping[str, str] = field(default_factory=dict)
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """The certificate of a mission.
+
+    Attributes:
+        mission: its name.
+        tiers: in the order of their strength, from the linear model to flights.
+        versions: of the packages that computed it.
+    """
+
+    mission: str
+    tiers: tuple[Tier, ...]
+    versions: Mapping[str, str]
+
+    def tier(self, name: str) -> Tier:
+        """A tier by its name.
+
+        Raises:
+            InputError: the certificate has none of this name.
+        """
+        found = [tier for tier in self.tiers if tier.name == name]
+        if not found:
+            raise InputError(
+                f"tier {name!r} is not in this certificate; it has {', '.join(tier.name for tier in self.tiers)}"
+            )
+        return found[0]
+
+    @property
+    def missed(self) -> tuple[Claim, ...]:
+        """The claims below their bar."""
+        return tuple(claim for tier in self.tiers for claim in tier.claims if claim.verdict == MISSED)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The certificate as plain data; a number that is infinite or not a number is None."""
+        return {
+            "mission": self.mission,
+            "versions": dict(self.versions),
+            "tiers": [
+                {
+                    "name": tier.name,
+                    "title": tier.title,
+                    "assumptions": list(tier.assumptions),
+                    "reason": tier.reason,
+                    "claims": [_plain(claim) for claim in tier.claims],
+                    "curves": _finite(tier.curves),
+                }
+                for tier in self.tiers
+            ],
+        }
+
+    def save(self, path: str | Path) -> None:
+        """Write it as JSON, atomically."""
+        with atomic_write(Path(path)) as partial:
+            partial.write_text(json.dumps(self.to_dict(), ensure_ascii=False, indent=1, allow_nan=False), "utf-8")
+
+
+def _plain(claim: Claim) -> dict[str, Any]:
+    flown = claim.flown._asdict() if claim.flown is not None else None
+    return _finite({**claim._asdict(), "flown": flown, "verdict": claim.verdict})
+
+
+def _finite(value: Any) -> Any:
+    """Plain data without infinities, which JSON has no word for."""
+    if isinstance(value, Mapping):
+        return {key: _finite(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_finite(one) for one in value]
+    if hasattr(value, "tolist"):
+        return _finite(value.tolist())
+    return None if isinstance(value, float) and not math.isfinite(value) else value
