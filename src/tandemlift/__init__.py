@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Any
 from tandemlift.core.files import __version__ as __version__
 
 if TYPE_CHECKING:
+    from tandemlift.analysis.certification.mission_check import check
     from tandemlift.analysis.learning.registration import register_environments
     from tandemlift.analysis.linearization.differentiable_step import jax_step
     from tandemlift.analysis.linearization.linear_model import LinearModel
     from tandemlift.analysis.linearization.linearize import linearize
-    from tandemlift.analysis.linearization.mission_check import check
     from tandemlift.analysis.studies.study import study
     from tandemlift.analysis.studies.table import Study, load_study
     from tandemlift.analysis.studies.tuning.tune import train, tune
@@ -46,7 +46,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Simulation": "simulation.simulation",
     "Study": "analysis.studies.table",
     "Vehicle": "parts.mechanics.vehicle",
-    "check": "analysis.linearization.mission_check",
+    "check": "analysis.certification.mission_check",
     "compile_mission": "codegen.mission_module",
     "feel": "pictures.report.study.feel_report",
     "fly": "simulation.fly",

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -47,6 +48,7 @@ class Claim(NamedTuple):
         frequency: at which the loop oscillates at this limit [rad/s]; NaN where it does not apply.
         command: the command that flies it; "" where nothing can be flown.
         parameter: name of the parameter, one of `parameters.PARAMETERS`, whose limit the number is; "" for none.
+        limit: that limit in the parameter's own unit, or None.
         flown: that limit as flights show it, or None.
     """
 
@@ -59,7 +61,13 @@ class Claim(NamedTuple):
     frequency: float = math.nan
     command: str = ""
     parameter: str = ""
+    limit: float | None = None
     flown: FlownLimit | None = None
+
+    @property
+    def slug(self) -> str:
+        """Quantity and subject as the name of a file."""
+        return re.sub(r"[^a-z0-9]+", "-", f"{self.subject} {self.quantity}".lower()).strip("-")
 
     @property
     def verdict(self) -> str:

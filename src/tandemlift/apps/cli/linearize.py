@@ -88,7 +88,8 @@ def _draw(connected: LinearModel, path: Path) -> None:
     Raises:
         InputError: it has too many states.
     """
-    from tandemlift.analysis.linearization.linear_model import MOST_STATES, axis_responses, modes_of, title_of
+    from tandemlift.analysis.linearization.frequency_response import axis_responses
+    from tandemlift.analysis.linearization.linear_model import MOST_STATES, modes_of, title_of
     from tandemlift.pictures.drawing.style import save
     from tandemlift.pictures.figures.linear_model import Response, draw
 
@@ -124,7 +125,7 @@ def check(mission: str, settings: tuple[str, ...], controller: str | None, stric
       2   bad input: one message, nothing is written
       3   with --strict: a check fails
     """
-    from tandemlift.analysis.linearization.mission_check import check as checked
+    from tandemlift.analysis.certification.mission_check import check as checked
 
     with without_flight_warnings():  # the table has the same
         loaded = load(mission, settings, controller)
