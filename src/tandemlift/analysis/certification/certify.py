@@ -11,7 +11,8 @@ from pathlib import Path
 from tandemlift.analysis.certification.certificate import Certificate, Claim, Tier
 from tandemlift.analysis.certification.flown import Trial, flown_limit, trial_of
 from tandemlift.analysis.certification.linear import linear_tier
-from tandemlift.analysis.certification.person import ArmBox, person_tier
+from tandemlift.analysis.certification.parameters import PARAMETERS
+from tandemlift.analysis.certification.person import ArmBox, flown_map, person_tier
 from tandemlift.analysis.certification.statistics import FLIGHTS, statistics_tier
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.missions import Mission, MissionLike, format_toml, mission_of, tables_of
@@ -99,12 +100,19 @@ def _with_limits(tier: Tier, mission: Mission, fly: bool, say: Report) -> Tier:
         if claim.parameter and claim.limit is not None:
             trial, name = trial_of(mission, claim.parameter), f"limits/{claim.slug}.toml"
             files[name] = format_toml(tables_of(_mission_beyond(trial, claim.limit)))
-            claim = claim._replace(command=f"tandemlift run {name}")
+            claim = claim._replace(command=f"tandemlift run {name}", nominal=_nominal(mission, claim))
             if fly:
                 claim = claim._replace(flown=flown_limit(trial, claim.limit))
                 say(f"{tier.name}, flown", 1 + len([c for c in claims if c.parameter]), len(limited))
         claims.append(claim)
-    return replace(tier, claims=tuple(claims), files=files)
+    curves = dict(tier.curves)
+    if fly and "map" in curves:
+        curves["map"] = flown_map(mission, curves["map"])
+    return replace(tier, claims=tuple(claims), files=files, curves=curves)
+
+
+def _nominal(mission: Mission, claim: Claim) -> float:
+    return PARAMETERS[claim.parameter].nominal(mission)
 
 
 def _mission_beyond(trial: Trial, limit: float) -> Mission:

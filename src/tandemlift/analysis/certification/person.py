@@ -11,7 +11,7 @@ Admittance control for physical human-robot interaction, 2018.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from tandemlift.analysis.certification.certificate import Claim, Tier
 from tandemlift.analysis.certification.contact_limits import HAND, contact_claims
-from tandemlift.analysis.certification.flown import hover_as_flown
+from tandemlift.analysis.certification.flown import held, hover_as_flown, stability_in_hand
 from tandemlift.analysis.certification.linear import nearest_to_oscillation
 from tandemlift.analysis.certification.parameters import ARM, with_keys
 from tandemlift.analysis.linearization.frequency_response import frequency_response
@@ -30,6 +30,7 @@ from tandemlift.core.types import Array
 from tandemlift.missions import Mission
 from tandemlift.parts.interaction.person_table import PersonTable, grip_from
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.simulation.fly import fly_many
 from tandemlift.simulation.simulation import Simulation
 
 TITLE = "Person: an arm that holds the vehicle, and contact"
@@ -47,6 +48,7 @@ LARGEST = 1e5  # N/m, kg, s: more is not tried
 ACCURACY = 5e-3  # relative
 GROWS = 1e-6  # beyond 1, of an eigenvalue that grows
 AROUND, MAP = (0.2, 5.0), 16  # factors of the mission's mass and damping in the map, and points along each
+FLOWN, FLOWN_MASS = 3, 1  # every third damping and every mass of the map is flown
 SPREAD = 3.0  # between the masses and dampings of a family's models
 LEAST_DAMPING = 0.1  # N s/m, in the map of a mission without damping
 
@@ -296,4 +298,14 @@ def _map(mission: Mission) -> dict[str, Any]:
     family = admittance_family(mission)
     rows = [[family_limit(family, m, c, arm) for c in dampings] for m in masses]
     grid = {"mass": masses.tolist(), "damping": dampings.tolist(), "stiffness": rows}
-    return {"map": {**grid, "mission": [max(a.mass), max(a.damping)], "arm": arm}}
+    here = [max(a.mass), max(max(a.damping), LEAST_DAMPING)]
+    return {"map": {**grid, "mission": here, "arm_stiffness": family_limit(family, *here, arm)}}
+
+
+def flown_map(mission: Mission, data: Mapping[str, Any]) -> dict[str, Any]:
+    """The data of a map with flights over it: virtual mass, damping, and whether an arm's hand stays calm."""
+    places = [(m, c) for c in data["damping"][1::FLOWN] for m in data["mass"][::FLOWN_MASS]]
+    keys = [{"admittance.mass": [m] * 3, "admittance.damping": [c] * 3} for m, c in places]
+    flights = fly_many([held(mission, data["arm_stiffness"], changes) for changes in keys])
+    calm = [not stability_in_hand(flight) for flight in flights]
+    return {**data, "flown": [[*place, stable] for place, stable in zip(places, calm, strict=True)]}
