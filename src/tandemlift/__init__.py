@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from tandemlift.core.files import __version__ as __version__
 
 if TYPE_CHECKING:
+    from tandemlift.analysis.certification.certify import certify
     from tandemlift.analysis.certification.mission_check import check
     from tandemlift.analysis.learning.registration import register_environments
     from tandemlift.analysis.linearization.differentiable_step import jax_step
@@ -46,6 +47,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Simulation": "simulation.simulation",
     "Study": "analysis.studies.table",
     "Vehicle": "parts.mechanics.vehicle",
+    "certify": "analysis.certification.certify",
     "check": "analysis.certification.mission_check",
     "compile_mission": "codegen.mission_module",
     "feel": "pictures.report.study.feel_report",
@@ -74,6 +76,7 @@ __all__ = [
     "Simulation",
     "Study",
     "Vehicle",
+    "certify",
     "check",
     "compile_mission",
     "feel",

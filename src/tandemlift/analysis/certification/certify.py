@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -15,14 +15,13 @@ from tandemlift.analysis.certification.parameters import PARAMETERS
 from tandemlift.analysis.certification.person import ArmBox, flown_map, person_tier
 from tandemlift.analysis.certification.statistics import FLIGHTS, statistics_tier
 from tandemlift.core.errors import InputError, unknown
+from tandemlift.core.progress import progress_or_own
+from tandemlift.core.types import Progress
 from tandemlift.missions import Mission, MissionLike, format_toml, mission_of, tables_of
 
 TIERS = ("linear", "structured", "person", "nonlinear", "statistics")
 PACKAGES = ("tandemlift", "numpy", "scipy", "slycot", "cvxpy", "clarabel")
 PAST = 1.05  # of a limit: the mission beside it flies beyond, where the oscillation grows
-
-Report = Callable[[str, int, int], None]
-"""Called with (stage, units of its work done, units in all)."""
 
 
 def certify(
@@ -30,11 +29,11 @@ def certify(
     tiers: Sequence[str] = TIERS,
     *,
     fly: bool = False,
-    arm: ArmBox | None = None,
+    arm: tuple[float, float, float] | None = None,
     box: Mapping[str, float] | None = None,
     flights: int = FLIGHTS,
     folder: str | Path | None = None,
-    progress: Report | None = None,
+    progress: Progress | None = None,
 ) -> Certificate:
     """How far a mission is from instability, with which parameters and person, and how often it fails.
 
@@ -42,11 +41,11 @@ def certify(
         mission: from `load_mission`, or its name or path.
         tiers: those to be formed, by name.
         fly: whether to fly each predicted limit of a parameter, by bisection without a linear model.
-        arm: largest stiffness, damping and hand mass of the arms that may hold the vehicle.
+        arm: largest stiffness [N/m], damping [N s/m] and hand mass [kg] of the arms that may hold the vehicle.
         box: half widths of uncertain parameters, by name, of the structured tier.
         flights: number of random flights of the tier of statistics.
         folder: of that tier's study, which goes on where it stopped; by default a temporary one.
-        progress: called with (stage, units done, units in all).
+        progress: called with (tiers done, tiers in all).
 
     Returns:
         The certificate; a tier that cannot be formed for this mission has the reason.
@@ -55,55 +54,48 @@ def certify(
         InputError: the mission cannot be loaded, a tier is unknown, a box is empty or too large, or an optional package
             is missing (extra: certify).
     """
-    mission, say = mission_of(mission), progress or (lambda stage, done, total: None)
+    mission = mission_of(mission)
     for name in tiers:
         if name not in TIERS:
             raise unknown("tier", name, TIERS)
-    found = list[Tier]()
-    for name in [name for name in TIERS if name in tiers]:
-        say(name, 0, 1)
-        tier = _tier(name, mission, arm, box, flights, folder, say)
-        found.append(_with_limits(tier, mission, fly, say))
-        say(name, 1, 1)
+    chosen, found = [name for name in TIERS if name in tiers], list[Tier]()
+    arms = ArmBox() if arm is None else ArmBox(*arm).checked()
+    with progress_or_own(f"{mission.mission.name}, certified", progress, "tiers") as shown:
+        for done, name in enumerate(chosen, 1):
+            found.append(_with_limits(_tier(name, mission, arms, box, flights, folder), mission, fly))
+            if shown:
+                shown(done, len(chosen))
     return Certificate(mission.mission.name, tuple(found), _versions())
 
 
 def _tier(
     name: str,
     mission: Mission,
-    arm: ArmBox | None,
+    arms: ArmBox,
     box: Mapping[str, float] | None,
     flights: int,
     folder: str | Path | None,
-    say: Report,
 ) -> Tier:
     """One tier of a mission."""
-
-    def progress(done: int, total: int) -> None:
-        say(name, done, total)
-
     if name == "linear":
         return linear_tier(mission)
     if name == "person":
-        return person_tier(mission, arm)
+        return person_tier(mission, arms)
     if folder is not None:
-        return statistics_tier(mission, Path(folder), flights, progress=progress)
+        return statistics_tier(mission, Path(folder), flights)
     with tempfile.TemporaryDirectory() as aside:
-        return statistics_tier(mission, Path(aside) / "study", flights, progress=progress)
+        return statistics_tier(mission, Path(aside) / "study", flights)
 
 
-def _with_limits(tier: Tier, mission: Mission, fly: bool, say: Report) -> Tier:
+def _with_limits(tier: Tier, mission: Mission, fly: bool) -> Tier:
     """A tier with a mission that flies beyond each limit of a parameter, and the flown limits if asked for."""
     files, claims = dict(tier.files), list[Claim]()
-    limited = [claim for claim in tier.claims if claim.parameter]
     for claim in tier.claims:
-        if claim.parameter and claim.limit is not None:
+        if claim.limit is not None:
             trial, name = trial_of(mission, claim.parameter), f"limits/{claim.slug}.toml"
             files[name] = format_toml(tables_of(_mission_beyond(trial, claim.limit)))
-            claim = claim._replace(command=f"tandemlift run {name}", nominal=_nominal(mission, claim))
-            if fly:
-                claim = claim._replace(flown=flown_limit(trial, claim.limit))
-                say(f"{tier.name}, flown", 1 + len([c for c in claims if c.parameter]), len(limited))
+            flown = flown_limit(trial, claim.limit) if fly else None
+            claim = claim._replace(command=f"tandemlift run {name}", nominal=_nominal(mission, claim), flown=flown)
         claims.append(claim)
     curves = dict(tier.curves)
     if fly and "map" in curves:

@@ -18,9 +18,8 @@ from tandemlift.analysis.linearization.loop_margins import calm_mission
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
-from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, tables_of
-from tandemlift.simulation.fly import fly_many
+from tandemlift.simulation.fly import Flight, fly_many
 
 LEAST, MOST, COARSE, FINE = 0.5, 1.6, 16, 12  # factors of the predicted limit; flights that look for the limit
 PUSH, LASTS = 0.25, 0.1  # N along each axis, and s of its Gaussian: below the thresholds of a push
@@ -145,8 +144,9 @@ def held(mission: Mission, stiffness: float, changes: Mapping[str, Any] | None =
 
 
 def _grip(mission: Mission) -> list[float]:
-    """A point of the payload off its middle, so that the push turns the vehicle about all axes."""
-    return [0.0, 0.25 * mission.vehicle.payload.length, 0.0]
+    """The first quadrotor, from the centre of mass: a push there turns the vehicle about all axes."""
+    vehicle = mission.hover.vehicle
+    return np.add(vehicle.origin, mission.vehicle.quadrotors[0].position).tolist()
 
 
 def _without_resolution(sensors: dict[str, Any]) -> dict[str, Any]:

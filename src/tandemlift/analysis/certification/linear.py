@@ -29,7 +29,6 @@ from tandemlift.analysis.linearization.loop_margins import (
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
-from tandemlift.parts.mechanics.vehicle import Vehicle
 
 TITLE = "Linear: margins of the loops"
 GAIN_BAR, PHASE_BAR = 6.0, 45.0  # dB, deg: usual bars of classical margins
@@ -68,7 +67,7 @@ class LoopAsFlown(NamedTuple):
     def at_rotors(self) -> NDArray[np.complexfloating]:
         """The response (F, 4N, 4N) at each rotor."""
         allocation, effect = self.rotors
-        return allocation @ self.L @ effect
+        return np.asarray(allocation @ self.L @ effect, complex)
 
     @property
     def stable(self) -> bool:
@@ -82,7 +81,7 @@ def loop_as_flown(mission: Mission) -> LoopAsFlown:
     Raises:
         InputError: the controller is plain Python, or the calm flight is lost.
     """
-    vehicle, weights = Vehicle.from_settings(mission.vehicle), mission.allocation.weights
+    vehicle, weights = mission.hover.vehicle, mission.allocation.weights
     delay, lag = (PARAMETERS[name].nominal(mission) for name in ("delay", "lag"))
     return LoopAsFlown(open_loop(mission), delay, lag, (vehicle.allocation(weights), vehicle.effect))
 
@@ -105,7 +104,7 @@ def _margins(loop: LoopAsFlown) -> Iterator[Claim]:
     w, L = loop.open.w, loop.L
     for i, m in enumerate(axis_margins(w, L)):
         gain = min(abs(20.0 * math.log10(x)) if 0.0 < x < math.inf else NO_LIMIT for x in (m.gain, m.least_gain))
-        text = f"the gain may grow by a factor of {_factor(m.gain)} and fall to {_factor(m.least_gain)}"
+        text = f"the gain may grow {_grown(m.gain)} and fall to {m.least_gain:.3g} times"
         yield Claim("gain margin", m.axis, gain, "dB", GAIN_BAR, text)
         text = f"at {m.crossover:.3g} rad/s, where the gain is 1"
         yield Claim("phase margin", m.axis, abs(m.phase), "deg", PHASE_BAR, text, m.crossover)
@@ -114,8 +113,8 @@ def _margins(loop: LoopAsFlown) -> Iterator[Claim]:
     yield from _disk(w, loop.at_rotors, "all rotors")
 
 
-def _factor(value: float) -> str:
-    return "without limit" if value == math.inf else f"{value:.3g}"
+def _grown(factor: float) -> str:
+    return "without limit" if factor == math.inf else f"to {factor:.3g} times"
 
 
 def _disk(
@@ -136,7 +135,7 @@ def _limits(mission: Mission, loop: LoopAsFlown) -> Iterator[Claim]:
         if at == math.inf:
             yield Claim(f"{name} limit", "", at, "ms", text=f"no {name} up to 100 s makes the loops oscillate")
             continue
-        limit = loop._replace(**{name: at})
+        limit = loop._replace(delay=at) if name == "delay" else loop._replace(lag=at)
         axis, frequency = oscillation(limit.open.w, limit.L)
         text = f"{axis} oscillates at {frequency:.3g} rad/s; the rotors' {name} is {1e3 * nominal:.3g} ms"
         yield Claim(f"{name} limit", "", 1e3 * at, "ms", None, text, frequency, parameter=name, limit=at)

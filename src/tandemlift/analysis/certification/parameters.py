@@ -43,6 +43,10 @@ def _inertia(axis: int) -> Callable[[Mission, float], dict[str, Any]]:
     return keys
 
 
+def _scale_of(axis: int) -> Callable[[Mission], float]:
+    return lambda mission: mission.plant.inertia_scale[axis]
+
+
 def _is_real(mission: Mission) -> bool:
     return mission.actuators.model == "rotors"
 
@@ -58,10 +62,7 @@ PARAMETERS = {
         ),
         Parameter("lag", "s", lambda m: m.hover.lag if _is_real(m) else 0.0, _lag_keys),
         Parameter("mass", "1", lambda m: m.plant.mass_scale, lambda m, x: {"plant.mass_scale": x}),
-        *(
-            Parameter(f"{axis} inertia", "1", lambda m, i=i: m.plant.inertia_scale[i], _inertia(i))
-            for i, axis in enumerate(AXES[1:])
-        ),
+        *(Parameter(f"{axis} inertia", "1", _scale_of(i), _inertia(i)) for i, axis in enumerate(AXES[1:])),
         Parameter(ARM, "N/m", lambda m: m.person.stiffness, lambda m, x: {"person.stiffness": x}),
     )
 }

@@ -28,8 +28,6 @@ from tandemlift.analysis.linearization.loop_margins import NO_KINK
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
-from tandemlift.parts.interaction.person_table import PersonTable, grip_from
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.simulation.fly import fly_many
 from tandemlift.simulation.simulation import Simulation
 
@@ -101,8 +99,8 @@ def felt_admittance(mission: Mission, changes: dict[str, Any] | None = None) -> 
     w = np.geomspace(SLOWEST, min(FASTEST, 0.9 * math.pi / h), POINTS)
     s = 1j * w
     held = (np.expm1(-s * T) * h) / (np.expm1(-s * h) * T)  # the model holds a force for a sample, an arm for a step
-    r = grip_from(mission.person, Vehicle.from_settings(mission.vehicle))
-    lever = np.array([[0.0, r.z, -r.y], [-r.z, 0.0, r.x], [r.y, -r.x, 0.0]])  # v = v_c + ω × r
+    x, y, z = np.add(mission.hover.vehicle.origin, (0.0, mission.person.grip, 0.0))  # the grip
+    lever = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])  # v = v_c + ω × r
     at_grip = np.hstack([np.eye(3), lever])
     return FeltAdmittance(w, at_grip @ frequency_response(model, w / (2.0 * math.pi)) @ at_grip.T * held[:, None, None])
 
@@ -153,29 +151,25 @@ class ArmBox(NamedTuple):
         return self
 
 
-def leading_impedance(p: PersonTable, w: Array, delay: float) -> NDArray[np.complexfloating]:
+def leading_impedance(mission: Mission, w: Array, delay: float) -> NDArray[np.complexfloating]:
     """Z (F,) of a person with model "pull" who leads the grip and sees it with a delay [s]: `parts.interaction.person`.
 
     The hand moves, through the muscles, to the seen grip, predicted over the delay and the muscles' lag, and ahead of
     it by the force for the missing speed over the stiffness.
     """
-    s = 1j * w
+    p, s = mission.person, 1j * w
     seen = np.exp(-s * delay) / (1.0 + p.lag * s) ** 2
     arm = p.stiffness / s + p.damping
     return arm * (1.0 - seen * (1.0 + s * (delay + 2.0 * p.lag) - s * p.gain / p.stiffness))
 
 
-def person_tier(mission: Mission, box: ArmBox | None = None) -> Tier:
+def person_tier(mission: Mission, box: ArmBox) -> Tier:
     """The person tier of a mission; without claims, and with the reason, where its loop has no linear model.
 
     Args:
         mission: whose person's grip is held.
         box: of arms.
-
-    Raises:
-        InputError: the box is empty.
     """
-    box = (box or ArmBox()).checked()
     try:
         felt = felt_admittance(mission)
     except InputError as error:
@@ -226,7 +220,7 @@ def _arms(mission: Mission, felt: FeltAdmittance, box: ArmBox) -> Iterator[Claim
     heavy = largest_stable(lambda m: is_coupled_stable(felt, ArmImpedance(0.0, p.damping, m).impedance(w)), 0.01)
     text = f"rigidly at the grip, with {p.damping:g} N s/m; a hand has about {HAND:g} kg, mostly behind soft tissue"
     yield Claim("hand mass limit", "", heavy, "kg", None, text)
-    late = largest_stable(lambda T: is_coupled_stable(felt, leading_impedance(p, w, T)), 0.01, 10.0)
+    late = largest_stable(lambda T: is_coupled_stable(felt, leading_impedance(mission, w, T)), 0.01, 10.0)
     text = f"of a person who leads the vehicle, with the other keys of [person]; theirs is {p.delay:g} s"
     yield Claim("reaction delay limit", "", late, "s", p.delay, text)
 
@@ -299,7 +293,7 @@ def _map(mission: Mission) -> dict[str, Any]:
     rows = [[family_limit(family, m, c, arm) for c in dampings] for m in masses]
     grid = {"mass": masses.tolist(), "damping": dampings.tolist(), "stiffness": rows}
     here = [max(a.mass), max(max(a.damping), LEAST_DAMPING)]
-    return {"map": {**grid, "mission": here, "arm_stiffness": family_limit(family, *here, arm)}}
+    return {"map": {**grid, "mission": here, "arm_stiffness": family_limit(family, here[0], here[1], arm)}}
 
 
 def flown_map(mission: Mission, data: Mapping[str, Any]) -> dict[str, Any]:

@@ -14,29 +14,20 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.analysis.certification.certificate import Claim, Tier
-from tandemlift.analysis.studies.study import study
-from tandemlift.analysis.studies.table import BAD, Study
-from tandemlift.core.errors import extra
+from tandemlift.analysis.studies.design.settings import REFUSED
+from tandemlift.analysis.studies.design.statistics import CONFIDENCE, upper_bound
+from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.execution.anywhere import fly_study
+from tandemlift.analysis.studies.execution.store import STUDY, open_folder
 from tandemlift.core.files import atomic_write
+from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Progress
 from tandemlift.missions import Mission, format_toml, tables_of
 
 TITLE = "Statistics: failures among random flights"
-CONFIDENCE = 0.95
 MASS, INERTIA, DELAY = 0.1, 0.15, 0.005  # half widths of factors; s beyond the mission's delay
 LEADS = ("pull", "steer", "two-hands")  # models of persons who differ from flight to flight
 FLIGHTS, SHOWN = 300, 20  # flights; rows of failures that a sentence names
-
-
-def clopper_pearson(failures: int, flights: int, confidence: float = CONFIDENCE) -> float:
-    """The one-sided upper bound on the probability of a failure.
-
-    Raises:
-        InputError: SciPy is not installed (extra: certify).
-    """
-    with extra("certify", "the bound on a probability"):
-        from scipy.stats import beta
-    return 1.0 if failures == flights else float(beta.ppf(confidence, failures + 1, flights - failures))
 
 
 def study_of(mission: Mission, file: Path, flights: int) -> dict[str, Any]:
@@ -71,34 +62,41 @@ def statistics_tier(
     file = folder.parent / f"{mission.mission.name}.toml"
     with atomic_write(file) as partial:
         partial.write_text(format_toml(tables_of(mission)), "utf-8")
-    flown = study(study_of(mission, file, flights), folder, progress=progress)
+    rows = _flown(study_of(mission, file, flights), folder, progress)
     assumptions = (
         f"Drawn for each flight: mass within ±{100 * MASS:g} %, inertia about each axis within ±{100 * INERTIA:g} %, "
         f"{1e3 * DELAY:g} ms of further delay with real rotors, the seed of all noise, and the person if one leads.",
         "Uniform and independent: the bound is one on this distribution, not on a vehicle outside of it.",
         "A flight fails if it crashes, diverges, or is lost; one that is landed by the pilot's own alarm does not.",
     )
-    claims, outcomes = tuple(_claims(flown, folder)), dict(Counter(_column(flown, "outcome")))
+    claims, outcomes = tuple(_claims(rows, folder)), dict(Counter(outcome for outcome, _ in rows))
     return Tier("statistics", TITLE, assumptions, claims, {"outcomes": outcomes})
 
 
-def _column(flown: Study, name: str) -> list[str]:
-    return [text or "" for text in flown.read([name])[name].to_pylist()]
+def _flown(tables: dict[str, Any], folder: Path, progress: Progress | None) -> list[tuple[str, str]]:
+    """Fly what is missing of a study: (outcome, kinds of findings, separated by commas) of each row."""
+    plan = load_plan(tables)
+    store = open_folder(plan, folder)
+    fly_study(plan, store, progress=progress)
+    from pyarrow import parquet  # which the folder needs
+
+    files = [parquet.read_table(store.files.file(name), columns=["outcome", "finding_kinds"]) for name in store.names()]
+    return [(row["outcome"], row["finding_kinds"] or "") for file in files for row in file.to_pylist()]
 
 
-def _claims(flown: Study, folder: Path) -> Iterator[Claim]:
+def _claims(rows: list[tuple[str, str]], folder: Path) -> Iterator[Claim]:
     """The bound on the probability of a failure, and on that of each finding."""
-    outcomes, kinds = _column(flown, "outcome"), Counter[str]()
-    bad = [row for row, outcome in enumerate(outcomes) if outcome in BAD]
+    bad = [number for number, (outcome, _) in enumerate(rows) if outcome in (*FAILURES, REFUSED)]
     some = ", ".join(map(str, bad[:SHOWN])) + (" …" if len(bad) > SHOWN else "")
-    text = f"{len(bad)} of {len(outcomes)} flights failed{': rows ' + some if bad else ''}; confidence {CONFIDENCE:g}"
-    command = f"tandemlift run {folder} --row {bad[0]}" if bad else f"tandemlift study {folder}"
-    yield _bound("probability of a failure", "", len(bad), len(outcomes), text, command)
-    for found in _column(flown, "finding_kinds"):
-        kinds.update(kind for kind in found.split(",") if kind)
+    text = f"{len(bad)} of {len(rows)} flights failed{': rows ' + some if bad else ''}; confidence {CONFIDENCE:g}"
+    command = f"tandemlift run {folder} --row {bad[0]}" if bad else f"tandemlift study {folder / STUDY}"
+    yield _bound("probability of a failure", "", len(bad), len(rows), text, command)
+    kinds = Counter(kind for _, found in rows for kind in found.split(",") if kind)
     for kind, count in kinds.most_common():
-        yield _bound("probability of a finding", kind, count, len(outcomes), f"{count} of {len(outcomes)} flights", "")
+        yield _bound("probability of a finding", kind, count, len(rows), f"{count} of {len(rows)} flights", "")
 
 
 def _bound(quantity: str, subject: str, count: int, flights: int, text: str, command: str) -> Claim:
-    return Claim(f"{quantity}, at most", subject, clopper_pearson(count, flights), "1", None, text, command=command)
+    return Claim(
+        f"{quantity}, at most", subject, upper_bound(count, flights, CONFIDENCE), "1", None, text, command=command
+    )

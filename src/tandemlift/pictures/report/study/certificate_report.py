@@ -12,9 +12,9 @@ from tandemlift.analysis.certification.certificate import Certificate, Claim
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import DATA, atomic_write
 from tandemlift.pictures.drawing.style import save
-from tandemlift.pictures.report.certificate_figures import CAPTIONS, certificate_figures
 from tandemlift.pictures.report.page import html, html_figures, write_page
 from tandemlift.pictures.report.paper_report import check_typesetting, typeset
+from tandemlift.pictures.report.study.certificate_figures import CAPTIONS, certificate_figures
 
 PAGE, JSON, PDF, SOURCE = "certificate.html", "certificate.json", "certificate.pdf", "report.typ"
 NONE, MINUS = "none", "−"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,6 +12,9 @@ from matplotlib.figure import Figure
 
 from tandemlift.analysis.certification.certificate import Certificate, Claim, Tier
 from tandemlift.analysis.certification.linear import DISK_PHASE_BAR
+from tandemlift.analysis.linearization.frequency_response import axis_responses
+from tandemlift.analysis.linearization.linear_model import MOST_STATES, LinearModel, modes_of, title_of
+from tandemlift.core.errors import InputError
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.style import (
     BLUE,
@@ -21,8 +25,10 @@ from tandemlift.pictures.drawing.style import (
     VERMILLION,
     look,
     page_figure,
+    save,
     styled,
 )
+from tandemlift.pictures.figures.linear_model import Response, draw
 
 CAPTIONS = {
     "margins": Caption(
@@ -62,9 +68,9 @@ def certificate_figures(certificate: Certificate) -> dict[str, Figure]:
         ("hand", "person", "frequency", draw_hand),
         ("map", "person", "map", draw_map),
     )
-    for name, tier, needed, draw in makers:
+    for name, tier, needed, make in makers:
         if tier in tiers and needed in tiers[tier].curves:
-            drawn[name] = draw(tiers[tier])
+            drawn[name] = make(tiers[tier])
     limits = [claim for tier in certificate.tiers for claim in tier.claims if claim.range]
     return {**drawn, "limits": draw_limits(limits)} if limits else drawn
 
@@ -153,5 +159,18 @@ def draw_map(tier: Tier) -> Figure:
     axes.set_xlabel("virtual mass (kg)")
     axes.set_ylabel("virtual damping (N s/m)")
     bar = figure.colorbar(drawn, ax=axes, label="arm stiffness (N/m)")
-    bar.set_ticks(np.log10(levels), labels=[f"{level:g}" for level in levels])
+    bar.set_ticks(np.log10(levels).tolist(), labels=[f"{level:g}" for level in levels])
     return figure
+
+
+def draw_linear_model(connected: LinearModel, path: Path) -> Path:
+    """Draw the modes of a model and its response to a push into a file.
+
+    Raises:
+        InputError: it has too many states.
+    """
+    if len(connected.states) > MOST_STATES:
+        raise InputError(f"{path}: {len(connected.states)} states are too many to draw; at most {MOST_STATES}")
+    names = ("push_force" if connected.of == "loop" else "disturbance_force", "position")
+    response = Response(" → ".join(names).replace("_", " "), *axis_responses(connected, *names))
+    return save(draw(title_of(connected), [mode.s for mode in modes_of(connected).modes], response), path)
