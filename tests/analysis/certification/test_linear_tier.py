@@ -8,12 +8,14 @@ from functools import cache
 import control
 import numpy as np
 import pytest
+from listings import PLAIN
 
 from tandemlift.analysis.certification.disk_margins import DiskMargin, disk_margin, disk_sizes
 from tandemlift.analysis.certification.flown import flown_limit, trial_of
 from tandemlift.analysis.certification.linear import linear_tier, loop_as_flown, nearest_to_oscillation
 from tandemlift.analysis.linearization.loop_margins import single_loop
 from tandemlift.missions import load_mission
+from tandemlift.parts.controllers.user_controller import load_controller
 
 W = np.geomspace(0.01, 100.0, 600)
 
@@ -111,7 +113,9 @@ def test_a_hover_that_is_unstable_has_no_claims_but_the_reason():
     assert "the hover is unstable with the delay and lag of its rotors" in shaky.reason
 
 
-def test_a_controller_in_plain_python_has_the_reason_that_there_is_no_linear_model(plain_controller):
-    told = linear_tier(load_mission("hover", controller=plain_controller))
+def test_a_controller_in_plain_python_has_the_reason_that_there_is_no_linear_model(tmp_path):
+    path = tmp_path / "plain.py"
+    path.write_text(PLAIN, "utf-8")
+    told = linear_tier(load_mission("hover", controller=load_controller(path)))
     assert told.claims == ()
     assert "there is no linear model" in told.reason
