@@ -6,12 +6,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.analysis.learning.block import Actions, Block
 from tandemlift.analysis.learning.tasks import Level
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.missions import Mission
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.simulation.blocks.block import Actions, Block
 
 PUSH, SPEED = 5.0, 1.0  # N and m/s: the largest along each axis
 OCTAVES = 2.0  # of virtual mass and damping, each way

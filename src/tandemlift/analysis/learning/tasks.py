@@ -7,8 +7,8 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from tandemlift.analysis.learning.block import Block
 from tandemlift.core.types import Array
-from tandemlift.simulation.blocks.block import Block
 
 Level = Literal["push", "velocity", "admittance", "wrench", "thrusts"]
 LIFTED: dict[str, Any] = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.simulation.blocks.block_memory import BlockOfFlights
+from tandemlift.analysis.learning.block_memory import BlockOfFlights
 from tandemlift.simulation.preparation import LANES
 
 
