@@ -25,8 +25,8 @@ from random_missions.generate import (
 from random_missions.judged import Families, Judged, judged
 
 import tandemlift as tl
-from tandemlift.analysis.studies.execution.files import ChunkFiles
 from tandemlift.analysis.studies.execution.running import StudyPart, run_chunks
+from tandemlift.analysis.studies.execution.store import ChunkFiles
 from tandemlift.analysis.studies.execution.workers import thread_workers
 from tandemlift.missions import tables_of
 from tandemlift.parts.contact.corridor import CorridorTable

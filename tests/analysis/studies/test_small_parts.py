@@ -10,15 +10,15 @@ from study_runs import TWELVE, fly
 import tandemlift as tl
 from tandemlift.analysis.studies import comparison_scores
 from tandemlift.analysis.studies.closed_form import _free, axes_of, speed_at
+from tandemlift.analysis.studies.dataset import MOST_NAMES, study_html
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution import estimate
 from tandemlift.analysis.studies.feel_study import _both, feel_checks
-from tandemlift.analysis.studies.html import MOST_NAMES, study_html
 from tandemlift.analysis.studies.standard_push import ARM, _pushes, answer_of
 from tandemlift.analysis.studies.study import mission_of_row
 from tandemlift.analysis.studies.tuning.candidates import _trial
-from tandemlift.analysis.studies.tuning.front import front_of
 from tandemlift.analysis.studies.tuning.optimisers import PARTS, _Coordinate
+from tandemlift.analysis.studies.tuning.search import front_of
 
 
 def test_an_estimate_grows_with_the_rows_and_with_the_files(monkeypatch):

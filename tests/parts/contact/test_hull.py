@@ -16,7 +16,7 @@ import tandemlift as tl
 from tandemlift.core.types import flat
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.engines.models.links import parts_layout_from
-from tandemlift.engines.models.surroundings import feet_and_floor_from
+from tandemlift.engines.models.scene import feet_and_floor_from
 from tandemlift.missions import Mission
 from tandemlift.parts.contact.feet import may_touch
 from tandemlift.parts.contact.hull import hull_contact, hull_loads, hull_may_touch

@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.learning.block_memory import BlockOfFlights
-from tandemlift.analysis.learning.ended_flights import EndedFlights
+from tandemlift.analysis.learning.block_memory import BlockOfFlights, EndedFlights
 from tandemlift.analysis.learning.lanes import Lanes, lane_numbers
 from tandemlift.core.findings import Finding
 from tandemlift.core.types import Array, leaves, unflat

@@ -13,8 +13,7 @@ from listings import LAW
 from study_runs import TWELVE, assert_same_rows, files_of, fly, started
 
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.execution.files import LEFT_OVER
-from tandemlift.analysis.studies.execution.store import open_folder
+from tandemlift.analysis.studies.execution.store import LEFT_OVER, open_folder
 from tandemlift.analysis.studies.study import mission_of_row
 from tandemlift.analysis.studies.table import load_study
 from tandemlift.core.errors import InputError
