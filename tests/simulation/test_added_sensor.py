@@ -149,12 +149,6 @@ def test_a_vector_is_read_in_its_frame_with_noise_on_each_axis():
     assert flight.info("measured_magnetometer").frame == "body"
 
 
-def test_alone_and_in_a_block_it_reads_the_same_to_the_last_bit():
-    missions = [mission(seed, noise=1.0, bias=3.0, drift=2.0, delay=0.01, interval=0.003) for seed in range(8)]
-    for alone, together in zip(map(tl.fly, missions), tl.fly_many(missions), strict=True):
-        assert all(np.array_equal(alone[name], together[name]) for name in alone)
-
-
 def test_it_changes_no_bit_of_any_other_channel():
     with_it = tl.fly(mission(noise=1.0, bias=3.0))
     without = tl.fly(tl.load_mission("paper", {**changes(), "sensors.additional": []}))

@@ -163,23 +163,6 @@ def test_the_first_of_several_landings_that_are_asked_for_is_the_one_that_is_mis
     assert missed(6.0) == missed(19.0, "landed") == []
 
 
-@pytest.mark.parametrize("name", ["slow rotors", "sideways", "unanswered"])
-def test_a_flight_alone_has_the_findings_of_one_in_a_block(flights, name):
-    base, changes = ("iris", HAND[name]) if name in HAND else ("hover", {"actuators.delay": 0.001, **CLOCK[name]})
-    ours = {**ROTORS, "mission.duration": flights[name].mission["mission"]["duration"]}
-    mission = tl.load_mission(base, {**(ours if base == "hover" else {k: ours[k] for k in list(ours)[1:]}), **changes})
-    assert tl.fly(mission).findings == flights[name].findings
-    (metrics,) = tl.fly_many([mission], keep="metrics")
-    assert metrics["findings"] == [[f.time, f.kind, f.text] for f in flights[name].findings]
-
-
-def test_a_flight_step_by_step_has_the_same_findings(flights):
-    sim = tl.Simulation(tl.load_mission("hover", {**ROTORS, "actuators.delay": 0.001, **CLOCK["sideways"]}))
-    while not sim.over:
-        sim.step()
-    assert sim.flight().findings == flights["sideways"].findings
-
-
 def test_findings_are_saved_and_loaded(flights, tmp_path):
     flight = flights["slow rotors"]
     assert flight.findings

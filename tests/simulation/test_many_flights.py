@@ -15,7 +15,6 @@ from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import LANES
 
 SHORT = {"mission.duration": 20.0}
-FOUR_IDEAL = {"controller.attitude_reference_derivatives": "zero", "admittance.gate": "hard"}
 
 
 def spread(mission, count, **changes):
@@ -34,30 +33,6 @@ def spread(mission, count, **changes):
         )
         for i in range(count)
     ]
-
-
-@pytest.mark.parametrize(
-    "changes",
-    [
-        pytest.param({"controller.switching": "saturation", "admittance.gate": "soft"}, id="saturation, soft"),
-        pytest.param(
-            {
-                "controller.switching": "sign",
-                "controller.gains.a": 1.5,
-                "controller.attitude_reference_derivatives": "filtered",
-                "controller.euler_rates": "body",
-                "controller.tilt_inverse": "printed",
-                "controller.human_force_feedforward": True,
-            },
-            id="sign, a = 1.5, filtered, body rates, printed",
-        ),
-    ],
-)
-def test_a_flight_in_a_block_is_the_flight_alone_to_the_last_bit(changes):
-    missions = spread("paper", 8, **changes)
-    together = tl.fly_many(missions)
-    for i in (0, 3, 7):
-        assert different(together[i], tl.fly(missions[i])) == []
 
 
 def test_a_mixture_of_variants_and_lengths_comes_back_in_the_order_given():
@@ -85,16 +60,6 @@ def test_keeping_metrics_only_gives_the_same_metrics():
     for flight, metrics in zip(tl.fly_many(missions), kept, strict=True):
         del metrics["wall_s"]
         assert {k: v for k, v in flight.metrics().items() if k != "wall_s"} == metrics
-
-
-def test_a_lane_that_diverges_stops_where_it_does_alone_and_leaves_the_others_be():
-    weak = {"controller.gains.lambda_1": 0.0, "controller.gains.lambda_2": 0.0, "mission.duration": 40.0}
-    missions = spread("paper", 8, **{"mission.duration": 40.0})
-    missions[3] = tl.load_mission("paper", {**weak, "controller.gains.xi": [4, 2, 11, 0.1, 0.1, 0.1]})
-    together = tl.fly_many(missions)
-    assert [f.ending is not None for f in together] == [i == 3 for i in range(8)]
-    for i in (2, 3, 4):
-        assert different(together[i], tl.fly(missions[i])) == []
 
 
 def test_no_missions_make_no_flights():

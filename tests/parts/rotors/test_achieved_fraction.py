@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pytest
 from bounded_problems import EVERY, Craft, craft, outside, problems, solve
-from law_values import flat, rebuilt
-from machine_code import answers
 
 from tandemlift.core.vector import each, vec3
 from tandemlift.parts.mechanics.rigid_body import Wrench
@@ -44,34 +42,3 @@ def test_nothing_wanted_is_wholly_given():
     c = craft(2, "+")
     assert share(c, np.zeros(4), np.zeros(8)) == 1.0
     assert share(c, np.zeros(4), np.ones(8)) == 1.0
-
-
-class Shared(NamedTuple):
-    """Arguments of `achieved_fraction`."""
-
-    effect: Mixer
-    scale: Wrench
-    wanted: Wrench
-    thrusts: Any
-
-
-def shared(numbers: Any) -> Any:
-    return achieved_fraction(*rebuilt(numbers, SHARED))
-
-
-ROW = each(4)(0.0, 0.0, 0.0, 0.0)
-SHARED = Shared(Mixer(ROW, ROW, ROW, ROW), wrench_scale(np.eye(4)), wrench_scale(np.eye(4)), ROW)
-
-
-def test_the_share_is_the_same_in_every_library(jax, casadi):
-    size, rng = len(flat(SHARED)), np.random.default_rng(12)
-    table = rng.uniform(0.2, 1.0, (size, 12))
-    wanted = [shared(map(float, column)) for column in table.T]
-    symbols = casadi.SX.sym("numbers", size)
-    by_casadi = casadi.Function("share", [symbols], [shared(casadi.vertsplit(symbols))])
-    assert np.ptp(wanted) > 0.1
-    assert shared(table) == pytest.approx(wanted, abs=1e-12)
-    assert np.asarray(shared(list(jax.numpy.asarray(table)))) == pytest.approx(wanted, abs=1e-12)
-    assert np.array(by_casadi(table)).ravel() == pytest.approx(wanted, abs=1e-12)
-    for lanes in (1, 8):
-        assert answers(achieved_fraction, tuple(SHARED), table.T, lanes).ravel() == pytest.approx(wanted, abs=1e-12)
