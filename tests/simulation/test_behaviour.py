@@ -47,18 +47,6 @@ def test_weights_move_the_thrusts_between_rotors_and_leave_the_motion():
     np.testing.assert_allclose(weighted["position"], base["position"], atol=1e-9)
 
 
-def test_stiffness_springs_back_and_reanchoring_stays():
-    spring = {"admittance.stiffness": 2.0, "mission.duration": 30.0}
-    back = tl.fly(tl.load_mission("one-push", spring))["admittance_position"][:, 0]
-    stay = tl.fly(tl.load_mission("one-push", {**spring, "admittance.hold_after_release": True}))[
-        "admittance_position"
-    ][:, 0]
-    assert back.max() > 0.3
-    assert abs(back[-1]) < 1e-6
-    assert stay[-1] > 0.2
-    assert abs(stay[-1] - stay[-500]) < 1e-6
-
-
 def test_a_motion_that_dies_does_not_linger_in_denormal_numbers():
     flight = tl.fly(tl.load_mission("one-push", {"mission.duration": 600.0, "mission.log_interval": 10.0}))
     speed = flight["admittance_velocity"][:, 0]
@@ -77,15 +65,6 @@ def test_a_diverging_flight_stops_at_once_and_says_which_quantity_when():
     assert math.hypot(*metrics["final_position_m"]) == pytest.approx(flight.ending.value)
     assert np.linalg.norm(flight["position"], axis=1).max() < 1000.0
     assert metrics["final_reference_m"] is None
-
-
-def test_a_vehicle_that_rolls_over_stops_at_89_degrees():
-    changes = {"initial.rates": [20.0, 0.0, 0.0], "controller.gains.xi": 0.1, "controller.gains.lambda_1": 0.0}
-    changes |= {"controller.gains.lambda_2": 0.0, "pushes": []}
-    flight = tl.fly(tl.load_mission("paper", changes))
-    assert flight.ending.quantity == "tilt [deg]"
-    assert 89.0 <= abs(flight.ending.value) <= 90.0
-    assert np.degrees(np.abs(flight["euler"][:, 0])).max() < 89.0
 
 
 def test_a_command_that_is_not_finite_stops_the_flight():

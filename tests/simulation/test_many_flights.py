@@ -142,25 +142,6 @@ def test_the_number_of_pushes_is_data(count):
     assert metrics["human_impulse_n_s"][0] == pytest.approx(count * 0.5 * 0.4 * np.sqrt(2 * np.pi), rel=1e-9, abs=1e-12)
 
 
-def test_overlapping_pushes_at_several_points_add_up():
-    pushes = [
-        {"force": [1.0, 0.5, 0.2], "time": 3.0, "sigma": 0.5, "point": [0.0, 0.8, 0.0]},
-        {"force": [-0.5, 0.5, 0.1], "time": 3.2, "sigma": 0.6, "point": [0.0, -0.6, -0.06]},
-    ]
-    flight = tl.fly(tl.load_mission("flight-ready", {"pushes": pushes, "mission.duration": 6.0}))
-    from scipy.spatial.transform import Rotation
-
-    R = Rotation.from_quat(np.roll(flight["attitude"], -1, axis=1))
-    force, moment = 0.0, 0.0
-    for p in pushes:
-        g = np.exp(-((flight.time - p["time"]) ** 2) / (2 * p["sigma"] ** 2))[:, None]
-        F = g * np.array(p["force"])
-        force = force + F
-        moment = moment + np.cross(p["point"], R.inv().apply(F))
-    np.testing.assert_allclose(flight["push_force"], force, atol=1e-14)
-    np.testing.assert_allclose(flight["push_moment"], moment, atol=1e-14)
-
-
 @pytest.mark.parametrize(("keyword", "value"), [("keep", "all"), ("threads", 0), ("threads", 1.5)])
 def test_what_is_not_a_choice_is_refused_by_name(keyword, value):
     with pytest.raises(InputError, match=keyword):

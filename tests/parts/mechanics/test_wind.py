@@ -206,15 +206,6 @@ def test_the_spectrum_of_a_long_flight_is_that_of_the_standard(flown, axis):
         assert np.mean(found[band] / wanted[band]) == pytest.approx(1.0, abs=0.08)
 
 
-def test_the_variance_of_a_long_flight_is_that_of_the_standard(flown):
-    """Within five standard errors, √(2 · correlation time / duration): correlated samples tell less."""
-    out, step, V = flown
-    sigmas, lengths = scales(6.0, 8.0)
-    error = np.sqrt(2.0 * np.array(lengths) / V / (out.shape[1] * step))
-    assert np.all(np.abs(np.var(out, axis=1) / np.array(sigmas) ** 2 - 1.0) < 5.0 * error)
-    assert np.abs(np.corrcoef(out) - np.eye(3)).max() < 5.0 * error.max()
-
-
 def test_wind_without_turbulence_is_steady():
     gust = Vec3(1.0, 2.0, 3.0)
     assert wind_step(STEADY, Absent(), gust, Absent()) == (Vec3(5.0, 0.0, 3.5), Absent())
