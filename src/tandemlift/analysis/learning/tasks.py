@@ -1,4 +1,7 @@
-"""The tasks: a mission, what is seen of its flights, what acts on them, and a reward that a metric is formed from."""
+"""The tasks: a mission, what is seen of its flights, what acts on them, and a reward that a metric is formed from.
+
+Actions are numbers from -1 to 1; their levels have the limits in SI units.
+"""
 
 from __future__ import annotations
 

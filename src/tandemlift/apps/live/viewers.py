@@ -37,7 +37,10 @@ class Player(Protocol):
 
 
 class Turns:
-    """The queue of players, of whom the first has the hand since a time [s]."""
+    """The queue of players, of whom the first has the hand since a time [s].
+
+    While nobody has it, each page may use the flight. A page that has it and does nothing passes it on.
+    """
 
     def __init__(self) -> None:
         self._queue: list[Player] = []

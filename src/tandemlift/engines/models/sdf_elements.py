@@ -1,4 +1,7 @@
-"""Elements of SDF: XML with numbers, poses, colours and shapes."""
+"""Elements of SDF: XML with numbers, poses, colours and shapes; fixed cameras that save pictures periodically.
+
+The Gazebo server needs a display (or Xvfb) for cameras. With `--lockstep`, one saves a picture in every period.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The scene of a mission, built from its settings or from the tables that a saved flight carries."""
+"""The scene of a mission, from its settings or the tables of a saved flight; and the frames of a flight in progress."""
 
 from __future__ import annotations
 
