@@ -16,6 +16,7 @@ from tandemlift.core.files import __version__ as __version__
 if TYPE_CHECKING:
     from tandemlift.analysis.certification.certify import certify
     from tandemlift.analysis.certification.mission_check import check
+    from tandemlift.analysis.learning.block import Block
     from tandemlift.analysis.learning.registration import register_environments
     from tandemlift.analysis.linearization.differentiable_step import jax_step
     from tandemlift.analysis.linearization.linear_model import LinearModel
@@ -31,13 +32,12 @@ if TYPE_CHECKING:
     from tandemlift.parts.mechanics.vehicle import Vehicle
     from tandemlift.pictures.figures.registry import plot
     from tandemlift.pictures.report.study.feel_report import feel
-    from tandemlift.simulation.blocks.block import Block
     from tandemlift.simulation.fly import fly, fly_many
     from tandemlift.simulation.pilot_api import Pilot
     from tandemlift.simulation.simulation import Simulation
 
 _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
-    "Block": "simulation.blocks.block",
+    "Block": "analysis.learning.block",
     "Flight": "flight.record",
     "FlightWarning": "core.errors",
     "InputError": "core.errors",

@@ -7,12 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.analysis.learning.block_memory import BlockOfFlights, EndedFlights
+from tandemlift.analysis.learning.lanes import Lanes, lane_numbers
 from tandemlift.core.findings import Finding
 from tandemlift.core.types import Array, leaves, unflat
 from tandemlift.missions import Mission
-from tandemlift.simulation.blocks.block_memory import BlockOfFlights
-from tandemlift.simulation.blocks.ended_flights import EndedFlights
-from tandemlift.simulation.blocks.lanes import Lanes, lane_numbers
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import LANES, LeafSpan, leaf_offset

@@ -136,14 +136,6 @@ def test_channels_and_actions_are_views_of_what_the_flights_read_and_write():
     assert not np.isnan(block["position"][2]).any()
 
 
-def test_two_lanes_alike_are_alike_and_two_seeds_are_not():
-    block = tl.Block("gusts", 3)
-    block.reset(seed=[5, 5, 6])
-    block.step(steps=2000)
-    np.testing.assert_array_equal(block.state[0], block.state[1])
-    assert (block.state[0] != block.state[2]).any()
-
-
 ONE = {"lanes": 1}
 REFUSED = [
     (
@@ -247,17 +239,3 @@ def test_a_flight_that_is_over_before_it_is_handed_over_is_refused():
     falls = tl.load_mission("paper", {"crash.tilt": 1.0, "pushes": [{"force": [20.0] * 3, "time": 1.0, "sigma": 0.3}]})
     with pytest.raises(tl.InputError, match=r"begin = 5 s: the flight of lane 0 is over at \S+ s: crashed"):
         tl.Block(falls, 2, begin=5.0)
-
-
-def test_five_quadrotors_whose_sets_are_loops_equal_simulations_as_well():
-    four = [q.model_dump() for q in tl.load_mission("four").vehicle.quadrotors]
-    middle = {**four[0], "position": [0.0, 0.0, four[0]["position"][2]]}
-    keys = {"vehicle.quadrotors": [*four, middle]}
-    block, rng = tl.Block(mission("four", **keys), 9, actions="thrusts"), np.random.default_rng(0)
-    sims = [tl.Simulation(mission("four", seed, **keys)) for seed in range(9)]
-    for _ in range(4):
-        actions = rng.uniform(3.0, 6.0, block.actions.shape)
-        block.step(actions, steps=37)
-        for lane, sim in enumerate(sims):
-            sim.step(thrusts=actions[lane], steps=37)
-    assert_same(block, sims)

@@ -9,13 +9,12 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tandemlift.analysis.learning.block_memory import BlockOfFlights, EndedFlights
+from tandemlift.analysis.learning.block_readings import BlockReadings
+from tandemlift.analysis.learning.lanes import Keys, Lanes, checked_actions, lane_numbers, one_for_each, steps_before
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array, flat, leaves
 from tandemlift.missions import MissionLike, mission_of
-from tandemlift.simulation.blocks.block_memory import BlockOfFlights
-from tandemlift.simulation.blocks.ended_flights import EndedFlights
-from tandemlift.simulation.blocks.lanes import Keys, Lanes, checked_actions, lane_numbers, one_for_each, steps_before
-from tandemlift.simulation.blocks.reading import BlockReadings
 from tandemlift.simulation.caller_values import checked_seed, count_of, held_inputs
 from tandemlift.simulation.preparation import LANES, leaf_offset
 from tandemlift.simulation.preparation.memory import NEVER
