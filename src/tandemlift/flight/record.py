@@ -21,6 +21,7 @@ from tandemlift.core.types import Array
 from tandemlift.flight.channels import CHANNELS, DERIVED, OTHER, Channel, channel_of
 from tandemlift.flight.data_frames import to_pandas, to_xarray
 from tandemlift.parts.contact.corridor import wall_tables
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 if TYPE_CHECKING:
     import pandas
@@ -86,6 +87,11 @@ class Flight(Mapping[str, Array]):
     def name(self) -> str:
         """The mission's name."""
         return self.mission["mission"]["name"]
+
+    @property
+    def vehicle(self) -> Vehicle:
+        """The mission's vehicle, as the pilot assumes it."""
+        return Vehicle.from_mission(self.mission)
 
     @property
     def walls(self) -> list[dict[str, Any]]:

@@ -14,7 +14,6 @@ from tandemlift.analysis.learning.block import Actions, Block
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.missions import Mission
-from tandemlift.parts.mechanics.vehicle import Vehicle
 
 Level = Literal["push", "velocity", "admittance", "wrench", "thrusts"]
 LIFTED: dict[str, Any] = {
@@ -184,7 +183,7 @@ class ActionLevel:
 
     def __init__(self, level: Level, mission: Mission, lanes: int, interval: float) -> None:
         self.level, self._interval = level, interval
-        vehicle, a = Vehicle.from_settings(mission.vehicle), mission.admittance
+        vehicle, a = mission.hover.vehicle, mission.admittance
         self._mass, self._damping, self._threshold = (np.array(x) for x in (a.mass, a.damping, a.threshold))
         self._split, self._velocity = np.linalg.pinv(vehicle.effect), np.zeros((lanes, 3))
         weight, rotors = vehicle.mass * GRAVITY, vehicle.effect.shape[1]

@@ -14,7 +14,6 @@ import numpy as np
 
 from tandemlift.core.types import LN_20, Array
 from tandemlift.missions import Mission
-from tandemlift.parts.mechanics.vehicle import Vehicle
 
 AXES = ("x", "y", "z")
 YAW = "yaw"
@@ -92,7 +91,7 @@ def axes_of(m: Mission) -> tuple[AxisFeel, ...]:
         found.append(AxisFeel(axis, *numbers, subtracts_threshold=by_hand or a.gate == "soft", push=push))
     yaw = m.compliance.yaw
     if by_hand and yaw.model == "compliant":
-        inertia = float(Vehicle.from_settings(m.vehicle).inertia[2, 2]) if yaw.inertia is None else yaw.inertia
+        inertia = float(m.hover.vehicle.inertia[2, 2]) if yaw.inertia is None else yaw.inertia
         push = max(MOMENT, ABOVE * yaw.threshold)
         found.append(AxisFeel(YAW, inertia, yaw.damping, 0.0, yaw.threshold, subtracts_threshold=True, push=push))
     return tuple(found)

@@ -14,7 +14,6 @@ from tandemlift.core.types import GRAVITY, LN_20, Progress
 from tandemlift.missions import Mission
 from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.interaction.passage import least_room, passage_checks, places_of
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.schedule_checks import Schedule
 from tandemlift.parts.pilot.sensing_checks import (
     NOISE_SIGMAS,
@@ -49,13 +48,13 @@ def feel_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
         drift = drift_after(lasting, s.joints, tared=e.tare == "hover" or e.tare_start is not None)
         yield drift_check(drift, noise, vehicle.count, min(m.admittance.threshold))
         if by_hand is not None and by_hand.yaw.model == "compliant":
-            yield yaw_drift_check(drift, vehicle, by_hand.yaw.threshold)
+            yield yaw_drift_check(drift, hover, by_hand.yaw.threshold)
     if m.actuators.model == "rotors":
         tilts = [tilt_limit_of(m.controller), None if by_hand is None else by_hand.max_tilt]
         thrust = hover.faulty_lift * (1.0 if by_hand is None else by_hand.thrust_fraction)
         yield from rotor_checks(hover, axes, thrust, [t for t in tilts if t is not None], m.compliance.yaw.max_moment)
     yield from passage_checks(m.person, m.corridor, m.all_walls, m.initial, vehicle)
-    places = places_of(m.person, m.corridor, m.initial, Vehicle.from_settings(m.vehicle)) if m.all_walls else None
+    places = places_of(m.person, m.corridor, m.initial, m.hover.vehicle) if m.all_walls else None
     if places is not None:
         room = least_room(places, m.all_walls, vehicle)[0] - max(q.guard_radius for q in vehicle.quadrotors)
         yield stop_check(room, axes)
@@ -106,9 +105,9 @@ def drift_check(drift: SensorDrift, noise: float, joints: int, threshold: float)
     return judged("drift", value, threshold, "N", text)
 
 
-def yaw_drift_check(drift: SensorDrift, vehicle: Vehicle, threshold: float) -> CheckResult:
+def yaw_drift_check(drift: SensorDrift, hover: HoverFacts, threshold: float) -> CheckResult:
     """Drift of the measured yaw moment against its threshold [N m]."""
-    sums = (drift.force**2 * (x * x + y * y) + drift.torque**2 for x, y, _ in vehicle.lever_arms)
+    sums = (drift.force**2 * (x * x + y * y) + drift.torque**2 for x, y, _ in hover.vehicle.lever_arms)
     moment = DRIFT_SIGMAS * math.sqrt(sum(sums))
     text = (
         f"drift {drift.why} makes {moment:.3g} N m of the measured moment, and compliance.yaw.threshold = "

@@ -18,7 +18,6 @@ from matplotlib.patches import FancyArrowPatch
 
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing.clearances import clearances, grips
 from tandemlift.pictures.drawing.figure import Caption, current_style, with_walls
 from tandemlift.pictures.drawing.panels import decimate, drawable, extent, legend_above, line, value_ticks
@@ -61,15 +60,15 @@ def instants(flight: Flight) -> list[int]:
     """Samples at which the vehicle is drawn: the first, the last, and some at equal distances."""
     path = flight["position"][:, :2]
     way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
-    span = float(np.ptp(skeleton(Vehicle.from_mission(flight.mission)).points, axis=0).max())
+    span = float(np.ptp(skeleton(flight.vehicle).points, axis=0).max())
     count = min(MOST, 2 + int(way[-1] / (SPACING * span)))
     return sorted({0, *map(int, np.searchsorted(way, np.linspace(0.0, way[-1], count)[1:-1])), len(path) - 1})
 
 
 def _vehicle(ax: Axes, flight: Flight, k: int, color: str) -> None:
     """Draw the vehicle of sample k from above: its beam and the guards about its quadrotors."""
-    body = skeleton(Vehicle.from_mission(flight.mission)).placed(flight["position"][k], flight["attitude"][k])
-    centers, vehicle = body.struts[:, 1, :2], Vehicle.from_mission(flight.mission)
+    body = skeleton(flight.vehicle).placed(flight["position"][k], flight["attitude"][k])
+    centers, vehicle = body.struts[:, 1, :2], flight.vehicle
     ax.add_collection(LineCollection([*body.arms[:, :, :2]], colors=color, lw=0.4, zorder=4))
     if len(body.beam) > 1:
         ax.plot(*body.beam[:, :2].T, color=color, lw=body.width(1.6), solid_capstyle="round", zorder=4)
@@ -127,7 +126,7 @@ def _desired(flight: Flight) -> Array:
 
 def _bounds(flight: Flight, shown: list[int]) -> Array:
     """Lowest and highest x and y (2, 2) [m] of the view."""
-    body = skeleton(Vehicle.from_mission(flight.mission))
+    body = skeleton(flight.vehicle)
     seen = [body.placed(flight["position"][k], flight["attitude"][k]).points[:, :2] for k in shown]
     points = np.concatenate([*seen, flight["position"][:, :2]])
     return np.array([points.min(axis=0) - ROUND, points.max(axis=0) + ROUND])

@@ -18,7 +18,6 @@ from matplotlib.patches import FancyArrowPatch, Patch
 
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing.figure import Caption, all_flights
 from tandemlift.pictures.drawing.overlay import Flights, legend_of_flights, look
 from tandemlift.pictures.drawing.panels import Mask, decimate, drawable, legend_above
@@ -197,7 +196,7 @@ def draw(flight: Flight) -> Figure:
     """Draw the path [m, world axes] with the pushes and the vehicle."""
     sound = _sound(flight)
     path, attitudes = flight["position"][sound], flight["attitude"][sound]
-    body = skeleton(Vehicle.from_mission(flight.mission))
+    body = skeleton(flight.vehicle)
     span = float(np.ptp(body.points, axis=0).max())
     visible = len(path) and span > VISIBLE * np.ptp(path, axis=0).max()
     shown = instants(path, span) if visible else []

@@ -15,7 +15,6 @@ from matplotlib.patches import Patch
 
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.drawing.overlay import over_time
 from tandemlift.pictures.drawing.panels import fit, legend_above, line, shade, time_axis
@@ -60,7 +59,7 @@ def places(flight: Flight) -> list[Array]:
     """The place of each push on body y (T) [m from the payload's origin], NaN while it is too small."""
     least = flight.mission["estimator"]["min_force"]
     R = body_to_world(flight["attitude"])
-    center = Vehicle.from_mission(flight.mission).center_of_mass[1]
+    center = flight.vehicle.center_of_mass[1]
     found = []
     for push in flight.mission.get("pushes", []):
         size = np.exp(-0.5 * ((flight.time - push["time"]) / push["sigma"]) ** 2)
@@ -101,7 +100,7 @@ def _place(ax: Axes, flight: Flight) -> None:
     for place in true:
         line(ax, flight.time, place, zorder=3, **TRUE)
     line(ax, flight.time, point, zorder=4, **ESTIMATE)
-    length = Vehicle.from_mission(flight.mission).payload.span
+    length = flight.vehicle.payload.span
     fit(ax, point, *true, least=LEAST_PLACE)
     if length:
         ax.set_ylim(-BEYOND * length / 2.0, BEYOND * length / 2.0)

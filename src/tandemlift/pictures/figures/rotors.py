@@ -16,7 +16,6 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from tandemlift.flight.record import Flight
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.drawing.overlay import over_time
 from tandemlift.pictures.drawing.panels import extent, fleet_figure, line, time_axis, value_ticks
@@ -106,7 +105,7 @@ def _legend(figure: Figure, failing: bool) -> None:
 @journal
 def draw(flight: Flight) -> Figure:
     """Draw thrust, command and limits [N] of each rotor, a row for each quadrotor (at most 8), and the fraction."""
-    quadrotors = Vehicle.from_mission(flight.mission).quadrotors
+    quadrotors = flight.vehicle.quadrotors
     figure, rows = fleet_figure(len(quadrotors), AROUND)
     height = (figure.get_figheight() - AROUND) / rows
     grid = figure.add_gridspec(rows + 1, 4, height_ratios=[*[height] * rows, FRACTION])

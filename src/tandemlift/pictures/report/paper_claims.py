@@ -10,7 +10,6 @@ import numpy as np
 
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.report.paper_tables import agrees
 
 CALM = 10.0  # s, from which on the disturbed start is over
@@ -20,7 +19,7 @@ YES, PARTLY, NO = "agrees", "in part", "differs"
 MASS, INERTIA = "3.5", ("3.227327", "0.061286", "3.277117")  # kg, kg m2; Table II
 
 
-class Claim(NamedTuple):
+class PaperClaim(NamedTuple):
     """A claim: its place in the paper, its content, our result, and whether they agree."""
 
     where: str
@@ -29,7 +28,7 @@ class Claim(NamedTuple):
     verdict: str
 
 
-def claims(paper: Flight, corridor: Flight) -> list[Claim]:
+def claims(paper: Flight, corridor: Flight) -> list[PaperClaim]:
     """The claims of the paper that a number of ours can be put beside.
 
     Args:
@@ -39,20 +38,20 @@ def claims(paper: Flight, corridor: Flight) -> list[Claim]:
     return [*_of_the_vehicle(paper), *_of_tracking(paper), *_of_the_person(paper), *_of_the_corridor(corridor)]
 
 
-def _of_the_vehicle(paper: Flight) -> Iterator[Claim]:
-    vehicle = Vehicle.from_mission(paper.mission)
+def _of_the_vehicle(paper: Flight) -> Iterator[PaperClaim]:
+    vehicle = paper.vehicle
     same = agrees(MASS, vehicle.mass) and all(map(agrees, INERTIA, np.diag(vehicle.inertia)))
     inertia, height = ", ".join(f"{J:.6f}" for J in np.diag(vehicle.inertia)), 1e3 * vehicle.quadrotors[0].position[2]
-    yield Claim(
+    yield PaperClaim(
         "Table II",
         f"Total mass {MASS} kg; total inertia {', '.join(INERTIA)} kg m².",
         f"{vehicle.mass:g} kg; {inertia} kg m², the sum of the parts if the quadrotors "
         f"are {height:g} mm above the beam's axis.",
         YES if same else NO,
     )
-    moment, most = np.abs(paper["moment"]), _most_moments(vehicle)
+    moment, most = np.abs(paper["moment"]), _most_moments(paper)
     roll, _, yaw = moment.max(axis=0)
-    yield Claim(
+    yield PaperClaim(
         "Figure 7",
         "The inputs recover the disturbed start and then return to normal.",
         f"At the start {roll:,.0f} N m of roll and {yaw:,.0f} N m of yaw are commanded. Two IRIS quadrotors give less "
@@ -61,17 +60,17 @@ def _of_the_vehicle(paper: Flight) -> Iterator[Claim]:
     )
 
 
-def _most_moments(vehicle: Vehicle) -> Array:
+def _most_moments(paper: Flight) -> Array:
     """Bounds of the moments (3) [N m]: all rotors that help at full thrust, the others at none."""
-    thrusts = np.repeat([q.max_thrust for q in vehicle.quadrotors], 4)
-    return np.maximum(vehicle.effect[1:], 0.0) @ thrusts
+    thrusts = np.repeat([q.max_thrust for q in paper.vehicle.quadrotors], 4)
+    return np.maximum(paper.vehicle.effect[1:], 0.0) @ thrusts
 
 
-def _of_tracking(paper: Flight) -> Iterator[Claim]:
+def _of_tracking(paper: Flight) -> Iterator[PaperClaim]:
     late = paper.time >= CALM
     error = np.abs(paper["position_error"])
     recovered = _recovered(paper.time, error)
-    yield Claim(
+    yield PaperClaim(
         "Figure 6",
         "The controller recovers an aggressive start.",
         f"From {_list(np.abs(paper['position_error'][0]), 2)} m on x, y, z, all errors stay below "
@@ -79,7 +78,7 @@ def _of_tracking(paper: Flight) -> Iterator[Claim]:
         YES if recovered < CALM else NO,
     )
     largest = 1e3 * error[late].max(axis=0)
-    yield Claim(
+    yield PaperClaim(
         "Figure 6",
         "Position errors go to zero and stay there for the whole mission.",
         f"After {CALM:g} s they are at most {_list(largest, 2)} mm on x, y, z: each push raises them, and they decay "
@@ -87,7 +86,7 @@ def _of_tracking(paper: Flight) -> Iterator[Claim]:
         PARTLY,
     )
     velocity = 1e3 * np.abs(paper["velocity_error"])[late].max(axis=0)
-    yield Claim(
+    yield PaperClaim(
         "Figure 6",
         "Velocity errors go to zero and stay there.",
         f"At most {_list(velocity, 2)} mm/s on x, y, z, also during pushes.",
@@ -95,26 +94,26 @@ def _of_tracking(paper: Flight) -> Iterator[Claim]:
     )
     yaw = float(np.degrees(np.abs(paper["euler"])[late, 2].max()))
     attitude = float(np.degrees(np.abs(paper["attitude_error"])[late].max()))
-    yield Claim(
+    yield PaperClaim(
         "Figure 6",
         "Yaw is kept at zero.",
         f"After {CALM:g} s yaw stays within {max(yaw, 0.001):.3f}°.",
         YES if yaw < 0.1 else NO,
     )
-    yield Claim(
+    yield PaperClaim(
         "Figure 6",
         "Orientation errors fluctuate when pushes start and stop, and are bounded.",
         f"They reach {attitude:.2f}° after {CALM:g} s, at pushes.",
         YES,
     )
     tilt = np.degrees(np.abs(paper["euler"][late, :2]).max(axis=0))
-    yield Claim(
+    yield PaperClaim(
         "Section IV",
         "The vehicle flies near hover, with small angles.",
         f"Roll and pitch stay within {tilt[0]:.1f}° and {tilt[1]:.1f}°.",
         YES,
     )
-    yield Claim(
+    yield PaperClaim(
         "Theorem 1",
         "The closed loop is asymptotically stable.",
         "It holds on each axis under virtual actuation, not through the attitude (erratum `Theorem 1`).",
@@ -139,12 +138,12 @@ def gaussian_displacement(push: dict[str, Any], admittance: dict[str, Any], axis
     return A * sigma * math.sqrt(2.0 * math.pi) * math.erf(d / (sigma * math.sqrt(2.0))) / C
 
 
-def _of_the_person(paper: Flight) -> Iterator[Claim]:
+def _of_the_person(paper: Flight) -> Iterator[PaperClaim]:
     admittance, pushes = paper.mission["admittance"], paper.mission["pushes"]
     expected = [sum(gaussian_displacement(p, admittance, axis) for p in pushes) for axis in range(3)]
     moved = paper["admittance_position"][-1]
     apart = 1e3 * float(np.abs(moved - expected).max())
-    yield Claim(
+    yield PaperClaim(
         "Figures 4, 8",
         "The reference moves in proportion to the push; with K = 0 the vehicle complies fully.",
         f"T_r moves by {_list(moved, 3)} m along x, y, z. Impulse over damping, in closed form, gives "
@@ -152,18 +151,18 @@ def _of_the_person(paper: Flight) -> Iterator[Claim]:
         YES if apart < 10.0 else NO,
     )
     on = float(np.mean((paper["admittance_force"] != 0.0).any(axis=1)))
-    yield Claim(
+    yield PaperClaim(
         "Figure 8",
         "Below the threshold the position is held, beyond it the admittance responds.",
         f"The admittance is driven in {100.0 * on:.0f} % of the time. After each push it coasts to rest.",
         YES,
     )
     work = paper.metrics()["human_work_j"]
-    yield Claim(
+    yield PaperClaim(
         "Abstract",
         "The person's workload is reduced.",
         f"The person does {work:.1f} J of work on a way of {_way(paper):.1f} m; the vehicle weighs "
-        f"{Vehicle.from_mission(paper.mission).weight:.1f} N.",
+        f"{paper.vehicle.weight:.1f} N.",
         YES,
     )
 
@@ -172,11 +171,11 @@ def _way(flight: Flight) -> float:
     return float(np.linalg.norm(np.diff(flight["position"][:, :2], axis=0), axis=1).sum())
 
 
-def _of_the_corridor(corridor: Flight) -> Iterator[Claim]:
+def _of_the_corridor(corridor: Flight) -> Iterator[PaperClaim]:
     metrics = corridor.metrics()
     clear, force = metrics["clearance_min_m"], metrics["human_force_mean_n"]
     sound = corridor.outcome == "landed" and not metrics["wall_contact"]
-    yield Claim(
+    yield PaperClaim(
         "Figure 9",
         "Pushed through a zigzag corridor, the vehicle lands at its end.",
         f"{corridor.outcome.capitalize()} after {_way(corridor):.1f} m, {clear:.2f} m clear of the walls at least, "

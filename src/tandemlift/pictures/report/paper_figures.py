@@ -19,7 +19,6 @@ from matplotlib.figure import Figure
 from tandemlift.core.files import atomic_write
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.scene import NEAR, on_paper
 from tandemlift.pictures.drawing.style import (
@@ -210,7 +209,7 @@ def _stage(ax: Axes, flight: Flight, k: int) -> None:
     near = flown[(np.abs(flown - place)[:, :2] <= AROUND).all(axis=1)][::10]
     ax.plot(*on_paper(near).T, color=BLUE, lw=1.1, zorder=5)
     rims = _walls(ax, flight, place, floor)
-    body = skeleton(Vehicle.from_mission(flight.mission))
+    body = skeleton(flight.vehicle)
     _vehicle(ax, body.placed(place, flight["attitude"][k]))
     push = flight["push_force"][k]
     if np.linalg.norm(push) > WEAK:

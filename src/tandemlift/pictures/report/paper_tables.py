@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.core.types import GRAVITY
-from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.missions import check
 from tandemlift.pictures.report.metric_tables import latex_table, latex_text
 from tandemlift.pictures.report.paper_figures import DATA, errata
 
@@ -102,7 +102,7 @@ def value_at(mission: Mapping[str, Any], key: str) -> Any:
 def _numbers(row: Mapping[str, Any], mission: Mapping[str, Any]) -> list[float]:
     """Our numbers of a row, as many as the paper prints; several that are printed as one must be equal."""
     if "derived" in row:
-        values = np.atleast_1d(DERIVED[row["derived"]](Vehicle.from_mission(mission)))
+        values = np.atleast_1d(DERIVED[row["derived"]](check(dict(mission), quiet=True).hover.vehicle))
     else:
         values = np.atleast_1d(value_at(mission, row["key"]))[AXES[row.get("axes", "one")]]
     if len(row["printed"]) == 1 and np.all(values == values[0]):

@@ -1,0 +1,78 @@
+"""Random flights of a mission: those that its uncertain parameters draw, by outcome and findings, and bounds on both."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tandemlift.analysis.studies.design.settings import REFUSED
+from tandemlift.analysis.studies.design.statistics import CONFIDENCE, upper_bound
+from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.execution.anywhere import fly_study
+from tandemlift.analysis.studies.execution.store import open_folder
+from tandemlift.core.files import atomic_write
+from tandemlift.core.phases import FAILURES
+from tandemlift.core.types import Progress
+from tandemlift.missions import Mission, format_toml, tables_of
+
+MASS, INERTIA, DELAY = 0.1, 0.15, 0.005  # half widths of factors; s beyond the mission's delay
+LEADS = ("pull", "steer", "two-hands")  # models of persons who differ from flight to flight
+
+
+class RandomFlight(NamedTuple):
+    """The outcome of a flight, and the kinds of its findings."""
+
+    outcome: str
+    findings: tuple[str, ...]
+
+    @property
+    def failed(self) -> bool:
+        """Whether it failed, or could not be flown."""
+        return self.outcome in (*FAILURES, REFUSED)
+
+
+def probability_bound(count: int, flights: int) -> float:
+    """The upper bound of Clopper and Pearson on the probability of what happened in some flights, 95 % confidence."""
+    return upper_bound(count, flights, CONFIDENCE)
+
+
+def study_of(mission: Mission, file: Path, flights: int) -> dict[str, Any]:
+    """The tables of the study of a mission that is in a file."""
+    uniform = {"distribution": "uniform"}
+    draw: dict[str, Any] = {
+        "plant.mass_scale": {**uniform, "low": 1.0 - MASS, "high": 1.0 + MASS},
+        "plant.inertia_scale": {**uniform, "low": 1.0 - INERTIA, "high": 1.0 + INERTIA, "count": 3},
+    }
+    if mission.actuators.model == "rotors":
+        delay = mission.actuators.delay
+        draw["actuators.delay"] = {**uniform, "low": delay, "high": delay + DELAY}
+    persons = {"persons": "random"} if mission.person.model in LEADS else {}
+    about = {"name": f"{mission.mission.name}-certificate", "missions": [str(file)], "draws": flights, **persons}
+    return {"study": about, "draw": draw, "keep": {"metrics": ["outcome", "findings"]}}
+
+
+def random_flights(
+    mission: Mission, folder: Path, flights: int, progress: Progress | None = None
+) -> list[RandomFlight]:
+    """Fly a mission with parameters drawn at random; what the folder already holds is not flown again.
+
+    Args:
+        mission: to be flown; it is written beside the folder.
+        folder: of the study.
+        flights: their number.
+        progress: called with (flights flown, flights in all).
+
+    Raises:
+        InputError: the folder holds another study, or an optional package is missing (extra: study).
+    """
+    file = folder.parent / f"{mission.mission.name}.toml"
+    with atomic_write(file) as partial:
+        partial.write_text(format_toml(tables_of(mission)), "utf-8")
+    plan = load_plan(study_of(mission, file, flights))
+    store = open_folder(plan, folder)
+    fly_study(plan, store, progress=progress)
+    from pyarrow import parquet  # which the folder needs
+
+    files = [parquet.read_table(store.files.file(name), columns=["outcome", "finding_kinds"]) for name in store.names()]
+    rows = [row for file in files for row in file.to_pylist()]
+    return [RandomFlight(r["outcome"], tuple(filter(None, (r["finding_kinds"] or "").split(",")))) for r in rows]
