@@ -8,28 +8,28 @@ again, and written as a mission that flies to oscillation.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from tandemlift.analysis.certification.certificate import Claim, Tier
-from tandemlift.analysis.certification.structured_singular_value import upper_bound
-from tandemlift.analysis.certification.uncertain_loop import Deviations, uncertain_loop
+from tandemlift.analysis.certification.structured_singular_value import TINY, Bound, upper_bound
+from tandemlift.analysis.certification.uncertain_loop import Deviations, family_of, uncertain_loop
 from tandemlift.analysis.certification.uncertainty import (
     DEFAULT_BOX,
     INERTIAS,
+    LARGEST,
+    LONGEST,
     UNITS,
-    Family,
     Values,
     box_at,
     calm_model,
-    family_of,
     largest_factor,
     parameters_of,
     uncertain_tables,
 )
-from tandemlift.analysis.linearization.loop_margins import ON_CIRCLE, calm_mission, is_calm
+from tandemlift.analysis.linearization.loop_margins import LOWEST, ON_CIRCLE, POINTS, calm_mission, is_calm
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, built_in, format_toml, load_mission, tables_of
@@ -37,9 +37,13 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 
 NAME, TITLE = "structured", "Structured: all parameters at once"
 EVERY = 3  # of the frequencies of a loop, at which µ is bounded
-SMALLER = 0.97  # of a factor that is not proven
+SMALLER = 0.99  # of a factor that is not proven
 STARTS, SEED = 6, 1  # of the search
-FINER = 12  # bisections
+IRRELEVANT = 1.003  # times the factor: what the box grows by without a parameter that does not matter
+FARTHEST = 4.0  # the largest deviation of a parameter alone, relative
+ACCURACY = 0.01  # relative, of the factor at which the mission oscillates
+CONFIRMED = 1.1  # times a limit and by it, where the mission is linearized again
+NEARER = 0.85  # of the factor that is found: the search of the linearized mission begins there
 BEYOND = 1.1  # times the factor at which the model oscillates, of the mission that is flown
 FLOWN = 20.0  # s, of its hover
 
@@ -69,121 +73,218 @@ def structured_tier(mission: Mission, box: Mapping[str, float] = DEFAULT_BOX) ->
         InputError: a parameter is unknown or its width not allowed, there are too many, or scipy is not installed.
     """
     widths = parameters_of(mission, box)
-    said = assumptions(mission, widths)
+    said = assumptions(mission, box, widths)
     share = mission.hover.share
     if share >= 1.0:
         reason = f"the hover saturates: its most loaded rotor needs {100.0 * share:.3g} % of its largest thrust"
         return Tier(NAME, TITLE, said, reason=reason)
     try:
         family = family_of(mission, widths)
-        growth, frequency = growing(mission, {})
     except InputError as error:
         return Tier(NAME, TITLE, said, reason=f"there is no linear model: {error}")
-    if growth > ON_CIRCLE:
-        reason = f"the hover is not stable with all parameters as they are: it oscillates at {frequency:.3g} rad/s"
-        return Tier(NAME, TITLE, said, reason=reason)
+    if growing(mission, {})[0] > ON_CIRCLE:
+        return Tier(NAME, TITLE, said, reason="the hover is not stable with all parameters as they are")
     deviations = Deviations(family, widths)
-    proven, w, bounds = proven_factor(family, widths)
+    proven, w, bounds = proven_factor(deviations)
     worst = worst_of(mission, deviations, largest_factor(widths))
     curves = {"frequency": w, "upper_bound": bounds, "widths": widths}
     files = {}
     if worst is not None:
-        beyond = within_steps(mission, {name: BEYOND * p for name, p in worst.values.items()})
+        beyond = within_steps({name: BEYOND * p for name, p in worst.values.items()}, mission.mission.step)
         files[f"{mission.mission.name}-worst.toml"] = worst_mission(mission, beyond, worst)
-        curves |= {"worst": worst.values, "flown": beyond, "flown_frequency": growing(mission, beyond)[1]}
-    return Tier(NAME, TITLE, said, claims(mission, deviations, proven, worst), curves, files)
+        curves |= {"worst": worst.values, "flown": beyond}
+    return Tier(NAME, TITLE, said, claims_of(mission, deviations, proven, worst), curves, files)
 
 
-def proven_factor(family: Family, widths: Mapping[str, float]) -> tuple[float, Array, Array]:
-    """(the largest factor whose box has µ ≤ 1 at all frequencies, these [rad/s], bounds of µ of the box itself)."""
-    w = family.w[::EVERY]
-    few = Family(w, *[X[::EVERY] for X in family[1:5]], *family[5:])
-    loop, bound, bounds = uncertain_loop(few, box_at(widths, 1.0)), None, []
-    for M in loop.M:
-        bound = upper_bound(M, loop.blocks, bound)
-        bounds.append(bound)
-    values = np.array([bound.value for bound in bounds])
-    order = np.argsort(-values)
+def proven_factor(deviations: Deviations) -> tuple[float, Array, Array]:
+    """(the largest factor whose box has µ ≤ 1 at all frequencies, these [rad/s], bounds of µ of the box itself).
+
+    The frequencies are some of the family's, and all of them about the peak.
+    """
+    family, widths, bounds = deviations.family, deviations.widths, dict[int, Bound]()
+    loop = uncertain_loop(family, box_at(widths, 1.0))
+
+    def bound_at(frequencies: Iterable[int]) -> None:
+        last = None
+        for k in frequencies:
+            bounds[k] = last = upper_bound(loop.M[k], loop.blocks, last)
+
+    bound_at([*range(0, len(family.w), EVERY), len(family.w) - 1])
+    peak = max(bounds, key=lambda k: bounds[k].value)
+    bound_at(k for k in range(max(peak - EVERY, 0), min(peak + EVERY + 1, len(family.w))) if k not in bounds)
+    order = sorted(bounds, key=lambda k: -bounds[k].value)
 
     def proves(factor: float) -> bool:
-        loop = uncertain_loop(few, box_at(widths, factor))
-        return all(upper_bound(loop.M[k], loop.blocks, bounds[k], enough=1.0).value <= 1.0 for k in order)
+        box = box_at(widths, factor)
+        larger = uncertain_loop(family, box)
+        return deviations.stable({name: p.middle for name, p in box.items()}) and all(
+            upper_bound(larger.M[k], larger.blocks, bounds[k], enough=1.0).value <= 1.0 for k in order
+        )
 
-    factor = min(1.0 / max(values.max(), 1e-9), largest_factor(widths))
+    factor = min(1.0 / max(bounds[order[0]].value, TINY), largest_factor(widths))
     while not proves(factor):
         factor *= SMALLER
-    return factor, w, values
+    at = sorted(bounds)
+    return factor, family.w[at], np.array([bounds[k].value for k in at])
 
 
 def worst_of(mission: Mission, deviations: Deviations, most: float) -> Worst | None:
-    """The parameters in the smallest box that were found to make the hover oscillate; None if none are."""
+    """The parameters in the smallest box that were found to make the hover oscillate; None if none are.
+
+    From each start, the sign of one parameter after the other changes while that makes the box smaller; at the end,
+    those that do not matter are 0.
+    """
     rng, best, found = np.random.default_rng(SEED), most, None
     names = list(deviations.widths)
-    for start in range(STARTS):
+    for _ in range(STARTS):
         signs = {name: 1.0 if name in ("lag", "delay") else float(rng.choice((-1.0, 1.0))) for name in names}
-        factor = smallest_factor(deviations, signs, most)
-        improved = True
+        factor, improved = min(deviations.limit(signs, most), most), True
         while improved:
             improved = False
-            for name in rng.permutation(names):
+            for name in map(str, rng.permutation(names)):
                 for sign in (0.0, 1.0) if name == "delay" else (-1.0, 0.0, 1.0):
-                    other = {**signs, str(name): sign}
-                    smaller = smallest_factor(deviations, other, factor) if other != signs else math.inf
+                    other = {**signs, name: sign}
+                    smaller = deviations.limit(other, factor) if other != signs else math.inf
                     if smaller < 0.999 * factor:
                         signs, factor, improved = other, smaller, True
         if factor < best:
             best, found = factor, signs
-    return None if found is None else confirmed(mission, deviations, found, best, most)
-
-
-def smallest_factor(deviations: Deviations, signs: Values, below: float) -> float:
-    """The factor below another at which parameters along a direction lose stability; infinite if they do not there."""
-    if deviations.stable(along(deviations, signs, below)):
-        return math.inf
-    low, high = 0.0, below
-    for _ in range(FINER):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if deviations.stable(along(deviations, signs, middle)) else (low, middle)
-    return high
-
-
-def along(deviations: Deviations, signs: Values, factor: float) -> dict[str, float]:
-    """The deviations at a factor of the box, along a direction."""
-    return {name: factor * sign * deviations.widths[name] for name, sign in signs.items()}
+    if found is None:
+        return None
+    for name in names:
+        if not deviations.stable(deviations.along({**found, name: 0.0}, IRRELEVANT * best)):
+            found[name] = 0.0
+    return confirmed(mission, deviations, found, best, most)
 
 
 def confirmed(mission: Mission, deviations: Deviations, signs: Values, factor: float, most: float) -> Worst | None:
-    """The smallest factor along a direction at which the mission, linearized there, oscillates."""
+    """The smallest factor along a direction at which the mission, linearized there, oscillates; None up to `most`."""
+    step = mission.mission.step
 
     def there(factor: float) -> Worst:
-        values = within_steps(mission, along(deviations, signs, factor))
-        return Worst(factor, values, growing(mission, values)[1])
+        values = within_steps(deviations.along(signs, factor), step)
+        growth, frequency = growing(mission, values)
+        return Worst(factor if growth > ON_CIRCLE else math.inf, values, frequency or deviations.frequency(values))
 
-    low, high = 0.85 * factor, factor
-    while growing(mission, there(high).values)[0] <= ON_CIRCLE:
-        low, high = high, 1.05 * high
-        if high > most:
+    low, worst = NEARER * factor, there(factor)
+    while math.isinf(worst.factor):
+        low, factor = factor, CONFIRMED * factor
+        if factor > most:
             return None
-    while high - low > 0.01 * high:
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if growing(mission, there(middle).values)[0] > ON_CIRCLE else (middle, high)
-    return there(high)
+        worst = there(factor)
+    while worst.factor - low > ACCURACY * low:
+        middle = there(0.5 * (low + worst.factor))
+        low, worst = (0.5 * (low + worst.factor), worst) if math.isinf(middle.factor) else (low, middle)
+    return worst
 
 
-def within_steps(mission: Mission, values: Values) -> dict[str, float]:
-    """Deviations with the delay rounded to whole steps, as it is flown."""
-    step = mission.mission.step
-    return {name: round(p / step) * step if name == "delay" else p for name, p in values.items()}
+def within_steps(values: Values, step: float) -> dict[str, float]:
+    """Deviations with a delay of whole steps [s], as it is flown, and not beyond the box."""
+    return {name: math.floor(p / step + 1e-9) * step if name == "delay" else p for name, p in values.items()}
 
 
 def growing(mission: Mission, values: Values) -> tuple[float, float]:
-    """(|z| − 1, frequency [rad/s]) of the fastest growing mode of a mission whose vehicle deviates.
-
-    A hover that is lost before it can be linearized grows infinitely, at no frequency.
-    """
-    model = calm_model(mission, values, real=True)
+    """(|z| − 1, frequency [rad/s]) of the fastest mode of a mission whose vehicle deviates; infinite if it is lost."""
+    try:
+        model = calm_model(mission, values, real=True)
+    except InputError:
+        return math.inf, 0.0
     z = np.linalg.eigvals(model.connected().A)
     fastest = z[np.abs(z).argmax()]
-    if not is_calm(model):
-        return math.inf, float(abs(np.angle(fastest)) / model.step)
-    return float(abs(fastest) - 1.0), float(abs(np.angle(fastest)) / model.step)
+    return float(abs(fastest) - 1.0) if is_calm(model) else math.inf, float(abs(np.angle(fastest)) / model.step)
+
+
+def worst_mission(mission: Mission, values: Values, worst: Worst) -> str:
+    """A mission file that hovers with deviations of the vehicle, without pushes, person and landing."""
+    name, whole = mission.mission.name, tables_of(mission)
+    end = calm_mission(mission)[1] + FLOWN
+    rest: dict[str, Any] = {"pushes": [], "requests": [], "changes": [], "person": {"model": "none"}}
+    rest |= {"detection": {"model": "none"}, "phases": {**whole["phases"], "land_start": 2.0 * end}}
+    rest["mission"] = {**whole["mission"], "name": f"{name}-worst", "duration": end}
+    keys = uncertain_tables(whole, values) | rest
+    if name in built_in() and load_mission(name) == mission:
+        keys = {"extends": name} | {key: value for key, value in keys.items() if value != whole.get(key)}
+    return (
+        f"# {name} with parameters {BEYOND:g} times those at which its linear model begins to oscillate, at "
+        f"{worst.frequency:.3g} rad/s.\n\n{format_toml(keys)}"
+    )
+
+
+def claims_of(mission: Mission, deviations: Deviations, proven: float, worst: Worst | None) -> tuple[Claim, ...]:
+    """The numbers of the tier."""
+    widths, most = deviations.widths, largest_factor(deviations.widths)
+    reach = ", where a parameter reaches the largest deviation that is tried"
+    made = [
+        Claim(
+            "guaranteed factor",
+            "box",
+            proven,
+            "box",
+            1.0,
+            f"no parameters within it make the hover oscillate{reach if proven >= most else ''}",
+        )
+    ]
+    if worst is None:
+        text = f"no parameters that make it oscillate were found up to {most:.3g}{reach}"
+        made.append(Claim("factor that oscillates", "box", math.inf, "box", None, text))
+    else:
+        command = f"tandemlift run {mission.mission.name}-worst.toml"
+        text = f"{words(worst.values)} make it oscillate; between both factors nothing is known"
+        made.append(Claim("factor that oscillates", "box", worst.factor, "box", None, text, worst.frequency, command))
+        text = "factor found to oscillate over the guaranteed one: 1 where the bound is exact"
+        made.append(Claim("gap", "box", worst.factor / proven, "1", None, text))
+    return (*made, *[alone(mission, deviations, name) for name in widths if name in UNITS])
+
+
+def alone(mission: Mission, deviations: Deviations, name: str) -> Claim:
+    """The nearest deviation of one parameter at which the loop oscillates, as the mission linearized there confirms."""
+    unit, width = UNITS[name], deviations.widths[name]
+    ends = {1.0: LONGEST / width} if name == "delay" else {1.0: FARTHEST / width, -1.0: LARGEST / width}
+    factors = {sign: deviations.limit({name: sign}, end) for sign, end in ends.items()}
+    sign = min(factors, key=lambda sign: factors[sign])
+    if math.isinf(factors[sign]):
+        reach = " and ".join(words({name: sign * end * width}) for sign, end in ends.items())
+        return Claim("limit alone", name, math.inf, unit, None, f"no limit up to {reach}")
+    values = deviations.along({name: sign}, factors[sign])
+    frequency = deviations.frequency(values)
+    text = f"with {words(values)} alone, the model oscillates at {frequency:.3g} rad/s"
+    sides = [growing(mission, {name: side * values[name]})[0] > ON_CIRCLE for side in (1.0 / CONFIRMED, CONFIRMED)]
+    if sides != [False, True]:
+        return Claim(
+            "limit alone", name, None, unit, None, f"{text}; the mission linearized about there does not agree"
+        )
+    return Claim("limit alone", name, values[name], unit, None, text, frequency)
+
+
+def words(values: Values) -> str:
+    """Deviations other than 0 in words."""
+    return ", ".join(
+        f"{name} {1e3 * p:+.3g} ms" if UNITS.get(name) == "s" else f"{name} {100.0 * p:+.3g} %"
+        for name, p in values.items()
+        if p != 0.0
+    )
+
+
+def assumptions(mission: Mission, box: Mapping[str, float], widths: Mapping[str, float]) -> tuple[str, ...]:
+    """What the tier takes for granted, a sentence each."""
+    said = [
+        "The loop is the linear model of a calm hover, sampled, without noise, wind, ground effect and thrust limits.",
+        f"Parameters are real and constant, in a box about the mission: {words(box).replace('+', '±')}; a delay only "
+        "grows, and the lag is the mean of up and down.",
+        "The pilot keeps its own model of the vehicle, except for what it identifies in flight.",
+        f"The bound holds at {POINTS // EVERY} frequencies from {LOWEST:g} rad/s to half of the sample rate; it is not "
+        "proven between them and below.",
+    ]
+    if "mass" in widths or "thrust" in widths:
+        said.append("The effect of the mass is interpolated between models at three masses.")
+    if "thrust" in widths or any(name.startswith("rotor.") for name in widths):
+        said.append(
+            "No key changes the thrust constant of the vehicle without that of its pilot: it is modelled and flown as "
+            "mass and inertias divided by it, and a rotor's own gain as a fault that the pilot does not know."
+        )
+    J = Vehicle.from_settings(mission.vehicle).real_inertia(mission.plant)
+    if np.abs(J - np.diag(np.diag(J))).max() > 1e-6 * J.max() and set(INERTIAS) & set(widths):
+        said.append("Products of inertia stay as they are, while an inertia deviates.")
+    if mission.actuators.model != "rotors":
+        said.append('actuators.model = "ideal": there are no lag, delay and rotors that could deviate.')
+    return tuple(said)

@@ -1,20 +1,20 @@
 """The structured singular value µ of a complex matrix M: an upper bound by scalings D and G.
 
-µ = 1 / min{max |δ|: det(I − M Δ) = 0}, Δ block diagonal: δ I with a real δ, or a full complex block. With D > 0 and
-Hermitian G that commute with Δ, where G is 0 for complex blocks, β bounds µ if
+µ = 1 / min{max |δ|: det(I − M Δ) = 0}, Δ block diagonal of δ I, each δ real or complex. With D > 0 and Hermitian G that
+commute with Δ, G = 0 for complex δ, β bounds µ if
 
     Mᴴ D M + j (G M − Mᴴ G) − β² D ≤ 0
 
 (Fan, Tits and Doyle, IEEE TAC 36, 1991). With D = Tᴴ T and N = T M T⁻¹, β² is the largest eigenvalue of
-Nᴴ N + j (G N − Nᴴ G). It is minimized over T and G, smoothed as s log Σ exp(λ/s), by L-BFGS with the exact gradient; a
-search that ends early gives a larger bound, never a wrong one. slycot's AB13MD computes the same bound, but takes no
-real δ that is repeated, and 25 s a frequency for twenty real ones.
+Nᴴ N + j (G N − Nᴴ G). L-BFGS minimizes it over T and G, smoothed as s log Σ exp(λ/s), with its exact gradient; a search
+that ends early gives a larger bound, never a wrong one. slycot's AB13MD computes the same bound, but takes no real δ
+that is repeated, and 25 s for twenty real ones.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,22 +22,21 @@ from numpy.typing import NDArray
 from tandemlift.core.errors import extra
 from tandemlift.core.types import Array
 
-Complex = NDArray[np.complexfloating]
-SMOOTHING = (0.1, 0.02, 0.004)  # s, of the largest eigenvalue, one after the other
-ITERATIONS = 60  # of L-BFGS, of each smoothing
-BALANCED = 10  # sweeps of the first scaling
+Complex: TypeAlias = NDArray[np.complexfloating]
+SMOOTHING = (0.01, 0.004)  # s over the largest eigenvalue, one after the other
+OPTIONS = {"maxiter": 100, "maxcor": 50}  # of L-BFGS, of each smoothing
 TINY = 1e-12
 
 
 class Block(NamedTuple):
-    """A block of Δ: δ I of `size` with a real δ if `real`, else a full complex one."""
+    """A block δ I of Δ: its size, and whether δ is real."""
 
     size: int
     real: bool
 
 
 class Bound(NamedTuple):
-    """An upper bound of µ, and the scalings (k, k) that prove it: T with D = Tᴴ T, and Tᴴ⁻¹ G T⁻¹."""
+    """An upper bound of µ, and the scalings (k, k) that prove it: T with D = Tᴴ T, and the G of N = T M T⁻¹."""
 
     value: float
     T: Complex
@@ -50,28 +49,28 @@ def upper_bound(M: Complex, blocks: Sequence[Block], start: Bound | None = None,
     Args:
         M: (k, k).
         blocks: of Δ, along the diagonal; their sizes add up to k.
-        start: scalings to begin with, such as those of a neighbouring frequency; None for balancing.
+        start: scalings to begin with, such as those of a neighbouring frequency.
         enough: the search ends at a bound below it.
 
     Raises:
         InputError: scipy is not installed.
     """
     with extra("certify", "the structured singular value"):
+        from scipy.linalg import block_diag, matrix_balance
         from scipy.optimize import minimize
-    begin = [_bounded(M, balanced(M, blocks), np.zeros_like(M))]
-    if start is not None:
-        begin.append(_bounded(M, start.T, start.G))
-    best = min(begin, key=lambda bound: bound.value)
-    layout, unit = _Layout(blocks), np.eye(len(M))
+    of_T, of_G = (block_diag(*[np.full((n, n), real or any_) for n, real in blocks]) > 0 for any_ in (True, False))
+    T = np.diag(1.0 / matrix_balance(np.abs(M), permute=False, separate=True)[1][0]).astype(complex)
+    alone = np.where(of_G, T @ M @ np.linalg.inv(T), 0.0) / 4j  # the G of blocks that have no others beside them
+    tried = [_bounded(M, T, G) for G in (np.zeros_like(M), alone + alone.conj().T)]
+    best = _least(*tried, *([] if start is None else [_bounded(M, start.T, start.G)]))
     for s in SMOOTHING:
         if best.value < max(enough, TINY):
             break
-        scale = best.value
-        N = best.T @ M @ np.linalg.inv(best.T) / scale  # the search begins anew at T = I, which keeps it well scaled
-        x = layout.numbers(unit, best.G / scale)
-        made = minimize(_smoothed, x, (N, layout, s), jac=True, method="L-BFGS-B", options={"maxiter": ITERATIONS})
-        T, G = layout.matrices(made.x)
-        best = min(best, _bounded(M, T @ best.T, G * scale), key=lambda bound: bound.value)
+        N = best.T @ M @ np.linalg.inv(best.T) / best.value  # the search begins anew at T = I: it stays well scaled
+        x = _numbers(np.eye(len(M))[of_T], (best.G / best.value)[of_G])
+        made = minimize(_smoothed, x, (N, of_T, of_G, s), jac=True, method="L-BFGS-B", options=OPTIONS)
+        T, G = _matrices(made.x, of_T, of_G)
+        best = _least(best, _bounded(M, T @ best.T, G * best.value))
     return best
 
 
@@ -83,77 +82,38 @@ def _bounded(M: Complex, T: Complex, G: Complex) -> Bound:
     return Bound(float(np.sqrt(max(np.linalg.eigvalsh(_form(N, G))[-1], 0.0))), T, G)
 
 
+def _least(*bounds: Bound) -> Bound:
+    return min(bounds, key=lambda bound: bound.value)
+
+
 def _form(N: Complex, G: Complex) -> Complex:
     """Nᴴ N + j (G N − Nᴴ G)."""
     half = 1j * G @ N
-    return N.conj().T @ N + half + half.conj().T
+    return np.asarray(N.conj().T @ N + half + half.conj().T)
 
 
-class _Layout:
-    """The entries of T and G that may differ from 0, as a list of numbers; a full complex block has one of T."""
-
-    def __init__(self, blocks: Sequence[Block]) -> None:
-        self.size, at = sum(block.size for block in blocks), 0
-        rows, columns, numbers, count = list[int](), list[int](), list[int](), 0
-        held = np.zeros((self.size, self.size), dtype=bool)
-        for size, real in blocks:
-            inside = range(at, at + size)
-            for i, j in [(i, j) for i in inside for j in inside] if real else [(i, i) for i in inside]:
-                rows.append(i)
-                columns.append(j)
-                numbers.append(count)
-                count += real
-            count += not real
-            held[at : at + size, at : at + size] = real
-            at += size
-        self.at, self.numbers_of, self.count, self.real = (rows, columns), numbers, count, np.nonzero(held)
-
-    def numbers(self, T: Complex, G: Complex) -> Array:
-        """The numbers of T and G."""
-        of_T = np.zeros(self.count, dtype=complex)
-        of_T[self.numbers_of] = T[self.at]
-        of_G = G[self.real]
-        return np.concatenate([of_T.real, of_T.imag, of_G.real, of_G.imag])
-
-    def matrices(self, x: Array) -> tuple[Complex, Complex]:
-        """T and G of numbers."""
-        a, b, c, d = np.split(x, np.cumsum([self.count, self.count, len(self.real[0])]))
-        T, Y = np.zeros((2, self.size, self.size), dtype=complex)
-        T[self.at] = (a + 1j * b)[self.numbers_of]
-        Y[self.real] = c + 1j * d
-        return T, 0.5 * (Y + Y.conj().T)
-
-    def gradient(self, by_T: Complex, by_G: Complex) -> Array:
-        """The derivatives by all numbers, of df = Re tr(by_T dT) + Re tr(by_G dG)."""
-        entries = by_T.T[self.at]
-        parts = [np.bincount(self.numbers_of, part, self.count) for part in (entries.real, -entries.imag)]
-        of_G = by_G.T[self.real]
-        return np.concatenate([*parts, of_G.real, -of_G.imag])
+def _numbers(*entries: Complex) -> Array:
+    """Complex numbers as real ones."""
+    together = np.concatenate(entries)
+    return np.concatenate([together.real, together.imag])
 
 
-def _smoothed(x: Array, M: Complex, layout: _Layout, s: float) -> tuple[float, Array]:
-    """The smoothed largest eigenvalue and its derivatives."""
-    T, G = layout.matrices(x)
+def _matrices(x: Array, of_T: NDArray[np.bool_], of_G: NDArray[np.bool_]) -> tuple[Complex, Complex]:
+    """T and the Hermitian G of the numbers of their entries."""
+    together, count = x[: len(x) // 2] + 1j * x[len(x) // 2 :], int(of_T.sum())
+    T, Y = np.zeros((2, *of_T.shape), dtype=complex)
+    T[of_T], Y[of_G] = together[:count], together[count:]
+    return T, 0.5 * (Y + Y.conj().T)
+
+
+def _smoothed(x: Array, M: Complex, of_T: NDArray[np.bool_], of_G: NDArray[np.bool_], s: float) -> tuple[float, Array]:
+    """The smoothed largest eigenvalue φ and its derivatives: dφ = Re tr(by_T dT) + Re tr(by_G dG)."""
+    T, G = _matrices(x, of_T, of_G)
     back = np.linalg.inv(T)
     N = T @ M @ back
     values, vectors = np.linalg.eigh(_form(N, G))
     weights = np.exp((values - values[-1]) / s)
     P = (vectors * (weights / weights.sum())) @ vectors.conj().T
-    Q = P @ (N.conj().T + 1j * G)
-    R = 1j * N @ P
-    by_T = 2.0 * back @ (N @ Q - Q @ N)
-    return float(values[-1] + s * np.log(weights.sum())), layout.gradient(by_T, R + R.conj().T)
-
-
-def balanced(M: Complex, blocks: Sequence[Block]) -> Complex:
-    """T (k, k), a number for each block, with which rows and columns of blocks have norms alike (Osborne)."""
-    edges = np.cumsum([0, *[block.size for block in blocks]])[:-1]
-    size = np.sqrt(np.add.reduceat(np.add.reduceat(np.abs(M) ** 2, edges, axis=0), edges, axis=1))
-    np.fill_diagonal(size, 0.0)
-    d = np.ones(len(blocks))
-    for _ in range(BALANCED):
-        for i in range(len(blocks)):
-            row, column = d[i] * (size[i] / d).sum(), (d * size[:, i]).sum() / d[i]
-            if row > TINY and column > TINY:
-                d[i] *= np.sqrt(column / row)
-    return np.diag(np.repeat(d, [block.size for block in blocks])).astype(complex)
+    Q, R = P @ (N.conj().T + 1j * G), 1j * N @ P
+    by_T, by_G = 2.0 * back @ (N @ Q - Q @ N), R + R.conj().T
+    return float(values[-1] + s * np.log(weights.sum())), _numbers(by_T.conj().T[of_T], by_G[of_G])

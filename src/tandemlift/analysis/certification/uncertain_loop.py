@@ -1,4 +1,15 @@
-"""The loop of an uncertain vehicle: M at each frequency of a box, and its stability with given deviations."""
+"""The loop of an uncertain vehicle as M and Δ at each frequency: det(I − M Δ) = 0 where it oscillates.
+
+Each parameter p lies within a range and enters as p = middle + half δ, |δ| ≤ 1, δ real:
+
+- a rotor's own gain adds the thrust p T of that rotor;
+- an inertia adds the moment −p J ω̇ about its axis;
+- the rotors' lag is τ (1 + p);
+- their delay is longer by p: e^(−jωp) = (1 − jt)/(1 + jt), with a real t = tan(ωp/2);
+- a mass changes the hover and what the pilot does about it. The loop is linearized at the mass and at two others, where
+  its response is off by Δ₋ and Δ₊; U p (I − V p)⁻¹ W of the least rank passes through all three;
+- a thrust constant off by p is mass and inertias off by 1/(1 + p): a body moves by force and moment over these.
+"""
 
 from __future__ import annotations
 
@@ -9,118 +20,190 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.analysis.certification.structured_singular_value import Block, Complex
-from tandemlift.analysis.certification.uncertainty import INERTIAS, Family, Range, Values
-from tandemlift.analysis.linearization.loop_margins import rotors_response
+from tandemlift.analysis.certification.uncertainty import INERTIAS, Range, Values, calm_model
+from tandemlift.analysis.linearization.linear_model import LinearModel, frequency_response
+from tandemlift.analysis.linearization.loop_margins import LOWEST, POINTS, is_calm, rotors_response
+from tandemlift.core.errors import InputError
+from tandemlift.core.types import Array
+from tandemlift.missions import Mission
+from tandemlift.parts.mechanics.vehicle import Vehicle
+
+RANK = 1e-4  # of the largest singular value
+ACCURACY = 2e-4  # of a limit
+TURNED = 0.75 * math.pi  # less than a real pole turns the determinant by, or half of what a pair turns it by
+
+
+class Family(NamedTuple):
+    """The response of a vehicle with ideal rotors, of any mass.
+
+    Attributes:
+        w: frequencies (F) up to half of the sample rate [rad/s].
+        H: (F, 7, 4 + n + 3) from the wrench that rotors add to the commanded one, what each adds itself [N] and a
+            moment [N m], to the commanded wrench and to J ω̇ [N m], of the nominal mass.
+        U: (F, 7, R); with a mass off by p, p y is added through it.
+        W: (F, R, 4 + n + 3); y = W inputs + V p y.
+        V: (F, R, R).
+        spread: (n, 4), thrusts of all rotors from a wrench.
+        lag: of the rotors [s].
+        delay: likewise [s].
+    """
+
+    w: Array
+    H: Complex
+    U: Complex
+    W: Complex
+    V: Complex
+    spread: Array
+    lag: float
+    delay: float
+
+
+def family_of(mission: Mission, widths: Mapping[str, float]) -> Family:
+    """The responses of a mission, linearized at its mass and, where that is uncertain, at the ends of its box.
+
+    Raises:
+        InputError: the controller is plain Python, or a flight is lost.
+    """
+    model = calm_model(mission, {}, real=False)
+    w = np.geomspace(LOWEST, math.pi / model.step, POINTS)
+    H, mass, thrust = port_response(mission, model, w), widths.get("mass", 0.0), widths.get("thrust", 0.0)
+    low, high = (1.0 - mass) / (1.0 + thrust) - 1.0, (1.0 + mass) / (1.0 - thrust) - 1.0
+    U, W, V = H[:, :, :0], H[:, :0], H[:, :0, :0]
+    if high > low:
+        at = [port_response(mission, calm_model(mission, {"mass": p}, real=False), w) for p in (low, high)]
+        U, W, V = rational(at[0] - H, at[1] - H, low, high)
+    real = mission.actuators.model == "rotors"
+    spread = Vehicle.from_settings(mission.vehicle).allocation(mission.allocation.weights)
+    return Family(w, H, U, W, V, spread, mission.hover.lag if real else 0.0, mission.actuators.delay if real else 0.0)
+
+
+def port_response(mission: Mission, model: LinearModel, w: Array) -> Complex:
+    """H of `Family`, of a linear model of a mission's hover with ideal rotors.
+
+    Inputs of a model are held over its sample time h. A rotor's thrust is held over a step, the moment of an inertia is
+    not; and a rate at the samples tells the mean acceleration between them.
+
+    Raises:
+        InputError: the hover is not calm.
+    """
+    if not is_calm(model):
+        raise InputError("the hover does not settle even with rotors without delay and lag")
+    vehicle, few = Vehicle.from_settings(mission.vehicle), model.connected()
+    n, J, T, h, s = vehicle.rotor_count, vehicle.real_inertia(mission.plant), mission.mission.step, model.step, 1j * w
+    R = frequency_response(few, w / (2.0 * math.pi)) - np.eye(*few.D.shape) * (np.arange(len(few.D)) < n)[:, None]
+    sampled = s * h / -np.expm1(-s * h)
+    R[:, :, :n] *= (sampled * -np.expm1(-s * T) / (s * T))[:, None, None]
+    R[:, :, n:] *= sampled[:, None, None]
+    turning = (s * np.sinc(w * h / (2.0 * math.pi)) ** 2)[:, None, None] * (J @ R[:, n:])
+    out = np.concatenate([vehicle.effect @ R[:, :n], turning], axis=1)
+    return np.concatenate([out[:, :, :n] @ vehicle.allocation(mission.allocation.weights), out], axis=2)
+
+
+def rational(off_low: Complex, off_high: Complex, low: float, high: float) -> tuple[Complex, Complex, Complex]:
+    """(U, W, V) of U p (I − V p)⁻¹ W, equal to matrices (F, a, b) at p = low and p = high, of the least rank."""
+    columns, sizes, _ = np.linalg.svd(np.concatenate([off_low, off_high], axis=2))
+    _, _, rows = np.linalg.svd(np.concatenate([off_low, off_high], axis=1))
+    ranks = (sizes > RANK * sizes[:, :1]).sum(axis=1)
+    R = int(ranks.max())
+    U, W, V = columns[:, :, :R].astype(complex), rows[:, :R].astype(complex), np.zeros((len(ranks), R, R), complex)
+    for k, r in enumerate(ranks):
+        u, v = U[k, :, :r], W[k, :r]
+        at_low, at_high = (np.linalg.inv(u.conj().T @ X[k] @ v.conj().T) for X in (off_low, off_high))
+        core = (at_high - at_low) / (1.0 / high - 1.0 / low)  # of the inverse core / p − rest
+        U[k, :, :r], V[k, :r, :r] = u @ np.linalg.inv(core), (core / high - at_high) @ np.linalg.inv(core)
+        U[k, :, r:], W[k, r:] = 0.0, 0.0
+    return U, W, V
 
 
 class Network:
-    """Signals that are sums of others times matrices: s = P s, at frequencies.
+    """Signals that are sums of others times matrices, at frequencies.
 
     Args:
-        count: of frequencies.
+        count: of frequencies F.
     """
 
     def __init__(self, count: int) -> None:
-        self.count, self.at, self.size = count, dict[str, slice](), 0
+        self.count, self.size = count, 0
+        self.at: dict[str, slice] = {}
         self.terms: list[tuple[str, str, Any]] = []
 
     def add(self, name: str, size: int, **terms: Any) -> None:
-        """A signal of `size` numbers: the sum of signals, each times a number, numbers (F,) or a matrix (a, b)."""
+        """A signal of `size` numbers: the sum of others, each times a number, numbers (F) or matrices (F, a, b)."""
         self.at[name], self.size = slice(self.size, self.size + size), self.size + size
-        self.terms += [(name, other, factor) for other, factor in terms.items()]
+        self.terms += [(name, other, np.asarray(factor)) for other, factor in terms.items()]
 
     def response(self, rows: Sequence[str], columns: Sequence[str]) -> Complex:
         """The response of signals to what is added to others (F, r, c)."""
-        I = np.eye(self.size)
         P = np.zeros((self.count, self.size, self.size), dtype=complex)
         for name, other, factor in self.terms:
-            a, b, factor = self.at[name], self.at[other], np.asarray(factor)
-            unit = np.eye(a.stop - a.start, b.stop - b.start)
-            P[:, a, b] += factor if factor.ndim > 1 else np.multiply.outer(factor, unit)
-        r, c = (np.concatenate([np.arange(self.size)[self.at[n]] for n in names]) for names in (rows, columns))
-        return np.linalg.solve(I - P, np.broadcast_to(I[:, c], (self.count, self.size, len(c))))[:, r]
+            a, b = self.at[name], self.at[other]
+            P[:, a, b] += factor if factor.ndim > 1 else np.multiply.outer(factor, np.eye(a.stop - a.start))
+        r, c = ([i for name in names for i in range(self.size)[self.at[name]]] for names in (rows, columns))
+        added = np.broadcast_to(np.eye(self.size)[:, c], (self.count, self.size, len(c)))
+        return np.asarray(np.linalg.solve(np.eye(self.size) - P, added)[:, r])
 
 
 class UncertainLoop(NamedTuple):
-    """M (F, k, k) of a box at frequencies w (F), and the blocks of Δ in the order of `names`."""
+    """M (F, k, k) of a box, and the blocks of Δ in the order of its parameters."""
 
-    w: Any
     M: Complex
-    names: tuple[str, ...]
     blocks: tuple[Block, ...]
 
 
-def uncertain_loop(family: Family, box: Mapping[str, Range], *, delay_itself: bool = False) -> UncertainLoop:
+def uncertain_loop(family: Family, box: Mapping[str, Range], *, late: bool = True) -> UncertainLoop:
     """M of a box about its middle.
 
     Args:
         family: responses of the vehicle.
-        box: deviations.
-        delay_itself: take e^(−jωp) − 1 in place of the delay's δ, for deviations that are given.
+        box: ranges of deviations.
+        late: whether the delay's δ is that of tan(ωp/2); else it is e^(−jωp) − 1 itself.
     """
     w, n, R = family.w, len(family.spread), family.U.shape[2]
-    net, blocks = Network(len(w)), dict[str, list[str]]()
-    enters = {"wrench": slice(0, 4), "thrusts": slice(4, 4 + n), "moment": slice(4 + n, None)}
-    inertias = [name for name in INERTIAS if name in box]
+    net, keys = Network(len(w)), {name: list[str]() for name in box}
 
-    def uncertain(of: str, name: str, size: int, **terms: Any) -> str:
-        """The signal p y of a parameter's p and a signal y, which is the sum of terms."""
-        key, p = f"{name}_{of}", box[name]
-        net.add(f"y_{key}", size, **terms)
+    def uncertain(name: str, of: str, size: int, y: Mapping[str, Any], by: Any = None) -> str:
+        """The signal p y, y a sum of signals; with `by`, the signal δ y instead, of which y has `by` too."""
+        key = f"{name}_{of}"
+        keys[name].append(key)
         net.add(f"z_{key}", size)
-        net.add(key, size, **{f"y_{key}": p.middle, f"z_{key}": p.half})
-        blocks.setdefault(name, []).append(key)
+        net.add(f"y_{key}", size, **y, **({} if by is None else {f"z_{key}": by}))
+        scale = {f"y_{key}": box[name].middle, f"z_{key}": box[name].half} if by is None else {f"z_{key}": 1.0}
+        net.add(key, size, **scale)
         return key
 
-    def scaled(of: str, name: str, size: int, **terms: Any) -> dict[str, float]:
-        """The terms of ((1 + p)/(1 + thrust) − 1) y."""
-        parts = {uncertain(of, name, size, **terms): 1.0} if name in box else {}
-        if "thrust" in box:
-            parts[uncertain(of, "thrust", size, **terms, **{of: 1.0})] = -1.0
-        return parts
+    def scaled(name: str, of: str, size: int, y: Mapping[str, Any]) -> dict[str, float]:
+        """The terms of a signal `of` that is ((1 + p)/(1 + thrust) − 1) y."""
+        parts = {uncertain(name, of, size, y): 1.0} if name in box else {}
+        return parts | ({uncertain("thrust", of, size, {**y, of: 1.0}): -1.0} if "thrust" in box else {})
 
-    net.add("command", 4, **{k: family.H[:, :4, at] for k, at in enters.items()}, heavier=family.U[:, :4])
-    net.add("turning", 3, **{k: family.H[:, 4:, at] for k, at in enters.items()}, heavier=family.U[:, 4:])
-    net.add("heard", R, **{k: family.W[:, :, at] for k, at in enters.items()}, heavier=family.V)
-    net.add("heavier", R, **(scaled("heavier", "mass", R, heard=1.0) if R else {}))
+    ports = {"wrench": slice(0, 4), "own": slice(4, 4 + n), "moment": slice(4 + n, None)}
+    net.add("command", 4, **{name: family.H[:, :4, at] for name, at in ports.items()}, heavier=family.U[:, :4])
+    net.add("turning", 3, **{name: family.H[:, 4:, at] for name, at in ports.items()}, heavier=family.U[:, 4:])
+    net.add("felt", R, **{name: family.W[:, :, at] for name, at in ports.items()}, heavier=family.V)
+    net.add("heavier", R, **(scaled("mass", "heavier", R, {"felt": 1.0}) if R else {}))
     for i, name in enumerate(INERTIAS):
-        net.add(name, 1, **scaled(name, name, 1, turning=np.eye(3)[None, i : i + 1]))
-    net.add("moment", 3, **{name: -np.eye(3)[None, :, i : i + 1] for i, name in enumerate(INERTIAS)})
-    net.add("arrived", 4, **_delayed(net, blocks, box, w, delay_itself))
-    lag, p = 1j * w * family.lag, box.get("lag", Range(0.0, 0.0))
-    slowed = {"z_lag_rotors": -lag * p.half / (1.0 + lag * (1.0 + p.middle))} if "lag" in box else {}
-    net.add("speed", 4, arrived=1.0 / (1.0 + lag * (1.0 + p.middle)), **slowed)
-    if "lag" in box:
-        net.add("z_lag_rotors", 4)
-        net.add("y_lag_rotors", 4, speed=1.0)
-        blocks["lag"] = ["lag_rotors"]
+        net.add(f"slower_{i}", 1, **scaled(name, f"slower_{i}", 1, {"turning": np.eye(3)[None, i : i + 1]}))
+    net.add("moment", 3, **{f"slower_{i}": -np.eye(3)[None, :, i : i + 1] for i in range(3)})
+    arrived: dict[str, Any] = {"command": 1.0}
+    if "delay" in box:
+        t = 1j * np.tan(0.5 * w * box["delay"].half)
+        z = uncertain("delay", "rotors", 4, arrived, by=-t if late else 0.0)
+        middle = rotors_response(w, box["delay"].middle, 0.0)
+        arrived = {"command": middle, z: -2.0 * t * middle} if late else {"command": 1.0, z: 1.0}
+    lag, slow = 1j * w * family.lag, box.get("lag", Range(0.0, 0.0))
+    answer = 1.0 / (1.0 + lag * (1.0 + slow.middle))
+    lagging = {uncertain("lag", "rotors", 4, {"speed": 1.0}, by=0.0): -lag * slow.half * answer} if "lag" in box else {}
+    net.add("arrived", 4, **arrived)
+    net.add("speed", 4, arrived=answer, **lagging)
     net.add("given", 4, speed=rotors_response(w, family.delay, 0.0))
     net.add("wrench", 4, given=1.0, command=-1.0)
-    own = [name for name in box if name.startswith("rotor.")]
-    units = {name: np.eye(n)[:, int(name[6:]) - 1 :][:, :1] for name in own}
-    rotors = {uncertain("rotor", name, 1, given=(units[name].T @ family.spread)[None]): units[name][None] for name in own}
-    net.add("thrusts", n, **rotors)
-    keys = [key for name in box for key in blocks.get(name, ())]
-    M = net.response([f"y_{key}" for key in keys], [f"z_{key}" for key in keys])
-    sizes = [sum(net.at[f"z_{key}"].stop - net.at[f"z_{key}"].start for key in blocks[name]) for name in box]
-    return UncertainLoop(w, M, tuple(box), tuple(Block(size, real=True) for size in sizes))
-
-
-def _delayed(
-    net: Network, blocks: dict[str, list[str]], box: Mapping[str, Range], w: Any, itself: bool
-) -> dict[str, Any]:
-    """The terms of the commands after their uncertain delay."""
-    if "delay" not in box:
-        return {"command": 1.0}
-    p, name = box["delay"], "delay_rotors"
-    blocks["delay"] = [name]
-    net.add(f"z_{name}", 4)
-    t = 1j * np.tan(0.5 * w * p.half)
-    net.add(f"y_{name}", 4, command=1.0, **({} if itself else {f"z_{name}": -t}))
-    if itself:
-        return {"command": 1.0, f"z_{name}": 1.0}
-    late = rotors_response(w, p.middle, 0.0)
-    return {"command": late, f"z_{name}": -2.0 * t * late}
+    own = {name: np.eye(n)[None, :, int(name[6:]) - 1, None] for name in box if name.startswith("rotor.")}
+    spread = {name: {"given": unit.transpose(0, 2, 1) @ family.spread} for name, unit in own.items()}
+    net.add("own", n, **{uncertain(name, "gain", 1, spread[name]): unit for name, unit in own.items()})
+    order = [key for name in box for key in keys[name]]
+    M = net.response([f"y_{key}" for key in order], [f"z_{key}" for key in order])
+    sizes = [sum(net.at[key].stop - net.at[key].start for key in keys[name]) for name in box]
+    return UncertainLoop(M, tuple(Block(size, real=True) for size in sizes))
 
 
 class Deviations:
@@ -132,24 +215,37 @@ class Deviations:
     """
 
     def __init__(self, family: Family, widths: Mapping[str, float]) -> None:
-        box = {name: Range(0.0 if name == "delay" else -width, width) for name, width in widths.items()}
-        box |= {"delay": Range(-widths["delay"], widths["delay"])} if "delay" in widths else {}
-        self.widths, self.loop = widths, uncertain_loop(family, box, delay_itself=True)
-        self.sizes = [block.size for block in self.loop.blocks]
+        self.w, self.family, self.widths = family.w, family, widths
+        self.loop = uncertain_loop(family, {name: Range(0.0, width) for name, width in widths.items()}, late=False)
 
     def determinant(self, values: Values) -> Complex:
         """det(I − M Δ) (F)."""
-        w, names = self.loop.w, self.loop.names
-        late = np.expm1(-1j * w * values.get("delay", 0.0))
-        delta = [late if n == "delay" else np.full(len(w), values.get(n, 0.0) / self.widths[n] + 0j) for n in names]
-        by = np.repeat(np.array(delta), self.sizes, axis=0).T
-        return np.linalg.det(np.eye(by.shape[1]) - self.loop.M * by[:, None, :])
+        delta = {n: np.full(len(self.w), values.get(n, 0.0) / width + 0j) for n, width in self.widths.items()}
+        if "delay" in delta:
+            delta["delay"] = rotors_response(self.w, values.get("delay", 0.0), 0.0) - 1.0
+        sizes = [block.size for block in self.loop.blocks]
+        by = np.repeat(np.array(list(delta.values())), sizes, axis=0).T
+        return np.asarray(np.linalg.det(np.eye(by.shape[1]) - self.loop.M * by[:, None, :]))
 
     def stable(self, values: Values) -> bool:
         """Whether the loop is stable."""
         turned = np.unwrap(np.angle(self.determinant(values)))
-        return bool(abs(turned[-1] - turned[0]) < math.pi)
+        return bool(abs(turned[-1] - turned[0]) < TURNED)
+
+    def along(self, signs: Values, factor: float) -> dict[str, float]:
+        """The deviations at a factor of the box, along a direction."""
+        return {name: factor * sign * self.widths[name] for name, sign in signs.items()}
+
+    def limit(self, signs: Values, below: float) -> float:
+        """The factor below another at which stability is lost along a direction; infinite if it is not lost there."""
+        if self.stable(self.along(signs, below)):
+            return math.inf
+        low, high = 0.0, below
+        while high - low > ACCURACY * below:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if self.stable(self.along(signs, middle)) else (low, middle)
+        return high
 
     def frequency(self, values: Values) -> float:
-        """The frequency [rad/s] at which the determinant is smallest, of a loop about to oscillate."""
-        return float(self.loop.w[np.abs(self.determinant(values)).argmin()])
+        """The frequency at which the determinant is smallest, of a loop about to oscillate [rad/s]."""
+        return float(self.w[np.abs(self.determinant(values)).argmin()])
