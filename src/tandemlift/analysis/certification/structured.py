@@ -8,7 +8,7 @@ again, and written as a mission that flies to oscillation.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,6 +28,7 @@ from tandemlift.analysis.certification.uncertainty import (
     largest_factor,
     parameters_of,
     uncertain_tables,
+    weakens,
 )
 from tandemlift.analysis.linearization.loop_margins import LOWEST, ON_CIRCLE, POINTS, calm_mission, is_calm
 from tandemlift.core.errors import InputError
@@ -39,7 +40,7 @@ NAME, TITLE = "structured", "Structured: all parameters at once"
 EVERY = 3  # of the frequencies of a loop, at which µ is bounded
 SMALLER = 0.99  # of a factor that is not proven
 STARTS, SEED = 6, 1  # of the search
-IRRELEVANT = 1.003  # times the factor: what the box grows by without a parameter that does not matter
+BETTER = 0.999  # of a factor, which is worth a change
 FARTHEST = 4.0  # the largest deviation of a parameter alone, relative
 ACCURACY = 0.01  # relative, of the factor at which the mission oscillates
 CONFIRMED = 1.1  # times a limit and by it, where the mission is linearized again
@@ -93,7 +94,7 @@ def structured_tier(mission: Mission, box: Mapping[str, float] = DEFAULT_BOX) ->
         beyond = within_steps({name: BEYOND * p for name, p in worst.values.items()}, mission.mission.step)
         files[f"{mission.mission.name}-worst.toml"] = worst_mission(mission, beyond, worst)
         curves |= {"worst": worst.values, "flown": beyond}
-    return Tier(NAME, TITLE, said, claims_of(mission, deviations, proven, worst), curves, files)
+    return Tier(NAME, TITLE, said, tuple(claims_of(mission, deviations, proven, worst)), curves, files)
 
 
 def proven_factor(deviations: Deviations) -> tuple[float, Array, Array]:
@@ -128,37 +129,43 @@ def proven_factor(deviations: Deviations) -> tuple[float, Array, Array]:
     return factor, family.w[at], np.array([bounds[k].value for k in at])
 
 
-def worst_of(mission: Mission, deviations: Deviations, most: float) -> Worst | None:
-    """The parameters in the smallest box that were found to make the hover oscillate; None if none are.
+def found_factor(deviations: Deviations, most: float, *, flyable: bool) -> tuple[float, Values]:
+    """(the smallest factor of the box at which a search loses stability, in which direction), infinite up to `most`.
 
-    From each start, the sign of one parameter after the other changes while that makes the box smaller; at the end,
-    those that do not matter are 0.
+    From each start, one parameter after the other changes its sign while that makes the factor smaller; at the end,
+    those that do not matter are 0. `flyable`: without rotors that are stronger than the pilot assumes.
     """
-    rng, best, found = np.random.default_rng(SEED), most, None
-    names = list(deviations.widths)
+    rng, best, found = np.random.default_rng(SEED), math.inf, dict[str, float]()
+    choices = {
+        name: (0.0, 1.0) if name == "delay" else (-1.0, 0.0) if flyable and weakens(name) else (-1.0, 0.0, 1.0)
+        for name in deviations.widths
+    }
     for _ in range(STARTS):
-        signs = {name: 1.0 if name in ("lag", "delay") else float(rng.choice((-1.0, 1.0))) for name in names}
+        signs = {name: 1.0 if name == "lag" else float(rng.choice(choices[name])) for name in choices}
         factor, improved = min(deviations.limit(signs, most), most), True
         while improved:
             improved = False
-            for name in map(str, rng.permutation(names)):
-                for sign in (0.0, 1.0) if name == "delay" else (-1.0, 0.0, 1.0):
-                    other = {**signs, name: sign}
-                    smaller = deviations.limit(other, factor) if other != signs else math.inf
-                    if smaller < 0.999 * factor:
-                        signs, factor, improved = other, smaller, True
-        if factor < best:
+            for name, sign in [(str(n), sign) for n in rng.permutation(list(choices)) for sign in choices[str(n)]]:
+                other = {**signs, name: sign}
+                smaller = deviations.limit(other, min(factor, best)) if other != signs else math.inf
+                if smaller < BETTER * factor:
+                    signs, factor, improved = other, smaller, True
+        if factor < min(best, most):
             best, found = factor, signs
-    if found is None:
-        return None
-    for name in names:
-        if not deviations.stable(deviations.along({**found, name: 0.0}, IRRELEVANT * best)):
+    for name in found:
+        if not deviations.stable(deviations.along({**found, name: 0.0}, best / BETTER)):
             found[name] = 0.0
-    return confirmed(mission, deviations, found, best, most)
+    return best, found
 
 
-def confirmed(mission: Mission, deviations: Deviations, signs: Values, factor: float, most: float) -> Worst | None:
-    """The smallest factor along a direction at which the mission, linearized there, oscillates; None up to `most`."""
+def worst_of(mission: Mission, deviations: Deviations, most: float) -> Worst | None:
+    """The parameters that can be flown in the smallest box at which the mission, linearized there, oscillates.
+
+    None if there are none up to a factor `most`.
+    """
+    factor, signs = found_factor(deviations, most, flyable=True)
+    if math.isinf(factor):
+        return None
     step = mission.mission.step
 
     def there(factor: float) -> Worst:
@@ -210,36 +217,32 @@ def worst_mission(mission: Mission, values: Values, worst: Worst) -> str:
     )
 
 
-def claims_of(mission: Mission, deviations: Deviations, proven: float, worst: Worst | None) -> tuple[Claim, ...]:
+def claims_of(mission: Mission, deviations: Deviations, proven: float, worst: Worst | None) -> Iterator[Claim]:
     """The numbers of the tier."""
-    widths, most = deviations.widths, largest_factor(deviations.widths)
-    reach = ", where a parameter reaches the largest deviation that is tried"
-    made = [
-        Claim(
-            "guaranteed factor",
-            "box",
-            proven,
-            "box",
-            1.0,
-            f"no parameters within it make the hover oscillate{reach if proven >= most else ''}",
-        )
-    ]
-    if worst is None:
-        text = f"no parameters that make it oscillate were found up to {most:.3g}{reach}"
-        made.append(Claim("factor that oscillates", "box", math.inf, "box", None, text))
-    else:
+    most, reach = largest_factor(deviations.widths), ", the largest that is tried"
+    text = f"no parameters within it make the hover oscillate{reach if proven >= most else ''}"
+    yield Claim("guaranteed factor", "box", proven, "box", 1.0, text)
+    factor, signs = found_factor(deviations, most, flyable=False)
+    values = deviations.along(signs, factor)
+    text = f"none was found up to {most:.3g}{reach}" if not signs else f"with {words(values)} the model oscillates"
+    yield Claim("factor found", "box", factor, "box", None, text, deviations.frequency(values) if signs else math.nan)
+    if signs:
+        text = "the factor found over the guaranteed one: between them nothing is known"
+        yield Claim("gap", "box", factor / proven, "1", None, text)
+    if worst is not None:
+        text = f"the mission linearized with {words(worst.values)} oscillates"
         command = f"tandemlift run {mission.mission.name}-worst.toml"
-        text = f"{words(worst.values)} make it oscillate; between both factors nothing is known"
-        made.append(Claim("factor that oscillates", "box", worst.factor, "box", None, text, worst.frequency, command))
-        text = "factor found to oscillate over the guaranteed one: 1 where the bound is exact"
-        made.append(Claim("gap", "box", worst.factor / proven, "1", None, text))
-    return (*made, *[alone(mission, deviations, name) for name in widths if name in UNITS])
+        yield Claim("factor that can be flown", "box", worst.factor, "box", None, text, worst.frequency, command)
+    for name in deviations.widths:
+        if name in UNITS:
+            yield alone(mission, deviations, name)
 
 
 def alone(mission: Mission, deviations: Deviations, name: str) -> Claim:
     """The nearest deviation of one parameter at which the loop oscillates, as the mission linearized there confirms."""
     unit, width = UNITS[name], deviations.widths[name]
     ends = {1.0: LONGEST / width} if name == "delay" else {1.0: FARTHEST / width, -1.0: LARGEST / width}
+    ends = {sign: end for sign, end in ends.items() if sign < 0.0 or not weakens(name)}
     factors = {sign: deviations.limit({name: sign}, end) for sign, end in ends.items()}
     sign = min(factors, key=lambda sign: factors[sign])
     if math.isinf(factors[sign]):
@@ -249,11 +252,9 @@ def alone(mission: Mission, deviations: Deviations, name: str) -> Claim:
     frequency = deviations.frequency(values)
     text = f"with {words(values)} alone, the model oscillates at {frequency:.3g} rad/s"
     sides = [growing(mission, {name: side * values[name]})[0] > ON_CIRCLE for side in (1.0 / CONFIRMED, CONFIRMED)]
-    if sides != [False, True]:
-        return Claim(
-            "limit alone", name, None, unit, None, f"{text}; the mission linearized about there does not agree"
-        )
-    return Claim("limit alone", name, values[name], unit, None, text, frequency)
+    if sides == [False, True]:
+        return Claim("limit alone", name, values[name], unit, None, text, frequency)
+    return Claim("limit alone", name, None, unit, None, f"{text}; the mission linearized about there does not agree")
 
 
 def words(values: Values) -> str:
@@ -275,12 +276,15 @@ def assumptions(mission: Mission, box: Mapping[str, float], widths: Mapping[str,
         f"The bound holds at {POINTS // EVERY} frequencies from {LOWEST:g} rad/s to half of the sample rate; it is not "
         "proven between them and below.",
     ]
-    if "mass" in widths or "thrust" in widths:
-        said.append("The effect of the mass is interpolated between models at three masses.")
-    if "thrust" in widths or any(name.startswith("rotor.") for name in widths):
+    if {"mass", "thrust"} & set(widths):
         said.append(
-            "No key changes the thrust constant of the vehicle without that of its pilot: it is modelled and flown as "
-            "mass and inertias divided by it, and a rotor's own gain as a fault that the pilot does not know."
+            "What mass and thrust change by another hover comes from models at three values of each; what they change "
+            "together, beyond either alone, is left out."
+        )
+    if any(map(weakens, widths)):
+        said.append(
+            "No key changes the thrust constant of the vehicle without that of its pilot: weaker rotors are flown as "
+            "faults that the pilot does not know; stronger ones are in the guarantee, but cannot be flown."
         )
     J = Vehicle.from_settings(mission.vehicle).real_inertia(mission.plant)
     if np.abs(J - np.diag(np.diag(J))).max() > 1e-6 * J.max() and set(INERTIAS) & set(widths):

@@ -6,9 +6,10 @@ Each parameter p lies within a range and enters as p = middle + half δ, |δ| �
 - an inertia adds the moment −p J ω̇ about its axis;
 - the rotors' lag is τ (1 + p);
 - their delay is longer by p: e^(−jωp) = (1 − jt)/(1 + jt), with a real t = tan(ωp/2);
-- a mass changes the hover and what the pilot does about it. The loop is linearized at the mass and at two others, where
-  its response is off by Δ₋ and Δ₊; U p (I − V p)⁻¹ W of the least rank passes through all three;
-- a thrust constant off by p is mass and inertias off by 1/(1 + p): a body moves by force and moment over these.
+- all rotors' thrust is 1 + p times what is commanded;
+- mass and thrust also change the hover, and with it what the pilot does. So the loop is linearized at two more values,
+  where its response is off by Δ₁ and Δ₂; U p (I − V p)⁻¹ W of the least rank passes through all three. Both together
+  add in the open loop, where the thrust scales what the mass has changed.
 """
 
 from __future__ import annotations
@@ -28,21 +29,27 @@ from tandemlift.core.types import Array
 from tandemlift.missions import Mission
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
-RANK = 1e-4  # of the largest singular value
+RANK = 1e-3  # of the largest singular value at any frequency
 ACCURACY = 2e-4  # of a limit
 TURNED = 0.75 * math.pi  # less than a real pole turns the determinant by, or half of what a pair turns it by
 
 
+class Trim(NamedTuple):
+    """What a parameter p that changes the hover adds to H of `Family`: U p (I − V p)⁻¹ W."""
+
+    U: Complex
+    W: Complex
+    V: Complex
+
+
 class Family(NamedTuple):
-    """The response of a vehicle with ideal rotors, of any mass.
+    """The response of a vehicle with ideal rotors.
 
     Attributes:
         w: frequencies (F) up to half of the sample rate [rad/s].
         H: (F, 7, 4 + n + 3) from the wrench that rotors add to the commanded one, what each adds itself [N] and a
-            moment [N m], to the commanded wrench and to J ω̇ [N m], of the nominal mass.
-        U: (F, 7, R); with a mass off by p, p y is added through it.
-        W: (F, R, 4 + n + 3); y = W inputs + V p y.
-        V: (F, R, R).
+            moment [N m], to the commanded wrench and to J ω̇ [N m].
+        trims: of "mass" and "thrust".
         spread: (n, 4), thrusts of all rotors from a wrench.
         lag: of the rotors [s].
         delay: likewise [s].
@@ -50,31 +57,39 @@ class Family(NamedTuple):
 
     w: Array
     H: Complex
-    U: Complex
-    W: Complex
-    V: Complex
+    trims: dict[str, Trim]
     spread: Array
     lag: float
     delay: float
 
 
 def family_of(mission: Mission, widths: Mapping[str, float]) -> Family:
-    """The responses of a mission, linearized at its mass and, where that is uncertain, at the ends of its box.
+    """The responses of a mission, linearized as it is and at two values each of mass and thrust, where these deviate.
 
     Raises:
         InputError: the controller is plain Python, or a flight is lost.
     """
     model = calm_model(mission, {}, real=False)
     w = np.geomspace(LOWEST, math.pi / model.step, POINTS)
-    H, mass, thrust = port_response(mission, model, w), widths.get("mass", 0.0), widths.get("thrust", 0.0)
-    low, high = (1.0 - mass) / (1.0 + thrust) - 1.0, (1.0 + mass) / (1.0 - thrust) - 1.0
-    U, W, V = H[:, :, :0], H[:, :0], H[:, :0, :0]
-    if high > low:
-        at = [port_response(mission, calm_model(mission, {"mass": p}, real=False), w) for p in (low, high)]
-        U, W, V = rational(at[0] - H, at[1] - H, low, high)
+    H, trims = port_response(mission, model, w), dict[str, Trim]()
+    for name, ends in (("mass", (-1.0, 1.0)), ("thrust", (-1.0, -0.5))):
+        if name in widths:
+            at = [end * widths[name] for end in ends]
+            models = [calm_model(mission, {name: p}, real=False) for p in at]
+            gains = [1.0 + p if name == "thrust" else 1.0 for p in at]
+            off = [unit_gain(port_response(mission, m, w), gain) - H for m, gain in zip(models, gains, strict=True)]
+            trims[name] = rational(off[0], off[1], at[0], at[1])
     real = mission.actuators.model == "rotors"
     spread = Vehicle.from_settings(mission.vehicle).allocation(mission.allocation.weights)
-    return Family(w, H, U, W, V, spread, mission.hover.lag if real else 0.0, mission.actuators.delay if real else 0.0)
+    return Family(w, H, trims, spread, mission.hover.lag if real else 0.0, mission.actuators.delay if real else 0.0)
+
+
+def unit_gain(H: Complex, gain: float) -> Complex:
+    """H of a vehicle whose rotors give `gain` times the command, closed with those that give it, in the same hover."""
+    added = np.zeros((len(H), H.shape[2], H.shape[2]), dtype=complex)
+    added[:, :4] = (1.0 - 1.0 / gain) * H[:, :4]
+    scaled = np.concatenate([H[:, :4] / gain, H[:, 4:]], axis=1)
+    return np.asarray(scaled @ np.linalg.inv(np.eye(H.shape[2]) + added))
 
 
 def port_response(mission: Mission, model: LinearModel, w: Array) -> Complex:
@@ -99,11 +114,11 @@ def port_response(mission: Mission, model: LinearModel, w: Array) -> Complex:
     return np.concatenate([out[:, :, :n] @ vehicle.allocation(mission.allocation.weights), out], axis=2)
 
 
-def rational(off_low: Complex, off_high: Complex, low: float, high: float) -> tuple[Complex, Complex, Complex]:
-    """(U, W, V) of U p (I − V p)⁻¹ W, equal to matrices (F, a, b) at p = low and p = high, of the least rank."""
+def rational(off_low: Complex, off_high: Complex, low: float, high: float) -> Trim:
+    """U p (I − V p)⁻¹ W, equal to matrices (F, a, b) at p = low and p = high, of the least rank."""
     columns, sizes, _ = np.linalg.svd(np.concatenate([off_low, off_high], axis=2))
     _, _, rows = np.linalg.svd(np.concatenate([off_low, off_high], axis=1))
-    ranks = (sizes > RANK * sizes[:, :1]).sum(axis=1)
+    ranks = (sizes > RANK * sizes.max()).sum(axis=1)
     R = int(ranks.max())
     U, W, V = columns[:, :, :R].astype(complex), rows[:, :R].astype(complex), np.zeros((len(ranks), R, R), complex)
     for k, r in enumerate(ranks):
@@ -112,7 +127,7 @@ def rational(off_low: Complex, off_high: Complex, low: float, high: float) -> tu
         core = (at_high - at_low) / (1.0 / high - 1.0 / low)  # of the inverse core / p − rest
         U[k, :, :r], V[k, :r, :r] = u @ np.linalg.inv(core), (core / high - at_high) @ np.linalg.inv(core)
         U[k, :, r:], W[k, r:] = 0.0, 0.0
-    return U, W, V
+    return Trim(U, W, V)
 
 
 class Network:
@@ -158,7 +173,7 @@ def uncertain_loop(family: Family, box: Mapping[str, Range], *, late: bool = Tru
         box: ranges of deviations.
         late: whether the delay's δ is that of tan(ωp/2); else it is e^(−jωp) − 1 itself.
     """
-    w, n, R = family.w, len(family.spread), family.U.shape[2]
+    w, n = family.w, len(family.spread)
     net, keys = Network(len(w)), {name: list[str]() for name in box}
 
     def uncertain(name: str, of: str, size: int, y: Mapping[str, Any], by: Any = None) -> str:
@@ -171,25 +186,31 @@ def uncertain_loop(family: Family, box: Mapping[str, Range], *, late: bool = Tru
         net.add(key, size, **scale)
         return key
 
-    def scaled(name: str, of: str, size: int, y: Mapping[str, Any]) -> dict[str, float]:
-        """The terms of a signal `of` that is ((1 + p)/(1 + thrust) − 1) y."""
-        parts = {uncertain(name, of, size, y): 1.0} if name in box else {}
-        return parts | ({uncertain("thrust", of, size, {**y, of: 1.0}): -1.0} if "thrust" in box else {})
-
     ports = {"wrench": slice(0, 4), "own": slice(4, 4 + n), "moment": slice(4 + n, None)}
-    net.add("command", 4, **{name: family.H[:, :4, at] for name, at in ports.items()}, heavier=family.U[:, :4])
-    net.add("turning", 3, **{name: family.H[:, 4:, at] for name, at in ports.items()}, heavier=family.U[:, 4:])
-    net.add("felt", R, **{name: family.W[:, :, at] for name, at in ports.items()}, heavier=family.V)
-    net.add("heavier", R, **(scaled("mass", "heavier", R, {"felt": 1.0}) if R else {}))
-    for i, name in enumerate(INERTIAS):
-        net.add(f"slower_{i}", 1, **scaled(name, f"slower_{i}", 1, {"turning": np.eye(3)[None, i : i + 1]}))
-    net.add("moment", 3, **{f"slower_{i}": -np.eye(3)[None, :, i : i + 1] for i in range(3)})
-    arrived: dict[str, Any] = {"command": 1.0}
+    trims = {name: trim for name, trim in family.trims.items() if name in box}
+    for name, rows, size in (("command", slice(0, 4), 4), ("turning", slice(4, None), 3)):
+        net.add(name, size, **{port: family.H[:, rows, at] for port, at in ports.items()})
+        net.terms += [(name, f"{trim}_hover", family.trims[trim].U[:, rows]) for trim in trims]
+    square = [*range(4), *range(-3, 0)]  # wrench and moment
+    opened = np.linalg.inv(family.H[:, :, square] + np.diag([1.0] * 4 + [0.0] * 3))
+    for name, (U, W, V) in trims.items():
+        felt: dict[str, Any] = {port: W[:, :, at] for port, at in ports.items()} | {f"{name}_hover": V}
+        for other in [other for other in trims if other != name]:
+            felt[f"{other}_hover"] = W[:, :, square] @ opened @ trims[other].U  # around the loop
+            if name == "thrust":  # it scales what the mass has changed
+                felt[f"{other}_hover"] += np.linalg.pinv(U, rcond=RANK) @ trims[other].U
+        uncertain(name, "hover", W.shape[1], felt)
+    axes = {name: np.eye(3)[None, i : i + 1] for i, name in enumerate(INERTIAS) if name in box}
+    slower = {uncertain(name, "axis", 1, {"turning": axis}): -axis.transpose(0, 2, 1) for name, axis in axes.items()}
+    net.add("moment", 3, **slower)
+    lifting = {"command": 1.0} | ({uncertain("thrust", "gain", 4, {"command": 1.0}): 1.0} if "thrust" in box else {})
+    net.add("lifting", 4, **lifting)
+    arrived: dict[str, Any] = {"lifting": 1.0}
     if "delay" in box:
         t = 1j * np.tan(0.5 * w * box["delay"].half)
         z = uncertain("delay", "rotors", 4, arrived, by=-t if late else 0.0)
         middle = rotors_response(w, box["delay"].middle, 0.0)
-        arrived = {"command": middle, z: -2.0 * t * middle} if late else {"command": 1.0, z: 1.0}
+        arrived = {"lifting": middle, z: -2.0 * t * middle} if late else {"lifting": 1.0, z: 1.0}
     lag, slow = 1j * w * family.lag, box.get("lag", Range(0.0, 0.0))
     answer = 1.0 / (1.0 + lag * (1.0 + slow.middle))
     lagging = {uncertain("lag", "rotors", 4, {"speed": 1.0}, by=0.0): -lag * slow.half * answer} if "lag" in box else {}

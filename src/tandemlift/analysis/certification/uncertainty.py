@@ -58,9 +58,9 @@ def parameters_of(mission: Mission, box: Mapping[str, float]) -> dict[str, float
             f"{len(named)} uncertain parameters: must be at most {MOST} beside rotors, or the search for the worst "
             f"takes some {minutes:.2g} min; leave out {', '.join(named[MOST:])}"
         )
-    without = () if mission.hover.lag else ("lag",)
+    without = set() if mission.hover.lag else {"lag"}
     if mission.actuators.model != "rotors":
-        rotors, without = [], ("lag", "delay")
+        rotors, without = [], {"thrust", "lag", "delay"}
     own = {name: box.get(name, box.get("rotors", 0.0)) for name in rotors}
     return {n: box[n] for n in UNITS if n in box and n not in without} | {n: x for n, x in own.items() if x}
 
@@ -78,29 +78,38 @@ def largest_factor(widths: Mapping[str, float]) -> float:
     return min((LONGEST if name == "delay" else LARGEST) / width for name, width in widths.items())
 
 
+def weakens(name: str) -> bool:
+    """Whether a parameter is a gain of rotors, which can be flown below 1 alone."""
+    return name == "thrust" or name.startswith("rotor.")
+
+
 def uncertain_tables(tables: Mapping[str, Any], values: Values) -> dict[str, Any]:
     """The tables of a mission whose vehicle deviates from them, and its pilot does not.
 
-    The thrust constant and the largest gain of a rotor have no key of the vehicle alone. They are flown as a body of
-    less mass and inertia, and the weaker rotors by faults that the pilot does not know.
+    Vehicle and pilot share the key of the thrust constant, so that it has no effect. Weaker rotors are flown by faults
+    that the pilot does not know.
+
+    Args:
+        tables: of the mission.
+        values: deviations; no rotor is stronger.
     """
     fleet, plant = tables["vehicle"]["quadrotors"], tables["plant"]
-    gains = [1.0 + values.get(f"rotor.{i + 1}", 0.0) for i in range(4 * len(fleet))]
-    most, slow = max(gains), 1.0 + values.get("lag", 0.0)
-    scale = {n: (1.0 + values.get(n, 0.0)) / ((1.0 + values.get("thrust", 0.0)) * most) for n in ("mass", *INERTIAS)}
-    inertia = [x * scale[name] for x, name in zip(plant["inertia_scale"], INERTIAS, strict=True)]
+    thrust, slow = 1.0 + values.get("thrust", 0.0), 1.0 + values.get("lag", 0.0)
+    gains = [thrust * (1.0 + values.get(f"rotor.{i + 1}", 0.0)) for i in range(4 * len(fleet))]
+    inertia = [x * (1.0 + values.get(name, 0.0)) for x, name in zip(plant["inertia_scale"], INERTIAS, strict=True)]
+    mass = plant["mass_scale"] * (1.0 + values.get("mass", 0.0))
     return {
         **tables,
-        "plant": {**plant, "mass_scale": plant["mass_scale"] * scale["mass"], "inertia_scale": inertia},
+        "plant": {**plant, "mass_scale": mass, "inertia_scale": inertia},
         "vehicle": {
             **tables["vehicle"],
             "quadrotors": [{**q, "lag_up": slow * q["lag_up"], "lag_down": slow * q["lag_down"]} for q in fleet],
         },
         "actuators": {**tables["actuators"], "delay": tables["actuators"]["delay"] + values.get("delay", 0.0)},
         "faults": [
-            {"quadrotor": i // 4 + 1, "rotor": i % 4 + 1, "time": 0.0, "efficiency": gain / most}
+            {"quadrotor": i // 4 + 1, "rotor": i % 4 + 1, "time": 0.0, "efficiency": gain}
             for i, gain in enumerate(gains)
-            if gain < most
+            if gain != 1.0
         ],
     }
 
