@@ -8,14 +8,15 @@ again, and written as a mission that flies to oscillation.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.analysis.certification.box_factors import CLOSER, EVERY, found_factor, proven_factor
 from tandemlift.analysis.certification.certificate import Claim, Tier
-from tandemlift.analysis.certification.structured_singular_value import TINY, Bound, upper_bound
-from tandemlift.analysis.certification.uncertain_loop import Deviations, family_of, uncertain_loop
+from tandemlift.analysis.certification.hover_responses import family_at, hovers_of
+from tandemlift.analysis.certification.uncertain_loop import Deviations
 from tandemlift.analysis.certification.uncertainty import (
     DEFAULT_BOX,
     INERTIAS,
@@ -23,7 +24,6 @@ from tandemlift.analysis.certification.uncertainty import (
     LONGEST,
     UNITS,
     Values,
-    box_at,
     calm_model,
     largest_factor,
     parameters_of,
@@ -32,15 +32,10 @@ from tandemlift.analysis.certification.uncertainty import (
 )
 from tandemlift.analysis.linearization.loop_margins import LOWEST, ON_CIRCLE, POINTS, calm_mission, is_calm
 from tandemlift.core.errors import InputError
-from tandemlift.core.types import Array
 from tandemlift.missions import Mission, built_in, format_toml, load_mission, tables_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 NAME, TITLE = "structured", "Structured: all parameters at once"
-EVERY = 3  # of the frequencies of a loop, at which µ is bounded
-SMALLER = 0.99  # of a factor that is not proven
-STARTS, SEED = 6, 1  # of the search
-BETTER = 0.999  # of a factor, which is worth a change
 FARTHEST = 4.0  # the largest deviation of a parameter alone, relative
 ACCURACY = 0.01  # relative, of the factor at which the mission oscillates
 CONFIRMED = 1.1  # times a limit and by it, where the mission is linearized again
@@ -80,82 +75,30 @@ def structured_tier(mission: Mission, box: Mapping[str, float] = DEFAULT_BOX) ->
         reason = f"the hover saturates: its most loaded rotor needs {100.0 * share:.3g} % of its largest thrust"
         return Tier(NAME, TITLE, said, reason=reason)
     try:
-        family = family_of(mission, widths)
+        hovers = hovers_of(mission, widths)
+        deviations = Deviations(family_at(hovers, hovers.w), widths)
     except InputError as error:
         return Tier(NAME, TITLE, said, reason=f"there is no linear model: {error}")
     if growing(mission, {})[0] > ON_CIRCLE:
         return Tier(NAME, TITLE, said, reason="the hover is not stable with all parameters as they are")
-    deviations = Deviations(family, widths)
-    proven, w, bounds = proven_factor(deviations)
-    worst = worst_of(mission, deviations, largest_factor(widths))
+    most = largest_factor(widths)
+    factor, signs = found_factor(deviations, most, flyable=False)
+    found = deviations.along(signs, factor)
+    frequency = deviations.frequency(found) if found else math.nan
+    proven, w, bounds = proven_factor(hovers, deviations, frequency)
+    worst = worst_of(mission, deviations, most)
     curves = {"frequency": w, "upper_bound": bounds, "widths": widths}
     files = {}
     if worst is not None:
         beyond = within_steps({name: BEYOND * p for name, p in worst.values.items()}, mission.mission.step)
         files[f"{mission.mission.name}-worst.toml"] = worst_mission(mission, beyond, worst)
         curves |= {"worst": worst.values, "flown": beyond}
-    return Tier(NAME, TITLE, said, tuple(claims_of(mission, deviations, proven, worst)), curves, files)
-
-
-def proven_factor(deviations: Deviations) -> tuple[float, Array, Array]:
-    """(the largest factor whose box has µ ≤ 1 at all frequencies, these [rad/s], bounds of µ of the box itself).
-
-    The frequencies are some of the family's, and all of them about the peak.
-    """
-    family, widths, bounds = deviations.family, deviations.widths, dict[int, Bound]()
-    loop = uncertain_loop(family, box_at(widths, 1.0))
-
-    def bound_at(frequencies: Iterable[int]) -> None:
-        last = None
-        for k in frequencies:
-            bounds[k] = last = upper_bound(loop.M[k], loop.blocks, last)
-
-    bound_at([*range(0, len(family.w), EVERY), len(family.w) - 1])
-    peak = max(bounds, key=lambda k: bounds[k].value)
-    bound_at(k for k in range(max(peak - EVERY, 0), min(peak + EVERY + 1, len(family.w))) if k not in bounds)
-    order = sorted(bounds, key=lambda k: -bounds[k].value)
-
-    def proves(factor: float) -> bool:
-        box = box_at(widths, factor)
-        larger = uncertain_loop(family, box)
-        return deviations.stable({name: p.middle for name, p in box.items()}) and all(
-            upper_bound(larger.M[k], larger.blocks, bounds[k], enough=1.0).value <= 1.0 for k in order
-        )
-
-    factor = min(1.0 / max(bounds[order[0]].value, TINY), largest_factor(widths))
-    while not proves(factor):
-        factor *= SMALLER
-    at = sorted(bounds)
-    return factor, family.w[at], np.array([bounds[k].value for k in at])
-
-
-def found_factor(deviations: Deviations, most: float, *, flyable: bool) -> tuple[float, Values]:
-    """(the smallest factor of the box at which a search loses stability, in which direction), infinite up to `most`.
-
-    From each start, one parameter after the other changes its sign while that makes the factor smaller; at the end,
-    those that do not matter are 0. `flyable`: without rotors that are stronger than the pilot assumes.
-    """
-    rng, best, found = np.random.default_rng(SEED), math.inf, dict[str, float]()
-    choices = {
-        name: (0.0, 1.0) if name == "delay" else (-1.0, 0.0) if flyable and weakens(name) else (-1.0, 0.0, 1.0)
-        for name in deviations.widths
-    }
-    for _ in range(STARTS):
-        signs = {name: 1.0 if name == "lag" else float(rng.choice(choices[name])) for name in choices}
-        factor, improved = min(deviations.limit(signs, most), most), True
-        while improved:
-            improved = False
-            for name, sign in [(str(n), sign) for n in rng.permutation(list(choices)) for sign in choices[str(n)]]:
-                other = {**signs, name: sign}
-                smaller = deviations.limit(other, min(factor, best)) if other != signs else math.inf
-                if smaller < BETTER * factor:
-                    signs, factor, improved = other, smaller, True
-        if factor < min(best, most):
-            best, found = factor, signs
-    for name in found:
-        if not deviations.stable(deviations.along({**found, name: 0.0}, best / BETTER)):
-            found[name] = 0.0
-    return best, found
+    claims = [
+        *factors_of(proven, Worst(factor, found, frequency), most),
+        *([] if worst is None else [flown(mission, worst)]),
+        *[alone(mission, deviations, name) for name in widths if name in UNITS],
+    ]
+    return Tier(NAME, TITLE, said, tuple(claims), curves, files)
 
 
 def worst_of(mission: Mission, deviations: Deviations, most: float) -> Worst | None:
@@ -217,32 +160,30 @@ def worst_mission(mission: Mission, values: Values, worst: Worst) -> str:
     )
 
 
-def claims_of(mission: Mission, deviations: Deviations, proven: float, worst: Worst | None) -> Iterator[Claim]:
-    """The numbers of the tier."""
-    most, reach = largest_factor(deviations.widths), ", the largest that is tried"
+def factors_of(proven: float, found: Worst, most: float) -> Iterator[Claim]:
+    """The factor that is proven, the one that was found up to `most`, and the gap between them."""
+    reach = ", the largest that is tried"
     text = f"no parameters within it make the hover oscillate{reach if proven >= most else ''}"
     yield Claim("guaranteed factor", "box", proven, "box", 1.0, text)
-    factor, signs = found_factor(deviations, most, flyable=False)
-    values = deviations.along(signs, factor)
-    text = f"none was found up to {most:.3g}{reach}" if not signs else f"with {words(values)} the model oscillates"
-    yield Claim("factor found", "box", factor, "box", None, text, deviations.frequency(values) if signs else math.nan)
-    if signs:
+    text = f"with {words(found.values)} the model oscillates" if found.values else f"none up to {most:.3g}{reach}"
+    yield Claim("factor found", "box", found.factor, "box", None, text, found.frequency)
+    if found.values:
         text = "the factor found over the guaranteed one: between them nothing is known"
-        yield Claim("gap", "box", factor / proven, "1", None, text)
-    if worst is not None:
-        text = f"the mission linearized with {words(worst.values)} oscillates"
-        command = f"tandemlift run {mission.mission.name}-worst.toml"
-        yield Claim("factor that can be flown", "box", worst.factor, "box", None, text, worst.frequency, command)
-    for name in deviations.widths:
-        if name in UNITS:
-            yield alone(mission, deviations, name)
+        yield Claim("gap", "box", found.factor / proven, "1", None, text)
+
+
+def flown(mission: Mission, worst: Worst) -> Claim:
+    """The factor at which a mission can be flown to oscillation."""
+    text = f"the mission linearized with {words(worst.values)} oscillates"
+    command = f"tandemlift run {mission.mission.name}-worst.toml"
+    return Claim("factor that can be flown", "box", worst.factor, "box", None, text, worst.frequency, command)
 
 
 def alone(mission: Mission, deviations: Deviations, name: str) -> Claim:
     """The nearest deviation of one parameter at which the loop oscillates, as the mission linearized there confirms."""
     unit, width = UNITS[name], deviations.widths[name]
-    ends = {1.0: LONGEST / width} if name == "delay" else {1.0: FARTHEST / width, -1.0: LARGEST / width}
-    ends = {sign: end for sign, end in ends.items() if sign < 0.0 or not weakens(name)}
+    ends = {} if weakens(name) else {1.0: (LONGEST if name == "delay" else FARTHEST) / width}
+    ends |= {} if name in ("lag", "delay") else {-1.0: LARGEST / width}
     factors = {sign: deviations.limit({name: sign}, end) for sign, end in ends.items()}
     sign = min(factors, key=lambda sign: factors[sign])
     if math.isinf(factors[sign]):
@@ -273,13 +214,13 @@ def assumptions(mission: Mission, box: Mapping[str, float], widths: Mapping[str,
         f"Parameters are real and constant, in a box about the mission: {words(box).replace('+', '±')}; a delay only "
         "grows, and the lag is the mean of up and down.",
         "The pilot keeps its own model of the vehicle, except for what it identifies in flight.",
-        f"The bound holds at {POINTS // EVERY} frequencies from {LOWEST:g} rad/s to half of the sample rate; it is not "
-        "proven between them and below.",
+        f"The bound holds at some {POINTS // EVERY} frequencies from {LOWEST:g} rad/s to half of the sample rate, a "
+        f"quarter with slower sensors, and {CLOSER} about each peak; it is not proven between them and below.",
     ]
     if {"mass", "thrust"} & set(widths):
         said.append(
-            "What mass and thrust change by another hover comes from models at three values of each; what they change "
-            "together, beyond either alone, is left out."
+            "What mass and thrust change by another hover comes from models at three values of each, and both together "
+            "from either alone."
         )
     if any(map(weakens, widths)):
         said.append(

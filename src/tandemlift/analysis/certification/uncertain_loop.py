@@ -7,9 +7,8 @@ Each parameter p lies within a range and enters as p = middle + half δ, |δ| �
 - the rotors' lag is τ (1 + p);
 - their delay is longer by p: e^(−jωp) = (1 − jt)/(1 + jt), with a real t = tan(ωp/2);
 - all rotors' thrust is 1 + p times what is commanded;
-- mass and thrust also change the hover, and with it what the pilot does. So the loop is linearized at two more values,
-  where its response is off by Δ₁ and Δ₂; U p (I − V p)⁻¹ W of the least rank passes through all three. Both together
-  add in the open loop, where the thrust scales what the mass has changed.
+- mass and thrust also change the hover, by `Trim`. Both together add in the open loop, where the thrust scales what the
+  mass has changed.
 """
 
 from __future__ import annotations
@@ -20,114 +19,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.analysis.certification.hover_responses import RANK, Family
 from tandemlift.analysis.certification.structured_singular_value import Block, Complex
-from tandemlift.analysis.certification.uncertainty import INERTIAS, Range, Values, calm_model
-from tandemlift.analysis.linearization.linear_model import LinearModel, frequency_response
-from tandemlift.analysis.linearization.loop_margins import LOWEST, POINTS, is_calm, rotors_response
-from tandemlift.core.errors import InputError
-from tandemlift.core.types import Array
-from tandemlift.missions import Mission
-from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.analysis.certification.uncertainty import INERTIAS, Range, Values
+from tandemlift.analysis.linearization.loop_margins import rotors_response
+from tandemlift.core.errors import extra
 
-RANK = 1e-3  # of the largest singular value at any frequency
 ACCURACY = 2e-4  # of a limit
+FINER = 2000  # frequencies at which a smooth determinant is interpolated
 TURNED = 0.75 * math.pi  # less than a real pole turns the determinant by, or half of what a pair turns it by
-
-
-class Trim(NamedTuple):
-    """What a parameter p that changes the hover adds to H of `Family`: U p (I − V p)⁻¹ W."""
-
-    U: Complex
-    W: Complex
-    V: Complex
-
-
-class Family(NamedTuple):
-    """The response of a vehicle with ideal rotors.
-
-    Attributes:
-        w: frequencies (F) up to half of the sample rate [rad/s].
-        H: (F, 7, 4 + n + 3) from the wrench that rotors add to the commanded one, what each adds itself [N] and a
-            moment [N m], to the commanded wrench and to J ω̇ [N m].
-        trims: of "mass" and "thrust".
-        spread: (n, 4), thrusts of all rotors from a wrench.
-        lag: of the rotors [s].
-        delay: likewise [s].
-    """
-
-    w: Array
-    H: Complex
-    trims: dict[str, Trim]
-    spread: Array
-    lag: float
-    delay: float
-
-
-def family_of(mission: Mission, widths: Mapping[str, float]) -> Family:
-    """The responses of a mission, linearized as it is and at two values each of mass and thrust, where these deviate.
-
-    Raises:
-        InputError: the controller is plain Python, or a flight is lost.
-    """
-    model = calm_model(mission, {}, real=False)
-    w = np.geomspace(LOWEST, math.pi / model.step, POINTS)
-    H, trims = port_response(mission, model, w), dict[str, Trim]()
-    for name, ends in (("mass", (-1.0, 1.0)), ("thrust", (-1.0, -0.5))):
-        if name in widths:
-            at = [end * widths[name] for end in ends]
-            models = [calm_model(mission, {name: p}, real=False) for p in at]
-            gains = [1.0 + p if name == "thrust" else 1.0 for p in at]
-            off = [unit_gain(port_response(mission, m, w), gain) - H for m, gain in zip(models, gains, strict=True)]
-            trims[name] = rational(off[0], off[1], at[0], at[1])
-    real = mission.actuators.model == "rotors"
-    spread = Vehicle.from_settings(mission.vehicle).allocation(mission.allocation.weights)
-    return Family(w, H, trims, spread, mission.hover.lag if real else 0.0, mission.actuators.delay if real else 0.0)
-
-
-def unit_gain(H: Complex, gain: float) -> Complex:
-    """H of a vehicle whose rotors give `gain` times the command, closed with those that give it, in the same hover."""
-    added = np.zeros((len(H), H.shape[2], H.shape[2]), dtype=complex)
-    added[:, :4] = (1.0 - 1.0 / gain) * H[:, :4]
-    scaled = np.concatenate([H[:, :4] / gain, H[:, 4:]], axis=1)
-    return np.asarray(scaled @ np.linalg.inv(np.eye(H.shape[2]) + added))
-
-
-def port_response(mission: Mission, model: LinearModel, w: Array) -> Complex:
-    """H of `Family`, of a linear model of a mission's hover with ideal rotors.
-
-    Inputs of a model are held over its sample time h. A rotor's thrust is held over a step, the moment of an inertia is
-    not; and a rate at the samples tells the mean acceleration between them.
-
-    Raises:
-        InputError: the hover is not calm.
-    """
-    if not is_calm(model):
-        raise InputError("the hover does not settle even with rotors without delay and lag")
-    vehicle, few = Vehicle.from_settings(mission.vehicle), model.connected()
-    n, J, T, h, s = vehicle.rotor_count, vehicle.real_inertia(mission.plant), mission.mission.step, model.step, 1j * w
-    R = frequency_response(few, w / (2.0 * math.pi)) - np.eye(*few.D.shape) * (np.arange(len(few.D)) < n)[:, None]
-    sampled = s * h / -np.expm1(-s * h)
-    R[:, :, :n] *= (sampled * -np.expm1(-s * T) / (s * T))[:, None, None]
-    R[:, :, n:] *= sampled[:, None, None]
-    turning = (s * np.sinc(w * h / (2.0 * math.pi)) ** 2)[:, None, None] * (J @ R[:, n:])
-    out = np.concatenate([vehicle.effect @ R[:, :n], turning], axis=1)
-    return np.concatenate([out[:, :, :n] @ vehicle.allocation(mission.allocation.weights), out], axis=2)
-
-
-def rational(off_low: Complex, off_high: Complex, low: float, high: float) -> Trim:
-    """U p (I − V p)⁻¹ W, equal to matrices (F, a, b) at p = low and p = high, of the least rank."""
-    columns, sizes, _ = np.linalg.svd(np.concatenate([off_low, off_high], axis=2))
-    _, _, rows = np.linalg.svd(np.concatenate([off_low, off_high], axis=1))
-    ranks = (sizes > RANK * sizes.max()).sum(axis=1)
-    R = int(ranks.max())
-    U, W, V = columns[:, :, :R].astype(complex), rows[:, :R].astype(complex), np.zeros((len(ranks), R, R), complex)
-    for k, r in enumerate(ranks):
-        u, v = U[k, :, :r], W[k, :r]
-        at_low, at_high = (np.linalg.inv(u.conj().T @ X[k] @ v.conj().T) for X in (off_low, off_high))
-        core = (at_high - at_low) / (1.0 / high - 1.0 / low)  # of the inverse core / p − rest
-        U[k, :, :r], V[k, :r, :r] = u @ np.linalg.inv(core), (core / high - at_high) @ np.linalg.inv(core)
-        U[k, :, r:], W[k, r:] = 0.0, 0.0
-    return Trim(U, W, V)
 
 
 class Network:
@@ -236,17 +136,21 @@ class Deviations:
     """
 
     def __init__(self, family: Family, widths: Mapping[str, float]) -> None:
-        self.w, self.family, self.widths = family.w, family, widths
+        self.w, self.widths = family.w, widths
+        self.finer = np.geomspace(self.w[0], self.w[-1], FINER)
         self.loop = uncertain_loop(family, {name: Range(0.0, width) for name, width in widths.items()}, late=False)
 
     def determinant(self, values: Values) -> Complex:
-        """det(I − M Δ) (F)."""
+        """det(I − M Δ) at the finer frequencies; it has zeros near the axis, but is smooth as the nominal loop is."""
+        with extra("certify", "the structured tier"):
+            from scipy.interpolate import CubicSpline
         delta = {n: np.full(len(self.w), values.get(n, 0.0) / width + 0j) for n, width in self.widths.items()}
         if "delay" in delta:
             delta["delay"] = rotors_response(self.w, values.get("delay", 0.0), 0.0) - 1.0
         sizes = [block.size for block in self.loop.blocks]
         by = np.repeat(np.array(list(delta.values())), sizes, axis=0).T
-        return np.asarray(np.linalg.det(np.eye(by.shape[1]) - self.loop.M * by[:, None, :]))
+        determinant = np.linalg.det(np.eye(by.shape[1]) - self.loop.M * by[:, None, :])
+        return np.asarray(CubicSpline(np.log(self.w), determinant)(np.log(self.finer)))
 
     def stable(self, values: Values) -> bool:
         """Whether the loop is stable."""
@@ -269,4 +173,4 @@ class Deviations:
 
     def frequency(self, values: Values) -> float:
         """The frequency at which the determinant is smallest, of a loop about to oscillate [rad/s]."""
-        return float(self.w[np.abs(self.determinant(values)).argmin()])
+        return float(self.finer[np.abs(self.determinant(values)).argmin()])
