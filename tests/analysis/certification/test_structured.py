@@ -12,7 +12,7 @@ import pytest
 import tandemlift as tl
 from tandemlift.analysis.certification.hover_responses import family_at, hovers_of, rational
 from tandemlift.analysis.certification.structured import Worst, growing, structured_tier, worst_mission
-from tandemlift.analysis.certification.uncertain_loop import Deviations, Network
+from tandemlift.analysis.certification.uncertain_loop import DeviatingLoop, Network
 from tandemlift.analysis.certification.uncertainty import MOST, parameters_of, uncertain_tables
 from tandemlift.analysis.linearization.loop_margins import ON_CIRCLE
 from tandemlift.core.errors import InputError
@@ -36,7 +36,7 @@ def tier():
 def deviations():
     widths = parameters_of(iris(), BOX)
     hovers = hovers_of(iris(), widths)
-    return Deviations(family_at(hovers, hovers.w), widths)
+    return DeviatingLoop(family_at(hovers, hovers.w), widths)
 
 
 def claim(quantity, subject="box"):
@@ -57,9 +57,7 @@ def test_no_corner_of_the_guaranteed_box_is_unstable_when_the_mission_is_lineari
 
 
 def test_the_guarantee_ends_where_the_search_finds_oscillation():
-    proven, found, flown = (
-        claim(f"{which}") for which in ("guaranteed factor", "factor found", "factor that can be flown")
-    )
+    proven, found, flown = (claim(f"{which}") for which in ("guaranteed factor", "factor found", "factor to fly"))
     assert 1.0 < proven.value <= found.value <= flown.value
     assert proven.verdict == "met"
     assert claim("gap").value == pytest.approx(found.value / proven.value)
@@ -81,7 +79,7 @@ def test_the_worst_mission_flies_to_oscillation_at_the_predicted_frequency():
     assert rates[:, axis].std() > 20.0 * calm["rates"][(calm.time > 22.0) & (calm.time < 32.0)][:, axis].std()
     power = np.abs(np.fft.rfft(rates[:, axis] * np.hanning(len(rates)), 8 * len(rates)))
     flown = 2.0 * np.pi * np.fft.rfftfreq(8 * len(rates), flight.time[1] - flight.time[0])[power.argmax()]
-    assert flown == pytest.approx(claim("factor that can be flown").frequency, rel=0.1)
+    assert flown == pytest.approx(claim("factor to fly").frequency, rel=0.1)
 
 
 def test_the_worst_of_a_mission_that_is_not_built_in_is_written_whole():
@@ -171,3 +169,5 @@ def test_a_mission_without_a_stable_linear_hover_has_a_reason_and_no_claims():
     assert late.assumptions
     assert heavy.claims == ()
     assert "saturates" in heavy.reason
+    ideal = structured_tier(load_mission("paper"), {"lag": 0.1, "rotors": 0.1})
+    assert "no parameter" in ideal.reason

@@ -8,10 +8,10 @@ import warnings
 import numpy as np
 import pytest
 
-from tandemlift.analysis.certification.structured_singular_value import Block, upper_bound
+from tandemlift.analysis.certification.structured_singular_value import DeltaBlock, upper_bound
 
 pytest.importorskip("scipy")
-REAL, COMPLEX = Block(1, real=True), Block(1, real=False)
+REAL, COMPLEX = DeltaBlock(1, real=True), DeltaBlock(1, real=False)
 SPIN = 10.0  # rad/s, of the satellite
 
 
@@ -67,14 +67,14 @@ def test_a_repeated_real_delta_has_the_largest_real_eigenvalue():
         M = rng.normal(size=(5, 5))
         values = np.linalg.eigvals(M)
         largest = np.abs(values[np.abs(values.imag) < 1e-9]).max()
-        assert upper_bound(M + 0j, [Block(5, real=True)]).value == pytest.approx(largest, rel=1e-3)
+        assert upper_bound(M + 0j, [DeltaBlock(5, real=True)]).value == pytest.approx(largest, rel=1e-3)
         assert upper_bound(M + 0j, [REAL] * 5).value > 1.02 * largest
 
 
 def test_a_rotation_is_no_limit_to_a_real_gain():
     turn = np.array([[0.0, 1.0], [-1.0, 0.0]], dtype=complex)
-    assert upper_bound(turn, [Block(2, real=True)]).value < 1e-3
-    assert upper_bound(turn, [Block(2, real=False)]).value == pytest.approx(1.0)
+    assert upper_bound(turn, [DeltaBlock(2, real=True)]).value < 1e-3
+    assert upper_bound(turn, [DeltaBlock(2, real=False)]).value == pytest.approx(1.0)
 
 
 def test_two_parameters_of_a_third_order_loop_end_where_routh_and_a_grid_say():
@@ -95,7 +95,7 @@ def test_two_parameters_of_a_third_order_loop_end_where_routh_and_a_grid_say():
 
 def test_the_search_ends_early_with_a_bound_that_holds():
     M = np.random.default_rng(7).normal(size=(4, 4)) + 0j
-    blocks = [Block(2, real=True), REAL, REAL]
+    blocks = [DeltaBlock(2, real=True), REAL, REAL]
     best = upper_bound(M, blocks)
     early = upper_bound(M, blocks, enough=2.0 * best.value)
     assert best.value - 1e-9 <= early.value <= 2.0 * best.value

@@ -9,7 +9,7 @@ import numpy as np
 
 from tandemlift.analysis.certification.hover_responses import Family, Hovers, family_at
 from tandemlift.analysis.certification.structured_singular_value import TINY, Bound, upper_bound
-from tandemlift.analysis.certification.uncertain_loop import Deviations, uncertain_loop
+from tandemlift.analysis.certification.uncertain_loop import DeviatingLoop, uncertain_loop
 from tandemlift.analysis.certification.uncertainty import Values, box_at, largest_factor, weakens
 from tandemlift.core.types import Array
 
@@ -21,7 +21,7 @@ STARTS, SEED = 6, 1  # of the search
 BETTER = 0.999  # of a factor, which is worth a change
 
 
-def proven_factor(hovers: Hovers, deviations: Deviations, near: float) -> tuple[float, Array, Array]:
+def proven_factor(hovers: Hovers, deviations: DeviatingLoop, near: float) -> tuple[float, Array, Array]:
     """(the largest factor whose box has µ ≤ 1 at all frequencies, these [rad/s], bounds of µ of the box itself).
 
     The frequencies are closer about the peaks: µ of real parameters has sharp ones.
@@ -64,7 +64,7 @@ def bounds_of(family: Family, widths: Mapping[str, float]) -> list[Bound]:
     return bounds
 
 
-def found_factor(deviations: Deviations, most: float, *, flyable: bool) -> tuple[float, Values]:
+def found_factor(deviations: DeviatingLoop, most: float, *, flyable: bool) -> tuple[float, Values]:
     """(the smallest factor of the box at which a search loses stability, in which direction), infinite up to `most`.
 
     From each start, one parameter after the other changes its sign while that makes the factor smaller; at the end,

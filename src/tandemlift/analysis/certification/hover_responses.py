@@ -20,7 +20,6 @@ from tandemlift.analysis.linearization.loop_margins import LOWEST, POINTS, is_ca
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
-from tandemlift.parts.mechanics.vehicle import Vehicle
 
 RANK = 1e-3  # of the largest singular value at any frequency
 SLOWER = 0.5  # of half the sample rate, where sensors are slower than the steps in which rotors act
@@ -100,7 +99,7 @@ def family_at(hovers: Hovers, w: Array) -> Family:
         off = [unit_gain(port_response(mission, m, w), g) - H for m, g in zip((one, other), gains, strict=True)]
         trims[name] = rational(off[0], off[1], p, q)
     real = mission.actuators.model == "rotors"
-    spread = Vehicle.from_settings(mission.vehicle).allocation(mission.allocation.weights)
+    spread = mission.hover.vehicle.allocation(mission.allocation.weights)
     return Family(w, H, trims, spread, mission.hover.lag if real else 0.0, mission.actuators.delay if real else 0.0)
 
 
@@ -123,7 +122,7 @@ def port_response(mission: Mission, model: LinearModel, w: Array) -> Complex:
     """
     if not is_calm(model):
         raise InputError("the hover does not settle even with rotors without delay and lag")
-    vehicle, few = Vehicle.from_settings(mission.vehicle), model.connected()
+    vehicle, few = mission.hover.vehicle, model.connected()
     n, J, T, h, s = vehicle.rotor_count, vehicle.real_inertia(mission.plant), mission.mission.step, model.step, 1j * w
     R = frequency_response(few, w / (2.0 * math.pi)) - np.eye(*few.D.shape) * (np.arange(len(few.D)) < n)[:, None]
     sampled = s * h / -np.expm1(-s * h)

@@ -16,7 +16,7 @@ import numpy as np
 from tandemlift.analysis.certification.box_factors import CLOSER, EVERY, found_factor, proven_factor
 from tandemlift.analysis.certification.certificate import Claim, Tier
 from tandemlift.analysis.certification.hover_responses import family_at, hovers_of
-from tandemlift.analysis.certification.uncertain_loop import Deviations
+from tandemlift.analysis.certification.uncertain_loop import DeviatingLoop
 from tandemlift.analysis.certification.uncertainty import (
     DEFAULT_BOX,
     INERTIAS,
@@ -31,9 +31,8 @@ from tandemlift.analysis.certification.uncertainty import (
     weakens,
 )
 from tandemlift.analysis.linearization.loop_margins import LOWEST, ON_CIRCLE, POINTS, calm_mission, is_calm
-from tandemlift.core.errors import InputError
-from tandemlift.missions import Mission, built_in, format_toml, load_mission, tables_of
-from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.core.errors import InputError, without_flight_warnings
+from tandemlift.missions import Mission, built_in, check, format_toml, load_mission, tables_of
 
 NAME, TITLE = "structured", "Structured: all parameters at once"
 FARTHEST = 4.0  # the largest deviation of a parameter alone, relative
@@ -74,9 +73,11 @@ def structured_tier(mission: Mission, box: Mapping[str, float] = DEFAULT_BOX) ->
     if share >= 1.0:
         reason = f"the hover saturates: its most loaded rotor needs {100.0 * share:.3g} % of its largest thrust"
         return Tier(NAME, TITLE, said, reason=reason)
+    if not widths:
+        return Tier(NAME, TITLE, said, reason="no parameter of the box has an effect on this mission")
     try:
         hovers = hovers_of(mission, widths)
-        deviations = Deviations(family_at(hovers, hovers.w), widths)
+        deviations = DeviatingLoop(family_at(hovers, hovers.w), widths)
     except InputError as error:
         return Tier(NAME, TITLE, said, reason=f"there is no linear model: {error}")
     if growing(mission, {})[0] > ON_CIRCLE:
@@ -87,21 +88,23 @@ def structured_tier(mission: Mission, box: Mapping[str, float] = DEFAULT_BOX) ->
     frequency = deviations.frequency(found) if found else math.nan
     proven, w, bounds = proven_factor(hovers, deviations, frequency)
     worst = worst_of(mission, deviations, most)
-    curves = {"frequency": w, "upper_bound": bounds, "widths": widths}
-    files = {}
+    curves, files = {"frequency": w, "upper_bound": bounds, "widths": widths}, dict[str, str]()
+    claims = [*factors_of(proven, Worst(factor, found, frequency), most)]
     if worst is not None:
         beyond = within_steps({name: BEYOND * p for name, p in worst.values.items()}, mission.mission.step)
-        files[f"{mission.mission.name}-worst.toml"] = worst_mission(mission, beyond, worst)
+        text, command = f"the mission linearized with {words(worst.values)} oscillates", ""
+        try:
+            files[f"{mission.mission.name}-worst.toml"] = worst_mission(mission, beyond, worst)
+            command = f"tandemlift run {mission.mission.name}-worst.toml"
+        except InputError as error:
+            text = f"{text}, but cannot be flown: {error}"
+        claims.append(Claim("factor to fly", "box", worst.factor, "box", None, text, worst.frequency, command))
         curves |= {"worst": worst.values, "flown": beyond}
-    claims = [
-        *factors_of(proven, Worst(factor, found, frequency), most),
-        *([] if worst is None else [flown(mission, worst)]),
-        *[alone(mission, deviations, name) for name in widths if name in UNITS],
-    ]
+    claims += [alone(mission, deviations, name) for name in widths if name in UNITS]
     return Tier(NAME, TITLE, said, tuple(claims), curves, files)
 
 
-def worst_of(mission: Mission, deviations: Deviations, most: float) -> Worst | None:
+def worst_of(mission: Mission, deviations: DeviatingLoop, most: float) -> Worst | None:
     """The parameters that can be flown in the smallest box at which the mission, linearized there, oscillates.
 
     None if there are none up to a factor `most`.
@@ -145,13 +148,19 @@ def growing(mission: Mission, values: Values) -> tuple[float, float]:
 
 
 def worst_mission(mission: Mission, values: Values, worst: Worst) -> str:
-    """A mission file that hovers with deviations of the vehicle, without pushes, person and landing."""
+    """A mission file that hovers with deviations of the vehicle, without pushes, person and landing.
+
+    Raises:
+        InputError: such a mission is refused.
+    """
     name, whole = mission.mission.name, tables_of(mission)
     end = calm_mission(mission)[1] + FLOWN
     rest: dict[str, Any] = {"pushes": [], "requests": [], "changes": [], "person": {"model": "none"}}
     rest |= {"detection": {"model": "none"}, "phases": {**whole["phases"], "land_start": 2.0 * end}}
     rest["mission"] = {**whole["mission"], "name": f"{name}-worst", "duration": end}
     keys = uncertain_tables(whole, values) | rest
+    with without_flight_warnings():
+        check(keys, f"{name}-worst")
     if name in built_in() and load_mission(name) == mission:
         keys = {"extends": name} | {key: value for key, value in keys.items() if value != whole.get(key)}
     return (
@@ -172,14 +181,7 @@ def factors_of(proven: float, found: Worst, most: float) -> Iterator[Claim]:
         yield Claim("gap", "box", found.factor / proven, "1", None, text)
 
 
-def flown(mission: Mission, worst: Worst) -> Claim:
-    """The factor at which a mission can be flown to oscillation."""
-    text = f"the mission linearized with {words(worst.values)} oscillates"
-    command = f"tandemlift run {mission.mission.name}-worst.toml"
-    return Claim("factor that can be flown", "box", worst.factor, "box", None, text, worst.frequency, command)
-
-
-def alone(mission: Mission, deviations: Deviations, name: str) -> Claim:
+def alone(mission: Mission, deviations: DeviatingLoop, name: str) -> Claim:
     """The nearest deviation of one parameter at which the loop oscillates, as the mission linearized there confirms."""
     unit, width = UNITS[name], deviations.widths[name]
     ends = {} if weakens(name) else {1.0: (LONGEST if name == "delay" else FARTHEST) / width}
@@ -227,7 +229,7 @@ def assumptions(mission: Mission, box: Mapping[str, float], widths: Mapping[str,
             "No key changes the thrust constant of the vehicle without that of its pilot: weaker rotors are flown as "
             "faults that the pilot does not know; stronger ones are in the guarantee, but cannot be flown."
         )
-    J = Vehicle.from_settings(mission.vehicle).real_inertia(mission.plant)
+    J = mission.hover.vehicle.real_inertia(mission.plant)
     if np.abs(J - np.diag(np.diag(J))).max() > 1e-6 * J.max() and set(INERTIAS) & set(widths):
         said.append("Products of inertia stay as they are, while an inertia deviates.")
     if mission.actuators.model != "rotors":

@@ -28,7 +28,7 @@ OPTIONS = {"maxiter": 100, "maxcor": 50}  # of L-BFGS, of each smoothing
 TINY = 1e-12
 
 
-class Block(NamedTuple):
+class DeltaBlock(NamedTuple):
     """A block δ I of Δ: its size, and whether δ is real."""
 
     size: int
@@ -43,7 +43,7 @@ class Bound(NamedTuple):
     G: Complex
 
 
-def upper_bound(M: Complex, blocks: Sequence[Block], start: Bound | None = None, enough: float = 0.0) -> Bound:
+def upper_bound(M: Complex, blocks: Sequence[DeltaBlock], start: Bound | None = None, enough: float = 0.0) -> Bound:
     """The upper bound of µ of a matrix.
 
     Args:

@@ -20,8 +20,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.analysis.certification.hover_responses import RANK, Family
-from tandemlift.analysis.certification.structured_singular_value import Block, Complex
-from tandemlift.analysis.certification.uncertainty import INERTIAS, Range, Values
+from tandemlift.analysis.certification.structured_singular_value import Complex, DeltaBlock
+from tandemlift.analysis.certification.uncertainty import INERTIAS, Span, Values
 from tandemlift.analysis.linearization.loop_margins import rotors_response
 from tandemlift.core.errors import extra
 
@@ -62,10 +62,10 @@ class UncertainLoop(NamedTuple):
     """M (F, k, k) of a box, and the blocks of Δ in the order of its parameters."""
 
     M: Complex
-    blocks: tuple[Block, ...]
+    blocks: tuple[DeltaBlock, ...]
 
 
-def uncertain_loop(family: Family, box: Mapping[str, Range], *, late: bool = True) -> UncertainLoop:
+def uncertain_loop(family: Family, box: Mapping[str, Span], *, late: bool = True) -> UncertainLoop:
     """M of a box about its middle.
 
     Args:
@@ -111,7 +111,7 @@ def uncertain_loop(family: Family, box: Mapping[str, Range], *, late: bool = Tru
         z = uncertain("delay", "rotors", 4, arrived, by=-t if late else 0.0)
         middle = rotors_response(w, box["delay"].middle, 0.0)
         arrived = {"lifting": middle, z: -2.0 * t * middle} if late else {"lifting": 1.0, z: 1.0}
-    lag, slow = 1j * w * family.lag, box.get("lag", Range(0.0, 0.0))
+    lag, slow = 1j * w * family.lag, box.get("lag", Span(0.0, 0.0))
     answer = 1.0 / (1.0 + lag * (1.0 + slow.middle))
     lagging = {uncertain("lag", "rotors", 4, {"speed": 1.0}, by=0.0): -lag * slow.half * answer} if "lag" in box else {}
     net.add("arrived", 4, **arrived)
@@ -124,10 +124,10 @@ def uncertain_loop(family: Family, box: Mapping[str, Range], *, late: bool = Tru
     order = [key for name in box for key in keys[name]]
     M = net.response([f"y_{key}" for key in order], [f"z_{key}" for key in order])
     sizes = [sum(net.at[key].stop - net.at[key].start for key in keys[name]) for name in box]
-    return UncertainLoop(M, tuple(Block(size, real=True) for size in sizes))
+    return UncertainLoop(M, tuple(DeltaBlock(size, real=True) for size in sizes))
 
 
-class Deviations:
+class DeviatingLoop:
     """The stability of a loop with given deviations, by the winding of det(I − M Δ) about 0.
 
     Args:
@@ -138,7 +138,7 @@ class Deviations:
     def __init__(self, family: Family, widths: Mapping[str, float]) -> None:
         self.w, self.widths = family.w, widths
         self.finer = np.geomspace(self.w[0], self.w[-1], FINER)
-        self.loop = uncertain_loop(family, {name: Range(0.0, width) for name, width in widths.items()}, late=False)
+        self.loop = uncertain_loop(family, {name: Span(0.0, width) for name, width in widths.items()}, late=False)
 
     def determinant(self, values: Values) -> Complex:
         """det(I − M Δ) at the finer frequencies; it has zeros near the axis, but is smooth as the nominal loop is."""

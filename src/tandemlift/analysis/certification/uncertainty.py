@@ -31,7 +31,7 @@ Values = Mapping[str, float]
 """Deviations of parameters by name; rotors are "rotor.1", "rotor.2", …; the others are 0."""
 
 
-class Range(NamedTuple):
+class Span(NamedTuple):
     """The interval of a parameter's deviation: its middle and half its width."""
 
     middle: float
@@ -65,10 +65,10 @@ def parameters_of(mission: Mission, box: Mapping[str, float]) -> dict[str, float
     return {n: box[n] for n in UNITS if n in box and n not in without} | {n: x for n, x in own.items() if x}
 
 
-def box_at(widths: Mapping[str, float], factor: float) -> dict[str, Range]:
+def box_at(widths: Mapping[str, float], factor: float) -> dict[str, Span]:
     """The box that is larger by a factor; the delay only grows."""
     return {
-        name: Range(0.5 * factor * width, 0.5 * factor * width) if name == "delay" else Range(0.0, factor * width)
+        name: Span(0.5 * factor * width, 0.5 * factor * width) if name == "delay" else Span(0.0, factor * width)
         for name, width in widths.items()
     }
 
