@@ -8,6 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from listings import LISTINGS
 
 import tandemlift as tl
 from tandemlift.analysis.certification.hover_responses import family_at, hovers_of, rational
@@ -171,3 +172,11 @@ def test_a_mission_without_a_stable_linear_hover_has_a_reason_and_no_claims():
     assert "saturates" in heavy.reason
     ideal = structured_tier(load_mission("paper"), {"lag": 0.1, "rotors": 0.1})
     assert "no parameter" in ideal.reason
+
+
+def test_a_controller_in_plain_python_has_a_reason_and_no_claims():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", tl.FlightWarning)
+        plain = structured_tier(load_mission("iris", controller=str(LISTINGS / "my_pd_plain.py")), BOX)
+    assert plain.claims == ()
+    assert "plain Python" in plain.reason
