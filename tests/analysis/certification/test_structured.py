@@ -11,10 +11,16 @@ import pytest
 from listings import LISTINGS
 
 import tandemlift as tl
-from tandemlift.analysis.certification.hover_responses import family_at, hovers_of, rational
 from tandemlift.analysis.certification.structured import Worst, growing, structured_tier, worst_mission
 from tandemlift.analysis.certification.uncertain_loop import DeviatingLoop, Network
-from tandemlift.analysis.certification.uncertainty import MOST, parameters_of, uncertain_tables
+from tandemlift.analysis.certification.uncertainty import (
+    MOST,
+    family_at,
+    hovers_of,
+    parameters_of,
+    rational,
+    uncertain_tables,
+)
 from tandemlift.analysis.linearization.loop_margins import ON_CIRCLE
 from tandemlift.core.errors import InputError
 from tandemlift.missions import check, load_mission, mission_from_text, tables_of

@@ -13,10 +13,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.certification.box_factors import CLOSER, EVERY, found_factor, proven_factor
 from tandemlift.analysis.certification.certificate import Claim, Tier
-from tandemlift.analysis.certification.hover_responses import family_at, hovers_of
-from tandemlift.analysis.certification.uncertain_loop import DeviatingLoop
+from tandemlift.analysis.certification.uncertain_loop import CLOSER, EVERY, DeviatingLoop, found_factor, proven_factor
 from tandemlift.analysis.certification.uncertainty import (
     DEFAULT_BOX,
     INERTIAS,
@@ -25,6 +23,8 @@ from tandemlift.analysis.certification.uncertainty import (
     UNITS,
     Values,
     calm_model,
+    family_at,
+    hovers_of,
     largest_factor,
     parameters_of,
     uncertain_tables,
