@@ -41,10 +41,9 @@ from tandemlift.analysis.studies.execution.anywhere import fly_study
 from tandemlift.analysis.studies.execution.chunk import chunk_of
 from tandemlift.analysis.studies.execution.columns import write_columns
 from tandemlift.analysis.studies.execution.dask import cluster_workers
-from tandemlift.analysis.studies.execution.files import ChunkFiles
 from tandemlift.analysis.studies.execution.flying import fly_chunk
 from tandemlift.analysis.studies.execution.running import StudyWork, run_chunks
-from tandemlift.analysis.studies.execution.store import StudyFolder, open_folder
+from tandemlift.analysis.studies.execution.store import ChunkFiles, StudyFolder, open_folder
 from tandemlift.core.errors import InputError
 
 PACKAGES = ("tandemlift", "numpy", "llvmlite", "pyarrow", "distributed")

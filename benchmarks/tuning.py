@@ -17,7 +17,7 @@ from typing import Any
 from machine import describe, heading
 
 import tandemlift as tl
-from tandemlift.analysis.studies.tuning.source import MissionSource
+from tandemlift.analysis.studies.tuning.draws import MissionSource
 from tandemlift.missions import tables_of
 
 DRAWS = Path(__file__).parent / "flight-ready-draws.toml"

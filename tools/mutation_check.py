@@ -41,7 +41,6 @@ ROOMS = {  # share of the mutants, and folders of tests: checks load missions, l
 }
 BLIND = [
     "*/test_one_source*.py",
-    "*/test_jacobian.py",
     "*/test_compiling.py",
     "*/test_kills.py",
 ]  # that compare one source with itself

@@ -20,8 +20,8 @@ import tandemlift as tl
 from random_missions.generate import UNPUSHED, RandomMission, random_family
 from tandemlift.analysis.studies.execution.chunk import sources_digest
 from tandemlift.analysis.studies.execution.columns import Columns
-from tandemlift.analysis.studies.execution.files import ChunkFiles
-from tandemlift.analysis.studies.execution.many import fly_each
+from tandemlift.analysis.studies.execution.flying import fly_each
+from tandemlift.analysis.studies.execution.store import ChunkFiles
 from tandemlift.flight.record import Flight
 from tandemlift.missions.loading import built_in, path_of
 

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.studies.execution.many import fly_each
+from tandemlift.analysis.studies.execution.flying import fly_each
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
 from validation.census import Census

@@ -14,11 +14,13 @@ from typing import TYPE_CHECKING, Any
 from tandemlift.core.files import __version__ as __version__
 
 if TYPE_CHECKING:
+    from tandemlift.analysis.certification.certify import certify
+    from tandemlift.analysis.certification.mission_check import check
+    from tandemlift.analysis.learning.block import Block
     from tandemlift.analysis.learning.registration import register_environments
     from tandemlift.analysis.linearization.differentiable_step import jax_step
     from tandemlift.analysis.linearization.linear_model import LinearModel
     from tandemlift.analysis.linearization.linearize import linearize
-    from tandemlift.analysis.linearization.mission_check import check
     from tandemlift.analysis.studies.study import study
     from tandemlift.analysis.studies.table import Study, load_study
     from tandemlift.analysis.studies.tuning.tune import train, tune
@@ -30,13 +32,12 @@ if TYPE_CHECKING:
     from tandemlift.parts.mechanics.vehicle import Vehicle
     from tandemlift.pictures.figures.registry import plot
     from tandemlift.pictures.report.study.feel_report import feel
-    from tandemlift.simulation.blocks.block import Block
     from tandemlift.simulation.fly import fly, fly_many
     from tandemlift.simulation.pilot_api import Pilot
     from tandemlift.simulation.simulation import Simulation
 
 _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
-    "Block": "simulation.blocks.block",
+    "Block": "analysis.learning.block",
     "Flight": "flight.record",
     "FlightWarning": "core.errors",
     "InputError": "core.errors",
@@ -46,7 +47,8 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Simulation": "simulation.simulation",
     "Study": "analysis.studies.table",
     "Vehicle": "parts.mechanics.vehicle",
-    "check": "analysis.linearization.mission_check",
+    "certify": "analysis.certification.certify",
+    "check": "analysis.certification.mission_check",
     "compile_mission": "codegen.mission_module",
     "feel": "pictures.report.study.feel_report",
     "fly": "simulation.fly",
@@ -74,6 +76,7 @@ __all__ = [
     "Simulation",
     "Study",
     "Vehicle",
+    "certify",
     "check",
     "compile_mission",
     "feel",

@@ -15,17 +15,6 @@ from tools import need
 
 CORTEX_M7 = ("-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard")
 COMPILERS = {"gcc": (), "clang": (), "aarch64-linux-gnu-gcc": (), "arm-none-eabi-gcc": CORTEX_M7}
-GUST = {"velocity": [2.0, 0.0, 0.0], "start": 20.0, "rise": 0.5}
-IDEAL = {"actuators.model": "ideal", "ground.effect": False, "faults": []}
-VARIANTS = {  # what adds a table or a branch to the code, or takes it away
-    "gusts": ("iris", {"wind.model": "air", "wind.gusts": [GUST]}),
-    "gusts alone": ("one-push", {"wind.model": "air", "wind.gusts": [GUST]}),
-    "nobody pushes": ("iris", {"pushes": []}),
-    "a floor": ("paper", {"ground.model": "floor", "initial.euler": [0.0, 0.0, 0.0]}),
-    "ideal rotors": ("iris", IDEAL),
-    "walls": ("iris", {"walls": [{"start": [2.0, -1.0], "end": [2.0, 1.0]}]}),
-    "a supervised one": ("zigzag", {"supervision.model": "on", "pilot.guidance": "interactive"}),
-}
 
 
 def complaints(folder, compiler, *options):
@@ -43,10 +32,9 @@ def in_c(mission, folder, single=False):
     return folder
 
 
-@pytest.mark.parametrize("name", ["gusts", "zigzag"])
-def test_gcc_does_not_warn_of_a_mission(name, tmp_path):
+def test_gcc_does_not_warn_of_a_mission(tmp_path):
     need("gcc")
-    assert not complaints(in_c(tl.load_mission(name), tmp_path), "gcc", "-O1")
+    assert not complaints(in_c(tl.load_mission("zigzag"), tmp_path), "gcc", "-O1")
 
 
 def test_gcc_does_not_warn_of_single_precision_nor_of_self_tests(tmp_path):
@@ -80,15 +68,6 @@ def test_no_compiler_warns_of_a_mission(name, tmp_path):
         folder = in_c(tl.load_mission(name), tmp_path / str(single), single)
         for compiler, options in COMPILERS.items():
             assert not complaints(folder, compiler, "-O2", *options)
-
-
-@pytest.mark.targets
-@pytest.mark.parametrize("variant", VARIANTS)
-def test_no_compiler_warns_of_a_variant(variant, tmp_path):
-    need("gcc", "clang")
-    folder = in_c(tl.load_mission(*VARIANTS[variant]), tmp_path)
-    assert not complaints(folder, "gcc", "-O2")
-    assert not complaints(folder, "clang", "-fsyntax-only")
 
 
 def portable(family):

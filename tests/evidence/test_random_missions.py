@@ -7,7 +7,6 @@ from pathlib import Path
 import judge
 import numpy as np
 import pytest
-from fly_random_missions import report, table
 from judge.model import GRAVITY, body_of, corridor_walls
 from judge.verdict import is_rough
 from judge.verdict import judge as judged_record
@@ -19,15 +18,11 @@ from random_missions.generate import (
     RandomMission,
     drawable_keys,
     random_family,
-    random_missions,
     shortened,
 )
-from random_missions.judged import Families, Judged, judged
+from random_missions.judged import judged
 
 import tandemlift as tl
-from tandemlift.analysis.studies.execution.files import ChunkFiles
-from tandemlift.analysis.studies.execution.running import StudyPart, run_chunks
-from tandemlift.analysis.studies.execution.workers import thread_workers
 from tandemlift.missions import tables_of
 from tandemlift.parts.contact.corridor import CorridorTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -178,42 +173,9 @@ def test_a_blow_is_resolved_and_a_chatter_is_not(blow):
     assert is_rough({"velocity": zero, "rates": shaken}, 0.001)
 
 
-def test_the_same_seed_draws_the_same_missions():
-    one, other = (list(random_missions(3, 2, 2)) for _ in range(2))
-    assert one == other
-    assert one != list(random_missions(4, 2, 2))
-
-
-def test_missions_at_random_are_short_and_differ_in_one_to_twelve_keys():
-    for drawn in random_family(5, 3, 4):
-        before = shortened(drawn.base)
-        assert sum(before.get(key) != value for key, value in drawn.changes.items()) >= 1
-        assert 8.0 <= drawn.mission.mission.duration <= 20.0
-
-
 def test_every_key_of_the_schema_may_be_drawn():
     everything = {
         name.replace(".0", "") for base in ("gusts", "doorway", "rotor-loss", "zigzag") for name in drawable_keys(base)
     }
     inside = {key for key in SCHEMA if not key.replace(".0", "").startswith((*FIXED, *LISTS))}
     assert {key.replace(".0", "") for key in inside} - everything == set()
-
-
-def test_the_table_counts_silent_failures_and_names_disagreements():
-    good = Judged(0, 0, "iris", {}, "landed", "", "landed", "agreed", [], False, [], 0)
-    bad = good._replace(outcome="crashed", ending="struck", judged="flying", verdict="crashed struck, judged flying")
-    text = report([good, bad], "test")
-    assert "1 disagreements outside the bands" in text
-    assert "| crashed |  | 1 |  |  |  | 0 | 0 | 1 |" in table([good, bad])
-
-
-def test_families_are_chunks_of_work_whose_files_are_not_made_again(tmp_path):
-    families, files = Families(16, (3, 4), 1), ChunkFiles(tmp_path, {})
-    with thread_workers(1) as workers:
-        assert run_chunks(families, files, workers, part=StudyPart(2, 2)) == 1
-        second = families.rows(files)
-        assert run_chunks(families, files, workers) == 1
-    rows = families.rows(files)
-    assert [(r.family, r.member) for r in rows] == [(3, 0), (4, 0)]
-    assert rows[1:] == second == [judged(drawn) for drawn in random_family(16, 4, 1)]
-    assert set(families.names).isdisjoint(Families(17, (3, 4), 1).names)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from random_missions.generate import shortened
 
 import tandemlift as tl
-from tandemlift.analysis.studies.execution.many import fly_each
+from tandemlift.analysis.studies.execution.flying import fly_each
 from tandemlift.core.phases import FAILURES
 
 AXES = st.integers(0, 2)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from edited_package import EditedPackage
 from reference_tables.channels import channel_tables
 
 import tandemlift as tl
@@ -127,3 +128,42 @@ def test_channels_have_their_widths_for_any_number_of_quadrotors(count):
     assert widths == {name: CHANNELS[name].columns(count, 4 * count) for name in ALWAYS}
     assert {len(array) for array in flight.values()} == {len(flight.time)} == {6}
     assert np.allclose(flight["rotor_thrusts"].sum(axis=1), flight["thrust"], rtol=1e-12)
+
+
+pytest.importorskip("rosbags.rosbag1")
+
+RECORD = """
+            "wind_speed": Channel("m/s", "", "speed of the air", 1),"""
+FIELD = """
+    wind_speed: Number"""
+VALUE = """
+        wind_speed=sqrt(dot(velocity, velocity)),"""
+PROGRAM = """
+import numpy as np
+import tandemlift as tl
+from tandemlift.apps.export.reading import read_bag
+from tandemlift.apps.export.write import export
+from reference_tables.channels import channel_tables
+
+wind = {"wind.model": "air", "wind.velocity": [3.0, -4.0, 0.0], "wind.turbulence": 6.0}
+flight = tl.fly(tl.load_mission("iris", {"mission.duration": 0.05, **wind}))
+speed = np.linalg.norm(flight["wind_velocity"], axis=1)
+assert speed.min() > 1.0 and np.ptp(speed) > 0.0
+np.testing.assert_allclose(flight["wind_speed"], speed, rtol=1e-14)
+assert flight.info("wind_speed").unit == "m/s"
+assert np.array_equal(tl.Flight.load(flight.save("flight.npz"))["wind_speed"], flight["wind_speed"])
+assert "wind_speed[m/s]" in export(flight, "flight.csv").read_text().splitlines()[0].split(",")
+assert np.array_equal(read_bag(export(flight, "flight.bag"))["wind_speed"], flight["wind_speed"])
+assert "| `wind_speed` | 1 | m/s |  | speed of the air |" in channel_tables()
+assert "wind_speed" not in tl.fly(tl.load_mission("paper", {"mission.duration": 0.05}))
+print("followed")
+"""
+
+
+def test_a_channel_is_added_by_its_record_and_the_law_that_logs_it(tmp_path):
+    package = EditedPackage(tmp_path)
+    package.insert("flight/channels.py", 'Channel("N", "world", "force of the air on all parts together"),', RECORD)
+    package.insert("simulation/loop/log_sample.py", "    wind_force: Vec3", FIELD)
+    package.insert("simulation/loop/log_sample.py", "wind_velocity=velocity,", VALUE)
+    package.insert("simulation/loop/log_sample.py", "from tandemlift.core.algebra import clip", ", sqrt")
+    assert package.run(PROGRAM) == "followed\n"

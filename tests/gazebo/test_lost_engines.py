@@ -10,13 +10,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from patience import COMPILING, completed, ended, until
+from patience import completed, ended, until
 from ros_processes import node, started
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import main
-from tandemlift.engines.gazebo import world_from
-from tandemlift.engines.gazebo_server import GazeboServer, free_port
+from tandemlift.engines.gazebo_server import free_port
 from tandemlift.simulation.stepping import Stepper
 
 from .conftest import runs
@@ -74,22 +73,6 @@ def command(monkeypatch, capsys, tmp_path):
     return run
 
 
-@pytest.fixture
-def joined(monkeypatch):
-    """Starts a Gazebo that a flight of `hover` joins: the server, and the port of its plugin."""
-    servers = []
-
-    def start(**more):
-        port = free_port(socket.SOCK_DGRAM)
-        servers.append(GazeboServer(world_from(tl.load_mission("hover"), port, **more)))
-        monkeypatch.setenv("TANDEMLIFT_GAZEBO_PORT", str(port))
-        return servers[-1], port
-
-    yield start
-    for server in servers:
-        server.close()
-
-
 def check_written(folder, outcome="interrupted"):
     flight = tl.Flight.load(folder / "flight.npz")
     assert flight.outcome == json.loads((folder / "metrics.json").read_text("utf-8"))["outcome"] == outcome
@@ -116,24 +99,6 @@ def test_a_gzserver_that_is_killed_ends_the_flight_which_is_written(words, kill_
     check_written(tmp_path / "out")
 
 
-def test_a_joined_gzserver_that_is_killed_ends_the_flight_which_is_written(joined, kill_after, command, tmp_path):
-    _, port = joined()
-    kill_after(servers)
-    code, errors = command("run", "hover", "--engine", "gazebo", "--out", "out")
-    assert code == 3
-    assert f"interrupted at 0.5 s: engine 'gazebo': nothing listens at UDP port {port} any more" in errors
-    check_written(tmp_path / "out")
-
-
-def test_a_pilot_that_a_joined_world_gives_up_writes_what_it_has_flown(joined, kill_after, command, tmp_path):
-    server, _ = joined(wait="false", stay="true", patience="0.2")
-    kill_after(lambda: until(lambda: "the pilot is silent" in server.last_output()) and [])
-    code, errors = command("run", "hover", "--engine", "gazebo", "--out", "out")
-    assert code == 3
-    assert "refuses step 501: the session is over: Gazebo has dropped this pilot" in errors
-    check_written(tmp_path / "out")
-
-
 # the node of ROS
 
 
@@ -152,25 +117,6 @@ def flies(environment, program):
     """Wait until a node has published a sample."""
     command = [program("rostopic"), "echo", "-n", "1", "/tandemlift/odometry"]
     completed(command, stdout=subprocess.DEVNULL, check=True, env=environment)
-
-
-def test_a_node_whose_gzserver_is_killed_says_so_and_saves_the_flight(master, program, tmp_path):
-    _, environment = master
-    log, saved = tmp_path / "node.log", tmp_path / "saved"
-    flying = node(log, "--engine", "gazebo", "--save", str(saved), environment=environment)
-    flies(environment, program)
-    (server,) = servers()
-    os.kill(server, signal.SIGKILL)
-    assert ended(flying, None, COMPILING) == 3
-    reason = r"interrupted at [\d.]+ s: engine 'gazebo': gzserver has ended \(exit code -9\)"
-    assert re.search(f"^hover: {reason}", log.read_text("utf-8"), re.MULTILINE)
-    assert re.search(rf"\[WARN\].*: {reason}", log.read_text("utf-8"))
-    flight = tl.Flight.load(saved / "flight.npz")
-    assert flight.outcome == "interrupted"
-    assert flight.time[-1] >= 0.01  # s
-    again = tl.fly(tl.load_mission(saved / "recorded.toml"))
-    rows = len(flight.time)
-    assert all(np.array_equal(again[name][:rows], flight[name], equal_nan=True) for name in flight)
 
 
 def test_a_node_whose_master_is_killed_saves_the_flight_when_it_is_ended(master, program, tmp_path):

@@ -11,12 +11,12 @@ import pytest
 from click.testing import CliRunner
 from for_all import for_all
 from listings import LISTINGS
-from mission_schema import BEYOND, EVERYTHING, SCHEMA
+from mission_schema import SCHEMA, every_table
 from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
-from tandemlift.missions import Mission, check, load_mission, merge, tables_of
+from tandemlift.missions import Mission, check, load_mission, tables_of
 from tandemlift.missions.changes import value_at
 from tandemlift.missions.keys import is_of_the_package, plain, sections
 from tandemlift.missions.reference import explained, index, key_tables, plain_name, template_text
@@ -71,7 +71,8 @@ def test_explain_tells_each_key_in_one_to_three_lines(name):
         assert f"[{key.facts.unit}]" in text or key.facts.unit is None
         assert key.allowed in text or key.facts.choices
         assert key.facts.source in text
-    assert explained(plain_name(name)) == explained(name.replace(".0.", "[].")) == text
+    if plain_name(name) != name:
+        assert explained(plain_name(name)) == explained(name.replace(".0.", "[].")) == text
 
 
 @for_all([s for s in sections() if not s.controller], lambda s: s.name)
@@ -178,7 +179,7 @@ def resolved(key, value):
         return Body.model_validate({"mass": 1.0, "size": [1.0] * 3, place[-1]: value}).model_dump(mode="json")[
             place[-1]
         ]
-    tables = merge(tables_of(load_mission("iris", EVERYTHING)), BEYOND) | {"controller": {"name": "nftsmc"}}
+    tables = every_table() | {"controller": {"name": "nftsmc"}}
     value_at(tables, place[:-1])[place[-1]] = value
     return value_at(Mission.model_validate(tables).model_dump(mode="json"), place)
 

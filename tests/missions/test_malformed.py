@@ -1,13 +1,8 @@
-import os
-import sys
-from concurrent.futures import ThreadPoolExecutor
-
 import pytest
 import tomli_w
 from for_all import for_all
 from malformed import CASES, QUADROTOR
 from mission_schema import EVERYTHING
-from patience import completed
 
 import tandemlift as tl
 from tandemlift.missions import Mission, built_in, load_mission, tables_of
@@ -26,22 +21,6 @@ JARGON = (
     "dict",
     "float_",
 )
-THROUGH_THE_COMMAND_LINE = [
-    "bool for a number",
-    "date",
-    "nan",
-    "no step",
-    "a whole number too large",
-    "steep roll",
-    "seven gains",
-    "too many quadrotors",
-    "unknown key",
-    "key of odd characters",
-    "controller",
-    "name that climbs",
-    "too many steps",
-    "too little damping",
-]
 
 
 def refusal(name, changes=None) -> str:
@@ -70,26 +49,6 @@ def test_a_malformed_mission_is_refused_in_plain_words_with_file_key_value_and_w
     assert len(lines) == len(set(lines)) <= 9
     assert all(len(line) < 420 and line.isprintable() for line in lines)
     assert [word for word in JARGON if any(word in line for line in lines)] == []
-
-
-def test_the_command_line_refuses_with_exit_code_2_and_writes_nothing(mine, tmp_path):
-    cases = [c for c in CASES if c.name in THROUGH_THE_COMMAND_LINE]
-    assert len(cases) == len(THROUGH_THE_COMMAND_LINE)
-
-    def run(number):
-        name = f"case{number}.toml"
-        mine(f'extends = "paper"\n{cases[number].toml}\n', name)
-        command = [sys.executable, "-m", "tandemlift", "run", name, "--out", f"out{number}/deep"]
-        return completed(command, capture_output=True, text=True, encoding="utf-8", check=False)
-
-    with ThreadPoolExecutor(2 if (os.cpu_count() or 1) < 4 else 4) as pool:
-        runs = list(pool.map(run, range(len(cases))))
-    for case, done in zip(cases, runs, strict=True):
-        assert (done.returncode, done.stdout) == (2, ""), case.name
-        assert done.stderr.startswith("error: ")
-        assert "Traceback" not in done.stderr
-        assert [piece for piece in case.pieces if piece not in done.stderr] == []
-    assert not list(tmp_path.glob("out*"))
 
 
 def required_keys():

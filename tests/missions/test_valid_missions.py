@@ -8,12 +8,11 @@ import pytest
 import tomli_w
 from as_toml import to_toml
 from for_all import for_all
-from law_values import IRIS
 from mission_schema import EVERYTHING, SCHEMA
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.missions import DATA, Mission, built_in, format_toml, load_mission, merge, tables_of
+from tandemlift.missions import Mission, built_in, format_toml, load_mission, merge, tables_of
 from tandemlift.missions.changes import value_at
 from tandemlift.missions.keys import allowed
 
@@ -52,117 +51,11 @@ def test_a_built_in_mission_is_named_as_its_file_and_warns_of_nothing(name):
         assert load_mission(name).mission.name == name
 
 
-def common(whole, said):
-    """The part of resolved tables whose keys are said in others."""
-    if isinstance(said, dict):
-        return {key: common(whole[key], value) for key, value in said.items()}
-    listed = isinstance(said, list) and said and isinstance(said[0], dict)
-    return [common(*pair) for pair in zip(whole, said, strict=True)] if listed else whole
-
-
-def test_the_paper_mission_leaves_out_only_what_it_has_no_part_of():
-    rest = tables_of(load_mission("paper"))
-    assert [rest[part]["model"] for part in ("actuators", "sensors", "wind", "ground")] == ["ideal", *["none"] * 3]
-    assert rest["pilot"] == {"guidance": "scheduled", "state": "truth", "push": "truth", "map": "none"}
-    assert rest["faults"] == rest["walls"] == []
-    assert rest["phases"]["rotors"] == "always"
-    offset = {"center_of_mass_offset": [0.0] * 3}
-    assert rest["plant"] == {"mass_scale": 1.0, "inertia_scale": [1.0] * 3, **offset}
-    assert rest["disturbance"] == {"force": [0.0] * 3, "moment": [0.0] * 3}
-    assert rest["initial"]["velocity"] == rest["initial"]["rates"] == [0.0] * 3
-    assert all(q["spins"] == [1, -1, 1, -1] for q in rest["vehicle"]["quadrotors"])
-
-
-QUADROTOR = IRIS | {"inertia": list(IRIS["inertia"])}
-BEAM = {"mass": 0.5, "length": 2.0, "radius": 0.05}
-PUSHES = [
-    ("z", 14, 1.5, 0.5),
-    ("x", 22, 3, 0.6),
-    ("y", 28, 2, 0.6),
-    ("x", 34, 3, 0.6),
-    ("y", 40, -3, 0.8),
-    ("x", 46, 3, 0.6),
-    ("y", 52, 2, 0.6),
-    ("x", 58, 3, 0.6),
-]
-
-
-def test_the_paper_mission_has_the_paper_s_numbers():
-    said = tomllib.loads((DATA / "missions" / "paper.toml").read_text("utf-8"))
-    assert common(tables_of(load_mission("paper")), said) == {
-        "mission": {"name": "paper", "duration": 90.0, "step": 0.001, "log_interval": 0.01, "seed": 0},
-        "vehicle": {
-            "payload": BEAM,
-            "quadrotors": [QUADROTOR | {"position": [0.0, y, 0.075]} for y in (1.0, -1.0)],
-            "drag": {"force": [0.006] * 3, "moment": [0.006] * 3},
-        },
-        "controller": {
-            "name": "nftsmc",
-            "gains": {
-                "xi": [4.0, 2.0, 11.0, 25.0, 80.0, 25.0],
-                "eta": [0.2, 0.1, 0.2, 0.2, 0.2, 0.2],
-                "lambda_1": [0.2, 0.1, 200.0, 40.0, 40.0, 40.0],
-                "lambda_2": [2.0, 1.0, 100.0, 30.0, 30.0, 30.0],
-                "a": [3.0] * 6,
-            },
-            "switching": "tanh",
-            "boundary_layer": [0.1] * 6,
-            "attitude_reference_derivatives": "zero",
-            "euler_rates": "exact",
-            "tilt_inverse": "zxy",
-            "human_force_feedforward": False,
-        },
-        "admittance": {
-            "mass": [1.0] * 3,
-            "damping": [1.6] * 3,
-            "stiffness": [0.0] * 3,
-            "threshold": [0.3] * 3,
-            "hold_after_release": False,
-        },
-        "allocation": {"method": "pseudo-inverse", "weights": [[1.0] * 4]},
-        "initial": {"position": [0.3, -0.3, 0.0], "euler": [0.15, -0.15, 0.2]},
-        "phases": {"lift_start": 2.0, "lift_duration": 6.0, "height": 1.0, "land_start": 70.0, "land_duration": 12.0},
-        "pushes": [
-            {"force": [A * (axis == other) for other in "xyz"], "time": t, "sigma": sigma}
-            for axis, t, A, sigma in PUSHES
-        ],
-        "actuators": {"model": "ideal"},
-    }
-
-
 AXES = {
     key: int(found[1])
     for key, field in SCHEMA.items()
     if (found := re.match(r"one number or a list of (\d) numbers", allowed(field.annotation, field.metadata)))
 }
-
-
-def test_every_leaf_that_the_design_gives_per_axis_is_one():
-    assert sorted(AXES) == sorted(
-        [
-            "allocation.priorities",
-            "wind.velocity",
-            *(f"vehicle.{part}.drag_area" for part in ("payload", "quadrotors.0")),
-            *(f"vehicle.payload.{key}" for key in ("inertia", "size", "bodies.0.size")),
-            "vehicle.quadrotors.0.inertia",
-            "vehicle.drag.force",
-            "vehicle.drag.moment",
-            *(f"controller.gains.{gain}" for gain in ("xi", "eta", "lambda_1", "lambda_2", "a")),
-            "controller.boundary_layer",
-            *(f"admittance.{key}" for key in ("mass", "damping", "stiffness", "threshold")),
-            *(f"admittance.feel.{key}" for key in ("force", "speed", "time")),
-            *(f"initial.{key}" for key in ("position", "velocity", "euler", "rates")),
-            "disturbance.force",
-            "disturbance.moment",
-            "plant.inertia_scale",
-            *(f"compliance.max_{what}" for what in ("speed", "acceleration", "jerk")),
-            "detection.scatter",
-            "sensor_faults.0.size",
-            "supervision.fence.high",
-            "supervision.fence.low",
-            *(f"observer.{what}_{number}" for what in ("force", "moment") for number in ("bandwidth", "slope")),
-        ]
-    )
 
 
 @for_all([(key, count) for key, count in AXES.items() if ".bodies." not in key])

@@ -12,7 +12,7 @@ import pytest
 from for_all import for_all
 from repository import ROOT
 
-from tandemlift.pictures.report.errata import errata
+from tandemlift.pictures.report.paper_figures import errata
 
 SOURCE, TESTS = ROOT / "src" / "tandemlift", ROOT / "tests"
 PAPER = ROOT.parent / "shared" / "paper.tex"

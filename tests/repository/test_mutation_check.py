@@ -2,17 +2,10 @@
 
 import ast
 import importlib
-import json
-import os
-import shutil
-import sys
-import tomllib
 
 import mutation_check
 import pytest
-from house import PACKAGE
 from mutants.operators import mutants
-from patience import completed
 from repository import ROOT
 
 LAW = b"""@law
@@ -66,11 +59,6 @@ def test_at_least_300_mistakes_are_drawn_more_than_half_in_laws_each_can_be_comp
     assert [m.name for m in every if ast.dump(ast.parse(m.made_in(sources[m.file]))) == trees[m.file]] == []
 
 
-def test_a_mistake_that_no_test_can_notice_has_a_reason_in_a_line():
-    reasons = tomllib.loads(mutation_check.REASONS.read_text("utf-8"))["equivalent"]
-    assert [name for name, why in reasons.items() if len(why) < 20 or "\n" in why] == []
-
-
 def test_what_a_process_forgets_between_mutants_is_where_the_list_says():
     source = (ROOT / "tools" / "mutants" / "trials.py").read_text("utf-8")
     (remembered,) = (
@@ -80,27 +68,3 @@ def test_what_a_process_forgets_between_mutants_is_where_the_list_says():
     )
     for module, (name, forget) in remembered.items():
         assert callable(getattr(getattr(importlib.import_module(f"tandemlift.{module}"), name), forget))
-
-
-FLYING = """
-import sys
-from pathlib import Path
-import pytest
-from mutants.touched import Touched
-package, folder = map(Path, sys.argv[1:])
-(folder / "traced").mkdir()
-touched = Touched(package, ["parts"], folder / "traced", folder / "calls.json")
-sys.exit(pytest.main([str(folder / "test_flight.py"), "-q", "-p", "no:cacheprovider"], plugins=[touched]))
-"""
-
-
-def test_whoever_flies_has_called_the_laws_that_are_compiled_for_the_flight(tmp_path):
-    fly = 'tl.fly(tl.load_mission("hover", {"mission.duration": 0.1}))'
-    (tmp_path / "test_flight.py").write_text(f"import tandemlift as tl\n\ndef test_flight():\n    {fly}\n")
-    paths = os.pathsep.join(map(str, (ROOT / "tools", PACKAGE.parent)))
-    command = [sys.executable, "-c", FLYING, str(PACKAGE), str(tmp_path)]
-    for _ in range(2):  # compiled, and read from disk
-        shutil.rmtree(tmp_path / "traced", ignore_errors=True)
-        completed(command, env={**os.environ, "PYTHONPATH": paths}, capture_output=True, check=True)
-        ((_, called),) = json.loads((tmp_path / "calls.json").read_text()).values()
-        assert "parts/mechanics/rigid_body.py: rigid_body_motion" in called

@@ -88,20 +88,6 @@ def test_the_noise_has_the_deviation_that_is_set_and_no_bias():
     assert abs(np.mean(off)) < 4.0 * 2.0 / np.sqrt(len(off))
 
 
-def test_the_bias_is_constant_and_drawn_with_the_deviation_that_is_set():
-    flights = tl.fly_many([mission(seed, duration=0.02, bias=30.0) for seed in range(200)])
-    off = np.array([errors(flight) for flight in flights])
-    assert np.ptp(off, axis=1) == pytest.approx(0.0, abs=1e-9)
-    assert deviation_is(off[:, 0], 30.0)
-
-
-def test_the_drift_grows_as_a_random_walk():
-    flights = tl.fly_many([mission(seed, duration=0.5, drift=5.0) for seed in range(200)])
-    off = np.array([errors(flight) for flight in flights])
-    for k in (50, 499):
-        assert deviation_is(off[:, k] - off[:, 0], 5.0 * np.sqrt(k * STEP))
-
-
 @pytest.mark.parametrize(("delay", "steps"), [(0.004, 4), (0.05, 50)])
 def test_the_delay_is_the_one_that_is_set_and_another_sensors_is_not_changed(delay, steps):
     flight = tl.fly(mission(delay=delay))
@@ -147,12 +133,6 @@ def test_a_vector_is_read_in_its_frame_with_noise_on_each_axis():
     off = flight["measured_magnetometer"][1:] - north[:-1]
     assert all(deviation_is(axis, 0.01) for axis in off.T)
     assert flight.info("measured_magnetometer").frame == "body"
-
-
-def test_alone_and_in_a_block_it_reads_the_same_to_the_last_bit():
-    missions = [mission(seed, noise=1.0, bias=3.0, drift=2.0, delay=0.01, interval=0.003) for seed in range(8)]
-    for alone, together in zip(map(tl.fly, missions), tl.fly_many(missions), strict=True):
-        assert all(np.array_equal(alone[name], together[name]) for name in alone)
 
 
 def test_it_changes_no_bit_of_any_other_channel():

@@ -81,22 +81,3 @@ def test_a_constant_force_leaves_the_offset_at_which_the_surface_carries_it(axis
     assert error[axis] == pytest.approx(brentq(unbalanced, -2.0, 0.0, xtol=1e-14), abs=1e-6)
     if axis < 2:
         assert abs(error[axis]) == pytest.approx(0.40, abs=0.01)
-
-
-def test_the_work_of_the_person_is_force_times_velocity_of_the_point_pushed():
-    point = [0.0, 0.4, -0.06]
-    flight = tl.fly(
-        tl.load_mission(
-            "one-push",
-            {"pushes.0.point": point, "mission.log_interval": STEP, "controller.boundary_layer": 0.2},
-        )
-    )
-    F, v, w = flight["push_force"][:-1], flight["velocity"][:-1], flight["rates"][:-1]
-    q = np.roll(flight["attitude"][:-1], -1, axis=1)
-    from scipy.spatial.transform import Rotation
-
-    at_point = v + Rotation.from_quat(q).apply(np.cross(w, point))
-    work = np.sum(F * at_point) * STEP
-    assert flight.metrics()["human_work_j"] == pytest.approx(work, rel=1e-12)
-    impulse = 3.0 * 0.6 * math.sqrt(2.0 * math.pi)
-    np.testing.assert_allclose(flight.metrics()["human_impulse_n_s"], [impulse, 0.0, 0.0], rtol=1e-9, atol=1e-12)

@@ -11,7 +11,7 @@ from ros_processes import SETTINGS
 from ros_trial import GUIDED, Middleware
 
 import tandemlift as tl
-from tandemlift.analysis.studies.execution.many import fly_each
+from tandemlift.analysis.studies.execution.flying import fly_each
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.apps.live.session.page_messages import ResetMessage
 from tandemlift.apps.live.session.session import Session

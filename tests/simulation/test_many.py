@@ -3,7 +3,7 @@
 import pytest
 
 import tandemlift as tl
-from tandemlift.analysis.studies.execution.many import fly_each
+from tandemlift.analysis.studies.execution.flying import fly_each
 
 pytest.importorskip("mujoco")
 BRIEF = {"mission.duration": 0.2}

@@ -15,7 +15,6 @@ from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import LANES
 
 SHORT = {"mission.duration": 20.0}
-FOUR_IDEAL = {"controller.attitude_reference_derivatives": "zero", "admittance.gate": "hard"}
 
 
 def spread(mission, count, **changes):
@@ -34,30 +33,6 @@ def spread(mission, count, **changes):
         )
         for i in range(count)
     ]
-
-
-@pytest.mark.parametrize(
-    "changes",
-    [
-        pytest.param({"controller.switching": "saturation", "admittance.gate": "soft"}, id="saturation, soft"),
-        pytest.param(
-            {
-                "controller.switching": "sign",
-                "controller.gains.a": 1.5,
-                "controller.attitude_reference_derivatives": "filtered",
-                "controller.euler_rates": "body",
-                "controller.tilt_inverse": "printed",
-                "controller.human_force_feedforward": True,
-            },
-            id="sign, a = 1.5, filtered, body rates, printed",
-        ),
-    ],
-)
-def test_a_flight_in_a_block_is_the_flight_alone_to_the_last_bit(changes):
-    missions = spread("paper", 8, **changes)
-    together = tl.fly_many(missions)
-    for i in (0, 3, 7):
-        assert different(together[i], tl.fly(missions[i])) == []
 
 
 def test_a_mixture_of_variants_and_lengths_comes_back_in_the_order_given():
@@ -85,16 +60,6 @@ def test_keeping_metrics_only_gives_the_same_metrics():
     for flight, metrics in zip(tl.fly_many(missions), kept, strict=True):
         del metrics["wall_s"]
         assert {k: v for k, v in flight.metrics().items() if k != "wall_s"} == metrics
-
-
-def test_a_lane_that_diverges_stops_where_it_does_alone_and_leaves_the_others_be():
-    weak = {"controller.gains.lambda_1": 0.0, "controller.gains.lambda_2": 0.0, "mission.duration": 40.0}
-    missions = spread("paper", 8, **{"mission.duration": 40.0})
-    missions[3] = tl.load_mission("paper", {**weak, "controller.gains.xi": [4, 2, 11, 0.1, 0.1, 0.1]})
-    together = tl.fly_many(missions)
-    assert [f.ending is not None for f in together] == [i == 3 for i in range(8)]
-    for i in (2, 3, 4):
-        assert different(together[i], tl.fly(missions[i])) == []
 
 
 def test_no_missions_make_no_flights():
@@ -175,25 +140,6 @@ def test_the_number_of_pushes_is_data(count):
     pushes = [{"force": [0.5, 0.0, 0.0], "time": 5.0 + 0.3 * i, "sigma": 0.4} for i in range(count)]
     metrics = tl.fly(tl.load_mission("one-push", {"pushes": pushes, "mission.duration": 30.0})).metrics()
     assert metrics["human_impulse_n_s"][0] == pytest.approx(count * 0.5 * 0.4 * np.sqrt(2 * np.pi), rel=1e-9, abs=1e-12)
-
-
-def test_overlapping_pushes_at_several_points_add_up():
-    pushes = [
-        {"force": [1.0, 0.5, 0.2], "time": 3.0, "sigma": 0.5, "point": [0.0, 0.8, 0.0]},
-        {"force": [-0.5, 0.5, 0.1], "time": 3.2, "sigma": 0.6, "point": [0.0, -0.6, -0.06]},
-    ]
-    flight = tl.fly(tl.load_mission("flight-ready", {"pushes": pushes, "mission.duration": 6.0}))
-    from scipy.spatial.transform import Rotation
-
-    R = Rotation.from_quat(np.roll(flight["attitude"], -1, axis=1))
-    force, moment = 0.0, 0.0
-    for p in pushes:
-        g = np.exp(-((flight.time - p["time"]) ** 2) / (2 * p["sigma"] ** 2))[:, None]
-        F = g * np.array(p["force"])
-        force = force + F
-        moment = moment + np.cross(p["point"], R.inv().apply(F))
-    np.testing.assert_allclose(flight["push_force"], force, atol=1e-14)
-    np.testing.assert_allclose(flight["push_moment"], moment, atol=1e-14)
 
 
 @pytest.mark.parametrize(("keyword", "value"), [("keep", "all"), ("threads", 0), ("threads", 1.5)])

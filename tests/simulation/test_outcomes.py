@@ -59,15 +59,6 @@ def test_a_vehicle_that_leaves_the_fence_ends_a_metre_outside(flown):
     assert flight["position"][-1, 0] < 1.5 < flight.ending.value + 0.5 < 1.51
 
 
-@pytest.mark.parametrize("name", ENDED)
-def test_in_a_block_it_ends_the_same(name, flown):
-    alone = flown(name)
-    mission = tl.load_mission("iris", ENDED[name] | EVERY)
-    for flight in tl.fly_many([mission] * 2):
-        assert (flight.outcome, flight.ending, flight.findings) == (alone.outcome, alone.ending, alone.findings)
-        assert np.array_equal(flight["position"], alone["position"])
-
-
 def test_a_flight_that_flies_on_ends_at_rest_and_counts_until_the_crash(flown):
     crash = flown("over about y")
     after = tl.fly(tl.load_mission("iris", OVER | EVERY | {"crash.fly_on": 10.0}))

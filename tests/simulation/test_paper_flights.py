@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.missions import built_in
 
 RECORDED = """\
 paper 0.5
@@ -66,18 +65,3 @@ def test_ideal_settings_reproduce_the_flights_of_the_first_issue(mission):
         k = np.searchsorted(flight.time, time - 1e-9)
         for name, expected in (("position", position), ("attitude", attitude)):
             np.testing.assert_allclose(flight[name][k], expected, rtol=0.0, atol=1e-12 * np.linalg.norm(expected))
-
-
-def has_ideal_parts(mission):
-    """Whether rotors, sensors and air of a mission are ideal, and there is no floor."""
-    parts = (mission.actuators, mission.sensors, mission.wind, mission.ground)
-    return [part.model for part in parts] == ["ideal", "none", "none", "none"]
-
-
-@pytest.mark.parametrize("mission", [name for name in built_in() if has_ideal_parts(tl.load_mission(name))])
-def test_such_a_flight_has_no_channels_of_parts_that_it_does_not_have(mission):
-    flight = tl.fly(tl.load_mission(mission, {"mission.duration": 1.0}))
-    words = ("measured", "estimate", "wind", "contact", "command", "allocated")
-    assert not [name for name in flight if any(word in name for word in words)]
-    joints = (101, 3 * len(flight.mission["vehicle"]["quadrotors"]))
-    assert flight["joint_force"].shape == flight["joint_torque"].shape == joints

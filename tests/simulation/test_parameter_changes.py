@@ -133,22 +133,6 @@ def test_a_spring_is_let_go_of_as_smoothly_as_it_was_taken(tmp_path):
     assert push[-1] < 1e-3
 
 
-def test_a_hand_never_pushes_harder_than_its_most_force(tmp_path):
-    rows = [(0, hand(1.0, target=(0.0, 50.0, 20.0)))]
-    flight = tl.fly(load(**recorded(tmp_path / "hand.npz", rows), **{"person.max_force": 3.0}))
-    assert np.linalg.norm(flight["push_force"], axis=1).max() == pytest.approx(3.0, abs=1e-9)
-
-
-def test_a_hand_off_the_centre_makes_the_moment_of_its_force(tmp_path):
-    rows = [(0, hand(grip=(0.0, 0.5, 0.0), force=(1.0, 0.0, 0.0)))]
-    flight = tl.fly(load(**recorded(tmp_path / "hand.npz", rows), **{"mission.duration": 2.0}))
-    w, x, y, z = flight["attitude"].T
-    forces = flight["push_force"]
-    body_x = np.column_stack([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)])
-    yaw_moment = -0.5 * np.einsum("ij,ij->i", body_x, forces)
-    np.testing.assert_allclose(flight["push_moment"][:, 2], yaw_moment, atol=1e-9)
-
-
 def test_a_row_of_a_recording_is_a_hand():
     assert len(flat(HAND_RELEASED)) == WIDTH
 

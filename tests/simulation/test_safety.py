@@ -166,15 +166,6 @@ def test_the_reference_and_the_vehicle_stay_inside_the_fence(fly):
     assert not flight["alarm"].any()
 
 
-@pytest.mark.parametrize("action", ["disable", "land", "stop"])
-def test_an_operator_is_obeyed(action, fly):
-    flight = fly({"requests": [{"time": AT, "action": action}]})
-    after = flight["phase"][flight.time > AT + 0.05]
-    assert PHASE_NAMES[int(after[0])] == {"disable": "hold", "land": "land", "stop": "stopped"}[action]
-    if action == "disable":
-        assert set(after) == {4.0}
-
-
 def test_after_a_landing_a_push_is_neither_heard_nor_countered(fly):
     push = [{"force": [2.0, 0.0, 0.0], "time": t, "sigma": 0.4} for t in (7.0, 19.0)]
     flight = fly({"requests": [{"time": AT, "action": "land"}], "pushes": push})
@@ -183,26 +174,6 @@ def test_after_a_landing_a_push_is_neither_heard_nor_countered(fly):
     assert landed.any()
     assert not flight["admittance_force"][landed & (flight.time > 17.0)].any()
     assert not flight["push_active"][landed].any()
-
-
-@pytest.mark.parametrize(
-    ("changes", "check"),
-    [
-        ({"sensor_faults": [{"sensor": "imu", "kind": "stale", "time": 0.0}]}, 1),
-        ({"sensor_faults": [{"sensor": "accelerometer", "kind": "frozen", "time": 0.1}]}, 3),
-        ({"supervision.checks.thrust_fraction": 0.5}, 4),
-        ({"supervision.checks.tilt": 1e-7}, 5),
-        ({"supervision.checks.rates": 1e-5}, 6),
-        ({"supervision.checks.min_payload_ratio": 1.5}, 9),
-    ],
-)
-def test_a_check_that_fails_refuses(changes, check, fly):
-    flight = fly(changes)
-    assert check in flight["failed_check"]
-    assert "guided" not in [what for _, what in flight.metrics()["events"]]
-    if check < 8:
-        assert flight["phase"].max() == 0.0
-        assert flight["rotor_thrusts"].max() == 0.0
 
 
 def in_plain_python(seconds, heard_at):

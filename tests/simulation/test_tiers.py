@@ -61,7 +61,7 @@ def test_blocks_of_any_length_give_the_same_bits(empty, monkeypatch):
 
 
 def test_code_is_exchanged_in_the_middle_of_a_flight(empty):
-    mission = lanes("iris")[2]
+    mission = lanes("paper")[2]
     whole = tl.fly(mission)
     p = FlightPlan(mission)
     memory = FlightMemory(p.loop_code.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))

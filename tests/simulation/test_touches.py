@@ -56,17 +56,6 @@ def test_a_struck_rotor_does_not_turn_again():
     assert tuple(struck.turning) == tuple(later.turning) == (1.0, 0.0, 1.0, 1.0)
 
 
-def test_the_record_of_a_block_is_that_of_each_flight_alone():
-    heights = [-1.5, -1.2, -1.0, -0.9, -0.8, -1.4, -1.1, -0.7]
-    plans = [FlightPlan(tl.load_mission("iris", ON_ITS_BACK | {"ground.height": h})) for h in heights]
-    p = plans[0]
-    for plan, raw in zip(plans, _fly_compiled(plans, p.steps // p.every + 1, p.every), strict=True):
-        (alone,) = _fly_compiled([plan], p.steps // p.every + 1, p.every)
-        assert touches_of(raw.flight_state) == touches_of(alone.flight_state) != []
-        stepped = crashed_in("compiled", plan.mission)
-        assert touches_of(raw.flight_state) == stepped.touches
-
-
 def test_a_flight_that_stands_flies_and_lands_touches_nothing():
     mission = tl.load_mission(
         "iris", {"mission.duration": 30.0, "phases.land_start": 15.0, "phases.land_duration": 8.0}

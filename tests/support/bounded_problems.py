@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Iterator
-from fractions import Fraction
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -181,42 +180,6 @@ def cost(c: Craft, p: Problem, f: np.ndarray) -> float:
 
 def outside(p: Problem) -> bool:
     return bool(np.any((p.unlimited < 0.0) | (p.unlimited > p.limits)))
-
-
-def exact_solution(A: list[list[Fraction]], b: list[Fraction]) -> list[Fraction]:
-    """A⁻¹ b by elimination, A positive definite."""
-    rows = [[*row, x] for row, x in zip(A, b, strict=True)]
-    for k in range(len(rows)):
-        pivot = [x / rows[k][k] for x in rows[k]]
-        rows = [pivot if i == k else [x - r[k] * y for x, y in zip(r, pivot, strict=True)] for i, r in enumerate(rows)]
-    return [row[-1] for row in rows]
-
-
-def fractions(values: Any) -> list[Fraction]:
-    return [Fraction(float(x)) for x in values]
-
-
-def exact_optimum(c: Craft, p: Problem, active: np.ndarray) -> np.ndarray:
-    """The optimum by exact arithmetic, proven by the Karush–Kuhn–Tucker conditions; `active`: the initial active set.
-
-    The cost is strictly convex, so thrusts within limits that are f₀ + Cᵀλ clipped to them, with γλ = W(τ − B f), are
-    the only optimum.
-    """
-    w, tau, f0, top, gamma = *map(fractions, (c.weights, p.wanted, p.unlimited, p.limits)), Fraction(GAMMA)
-    columns = [[wj * bj for wj, bj in zip(w, fractions(column), strict=True)] for column in c.B.T]
-    held = [a != 0 for a in active]
-    base = [(t if a > 0 else Fraction(0)) if h else x for a, h, t, x in zip(active, held, top, f0, strict=True)]
-    left = [w[j] * tau[j] - sum(col[j] * b for col, b in zip(columns, base, strict=True)) for j in range(4)]
-    free = [col for col, h in zip(columns, held, strict=True) if not h]
-    A = [[sum(col[j] * col[k] for col in free) + gamma * (j == k) for k in range(4)] for j in range(4)]
-    multipliers = exact_solution(A, left)
-    asked = [x + sum(a * m for a, m in zip(col, multipliers, strict=True)) for x, col in zip(f0, columns, strict=True)]
-    f = [b if h else x for b, h, x in zip(base, held, asked, strict=True)]
-    slack = Fraction(1, 10**8)  # N: a rotor so close to changing sides may be on either
-    for x, a, ask, t in zip(f, active, asked, top, strict=True):
-        assert -slack <= x <= t + slack
-        assert t == 0 or a == 0 or (ask <= slack if a < 0 else ask >= t - slack)
-    return np.array([float(x) for x in f])
 
 
 def bounded_least_squares(c: Craft, p: Problem) -> np.ndarray:

@@ -105,27 +105,3 @@ def hostile(count: int, seed: int) -> Iterator[str]:
     ways, weights = zip(*WAYS, strict=True)
     for way in r.choices(ways, weights, k=count):
         yield way(r)
-
-
-def rude(count: int, seed: int) -> Iterator[str]:
-    """A number of valid messages with extreme values, and many at once."""
-    r = random.Random(seed)
-
-    def far(most: float) -> list[float]:
-        return [r.choice((-1, 1)) * r.choice((0.0, 1e-300, r.random(), most)) for _ in range(3)]
-
-    makers: list[tuple[Callable[[], dict[str, object]], int]] = [
-        (lambda: {"type": "grab", "point": far(1e4), "target": far(1e4), "at": r.choice(["point", "centre"])}, 10),
-        (lambda: {"type": "grab", "point": far(0.2), "target": far(1e4), "at": r.choice(["point", "centre"])}, 10),
-        (lambda: {"type": "move", "target": far(1e4)}, 40),
-        (lambda: {"type": "force", "force": far(1e3), "point": far(0.2)}, 20),
-        (lambda: {"type": "release"}, 10),
-        (lambda: {"type": "set", "key": "admittance.mass", "value": [r.uniform(0.3, 20.0)] * r.choice((1, 3, 64))}, 2),
-        (lambda: {"type": "set", "key": r.choice(["wind.velocity", "person.stiffness"]), "value": r.random()}, 2),
-        (lambda: {"type": "kill", "rotor": r.choice((8, 255))}, 1),
-        (lambda: {"type": "enable", "on": r.random() < 0.5}, 2),
-        (lambda: {"type": "ping", "t": r.choice((-1e12, 0, 1e12))}, 2),
-    ]
-    ways, weights = zip(*makers, strict=True)
-    for way in r.choices(ways, weights, k=count):
-        yield json.dumps({"seq": r.randrange(10**15), **way()})

@@ -1,6 +1,9 @@
 """All keys of a mission, by walking its tables."""
 
-from tandemlift.missions import Mission
+import copy
+import functools
+
+from tandemlift.missions import Mission, load_mission, merge, tables_of
 from tandemlift.missions.keys import table_in
 from tandemlift.missions.refusals import keys_of
 from tandemlift.parts.controllers import CONTROLLERS
@@ -37,3 +40,13 @@ EVERYTHING = {  # on top of mission iris: one entry of every list of tables, and
 }
 BEYOND = {"sensors": {"additional": [{"name": "altimeter"}]}}  # on top of that: a sensor of one's own, if it were there
 SCHEMA = dict(reversed(list(schema_keys())))  # of `controller.name`, what every mission asks for
+
+
+def every_table():
+    """The tables of a mission that has everything, for a test to change."""
+    return copy.deepcopy(_every_table())
+
+
+@functools.cache
+def _every_table():
+    return merge(tables_of(load_mission("iris", EVERYTHING)), BEYOND)

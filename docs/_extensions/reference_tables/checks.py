@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from reference_tables.markdown import table
-from tandemlift.analysis.linearization.mission_check import LOOP_CHECKS
+from tandemlift.analysis.certification.mission_check import LOOP_CHECKS
 from tandemlift.missions.flight_checks import CHECKS, FlightCheck
 
 

@@ -9,7 +9,7 @@ import re
 import unicodedata
 from itertools import groupby
 
-from tandemlift.pictures.report.errata import Erratum, errata
+from tandemlift.pictures.report.paper_figures import Erratum, errata
 
 ACCENTS = {"\u0307": "dot", "\u0308": "ddot", "\u0302": "hat"}
 FUNCTIONS = ("atan", "cos", "ln", "sat")

@@ -27,8 +27,7 @@ from tandemlift.engines.compiled_contact import (
     with_load,
 )
 from tandemlift.engines.models.links import parts_layout_from
-from tandemlift.engines.models.scene import Scene
-from tandemlift.engines.models.surroundings import floor_from, walls_from
+from tandemlift.engines.models.scene import Scene, floor_from, walls_from
 from tandemlift.parts.contact.feet import Floor, FootGrip
 from tandemlift.parts.contact.touches import Touches
 from tandemlift.parts.contact.walls import NearWalls, Walls

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.analysis.linearization.linear_model import frequency_response, modes_of
+from tandemlift.analysis.linearization.frequency_response import frequency_response
+from tandemlift.analysis.linearization.linear_model import modes_of
 from tandemlift.analysis.linearization.step_graph import CONSTANT, DISCRETE, UNSEEN
 from tandemlift.parts.controllers import control
 from tandemlift.simulation.plan import FlightPlan

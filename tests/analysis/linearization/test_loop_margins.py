@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.analysis.certification.mission_check import LOOP_CHECKS
 from tandemlift.analysis.linearization.loop_margins import (
     axis_margins,
     is_stable,
@@ -18,7 +19,6 @@ from tandemlift.analysis.linearization.loop_margins import (
     rotors_response,
     single_loop,
 )
-from tandemlift.analysis.linearization.mission_check import LOOP_CHECKS
 from tandemlift.missions import load_mission, tables_of
 from tandemlift.missions.flight_checks import CHECKS
 

@@ -1,10 +1,13 @@
 """`tandemlift feel`: what is flown is what the closed form and the keys say, and presets pass their checks."""
 
+import math
+
 import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.analysis.studies.feel_study import study_feel
+from tandemlift.analysis.studies.closed_form import axes_of
+from tandemlift.analysis.studies.feel_study import feel_checks, study_feel
 from tandemlift.analysis.studies.standard_push import answer_of, pushed_axes
 from tandemlift.parts.interaction.admittance import FEELS
 
@@ -76,3 +79,64 @@ def test_a_spring_leads_to_no_speed_and_is_shown_all_the_same():
     assert pushed.ideal.final_speed is None
     assert abs(pushed.real.final_speed) < 0.02
     assert pushed.difference < 0.1 * np.abs(pushed.closed).max()
+
+
+def results(name, changes):
+    """The verdicts of a mission's checks by name and axis."""
+    mission = tl.load_mission(name, changes)
+    return {(c.check, c.subject): c for c in feel_checks(mission, axes_of(mission))}
+
+
+@pytest.mark.parametrize("name", ["iris", "zigzag", "one-push", "gusts"])
+def test_built_in_missions_pass_what_the_rotors_and_limits_say(name):
+    checks = results(name, {}).values()
+    assert [c.text for c in checks if c.verdict == "fails" and c.check != "wind on the payload"] == []
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "check", "said"),
+    [
+        ("iris", {"admittance.feel": {"speed": 2.5, "time": 5.0}}, ("speed", "x"), "raise compliance.max_speed"),
+        ("iris", {"admittance.feel": {"speed": 1.0, "time": 0.8}}, ("acceleration", "y"), "at least 1 s for 1 m/s"),
+        ("zigzag", {"admittance.feel": {"time": 0.8}}, ("acceleration", "x"), "at least 1 s for 0.5 m/s"),
+        ("iris", {"admittance.threshold": 0.02}, ("noise", ""), "raise the threshold"),
+        ("iris", {"admittance.threshold": 0.08}, ("drift", ""), "tare (estimator.tare_start)"),
+        ("iris", {"compliance.yaw.threshold": 0.05}, ("drift", "yaw"), "turns while nobody pushes"),
+        ("iris", {"controller.max_tilt": 0.03}, ("rotors", "x"), "thrust and tilt give 0.294 m/s²"),
+        (
+            "iris",
+            {"vehicle.payload.mass": 2.2, "admittance.mass": 0.1},
+            ("rotors", "z"),
+            "the vehicle cannot respond so fast",
+        ),
+        ("iris", {"compliance.yaw.inertia": 0.3}, ("rotors", "yaw"), "leave out compliance.yaw.inertia"),
+        ("zigzag", {"corridor.width": 2.2}, ("passage", ""), "touches it"),
+        ("zigzag", {"admittance.feel": {"speed": 1.2, "time": 3.0}}, ("stop", ""), "lower speed or time"),
+    ],
+    ids=lambda x: "".join(x) if isinstance(x, tuple) else "",
+)
+def test_what_cannot_be_had_fails_and_says_what_to_do(name, changes, check, said):
+    found = results(name, changes)[check]
+    assert found.verdict == "fails"
+    assert found.value > found.limit
+    assert said in found.text
+
+
+def test_without_a_tare_the_bias_of_the_joints_counts():
+    tared, free = (
+        results("iris", {"estimator.tare_start": start, "estimator.identify_mass": False}) for start in (9.0, None)
+    )
+    assert free["drift", ""].value > tared["drift", ""].value + 2.0 * 0.3
+    assert "bias, as there is no tare" in free["drift", ""].text
+
+
+def test_the_rotors_are_relieved_by_the_push_and_hold_against_it_at_the_end():
+    light = results("iris", {"admittance.mass": 1.0})["rotors", "x"]
+    assert light.value == pytest.approx(0.7 / 1.0 - 1.0 / 3.5)
+    as_heavy = results("iris", {"admittance.mass": 3.5})["rotors", "x"]
+    assert as_heavy.value == pytest.approx(1.0 / 3.5)
+    assert as_heavy.limit == pytest.approx(9.81 * math.tan(0.25), rel=1e-3)
+
+
+def test_ideal_parts_and_the_clock_have_neither_limits_nor_noise():
+    assert results("one-push", {}) == {}

@@ -8,17 +8,16 @@ from scipy.integrate import solve_ivp
 from study_runs import TWELVE, fly
 
 import tandemlift as tl
-from tandemlift.analysis.studies import comparison_scores
 from tandemlift.analysis.studies.closed_form import _free, axes_of, speed_at
+from tandemlift.analysis.studies.dataset import MOST_NAMES, study_html
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution import estimate
 from tandemlift.analysis.studies.feel_study import _both, feel_checks
-from tandemlift.analysis.studies.html import MOST_NAMES, study_html
 from tandemlift.analysis.studies.standard_push import ARM, _pushes, answer_of
 from tandemlift.analysis.studies.study import mission_of_row
 from tandemlift.analysis.studies.tuning.candidates import _trial
-from tandemlift.analysis.studies.tuning.front import front_of
 from tandemlift.analysis.studies.tuning.optimisers import PARTS, _Coordinate
+from tandemlift.analysis.studies.tuning.search import front_of
 
 
 def test_an_estimate_grows_with_the_rows_and_with_the_files(monkeypatch):
@@ -132,19 +131,6 @@ def test_on_a_front_no_candidate_beats_another_and_of_two_alike_there_is_one():
         SimpleNamespace(apart=[SimpleNamespace(rank=r) for r in pair], values=(k,)) for k, pair in enumerate(ranks)
     ]
     assert [point.values for point in front_of(tried, (0,))] == [(0,), (1,), (4,)]
-
-
-def test_parts_begin_at_the_first_push_of_any_flight(monkeypatch):
-    def flight(first):
-        class Flown(dict):
-            time = np.arange(0.0, 5.0, 0.5)
-
-        return Flown(push_force=np.where(Flown.time[:, None] >= first, [[0.0, 3.0, 4.0]], 0.0))
-
-    monkeypatch.setattr(comparison_scores, "airborne", lambda f: np.ones(len(f.time), bool))
-    late, whole = comparison_scores.parts_of([flight(3.0), flight(1.5), flight(99.0)]), [flight(99.0)]
-    assert [(part.first, part.last) for part in late] == [(1.5, np.inf), (0.0, 1.5)]
-    assert [(part.first, part.last) for part in comparison_scores.parts_of(whole)] == [(0.0, np.inf)]
 
 
 def test_the_share_of_a_trial_is_how_far_it_got():

@@ -6,8 +6,7 @@ import pytest
 from small_studies import GUSTS, flown
 
 import tandemlift as tl
-from tandemlift.analysis.studies.quantities import Quantity, quantity_named, telling, usual_quantities
-from tandemlift.analysis.studies.study_rows import StudyRows
+from tandemlift.analysis.studies.study_rows import Quantity, StudyRows, quantity_named, telling, usual_quantities
 from tandemlift.analysis.studies.worst import worst_rows
 from tandemlift.pictures.report.study.maps import axis_of, bad_shares, map_columns, medians
 

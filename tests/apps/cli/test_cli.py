@@ -4,7 +4,6 @@ import re
 from pathlib import Path
 
 import pytest
-from as_toml import to_toml
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
@@ -187,13 +186,6 @@ def test_the_results_are_those_of_the_flight(run, tmp_path):
     assert metrics["position_rmse_after_10s_m"] is None
     again = tl.fly(mission)
     assert {name: again[name].tobytes() for name in again} == {name: flight[name].tobytes() for name in flight}
-
-
-def test_a_resolved_mission_flies_again_from_its_file(run, tmp_path):
-    assert run("run", "hover", *SHORT, "--out", "first")[0] == 0
-    assert run("run", "first/mission.toml", "--no-figures", "--out", "second")[0] == 0
-    first, second = (tmp_path / name / "mission.toml" for name in ("first", "second"))
-    assert first.read_text() == second.read_text() == to_toml(load_mission("hover", {"mission.duration": 0.5}))
 
 
 def test_a_second_run_replaces_our_files_and_no_other(run, tmp_path):

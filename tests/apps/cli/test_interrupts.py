@@ -11,7 +11,6 @@ import time
 import pytest
 import slow_compiler
 from patience import COMPILING, PATIENCE, completed, until
-from repository import ROOT
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 STOPPED = "stopped; nothing more is written"
@@ -96,7 +95,7 @@ def made(folder):
 @pytest.mark.parametrize("verb", VERBS, ids=lambda verb: verb[0])
 def test_at_any_moment_it_ends_with_one_line(verb, begin, tmp_path):
     chance = random.Random(7)
-    for i in range(6):
+    for i in range(3):
         begun = begin(tmp_path / str(i), "-m", "tandemlift", *verb)
         until((begun.folder / "out").exists, "its folder")
         time.sleep(chance.uniform(0.0, 2.5))  # wherever it is by then
@@ -173,20 +172,3 @@ def test_processes_that_optimise_are_ended_with_it(begin, tmp_path):
     beside = until(optimising, "a process that optimises", COMPILING)
     begun.interrupted()
     until(lambda: not any(os.path.exists(f"/proc/{pid}") for pid in beside), "its end")
-
-
-TESTS = """
-import importlib.util, pathlib, signal, subprocess, sys
-sys.path.append(str(pathlib.Path(sys.argv[1]).parent / "support"))
-signal.signal(signal.SIGINT, signal.SIG_IGN)
-spec = importlib.util.spec_from_file_location("conftest", sys.argv[1])
-spec.loader.exec_module(importlib.util.module_from_spec(spec))
-signal.raise_signal(signal.SIGINT)
-code = "import signal; print(signal.getsignal(signal.SIGINT) is signal.default_int_handler)"
-subprocess.run([sys.executable, "-c", code], check=True)
-"""
-
-
-def test_what_a_test_starts_can_be_interrupted_although_make_runs_in_the_background():
-    command = [sys.executable, "-c", TESTS, str(ROOT / "tests/conftest.py")]
-    assert completed(command, capture_output=True, text=True, check=True).stdout == "True\n"

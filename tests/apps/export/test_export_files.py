@@ -11,7 +11,7 @@ import pytest
 from exported import SAMPLES, eventful, flight_of
 
 import tandemlift as tl
-from tandemlift.apps.export import bags
+from tandemlift.apps.export import write
 from tandemlift.apps.export.write import export
 
 
@@ -147,7 +147,7 @@ def test_what_cannot_be_written_leaves_what_was_there(ending, flight, tmp_path, 
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(bags, "_write", full)
+    monkeypatch.setattr(write, "_write", full)
     monkeypatch.setattr("tandemlift.apps.export.csv_file.headings", full)
     assert "cannot be written: No space left on device" in refusal(flight, old)
     assert old.read_text() == "mine"

@@ -14,7 +14,7 @@ from tandemlift.apps.cli.main import main
 from tandemlift.apps.ros.gazebo_cameras import views_from
 from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.engines.models.sdf import world
-from tandemlift.engines.models.sdf_cameras import FixedCamera, add_cameras
+from tandemlift.engines.models.sdf_elements import FixedCamera, add_cameras
 from tandemlift.missions import tables_of
 from tandemlift.pictures.report.flight_report import write_flight_files
 

@@ -90,13 +90,13 @@ def test_processes_that_compile_the_same_at_once_all_fly_and_leave_one_good_file
 
 
 def test_after_a_process_is_killed_at_any_moment_the_next_one_flies(cache, right, monkeypatch):
-    """Fifteen are killed, from the first import until they have flown; nothing half is ever read."""
+    """Ten are killed, from the first import until they have flown; nothing half is ever read."""
     monkeypatch.delenv("TANDEMLIFT_OPTIMISE")
     chance = random.Random(1)
     began = time.monotonic()
     check_output(started())
     whole, after = time.monotonic() - began, 0
-    for i in range(15):
+    for i in range(10):
         if i % 2:  # compiled anew every other time
             for file in (cache / "code").iterdir():
                 file.unlink(missing_ok=True)  # an optimising process may still be at it
@@ -109,7 +109,7 @@ def test_after_a_process_is_killed_at_any_moment_the_next_one_flies(cache, right
             assert check_output(started()) == right
         else:
             assert np.array_equal(here()["thrust"], here.first["thrust"])
-    assert after < 12  # most of them were killed
+    assert after < 8  # most of them were killed
 
 
 def here():
@@ -213,26 +213,33 @@ WAYS += ["a link to nowhere", "a bit of its code", "a bit of its checksum", "its
 
 
 @pytest.mark.parametrize("way", WAYS)
-def test_an_entry_that_cannot_be_trusted_is_made_anew(way, cache, monkeypatch):
+def test_an_entry_that_cannot_be_trusted_is_not_read_and_can_be_written_again(way, cache):
+    entry = store.StoredCode({"size": 3}, bytes(range(256)))
+    assert store.write("key", entry)
+    damaged(cache / "code" / "key.o", way)
+    assert store.read("key") is None
+    assert store.write("key", entry)
+    assert store.read("key") == entry
+    assert store._is_own((cache / "code" / "key.o").lstat(), stat.S_ISREG)
+
+
+def test_a_flight_whose_entry_is_damaged_has_it_made_anew_once(cache, monkeypatch):
     first = here()
     (file,) = check_entries(cache)
-    damaged(file, way)
+    damaged(file, "a bit of its code")
     made, compiled = [], machine.compiled
     monkeypatch.setattr(machine, "compiled", lambda *given: made.append(given) or compiled(*given))
-    assert np.array_equal(here()["thrust"], first["thrust"])
-    assert len(made) == 1
-    assert store._is_own(file.lstat(), stat.S_ISREG)
+    for _ in range(2):
+        assert np.array_equal(here()["thrust"], first["thrust"])
+        assert len(made) == 1
     assert store.read(file.stem) is not None
-    assert np.array_equal(here()["thrust"], first["thrust"])
-    assert len(made) == 1
 
 
-@pytest.mark.parametrize("way", WAYS)
-def test_a_module_on_disk_that_cannot_be_trusted_is_traced_again(way, cache):
+def test_a_module_on_disk_that_cannot_be_trusted_is_traced_again(cache):
     first, mission = here(), tl.load_mission("one-push", CHANGES)
     plan.LOOP_CODE.clear()
     (text,) = cache.glob("code/*-text.o")
-    damaged(text, way)
+    damaged(text, "a bit of its code")
     found = plan.FlightPlan(mission).loop_code.loop(1)
     found.optimise().join(PATIENCE)
     assert found.is_best
@@ -311,7 +318,7 @@ def fails(number):
     return call
 
 
-@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EROFS, errno.EACCES, errno.EDQUOT, errno.EIO])
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES])
 @pytest.mark.parametrize("where", ["mkdir", "mkstemp", "replace", "write"])
 def test_a_flight_flies_without_a_cache_and_heals_it(where, number, cache, right, monkeypatch):
     with monkeypatch.context() as broken:

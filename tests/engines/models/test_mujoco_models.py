@@ -7,7 +7,7 @@ import pytest
 from modelled import MISSIONS, links_of, loaded, shapes_of
 
 import tandemlift as tl
-from tandemlift.engines.models.surroundings import floor_from, walls_from
+from tandemlift.engines.models.scene import floor_from, walls_from
 from tandemlift.missions import built_in
 
 

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.apps.export.write import export
-from tandemlift.engines.models.surroundings import floor_from
+from tandemlift.engines.models.scene import floor_from
 from tandemlift.parts.contact.hull import HALF_THICKNESS
 from tandemlift.parts.contact.spheres import SPARED
 

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from validate import main
+from validation.census import Census
 from validation.chapters import Row, table
 from validation.persons import random_persons
 from validation.rows import below, true_yielding
-from validation.scenarios import WINDY, drawn, mission
+from validation.scenarios import WINDY, Bench, drawn, mission
 
 import tandemlift as tl
 from tandemlift.flight.record import Flight
@@ -60,3 +61,24 @@ def test_the_wind_of_the_table_is_three_newtons_along_x_and_y():
     area = sum(q.drag_area[0] * q.drag_coefficient for q in windy.vehicle.quadrotors)
     force = 0.5 * windy.wind.density * area * np.linalg.norm(velocity) * velocity
     assert force == pytest.approx([3.0, 3.0, 0.0], abs=0.01)
+
+
+def test_flights_are_counted_once_each_whatever_their_findings():
+    census = Census()
+    found = [[1.0, "off-track", "far"], [2.0, "off-track", "tilted"], [3.0, "saturated", "long"]]
+    census.add([{"outcome": "landed", "findings": []}, {"outcome": "crashed", "findings": found}])
+    assert census.found == 1
+    rows = dict(line.strip("| ").split(" | ") for line in census.table().splitlines()[2:])
+    assert (rows["landed"], rows["crashed"], rows["flying"], rows["with findings"]) == ("1", "1", "0", "1")
+    assert (rows["with finding: off-track"], rows["with finding: saturated"]) == ("1", "1")
+    assert "with finding: touched" not in rows
+
+
+def test_a_bench_counts_what_it_flies():
+    census = Census()
+    missions = [tl.load_mission("hover", {"mission.duration": t, "phases.lift_start": 2.0}) for t in (1.0, 1.5)]
+    Bench(census=census).fly(missions)
+    Bench(census=census).metrics(missions[:1])
+    assert dict(census.outcomes) == {"flying": 3}
+    Bench().fly(missions[:1])  # which nobody counts
+    assert sum(census.outcomes.values()) == 3

@@ -110,14 +110,7 @@ def flown():
     return fly
 
 
-def kinetic(rows: np.ndarray) -> np.ndarray:
-    turning = np.einsum("ti,ij,tj->t", rows[:, 10:13], FLAT.inertia, rows[:, 10:13])
-    return 0.5 * FLAT.mass * (rows[:, 3:6] ** 2).sum(1) + 0.5 * turning
-
-
-SQUARE = polygon([(-3.0, -3.0), (3.0, -3.0), (3.0, 3.0), (-3.0, 3.0)])
-PILLAR = polygon([(-0.2, 1.8), (0.2, 1.8), (0.2, 2.2), (-0.2, 2.2)])
-ROOM = [*SQUARE, *PILLAR, wall((-3.0, -1.6), (-0.6, -1.6), 9.0)]
+ROOM = polygon([(-3.0, -3.0), (3.0, -3.0), (3.0, 3.0), (-3.0, 3.0)])
 
 
 def wandering(rng: np.random.Generator) -> State:
@@ -126,18 +119,6 @@ def wandering(rng: np.random.Generator) -> State:
     )
     velocity, rates = rng.normal(0.0, 1.5, 3) * [1.0, 1.0, 0.1], rng.normal(0.0, [0.3, 0.3, 1.0])
     return at([1.2, -0.2, 0.7], velocity, yaw, vec3(rates))
-
-
-@pytest.mark.parametrize(("step", "every"), [(STEP, 1), (STEP, 16), (0.02, 1)])
-def test_a_vehicle_that_wanders_through_a_room_leaves_no_wall_with_more_energy(flown, step, every):
-    rng, touched = np.random.default_rng(1), 0
-    for friction in np.tile([0.0, 0.4, 1.0], 8):
-        rows = flown(wandering(rng), 5.0, ROOM, walls_of(FLAT, step, friction), step=step, every=every)
-        free = kinetic(rows)[rows[:, 13] == 0.0]
-        assert np.diff(free).max() < 1e-9 * free[0]
-        assert np.abs(rows[:, :2]).max() < 3.0
-        touched += len(free) < len(rows)
-    assert touched > 15
 
 
 def restitution(damping_ratio: float) -> float:

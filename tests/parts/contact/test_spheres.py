@@ -10,7 +10,7 @@ from thrown import arena, random_throw
 import tandemlift as tl
 from tandemlift.core.vector import ZERO, Absent, Quat, vec3
 from tandemlift.engines.models.links import parts_layout_from
-from tandemlift.engines.models.surroundings import wall_contact_from
+from tandemlift.engines.models.scene import wall_contact_from
 from tandemlift.parts.contact.clearance import clearance
 from tandemlift.parts.contact.spheres import RotorSpheres
 from tandemlift.parts.contact.walls import near_wall_loads, nearest_with, no_walls_near

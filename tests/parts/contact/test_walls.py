@@ -10,7 +10,6 @@ import pytest
 from among_walls import EACH_COUNT, GUARD, LENGTH, PAIR, RADIUS, SINGLE, at, found, pressed, random_wall, walls_of
 from hypothesis import assume, given
 from law_values import array, flat, random_state, random_vehicle, seeds
-from machine_code import answers
 from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
@@ -211,15 +210,3 @@ class Answer(NamedTuple):
 def both(w, one, near, frame, s):
     near = nearest_with(w, one, near, frame, s)
     return Answer(near, near_wall_loads(w, near, frame, s))
-
-
-@EACH_COUNT
-def test_machine_code_of_walls_equals_plain_python(count):
-    rng = np.random.default_rng(count)
-    vehicle, s = random_vehicle(rng, count), random_state(rng)
-    w = walls_of(vehicle, guard=0.5, beam=(LENGTH, 0.3) if count % 2 else None)
-    frame, table = parts_layout_from(vehicle), [random_wall(rng) for _ in range(5)]
-    answer = Answer(found(w, table, frame, s), pressed(w, table, vehicle, s))
-    computed = answers(both, (w, table[-1], found(w, table[:-1], frame, s), frame, s))[0]
-    assert np.abs(flat(answer.loads)).max() > 1.0
-    assert np.abs(computed - np.array(flat(answer))).max() < 1e-12 * np.abs(flat(answer.loads)).max()

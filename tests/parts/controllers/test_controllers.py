@@ -5,13 +5,17 @@ import shutil
 
 import numpy as np
 import pytest
+from law_values import paper_vehicle
 from listings import GUIDE, LISTINGS
 
 import tandemlift as tl
+from tandemlift.compiler.tracer.graph import Graph
+from tandemlift.core.errors import InputError
 from tandemlift.core.types import flat
 from tandemlift.missions.reference import key_tables
 from tandemlift.parts.controllers import CONTROLLERS, controller, load_controller
 from tandemlift.parts.controllers import control as control_law
+from tandemlift.parts.controllers.trial_run import check_started
 
 REGISTERED = sorted(CONTROLLERS)
 
@@ -152,3 +156,12 @@ def test_every_key_of_a_baseline_is_in_the_page_of_keys_and_has_a_default(name):
     section = page.partition(f"## `[controller]` of `{name}`\n")[2].partition("\n## ")[0]
     assert [key for key in fields if key != "name" and f"`controller.{key}`" not in section] == []
     assert [key for key, field in fields.items() if key != "name" and field.is_required()] == []
+
+
+def test_gains_hold_numbers_or_symbols_and_nothing_else():
+    chosen = controller("pid")
+    gains, memory = chosen.start(chosen.settings.model_validate({"name": "pid"}), paper_vehicle(), 0.001)
+    check_started("pid", gains, memory)
+    check_started("pid", gains, memory._replace(velocity=Graph().inputs("x", memory.velocity)))
+    with pytest.raises(InputError, match=r"memory\.velocity is str; it must be a number"):
+        check_started("pid", gains, memory._replace(velocity="fast"))

@@ -1,9 +1,10 @@
-"""What is learned while nobody pushes, and what is kept of a push: the mean square, the zero, and the recent push."""
+"""The push that is used: its tare against least squares, what the motion confirms of it, and what is taken from it."""
 
 import numpy as np
 import pytest
 
-from tandemlift.core.vector import ZERO, Quat, Vec3
+import tandemlift as tl
+from tandemlift.core.vector import ZERO, Quat, Vec3, each, vec3
 from tandemlift.parts.estimation.confirmed_part import (
     GUST_TIME,
     RELEARN_TIME,
@@ -13,9 +14,12 @@ from tandemlift.parts.estimation.confirmed_part import (
     square_change,
 )
 from tandemlift.parts.estimation.navigation import NavigationState, Navigator, innovation
-from tandemlift.parts.estimation.push_confirmation import withheld
+from tandemlift.parts.estimation.push_confirmation import outside_load, rotor_model, withheld
 from tandemlift.parts.estimation.push_estimate import PushEstimate
+from tandemlift.parts.estimation.tare import SideForces, TareSums, summed, tare_of
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.sensors.readings import ImuReading, MotionReading
 
 DT = 0.01
@@ -88,3 +92,86 @@ def test_a_motion_sample_of_the_past_has_no_innovation_where_the_estimate_passed
     )
     off = innovation(k, m, then)
     assert np.concatenate(off) == pytest.approx(np.zeros(9), abs=1e-4)
+
+
+STEP = 1e-3
+VEHICLE = Vehicle.from_settings(tl.load_mission("iris").vehicle)
+
+
+def test_rotors_at_their_speed_leave_the_load_that_is_not_theirs():
+    """Force and moment about z beside those of the thrusts by the mixer matrix, whatever the thrusts are."""
+    rotors, at_rest = rotor_model(VEHICLE, STEP)
+    thrusts = np.random.default_rng(4).uniform(1.0, 5.0, VEHICLE.rotor_count)
+    constants = np.array([q.thrust_constant for q in VEHICLE.quadrotors for _ in range(4)])
+    speeds, commands = type(at_rest)(*np.sqrt(thrusts / constants)), type(at_rest)(*thrusts)
+    lift, _, _, yaw = VEHICLE.effect @ thrusts
+    load, after = outside_load(rotors, speeds, commands, Vec3(0.3, -0.2, lift + 0.5), yaw + 0.07)
+    assert np.array(load.force) == pytest.approx([0.3, -0.2, 0.5], abs=1e-12)
+    assert load.turning == pytest.approx(0.07, abs=1e-12)
+    assert abs(yaw) > 0.05  # so that its sign counts
+    assert np.array(after) == pytest.approx(np.array(speeds))
+
+
+@pytest.mark.parametrize(("applies", "left"), [(1.0, 1.0), (0.0, 0.0)])
+def test_what_is_not_confirmed_is_taken_from_force_and_moment_unless_a_contact_explains_it(applies, left):
+    frame = Quat(np.cos(0.4), 0.0, 0.0, np.sin(0.4))
+    imu = ImuReading(*[None] * len(ImuReading._fields))._replace(frame=frame)
+    force, moment = Vec3(1.0, 2.0, 3.0), Vec3(0.1, 0.2, 0.3)
+    push = PushEstimate(force, moment, force, moment, 0.0, 1.0, 0.0, 1.0, 1.0, force)
+    rest = withheld(push, imu, Vec3(0.5, -0.4, 0.3), 0.08, applies, 1.0)
+    less = left * np.array(rotation_from_quaternion(frame)) @ [0.5, -0.4, 0.3]
+    for found in (rest.force, rest.measured, rest.usable):
+        assert np.array(found) == pytest.approx(np.array(force) - less)
+    for found in (rest.moment, rest.measured_moment):
+        assert found == pytest.approx((0.1, 0.2, 0.3 - left * 0.08))
+    assert np.array(rest.withheld) == pytest.approx(less)
+    assert rest.refuted == left
+    assert withheld(push._replace(trusted=0.0), imu, ZERO, 0.0, applies, 0.0).usable == vec3([0.0] * 3)
+
+
+PAIR = each(2)
+NONE = TareSums(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, SideForces(PAIR(0.0, 0.0), PAIR(0.0, 0.0)))
+RNG = np.random.default_rng(0)
+COUNT, MASS = 50, 1.3
+SPECIFIC = [0.1, -0.2, 9.8] + 0.05 * RNG.normal(size=(COUNT, 3))
+FORCE = MASS * SPECIFIC + [0.3, 0.2, 0.0] + 0.1 * RNG.normal(size=(COUNT, 3))
+MOMENT, SIDES = RNG.normal(size=(COUNT, 3)), RNG.normal(size=(COUNT, 2, 2))
+
+
+def tared(identify=1.0, armed=1.0, first=0, until=COUNT):
+    """The tare over samples; those before the first count before it has begun, those from `until` on are not taken."""
+    sums = NONE
+    for k, (f, a, moment, (x, y)) in enumerate(zip(FORCE, SPECIFIC, MOMENT, SIDES, strict=True)):
+        begun, taken = float(k >= first), float(first <= k < until)
+        sides = SideForces(PAIR(*x.tolist()), PAIR(*y.tolist()))
+        sums = summed(sums, begun, taken, vec3(f), vec3(a), vec3(moment), sides)
+    return tare_of(2.0, identify, sums, armed)
+
+
+@pytest.mark.parametrize(("first", "until"), [(0, COUNT), (10, COUNT), (10, 40)])
+def test_it_is_the_least_squares_mass_and_the_mean_of_what_is_left(first, until):
+    part = slice(first, until)
+    (mass,), *_ = np.linalg.lstsq(SPECIFIC[part].reshape(-1, 1), FORCE[part].ravel(), rcond=None)
+    found = tared(first=first, until=until)
+    assert found.mass == pytest.approx(mass)
+    assert found.force == pytest.approx((mass * SPECIFIC[part] - FORCE[part]).mean(axis=0))
+    assert found.moment == pytest.approx(MOMENT[part].mean(axis=0))
+    assert np.array(found.sides) == pytest.approx(SIDES[part].mean(axis=0))
+
+
+def test_without_identification_the_mass_is_the_nominal_one_and_before_its_end_there_is_no_bias():
+    found = tared(identify=0.0)
+    assert found.mass == 2.0
+    assert found.force == pytest.approx((2.0 * SPECIFIC - FORCE).mean(axis=0))
+    early = tared(armed=0.0)
+    assert (early.mass, early.force, early.moment) == (2.0, ZERO, ZERO)
+    assert not np.array(early.sides).any()
+
+
+def test_a_sum_that_was_begun_too_early_is_forgotten():
+    sums = NONE
+    for begun in (1.0, 0.0, 1.0):
+        sums = summed(sums, begun, begun, vec3(FORCE[0]), vec3(SPECIFIC[0]), vec3(MOMENT[0]), NONE.sides)
+    assert sums.count == 1.0
+    assert sums.force == pytest.approx(FORCE[0])
+    assert (sums.weight, sums.square) == pytest.approx((FORCE[0] @ SPECIFIC[0], SPECIFIC[0] @ SPECIFIC[0]))

@@ -1,4 +1,4 @@
-"""A person by their parts: bounds, the muscles' lag, tremor, a stiff hand, a path gone along leg by leg."""
+"""Persons: forces within bounds, hands as springs with lags, the path of a led vehicle, delayed sight."""
 
 from __future__ import annotations
 
@@ -8,19 +8,26 @@ import numpy as np
 import pytest
 from hypothesis import given
 from law_values import array, random_state, seeds
+from scipy.integrate import solve_ivp
 from scipy.signal import lsim, lti, welch
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.core.vector import ZERO, Quat, Vec3, mat3, vec3
 from tandemlift.engines.compiled import start_state
+from tandemlift.parts.interaction.passage import APART, TURNING, trailing, turning
 from tandemlift.parts.interaction.person import (
+    PathFollowing,
     PathLeg,
+    PersonSettings,
     PersonState,
+    PersonView,
+    guided_point,
     hand_target,
     landing_request,
     person_step,
     person_view,
+    pursue,
 )
 from tandemlift.parts.interaction.person_table import Walk, path_legs_from, start_person
 from tandemlift.parts.interaction.tremor import STILL, TremorNoise, tremor, tremor_step
@@ -195,3 +202,59 @@ def test_two_hands_turn_the_beam_as_a_spring_and_a_damper_about_the_vertical():
         couple = hand_target(person, memory._replace(view=person_view(person.grip, turning), leg=legs[0])).couple
         assert couple == pytest.approx(-s.yaw_gain * (yaw + rate * ahead) - s.yaw_damping * rate, rel=1e-12)
     assert s.yaw_damping * 0.4 > 0.05
+
+
+@pytest.mark.parametrize("grip", [1.0, -1.0])
+def test_behind_a_hand_that_goes_straight_the_centre_follows_a_tractrix(grip):
+    """The grip is led along x from a heading across it; the lag angle obeys dθ/ds = −sin θ / a, here by SciPy."""
+    a, steps = abs(grip), np.arange(0.0, 4.0, 0.001)
+    grips = np.column_stack([steps, np.zeros(len(steps))])
+    places = trailing(grips, grip, 0.3 if grip > 0.0 else 0.3 - np.pi)
+    away = grips[0] - places.centres[0]
+    start = np.arctan2(away[1], away[0])
+    lag = solve_ivp(lambda s, y: -np.sin(y) / a, (0.0, 4.0), [start], t_eval=steps, rtol=1e-9, atol=1e-12).y[0]
+    expected = grips - a * np.column_stack([np.cos(lag), np.sin(lag)])
+    assert np.linalg.norm(places.centres - grips, axis=1) == pytest.approx(a)
+    assert places.centres == pytest.approx(expected, abs=2e-3)
+    body_y = np.column_stack([-np.sin(places.headings), np.cos(places.headings)])
+    assert places.centres + grip * body_y == pytest.approx(grips, abs=1e-9)
+
+
+def test_a_hand_at_the_centre_leaves_the_heading_open():
+    assert trailing(np.zeros((3, 2)), 0.0, 0.0) is None
+
+
+def test_a_heading_is_kept_and_another_is_reached_the_short_way_at_a_limited_rate():
+    assert turning(np.full(20, 0.8), 0.5) == pytest.approx(np.full(20, 0.8))
+    most = TURNING * APART / 0.5
+    found = turning(np.concatenate([[3.0], np.full(60, -3.0)]), 0.5)  # across ±π
+    assert np.diff(found).max() == pytest.approx(most)
+    assert np.diff(found).min() >= -1e-12
+    assert found[-1] == pytest.approx(2.0 * np.pi - 3.0)
+
+
+VIEW = PersonView(Vec3(1.0, 2.0, 3.0), Vec3(0.1, 0.2, 0.3), Vec3(4.0, 5.0, 6.0), Vec3(0.4, 0.5, 0.6), 0.0, 0.0)
+LEG = PathLeg(ZERO, Vec3(8.0, 0.0, 0.0), *[0.0] * (len(PathLeg._fields) - 2))
+FOLLOWING = PathFollowing(**dict.fromkeys(PathFollowing._fields, 0.0))._replace(
+    speed=0.5, gain=6.0, look_ahead=1.0, approach_gain=1.0
+)
+
+
+@pytest.mark.parametrize(
+    ("at_grip", "place", "velocity"), [(1.0, VIEW.grip, VIEW.grip_velocity), (0.0, VIEW.position, VIEW.velocity)]
+)
+def test_the_grip_is_guided_or_the_centre_of_mass(at_grip, place, velocity):
+    found = guided_point(PersonSettings(at_grip, 0.0, 0.0, 0.0), VIEW)
+    assert found == (place, velocity)
+
+
+def test_the_force_is_the_missing_speed_towards_a_place_ahead_on_the_leg_and_more_where_little_moves_nothing():
+    """From beside the leg, at rest: along the line to the place `look_ahead` farther on the leg."""
+    place = Vec3(2.0, 1.0, 0.0)
+    aim = np.array([3.0, 0.0, 0.0]) - np.array(place)
+    expected = 6.0 * 0.5 * aim / np.linalg.norm(aim)
+    assert np.array(pursue(FOLLOWING, LEG, place, ZERO)) == pytest.approx(expected)
+    more = np.array(pursue(FOLLOWING._replace(breakaway_force=0.4), LEG, place, ZERO))
+    size, extra = np.linalg.norm(expected), 0.4
+    assert np.cross(more, expected) == pytest.approx([0.0] * 3, abs=1e-12)
+    assert np.linalg.norm(more) == pytest.approx(size * (1.0 + extra / np.hypot(size, extra)))

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
+from bounded_problems import EVERY, Craft, craft, outside, problems, solve
 from hypothesis import given
 from hypothesis import strategies as st
 from law_values import paper_vehicle, random_vehicle, seeds
@@ -16,7 +19,10 @@ from tandemlift.missions import load_mission
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import (
+    AllocationState,
     ConstrainedAllocation,
+    Mixer,
+    achieved_fraction,
     allocate,
     command_for,
     limits_at,
@@ -24,8 +30,10 @@ from tandemlift.parts.rotors.allocation import (
     outside_limits,
     rotor_commands,
     wrench,
+    wrench_scale,
 )
 from tandemlift.parts.rotors.rotor_faults import RotorFaults
+from tandemlift.parts.rotors.thrust_limit_solver import feasible
 from tandemlift.simulation.preparation.start_pilot import start_pilot
 
 counts = st.integers(1, 4)
@@ -170,3 +178,44 @@ def test_the_pilot_of_the_real_iris_allocates_what_makes_the_wrench(method):
 
 def test_a_failed_rotor_is_commanded_nothing_whatever_it_is_allotted():
     assert [command_for(3.0, efficiency) for efficiency in (1.0, 0.5, 0.0)] == [3.0, 6.0, 0.0]
+
+
+FOUR = each(4)
+
+
+def test_held_rotors_stand_at_their_limit_free_ones_within_and_those_that_are_lost_at_none():
+    limits, thrusts = FOUR(5.0, 5.0, 5.0, 0.0), FOUR(2.0, 3.0, 9.0, 4.0)
+    start = feasible(limits, AllocationState(FOUR(-1.0, 1.0, 0.0, 0.0), thrusts))
+    assert tuple(start.active) == (-1.0, 1.0, 0.0, -1.0)
+    assert tuple(start.thrusts) == (0.0, 5.0, 5.0, 0.0)
+
+
+def share(c: Craft, wanted: Any, f: Any) -> float:
+    n = c.B.shape[1]
+    effect = Mixer(*[each(n)(*map(float, row)) for row in c.B])
+    tau = Wrench(float(wanted[0]), vec3(wanted[1:]))
+    return float(achieved_fraction(effect, wrench_scale(c.B), tau, each(n)(*map(float, f))))
+
+
+@EVERY
+def test_a_part_of_a_wrench_is_that_share_of_it(count, layout):
+    c = craft(count, layout)
+    for p in problems(c, 20, seed=10):
+        for part, wanted_share in ((0.0, 0.0), (0.25, 0.25), (1.0, 1.0), (1.5, 0.5), (-1.0, 0.0), (3.0, 0.0)):
+            assert share(c, p.wanted, part * p.unlimited) == pytest.approx(wanted_share, abs=1e-9)
+
+
+@EVERY
+def test_the_share_given_is_whole_within_the_limits_and_a_part_beyond(count, layout):
+    c = craft(count, layout)
+    for p in problems(c, 200, seed=11):
+        found = share(c, p.wanted, solve(c, p).f)
+        assert 0.0 <= found <= 1.0
+        if not outside(p):
+            assert found == pytest.approx(1.0, abs=1e-9)
+
+
+def test_nothing_wanted_is_wholly_given():
+    c = craft(2, "+")
+    assert share(c, np.zeros(4), np.zeros(8)) == 1.0
+    assert share(c, np.zeros(4), np.ones(8)) == 1.0

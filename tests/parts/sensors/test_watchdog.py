@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+import tandemlift as tl
 from tandemlift.core.vector import ZERO, Quat, Vec3, each, vec3
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotated_by
@@ -30,7 +31,7 @@ from tandemlift.parts.sensors.sensor_faults import (
 )
 from tandemlift.parts.sensors.sensor_list import SENSORS
 from tandemlift.parts.sensors.substitutes import PredictedReadings
-from tandemlift.parts.sensors.watchdog import Watchdog, start_watchdog, watchdog_step
+from tandemlift.parts.sensors.watchdog import Watchdog, any_invalid, start_watchdog, watchdog_from, watchdog_step
 
 DT, NEVER = 0.005, 1e18
 LEVEL, TWO = Quat(1.0, 0.0, 0.0, 0.0), each(2)
@@ -228,3 +229,23 @@ def test_a_fault_ends_when_it_is_over():
         off.append(given.motion.position - sample.motion.position)
     assert [i for i, o in enumerate(off) if any(o)] == list(range(10, 20))
     assert off[10] == pytest.approx((1.0, 2.0, 3.0))
+
+
+VALID = SensorHealth(**dict.fromkeys(SensorHealth._fields, 0.0))
+
+
+def test_gains_of_the_watchdogs_are_those_of_the_motion_sensors_interval():
+    mission = tl.load_mission("iris", {"sensors.motion.interval": 0.01})
+    found = watchdog_from(mission.supervision.watchdog, mission.sensors, mission.mission.step)
+    w = mission.supervision.watchdog
+    assert 1.0 / found.motion_rate == pytest.approx(0.01)
+    assert found.rates_gain == pytest.approx(1.0 - math.exp(-0.01 * w.rates_bandwidth))
+    assert found.velocity_gain == pytest.approx(1.0 - math.exp(-0.01 * w.velocity_bandwidth))
+    assert found.forgetting == pytest.approx(0.01 / w.window)
+
+
+@pytest.mark.parametrize("sensor", ["attitude", "position", "velocity", "gyroscope", "accelerometer"])
+def test_one_invalid_sensor_of_those_that_are_compared_is_enough(sensor):
+    health = PerSensor(*[VALID] * len(PerSensor._fields))
+    assert any_invalid(health) == 0.0
+    assert any_invalid(health._replace(**{sensor: VALID._replace(failure=1.0)})) == 1.0

@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 import tandemlift as tl
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing import style as figure_style
-from tandemlift.pictures.drawing.series import decimate, intervals, normalised
+from tandemlift.pictures.drawing.panels import decimate, intervals, normalised
 from tandemlift.pictures.drawing.vehicle import skeleton, true_weight
 from tandemlift.pictures.figures.registry import VIEWS, captions, figures, figures_for, save_figures
 

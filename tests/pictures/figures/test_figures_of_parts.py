@@ -9,7 +9,7 @@ from matplotlib.colors import to_hex
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.engines.models.surroundings import floor_from
+from tandemlift.engines.models.scene import floor_from
 from tandemlift.flight.record import Ending
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing.figure import IEEE

@@ -15,8 +15,14 @@ from small_studies import made_up
 import tandemlift as tl
 from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.flight.metric_descriptions import metric_of
-from tandemlift.pictures.report.latex import latex_number, latex_text
-from tandemlift.pictures.report.metric_tables import LISTS, metrics_as_csv, metrics_as_latex, write_metric_tables
+from tandemlift.pictures.report.metric_tables import (
+    LISTS,
+    latex_number,
+    latex_text,
+    metrics_as_csv,
+    metrics_as_latex,
+    write_metric_tables,
+)
 from tandemlift.pictures.report.study.outcome_tables import write_outcomes
 
 HOSTILE = r"\input{/etc/passwd} 50 % & _x^2 # $y$ ~ {a} “λ”"

@@ -14,9 +14,8 @@ from tandemlift.apps.cli import report as command
 from tandemlift.apps.cli.main import cli
 from tandemlift.missions import tables_of
 from tandemlift.pictures.report import paper_report
-from tandemlift.pictures.report.errata import DATA, errata
 from tandemlift.pictures.report.paper_claims import claims, gaussian_displacement
-from tandemlift.pictures.report.paper_figures import open_settings, paper_figures, write_drawing
+from tandemlift.pictures.report.paper_figures import DATA, errata, open_settings, paper_figures, write_drawing
 from tandemlift.pictures.report.paper_report import PaperFlights, typeset
 from tandemlift.pictures.report.paper_tables import agrees, nomenclature, paper_tables, value_at
 

@@ -1,15 +1,23 @@
 """What an assembled flight takes from its mission: the pilot's nominal vehicle, delays, and where its numbers stand."""
 
+import re
+
 import numpy as np
 import pytest
+from flights import different
 
 import tandemlift as tl
 from tandemlift.compiler.tracer import TraceError
+from tandemlift.core.caching import LastUsed
 from tandemlift.core.vector import ZERO, Absent, Vec3
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.simulation import plan
 from tandemlift.simulation.loop.sources import Delayed
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import compiled_flight
 from tandemlift.simulation.preparation.assemble import assemble, delay_lines_from
+from tandemlift.simulation.preparation.limits import finding_limits_from
+from tandemlift.simulation.preparation.loops import LoopWriter
 from tandemlift.simulation.preparation.memory import aligned
 from tandemlift.simulation.preparation.traced_step import check_layout
 
@@ -53,3 +61,44 @@ def test_whose_law_changes_the_layout_is_named():
     with pytest.raises(TraceError, match=r"nftsmc\.py, line \d+: .* returns another layout"):
         check_layout(model.pilot.controller, state, other)
     check_layout(model.pilot.controller, state, state)
+
+
+def limits(**changes):
+    mission = tl.load_mission("iris", {key.replace("__", "."): value for key, value in changes.items()})
+    return finding_limits_from(mission, Vehicle.from_settings(mission.vehicle))
+
+
+def test_an_axis_owes_the_speed_of_its_damping_and_none_with_a_spring_or_without_damping():
+    push = limits(admittance__damping=[2.0, 4.0, 5.0], admittance__stiffness=[0.0, 1.0, 0.0]).push
+    assert push.inverse_damping == pytest.approx((0.5, 0.0, 0.2))
+    assert limits(admittance__damping=[0.0, 4.0, 5.0]).push.inverse_damping == pytest.approx((0.0, 0.25, 0.2))
+
+
+@pytest.mark.parametrize(("rotors", "yaw"), [("flight", 0.5), ("always", 0.0)])
+def test_interactive_guidance_holds_the_heading_at_the_start_unless_it_flies_at_once_to_its_reference(rotors, yaw):
+    mission = tl.load_mission("iris", {"initial.euler": [0.0, 0.0, 0.5], "phases.rotors": rotors})
+    assert FlightPlan(mission).model.flight_state.memory.guidance.heading.angle == yaw
+
+
+def test_a_push_has_the_slowest_axis_to_be_answered_in():
+    push = limits(admittance__mass=[2.0, 3.0, 4.0], admittance__damping=[4.0, 2.0, 5.0]).push
+    assert push.time == pytest.approx(tl.load_mission("iris").findings.push_time + 1.5)
+
+
+@pytest.mark.parametrize(("mission", "largest"), [("paper", 100), ("iris", 500)])
+def test_a_step_in_pieces_has_the_bits_of_the_step_in_one(mission, largest, tmp_path, monkeypatch):
+    mission = tl.load_mission(mission, {"mission.duration": 4.0})
+    whole, writers = tl.fly(mission), []
+
+    def in_pieces(traced, lanes):
+        writers.append(LoopWriter(traced, lanes, largest=largest))
+        return writers[-1]
+
+    monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path))
+    monkeypatch.setattr(plan, "LOOP_CODE", LastUsed(8))
+    monkeypatch.setattr(compiled_flight, "LoopWriter", in_pieces)
+    assert different(tl.fly(mission), whole) == []
+    pieces = re.findall(r"(?ms)^define [^\n]*@(?:acting|end)\d+_part.*?^}", writers[0].module.text)
+    assert len(pieces) > 2
+    assert all(piece.count(" = f") < 3 * largest for piece in pieces)  # of arithmetic
+    assert sum(piece.count(" = f") for piece in pieces) > largest

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -47,6 +48,8 @@ class Claim(NamedTuple):
         frequency: at which the loop oscillates at this limit [rad/s]; NaN where it does not apply.
         command: the command that flies it; "" where nothing can be flown.
         parameter: name of the parameter, one of `parameters.PARAMETERS`, whose limit the number is; "" for none.
+        limit: that limit in the parameter's own unit, or None.
+        nominal: the parameter's value in the mission, in the same unit, or None.
         flown: that limit as flights show it, or None.
     """
 
@@ -59,7 +62,22 @@ class Claim(NamedTuple):
     frequency: float = math.nan
     command: str = ""
     parameter: str = ""
+    limit: float | None = None
+    nominal: float | None = None
     flown: FlownLimit | None = None
+
+    @property
+    def range(self) -> tuple[float, float | None] | None:
+        """(the limit, the flown one or None), each over the value in the mission; None where there is none."""
+        if not self.nominal or self.limit is None or not 0.0 < self.limit < math.inf:
+            return None
+        flown = self.flown.above if self.flown and 0.0 < self.flown.above < math.inf else None
+        return self.limit / self.nominal, None if flown is None else flown / self.nominal
+
+    @property
+    def slug(self) -> str:
+        """Quantity and subject as the name of a file."""
+        return re.sub(r"[^a-z0-9]+", "-", f"{self.subject} {self.quantity}".lower()).strip("-")
 
     @property
     def verdict(self) -> str:
@@ -125,7 +143,7 @@ class Certificate:
         return tuple(claim for tier in self.tiers for claim in tier.claims if claim.verdict == MISSED)
 
     def to_dict(self) -> dict[str, Any]:
-        """The certificate as plain data; a number that is infinite or not a number is None."""
+        """The certificate as plain data; a number without a limit is the text "unlimited", one that is unknown None."""
         return {
             "mission": self.mission,
             "versions": dict(self.versions),
@@ -154,11 +172,13 @@ def _plain(claim: Claim) -> dict[str, Any]:
 
 
 def _finite(value: Any) -> Any:
-    """Plain data without infinities, which JSON has no word for."""
+    """Plain data without infinities and NaN, which JSON has no numbers for."""
     if isinstance(value, Mapping):
         return {key: _finite(one) for key, one in value.items()}
     if isinstance(value, (list, tuple)):
         return [_finite(one) for one in value]
     if hasattr(value, "tolist"):
         return _finite(value.tolist())
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+    if isinstance(value, float) and not math.isfinite(value):
+        return None if math.isnan(value) else "unlimited"
+    return value

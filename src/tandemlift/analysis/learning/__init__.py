@@ -1,1 +1,1 @@
-"""Environments of Gymnasium: tasks of this field over flights that step together."""
+"""Many flights that step together from Python (`tl.Block`), and environments of Gymnasium over them."""

@@ -8,14 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.learning.actions import ActionLevel
-from tandemlift.analysis.learning.tasks import TASKS, LearningTask, Level
-from tandemlift.analysis.studies.design.draws import absolute, dimensions_of, drawn_keys, values_at
-from tandemlift.analysis.studies.design.persons import random_person
+from tandemlift.analysis.learning.block import Block
+from tandemlift.analysis.learning.tasks import TASKS, ActionLevel, LearningTask, Level
+from tandemlift.analysis.studies.design.draws import absolute, dimensions_of, drawn_keys, random_person, values_at
 from tandemlift.core.errors import InputError, extra, shown, suggestion
 from tandemlift.core.types import Array
 from tandemlift.missions import load_mission, tables_of
-from tandemlift.simulation.blocks.block import Block
 
 with extra("gymnasium", "an environment for learning"):
     import gymnasium

@@ -227,39 +227,6 @@ def _largest(fields: list[str], shares: Array) -> tuple[tuple[str, float], ...]:
     return tuple(item for item in ordered[:MOST_NAMES] if item[1] >= LEAST_SHARE)
 
 
-def frequency_response(model: LinearModel, frequencies: Array) -> NDArray[np.complex128]:
-    """C (e^{jωT} − A)⁻¹ B + D (F, p, m) at frequencies (F,) [Hz], up to half of the sample rate."""
-    unit = np.eye(len(model.A))
-    turns = np.exp(2j * np.pi * np.asarray(frequencies) * model.step)
-    return np.array([model.C @ np.linalg.solve(turn * unit - model.A, model.B) + model.D for turn in turns])
-
-
-LOWEST, HIGHEST, POINTS = 0.02, 0.45, 300  # Hz, of the sample rate; points of a drawn response
-
-
-def axis_responses(model: LinearModel, input: str, output: str) -> tuple[str, Array, dict[str, NDArray[np.complex128]]]:
-    """The responses of a group of outputs to one of inputs, each along its own axis.
-
-    Args:
-        model: the model.
-        input: beginning of the names of inputs, such as "push_force".
-        output: that of outputs, such as "position".
-
-    Returns:
-        The unit, frequencies (F,) [Hz], and the response (F,) of each axis by its label.
-    """
-    columns, rows = (
-        [i for i, v in enumerate(variables) if v.name.startswith(f"{name}_")]
-        for variables, name in ((model.inputs, input), (model.outputs, output))
-    )
-    frequencies = np.geomspace(LOWEST, HIGHEST / model.step, POINTS)
-    response, pairs = frequency_response(model, frequencies), list(zip(rows, columns, strict=False))
-    unit_in, unit_out = (v[at[0]].unit if at else "" for v, at in ((model.inputs, columns), (model.outputs, rows)))
-    labels = [f"{model.inputs[j].name[-1]} → {model.outputs[i].name[-1]}" for i, j in pairs]
-    curves = {label: response[:, i, j] for label, (i, j) in zip(labels, pairs, strict=True)}
-    return f"{unit_out}/{unit_in}", frequencies, curves
-
-
 def title_of(model: LinearModel) -> str:
     """The mission, the modelled part, the time of the point and the sample time, in a line."""
     return f"{model.mission}: the {model.of} at {model.time:g} s, sample time {model.step * 1e3:g} ms"

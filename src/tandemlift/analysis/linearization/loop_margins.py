@@ -19,7 +19,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.linearization.linear_model import LinearModel, Mode, frequency_response, modes_of
+from tandemlift.analysis.linearization.frequency_response import frequency_response
+from tandemlift.analysis.linearization.linear_model import LinearModel, Mode, modes_of
 from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.core.errors import without_flight_warnings
 from tandemlift.core.types import Array

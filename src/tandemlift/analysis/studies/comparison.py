@@ -20,7 +20,7 @@ from tandemlift.analysis.studies.comparison_scores import (
     largest_differences,
     speed,
 )
-from tandemlift.analysis.studies.execution.many import fly_each
+from tandemlift.analysis.studies.execution.flying import fly_each
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress
 from tandemlift.engines.registry import ENGINES

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.studies.closed_form import AXES, YAW, AxisFeel, axes_of, speed_at
-from tandemlift.analysis.studies.execution.many import fly_each
+from tandemlift.analysis.studies.execution.flying import fly_each
 from tandemlift.core.errors import without_flight_warnings
 from tandemlift.core.types import Array, Progress
 from tandemlift.flight.record import Flight

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from tandemlift.analysis.studies.chunk_files import CHANNEL, ChunkFile, about, check_whole, columns_in, read
-from tandemlift.analysis.studies.dataset import to_xarray
+from tandemlift.analysis.studies.dataset import study_html, to_xarray
 from tandemlift.analysis.studies.design.distributions import Distribution, Horizontal
 from tandemlift.analysis.studies.design.draws import dimensions_of
 from tandemlift.analysis.studies.design.keys import columns_of
@@ -22,7 +22,6 @@ from tandemlift.analysis.studies.design.sampling import points
 from tandemlift.analysis.studies.design.settings import REFUSED, StudySettings
 from tandemlift.analysis.studies.design.statistics import share
 from tandemlift.analysis.studies.execution.store import StudyFolder
-from tandemlift.analysis.studies.html import study_html
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array

@@ -6,8 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.studies.quantities import Quantity
-from tandemlift.analysis.studies.study_rows import Places, StudyRows
+from tandemlift.analysis.studies.study_rows import Places, Quantity, StudyRows
 from tandemlift.core.phases import FAILURES
 
 MOST = 10

@@ -1,24 +1,29 @@
-"""`tandemlift linearize` and `check`: the closed step of a mission as a linear model; its checks before a flight."""
+"""`tandemlift linearize`, `check` and `certify`: linear models of a mission, its checks, and its certificate."""
 
 from __future__ import annotations
 
 import json
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 import click
 
 from tandemlift.apps.cli.completion import MISSIONS
-from tandemlift.apps.cli.console import echo, print_checks
-from tandemlift.apps.cli.flying import DRAWINGS, FAILED, controller_option, file_path, load, set_option, style_option
-from tandemlift.core.errors import InputError, without_flight_warnings
+from tandemlift.apps.cli.console import echo, print_checks, progress_bar
+from tandemlift.apps.cli.flying import (
+    DRAWINGS,
+    FAILED,
+    controller_option,
+    file_path,
+    kept_style_option,
+    load,
+    results_folder,
+    set_option,
+    style_option,
+)
+from tandemlift.core.errors import without_flight_warnings
 from tandemlift.core.files import write_file
-
-if TYPE_CHECKING:
-    from tandemlift.analysis.linearization.linear_model import LinearModel
-
-DRAWN = {"loop": ("push_force", "position"), "body": ("disturbance_force", "position")}
 
 
 @click.command()
@@ -57,11 +62,6 @@ def linearize(
       tandemlift linearize paper
       tandemlift linearize iris --at 9 --out iris.npz --figure iris.png
       tandemlift linearize hover --of body --inputs rotor_thrusts --outputs position,euler
-
-    \b
-    Exit code:
-      0   the model was printed
-      2   bad input: one message, nothing is written
     """
     from tandemlift.analysis.linearization.linear_model import ENDINGS, model_lines
     from tandemlift.analysis.linearization.linearize import linearize as linearized
@@ -78,25 +78,9 @@ def linearize(
         model.save(out)
         echo(f"model: {out}")
     if figure:
-        _draw(connected, Path(figure))
-        echo(f"figure: {figure}")
+        from tandemlift.pictures.report.study.certificate_figures import draw_linear_model
 
-
-def _draw(connected: LinearModel, path: Path) -> None:
-    """Draw the model.
-
-    Raises:
-        InputError: it has too many states.
-    """
-    from tandemlift.analysis.linearization.linear_model import MOST_STATES, axis_responses, modes_of, title_of
-    from tandemlift.pictures.drawing.style import save
-    from tandemlift.pictures.figures.linear_model import Response, draw
-
-    if len(connected.states) > MOST_STATES:
-        raise InputError(f"--figure {path}: {len(connected.states)} states are too many to draw; at most {MOST_STATES}")
-    names = DRAWN[connected.of]
-    response = Response(" → ".join(names).replace("_", " "), *axis_responses(connected, *names))
-    save(draw(title_of(connected), [mode.s for mode in modes_of(connected).modes], response), path)
+        echo(f"figure: {draw_linear_model(connected, Path(figure))}")
 
 
 @click.command()
@@ -118,13 +102,9 @@ def check(mission: str, settings: tuple[str, ...], controller: str | None, stric
       tandemlift check iris --set actuators.delay=0.1 --strict
       tandemlift check mine.toml --json checks.json
 
-    \b
-    Exit code:
-      0   the mission was checked
-      2   bad input: one message, nothing is written
-      3   with --strict: a check fails
+    Exit code 3: with --strict, a check fails.
     """
-    from tandemlift.analysis.linearization.mission_check import check as checked
+    from tandemlift.analysis.certification.mission_check import check as checked
 
     with without_flight_warnings():  # the table has the same
         loaded = load(mission, settings, controller)
@@ -135,4 +115,57 @@ def check(mission: str, settings: tuple[str, ...], controller: str | None, stric
         write_file(Path(file), json.dumps(rows, indent=1, ensure_ascii=False))
         echo(f"checks: {file}")
     if strict and any(result.verdict == "fails" for result in results):
+        sys.exit(FAILED)
+
+
+@click.command()
+@click.argument("mission", shell_complete=MISSIONS)
+@set_option
+@click.option("--tiers", metavar="A,B,…", help="Some of linear, structured, person, nonlinear, statistics.")
+@click.option("--fly", is_flag=True, help="Confirm each predicted limit by flights.")
+@click.option("--flights", type=click.IntRange(1), default=300, show_default=True, help="Random flights of statistics.")
+@click.option("--arm", type=(float, float, float), metavar="K B M", help="Of the box of arms: N/m, N s/m, kg.")
+@click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-certificate]")
+@kept_style_option
+@click.option("--strict", is_flag=True, help="Exit with code 3 if a number is below its bar.")
+def certify(
+    mission: str,
+    settings: tuple[str, ...],
+    tiers: str | None,
+    out: str | None,
+    style: str | None,
+    strict: bool,
+    **how: Any,
+) -> None:
+    """Certify MISSION: how far from instability, with which arm, how often it fails.
+
+    Five tiers, each with its assumptions first: margins of the linear loops; worst parameters of the vehicle; the arm
+    of a person; bounds on switching and thrust limits; failures among random flights.
+
+    \b
+    Examples:
+      tandemlift certify iris --fly
+      tandemlift certify mine.toml --tiers linear,person --arm 300 10 0.3
+
+    \b
+    Files in the results folder (other files there are left alone):
+      certificate.html, .json, .pdf   the report; the PDF needs the extra "paper"
+      limits/                         missions that fly beyond each limit
+      statistics/                     the study of random flights, which goes on where it stopped
+
+    Exit code 3: with --strict, a number is below its bar.
+    """
+    from tandemlift.analysis.certification.certify import TIERS
+    from tandemlift.analysis.certification.certify import certify as certified
+    from tandemlift.pictures.report.study.certificate_report import certificate_lines, write_certificate
+
+    loaded, chosen = load(mission, settings), tiers.split(",") if tiers else TIERS
+    with results_folder(out, Path("out") / f"{loaded.mission.name}-certificate", ()) as folder:
+        with progress_bar("Certifying", "tiers", shown=sys.stderr.isatty()) as shown:
+            found = certified(loaded, chosen, folder=folder / "statistics", progress=shown, **how)
+        for line in certificate_lines(found):
+            echo(line)
+        for path in write_certificate(found, folder):
+            echo(f"  {path.suffix[1:]}: {path}")
+    if strict and found.missed:
         sys.exit(FAILED)

@@ -79,11 +79,6 @@ def live(
       tandemlift live hover --set admittance.mass=2 --port 0 --no-browser
       tandemlift live hover --controller my_pd.py
       tandemlift live hover --script lecture.toml
-
-    \b
-    Exit code:
-      0   ended by Ctrl-C
-      2   bad input: one message, nothing is flown
     """
     from tandemlift.engines.registry import engine_named
 
@@ -143,11 +138,6 @@ def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
     Examples:
       tandemlift replay out/zigzag
       tandemlift replay out/zigzag --html zigzag.html
-
-    \b
-    Exit code:
-      0   ended by Ctrl-C, or the page was written
-      2   bad input: one message, nothing is written
     """
     from tandemlift.apps.live.page_files import page_files
     from tandemlift.apps.live.replay import replay_files, replay_html
@@ -191,11 +181,6 @@ def page(
       tandemlift page zigzag mine.toml --html corridor.html
       tandemlift page hover --controller my_pd.py --html mine.html
       tandemlift page hover --script lecture.toml --html lecture.html
-
-    \b
-    Exit code:
-      0   the page was written
-      2   bad input: one message, nothing is written
     """
     if not out and not html:
         raise InputError("give the place of the page: --html FILE for one file, --out DIR for a web server")
@@ -235,11 +220,7 @@ def score(folder: Path, mission: str, free: tuple[str, ...], settings: tuple[str
       tandemlift score handed-in
       tandemlift score handed-in --mission zigzag --free admittance
 
-    \b
-    Exit code:
-      0   all were ranked
-      2   bad input: one message, nothing is flown
-      3   some were refused
+    Exit code 3: some were refused.
     """
     from tandemlift.apps.live.ranking import ranked
 

@@ -66,11 +66,6 @@ def report(flight: str, out: str | None, no_figures: bool, style: str | None, me
     Files in the results folder: those of `tandemlift run`. Other files there are left alone. The metrics of a bag are
     computed from its samples. Beside the report of a study: outcomes.csv and outcomes.tex; with --style also its
     figures (PNG and PDF) in figures/.
-
-    \b
-    Exit code:
-      0   the report was written
-      2   bad input: one message, nothing is written
     """
     from tandemlift.analysis.studies.execution.store import is_study
 
@@ -178,11 +173,6 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
       FILE-files/figures/      the figures, one PDF each; diagrams as SVG, in colours of their own
       FILE-files/tables/       Tables II and III beside our numbers, as CSV and LaTeX
       FILE-files/report.typ    the source of the PDF, with its text and numbers in report.json
-
-    \b
-    Exit code:
-      0   everything was written
-      2   bad input, or no typst: one message
     """
     from tandemlift.apps.ros.gazebo_flight import gazebo_sentence
     from tandemlift.pictures.report.paper_report import typeset, write_paper_files

@@ -83,7 +83,7 @@ def study(
       130  stopped by Ctrl-C; finished rows are kept
     """
     if template:
-        from tandemlift.analysis.studies.design.template import TEMPLATE
+        from tandemlift.analysis.studies.design.study_files import TEMPLATE
 
         echo(TEMPLATE, nl=False)
         return

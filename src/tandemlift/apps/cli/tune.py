@@ -210,11 +210,7 @@ def feel(mission: str, settings: tuple[str, ...], out: str | None, strict: bool)
       feel.html  table, figure and checks on one page that needs no network
       feel.json  all numbers in SI units; feel.png, feel.pdf: the figure
 
-    \b
-    Exit code:
-      0   the keys were studied
-      2   bad input: one message, nothing is written
-      3   with --strict: a check fails
+    Exit code 3: with --strict, a check fails.
     """
     from tandemlift.pictures.report.study.feel_report import feel as studied
 

@@ -5,32 +5,83 @@
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Sequence
 from typing import Any, get_args, get_origin
 
-from tandemlift.apps.live.page_functions import ENDING_PARTS, frame_fields
 from tandemlift.apps.live.session import challenge, checks, pacing
-from tandemlift.apps.live.session.frames import ECHO, FRESH, RATE, channel_columns, phase_times
-from tandemlift.apps.live.session.hand_control import REQUEST_TIME
+from tandemlift.apps.live.session.checks import TouchRule, touch_refusal
+from tandemlift.apps.live.session.frames import (
+    ECHO,
+    FRESH,
+    RATE,
+    PhaseTimes,
+    channel_columns,
+    fields_of_samples,
+    frame_of_samples,
+    phase_times,
+)
+from tandemlift.apps.live.session.hand_control import REQUEST_TIME, grip_offset
 from tandemlift.apps.live.session.interactive_mission import NEVER
 from tandemlift.apps.live.session.page_messages import NAME_PATTERN, NAME_RULE, PAGE_MESSAGES, SILENT, NumberedMessage
 from tandemlift.apps.live.session.parameters import BY_KEY, CHOICES, RAMP, bounds_of, keys_of, parameters_of
 from tandemlift.apps.live.session.scene_builder import scene_of
 from tandemlift.apps.live.session.server_messages import SceneParameter
 from tandemlift.apps.live.session.status import in_sentences
+from tandemlift.codegen.module_text import ValuesFunction
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import DIVERGED, ENDING_OF, ENDINGS, EndingKind
 from tandemlift.core.refusals import REQUESTS, refusals_for, sentences_for
-from tandemlift.core.types import flat
+from tandemlift.core.types import flat, zeroed
+from tandemlift.core.vector import ZERO, Quat
 from tandemlift.flight.record import CAUSE_TEXT, ENDING_TEXT
 from tandemlift.missions import tables_of
 from tandemlift.missions.changes import Tables
 from tandemlift.missions.keys import allowed, bounds, plain
 from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED
+from tandemlift.parts.pilot.refusals import refusal_numbers
+from tandemlift.simulation.ending_numbers import EndingMoment, EndingNumbers, ending_numbers
 from tandemlift.simulation.outcome import NOT_FINITE, cause_of, limit_of
 from tandemlift.simulation.parameter_changes import HAND_PARTS, LATER, NO_EFFECT, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND, MISSION
 from tandemlift.simulation.stepping import GUIDANCE_MEMORY
+
+ENDING_PARTS = (("limits",), *[("flight_state", name) for name in ("crash", "ended", "state", "impulse")])
+LEVEL, TIMES, RULE = Quat(1.0, 0.0, 0.0, 0.0), PhaseTimes(0.0, 0.0, 0.0), TouchRule(0.0, 0.0, 0.0)
+
+
+def page_functions(plan: FlightPlan) -> Sequence[ValuesFunction]:
+    """The functions of a mission's module."""
+    return (
+        ValuesFunction("frame", frame_of_samples(plan.sample), (zeroed(plan.sample), 0.0, TIMES)),
+        ValuesFunction("touch_refusal", touch_refusal, (RULE, 0.0, 0.0, ZERO)),
+        ValuesFunction("grip_offset", grip_offset, (LEVEL, ZERO)),
+        ValuesFunction("ending", ending_from, (*flight_parts(plan), 0.0)),
+        ValuesFunction("refusals", refusal_numbers, (*pilot_parts(plan), 0.0)),
+    )
+
+
+def flight_parts(plan: FlightPlan) -> tuple[Any, ...]:
+    """The inputs of an ending; `ENDING_PARTS` are their paths."""
+    return tuple(functools.reduce(getattr, path, plan.model) for path in ENDING_PARTS)
+
+
+def ending_from(limits: Any, crash: Any, ended: Any, state: Any, impulse: Any, t: Any) -> EndingNumbers:
+    """The ending of a flight at time t [s]."""
+    return ending_numbers(limits, crash, EndingMoment(ended, t, state, impulse))
+
+
+def pilot_parts(plan: FlightPlan) -> tuple[Any, Any]:
+    """The guidance of a mission's pilot, and its memory."""
+    return plan.model.pilot.guidance, plan.model.flight_state.memory.guidance
+
+
+def frame_fields(plan: FlightPlan) -> list[tuple[str, int]]:
+    """The fields that `frame` returns, with the number of their components."""
+    fields = fields_of_samples(plan.sample)(zeroed(plan.sample), 0.0, TIMES)
+    return [(name, len(parts)) for name, parts in fields.items()]
+
 
 OWN = ("type", "seq")  # fields that the page writes by itself
 

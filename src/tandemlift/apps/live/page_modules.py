@@ -19,8 +19,7 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tandemlift.apps.live.page_functions import page_functions
-from tandemlift.apps.live.page_manifest import page_manifest
+from tandemlift.apps.live.page_manifest import page_functions, page_manifest
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.codegen.mission_module import kept, module_of
 from tandemlift.core.errors import InputError, without_flight_warnings

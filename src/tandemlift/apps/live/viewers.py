@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from time import thread_time
-from typing import Any, Literal
+from typing import Any, Literal, Protocol
 
 from pydantic_core import to_json
 from websockets.asyncio.server import ServerConnection, broadcast
@@ -25,7 +25,52 @@ from tandemlift.apps.live.session.page_messages import (
     TurnMessage,
 )
 from tandemlift.apps.live.session.server_messages import FlightStatus, RefusedMessage, TurnStatus
-from tandemlift.apps.live.turns import Turns
+
+IDLE = 30.0  # s without a message, after which the hand goes on to a page that waits
+
+
+class Player(Protocol):
+    """A page that takes turns: its number, and the time of its last message [s]."""
+
+    number: int
+    last_message: float
+
+
+class Turns:
+    """The queue of players, of whom the first has the hand since a time [s].
+
+    While nobody has it, each page may use the flight. A page that has it and does nothing passes it on.
+    """
+
+    def __init__(self) -> None:
+        self._queue: list[Player] = []
+        self._since = 0.0
+
+    @property
+    def player(self) -> Player | None:
+        """Who has the hand."""
+        return self._queue[0] if self._queue else None
+
+    @property
+    def numbers(self) -> list[int]:
+        """The numbers of the players, in the order of their turns."""
+        return [player.number for player in self._queue]
+
+    def take(self, player: Player, what: Literal["ask", "give"], now: float) -> None:
+        """Let a player queue up (at most once), or give the hand or the place in the queue away."""
+        before = self.player
+        if what == "give":
+            self._queue = [other for other in self._queue if other is not player]
+        elif player not in self._queue:
+            self._queue.append(player)
+        if self.player is not before:
+            self._since = now
+
+    def pass_on(self, now: float) -> None:
+        """Pass the hand on if its player does nothing while others wait."""
+        if len(self._queue) > 1 and now - max(self._since, self._queue[0].last_message) > IDLE:
+            self.take(self._queue[0], "give", now)
+
 
 BEHIND = 4_096  # bytes not yet taken by the network, beyond which a viewer is behind
 LOST = 1_000_000  # bytes, beyond which it is cut off: it reads nothing at all

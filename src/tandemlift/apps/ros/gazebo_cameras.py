@@ -12,7 +12,7 @@ import numpy as np
 
 from tandemlift.core.phases import GUIDED
 from tandemlift.core.types import Array
-from tandemlift.engines.models.sdf_cameras import FixedCamera, reach_of
+from tandemlift.engines.models.sdf_elements import FixedCamera, reach_of
 from tandemlift.flight.record import Flight
 
 DISTANCE = 5.0  # from the vehicle to a camera, as a multiple of the vehicle's reach

@@ -19,7 +19,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress
 from tandemlift.engines.gazebo import CHECKS, PORT, REAL_TIME, world_from
 from tandemlift.engines.gazebo_server import GazeboServer, free_port, root, shell_command, with_gazebo_environment
-from tandemlift.engines.models.sdf_cameras import PICTURES, add_cameras
+from tandemlift.engines.models.sdf_elements import PICTURES, add_cameras
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission
 from tandemlift.simulation.fly import fly

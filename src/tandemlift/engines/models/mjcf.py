@@ -20,8 +20,7 @@ from tandemlift.engines.models.links import Link, links_of
 from tandemlift.engines.models.mujoco_bodies import principal_axes, specification
 from tandemlift.engines.models.mujoco_contact import HULL, set_contact_stiffness
 from tandemlift.engines.models.mujoco_import import mujoco
-from tandemlift.engines.models.scene import Scene
-from tandemlift.engines.models.surroundings import floor_from, walls_from
+from tandemlift.engines.models.scene import Scene, floor_from, walls_from
 from tandemlift.engines.models.visuals import GLASS, SUN, WALL, VisualShape, payload_shapes, quadrotor_shapes
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle

@@ -20,7 +20,7 @@ from tandemlift.core.types import GRAVITY, Array
 from tandemlift.core.vector import vec3
 from tandemlift.engines.models.camera import CAMERAS
 from tandemlift.engines.models.links import Link, links_of
-from tandemlift.engines.models.scene import Scene
+from tandemlift.engines.models.scene import Scene, floor_from
 from tandemlift.engines.models.sdf_collisions import (
     FASTEST,
     FLOOR_BIT,
@@ -31,7 +31,6 @@ from tandemlift.engines.models.sdf_collisions import (
     add_surface,
 )
 from tandemlift.engines.models.sdf_elements import Element, add, fill, geometry, numbers, pose, rgba
-from tandemlift.engines.models.surroundings import floor_from
 from tandemlift.engines.models.visuals import (
     GLASS,
     LEVEL,

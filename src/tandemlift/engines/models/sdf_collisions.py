@@ -23,9 +23,8 @@ import numpy as np
 from tandemlift.core.types import Array
 from tandemlift.core.vector import Absent
 from tandemlift.engines.models.links import Link
-from tandemlift.engines.models.scene import Scene
+from tandemlift.engines.models.scene import Scene, feet_and_floor_from, wall_contact_from
 from tandemlift.engines.models.sdf_elements import Element, add, fill, geometry, pose
-from tandemlift.engines.models.surroundings import feet_and_floor_from, wall_contact_from
 from tandemlift.engines.models.visuals import VisualShape, body_shapes, frame_along, hull_shapes
 from tandemlift.parts.contact.feet import Floor
 from tandemlift.parts.contact.hull import Ellipsoids, Hull

@@ -21,8 +21,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing.clearances import clearances, grips
 from tandemlift.pictures.drawing.figure import Caption, current_style, with_walls
-from tandemlift.pictures.drawing.panels import extent, legend_above, line, value_ticks
-from tandemlift.pictures.drawing.series import decimate, drawable
+from tandemlift.pictures.drawing.panels import decimate, drawable, extent, legend_above, line, value_ticks
 from tandemlift.pictures.drawing.style import (
     BEHIND_TEXT,
     BLUE,

@@ -21,9 +21,8 @@ from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing.figure import Caption, all_flights
 from tandemlift.pictures.drawing.overlay import Flights, legend_of_flights, look
-from tandemlift.pictures.drawing.panels import legend_above
+from tandemlift.pictures.drawing.panels import Mask, decimate, drawable, legend_above
 from tandemlift.pictures.drawing.scene import NEAR, Scene3D, on_paper
-from tandemlift.pictures.drawing.series import Mask, decimate, drawable
 from tandemlift.pictures.drawing.style import (
     BEHIND_TEXT,
     BLUE,

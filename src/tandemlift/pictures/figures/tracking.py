@@ -18,8 +18,7 @@ from matplotlib.ticker import EngFormatter
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption, all_flights
 from tandemlift.pictures.drawing.overlay import over_time
-from tandemlift.pictures.drawing.panels import fit, line, time_axis
-from tandemlift.pictures.drawing.series import drawable, normalised
+from tandemlift.pictures.drawing.panels import drawable, fit, line, normalised, time_axis
 from tandemlift.pictures.drawing.style import (
     ACTUAL,
     COMPONENTS,

@@ -17,12 +17,13 @@ from tandemlift.core.errors import InputError, extra
 from tandemlift.core.files import atomic_write
 from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.report.errata import DATA, errata
 from tandemlift.pictures.report.page import versions_of
 from tandemlift.pictures.report.paper_claims import claims
 from tandemlift.pictures.report.paper_figures import (
+    DATA,
     PaperFigure,
     caption_of,
+    errata,
     file_of,
     open_settings,
     paper_figures,

@@ -15,8 +15,8 @@ import numpy as np
 
 from tandemlift.core.types import GRAVITY
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.pictures.report.errata import DATA, errata
-from tandemlift.pictures.report.latex import latex_table, latex_text
+from tandemlift.pictures.report.metric_tables import latex_table, latex_text
+from tandemlift.pictures.report.paper_figures import DATA, errata
 
 AXES = {"position": slice(0, 3), "attitude": slice(3, 6), "one": slice(None)}
 DERIVED = {

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.analysis.studies.design.persons import SCALED
+from tandemlift.analysis.studies.design.draws import SCALED
 from tandemlift.analysis.studies.design.study_files import load_plan
 
 UNIFORM = {"distribution": "uniform", "low": 0.9, "high": 1.1}

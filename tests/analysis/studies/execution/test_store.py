@@ -7,14 +7,12 @@ import shutil
 import tempfile
 from pathlib import Path
 
-import pyarrow.parquet as pq
 import pytest
 from listings import LAW
 from study_runs import TWELVE, assert_same_rows, files_of, fly, started
 
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.execution.files import LEFT_OVER
-from tandemlift.analysis.studies.execution.store import open_folder
+from tandemlift.analysis.studies.execution.store import LEFT_OVER, open_folder
 from tandemlift.analysis.studies.study import mission_of_row
 from tandemlift.analysis.studies.table import load_study
 from tandemlift.core.errors import InputError
@@ -41,35 +39,6 @@ def test_a_study_that_is_flown_flies_no_chunk_again(twelve):
     before = stamps(twelve)
     assert fly(TWELVE, twelve) == 0
     assert stamps(twelve) == before
-
-
-@pytest.mark.parametrize("keep", [0, 3, 100, -8, -1])
-def test_a_file_that_was_cut_short_is_made_again_and_no_other_one(whole, twelve, keep):
-    cut, *_ = files_of(twelve)
-    before = stamps(twelve)
-    path = twelve / "chunks" / cut
-    path.write_bytes(path.read_bytes()[:keep])
-    assert fly(TWELVE, twelve) == 1
-    after = stamps(twelve)
-    assert [name for name in after if after[name] != before[name]] == [cut]
-    assert_same_rows(whole, twelve)
-
-
-def test_a_file_of_something_else_is_made_again(whole, twelve):
-    one, other, *_ = files_of(twelve).values()
-    one.write_bytes(bytes(one.stat().st_size))
-    text = b"PAR1" + b"x" * 40 + (20).to_bytes(4, "little") + b"PAR1"
-    other.write_bytes(text)
-    assert fly(TWELVE, twelve) == 2
-    assert_same_rows(whole, twelve)
-
-
-def test_a_file_says_of_which_study_and_chunk_it_is(twelve):
-    folder = open_folder(load_plan(TWELVE), twelve)
-    for name in folder.names():
-        about = pq.read_metadata(folder.files.file(name)).metadata
-        assert about[b"tandemlift.study"].decode() == folder.digest
-        assert about[b"tandemlift.chunk"].decode() == name
 
 
 @pytest.mark.parametrize(

@@ -8,10 +8,18 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from tandemlift.analysis.studies.design.draws import Drawn, absolute, dimensions_of, drawn_keys, values_at
+from tandemlift.analysis.studies.design.draws import (
+    Drawn,
+    absolute,
+    check_has_person,
+    dimensions_of,
+    drawn_keys,
+    person_changes,
+    random_person,
+    values_at,
+)
 from tandemlift.analysis.studies.design.grids import grid_axes
 from tandemlift.analysis.studies.design.keys import changes_in, columns_of, with_keys
-from tandemlift.analysis.studies.design.persons import check_has_person, person_changes, random_person
 from tandemlift.analysis.studies.design.sampling import point_count, points
 from tandemlift.analysis.studies.design.settings import MAX_ROWS, CaseTable, StudySettings, default_rows_per_chunk
 from tandemlift.analysis.studies.design.variants import Variant

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple, Protocol
 
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.execution.chunk import chunk_of
-from tandemlift.analysis.studies.execution.files import ChunkFiles
 from tandemlift.analysis.studies.execution.flying import fly_chunk
+from tandemlift.analysis.studies.execution.store import ChunkFiles
 from tandemlift.analysis.studies.execution.workers import Task, Workers
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress

@@ -1,21 +1,102 @@
-"""The folder of a study: its plan, and one Parquet file for each finished chunk."""
+"""The folder of a study: its plan, and one Parquet file for each finished chunk, written atomically."""
 
 from __future__ import annotations
 
+import contextlib
 import json
+import time
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from tandemlift.analysis.studies.design.keys import leaves_of
-from tandemlift.analysis.studies.design.plan import StudyPlan
+from tandemlift.analysis.studies.design.plan import TRIED, StudyPlan
 from tandemlift.analysis.studies.design.study_files import checked_settings
 from tandemlift.analysis.studies.design.variants import variant_from
+from tandemlift.analysis.studies.execution.checked_file import CheckedFile, DamagedFile
 from tandemlift.analysis.studies.execution.chunk import chunk_names, sources_digest, study_digest
-from tandemlift.analysis.studies.execution.files import ChunkFiles
-from tandemlift.analysis.studies.execution.kept import check_kept
-from tandemlift.core.errors import InputError, extra, shown
-from tandemlift.core.files import write_file
+from tandemlift.analysis.studies.execution.columns import NOT_KEPT, Columns, write_columns
+from tandemlift.core.errors import InputError, extra, shown, unknown
+from tandemlift.core.files import __version__, write_file
+from tandemlift.flight.channels import DERIVED
 from tandemlift.missions import format_toml
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import channel_names, metric_names
+
+LEFT_OVER = 3600.0  # s, after which a half-written file, or a claim, is abandoned
+
+
+class ChunkFiles:
+    """The files of chunks in a folder, by the chunks' names.
+
+    Args:
+        path: of the folder.
+        about: the metadata of every file, beside its chunk and the version.
+    """
+
+    def __init__(self, path: Path, about: Mapping[str, str]) -> None:
+        self.path, self._about = path, dict(about)
+
+    def file(self, name: str) -> Path:
+        """The path of a chunk's results, whether it exists or not."""
+        return self.path / f"{name}.parquet"
+
+    def is_flown(self, name: str) -> bool:
+        """Whether a chunk has an intact file; a damaged one is replaced when the chunk is flown.
+
+        Raises:
+            InputError: there is a file that this process cannot read.
+        """
+        path = self.file(name)
+        if not path.exists():
+            return False
+        try:
+            CheckedFile(path).check()
+        except (FileNotFoundError, DamagedFile):
+            return False
+        except OSError as error:
+            raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
+        return True
+
+    def claim(self, name: str) -> bool:
+        """Claim a chunk; False if another process has claimed it, even if that was killed.
+
+        Processes that share the folder treat each other's claims as advice: they fly other chunks first.
+
+        Raises:
+            InputError: the folder cannot be written to.
+        """
+        try:
+            self._claim_file(name).touch(exist_ok=False)
+        except FileExistsError:
+            return False
+        except OSError as error:
+            raise InputError(f"{self.path}: cannot be written to: {error.strerror or error}") from None
+        return True
+
+    def release(self, name: str) -> None:
+        """Withdraw the claim of a chunk."""
+        with contextlib.suppress(OSError):
+            self._claim_file(name).unlink()
+
+    def _claim_file(self, name: str) -> Path:
+        return self.path / f".{name}.claim"
+
+    def write(self, name: str, columns: Columns) -> None:
+        """Write the results of a chunk atomically.
+
+        Raises:
+            InputError: the file cannot be written.
+        """
+        write_columns(columns, self.file(name), {**self._about, "chunk": name, "version": __version__})
+
+    def clean(self) -> None:
+        """Remove the half-written files and the claims of processes that were killed."""
+        for path in self.path.glob(".*"):
+            with contextlib.suppress(OSError):
+                if time.time() - path.stat().st_mtime > LEFT_OVER:
+                    path.unlink()
+
 
 STUDY, PLAN, CHUNKS = "study.toml", "study.json", "chunks"
 FORMAT = 2
@@ -148,3 +229,43 @@ def _difference(folder: StudyFolder, plan: StudyPlan) -> str:
     if folder.sources != sources_digest():
         return f"it was flown by sources with digest {folder.sources}, these have {sources_digest()}"
     return "its missions differ from those that their files say now"
+
+
+def check_kept(plan: StudyPlan) -> None:
+    """Check that each metric and channel that `[keep]` names comes from some flight of a study.
+
+    Raises:
+        InputError: none has it; the message lists the existing ones.
+    """
+    keep = plan.settings.keep
+    if not keep.metrics and not keep.channels:
+        return
+    flights = list(_samples(plan))
+    metrics = [name for name in _together(map(metric_names, flights)) if name not in NOT_KEPT]
+    _check("metric of keep.metrics", keep.metrics, metrics)
+    if keep.channels:
+        _check("channel of keep.channels", keep.channels, [*_together(map(channel_names, flights)), *DERIVED])
+
+
+def _check(what: str, chosen: Iterable[str], known: Sequence[str]) -> None:
+    for name in chosen:
+        if name not in known:
+            raise unknown(what, name, known)
+
+
+def _together(names: Iterable[Sequence[str]]) -> list[str]:
+    return list(dict.fromkeys(name for some in names for name in some))
+
+
+def _samples(plan: StudyPlan) -> Iterator[FlightPlan]:
+    """A flight of each variant and case that is not refused."""
+    cells = len(plan.variants) * len(plan.cases)
+    each = plan.count // cells
+    templates = [variant.template() for variant in plan.variants]
+    for cell in range(cells):
+        for row in plan.rows(cell * each, cell * each + min(TRIED, each)):
+            try:
+                yield FlightPlan(templates[row.variant].mission(row.changes))
+            except InputError:
+                continue
+            break

@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.studies.design.settings import REFUSED
-from tandemlift.analysis.studies.tuning.draws import Draw
+from tandemlift.analysis.studies.tuning.draws import Draw, MissionSource
 from tandemlift.analysis.studies.tuning.goals import Goal
-from tandemlift.analysis.studies.tuning.source import MissionSource
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array

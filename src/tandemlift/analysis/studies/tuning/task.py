@@ -18,10 +18,9 @@ from tandemlift.analysis.studies.tuning.candidates import (
     joined,
     repeated,
 )
-from tandemlift.analysis.studies.tuning.draws import Draw
+from tandemlift.analysis.studies.tuning.draws import Draw, MissionSource
 from tandemlift.analysis.studies.tuning.goals import Goal, check_goals, scales_of
 from tandemlift.analysis.studies.tuning.parameters import Tunable, Value, changes_at
-from tandemlift.analysis.studies.tuning.source import MissionSource
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission

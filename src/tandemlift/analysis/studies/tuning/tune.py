@@ -7,16 +7,21 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from tandemlift.analysis.studies.tuning.candidates import Aim
-from tandemlift.analysis.studies.tuning.draws import CHOICE_SEED, HOLDOUT_SEED, Draw, DrawSource, Study, default_study
-from tandemlift.analysis.studies.tuning.front import front_of
+from tandemlift.analysis.studies.tuning.draws import (
+    CHOICE_SEED,
+    HOLDOUT_SEED,
+    Draw,
+    DrawSource,
+    MissionSource,
+    Study,
+    default_study,
+)
 from tandemlift.analysis.studies.tuning.goals import Goal, goals_from
 from tandemlift.analysis.studies.tuning.holdout import evidence_of
 from tandemlift.analysis.studies.tuning.optimisers import FAR_STEP, FIRST_STEP, EvolutionStrategy, Optimiser
 from tandemlift.analysis.studies.tuning.parameters import Range, Tunable, parameters_of
 from tandemlift.analysis.studies.tuning.result import Tuning, present_values
-from tandemlift.analysis.studies.tuning.search import INTERRUPTED, TuneProgress, TuningSearch
-from tandemlift.analysis.studies.tuning.selection import TIMES, choose
-from tandemlift.analysis.studies.tuning.source import MissionSource
+from tandemlift.analysis.studies.tuning.search import INTERRUPTED, TIMES, TuneProgress, TuningSearch, choose, front_of
 from tandemlift.analysis.studies.tuning.task import Task, started
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.progress import progress_or_own

@@ -2,7 +2,7 @@
 
 SI units and world axes unless a field says otherwise. Whole numbers, such as `seq`, are exact up to 2²⁴. The values of
 the fields come from channels by formulas that are written once: over arrays for a whole flight, over numbers for a
-session, and traced for a page that flies without a server (`apps.live.page_functions`).
+session, and traced for a page that flies without a server (`apps.live.page_manifest`).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The scene of a mission, built from its settings or from the tables that a saved flight carries."""
+"""The scene of a mission, from its settings or the tables of a saved flight; and the frames of a flight in progress."""
 
 from __future__ import annotations
 
@@ -7,8 +7,17 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from tandemlift.apps.live.session.frames import RATE, layout_for
+from tandemlift.apps.live.session.frames import (
+    RATE,
+    Components,
+    channel_columns,
+    field_values,
+    layout_for,
+    pack_frames,
+    phase_times,
+)
 from tandemlift.apps.live.session.server_messages import (
     FlightScene,
     SceneCorridor,
@@ -26,12 +35,13 @@ from tandemlift.core.files import __version__
 from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.core.types import Array
 from tandemlift.core.vector import Absent
-from tandemlift.engines.models.surroundings import floor_from
+from tandemlift.engines.models.scene import floor_from
 from tandemlift.engines.models.visuals import BEAM_RADIUS, SHAPELESS, VisualShape, vehicle_shapes
 from tandemlift.missions import Mission, tables_of
 from tandemlift.parts.contact.corridor import wall_tables
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import Quadrotor
+from tandemlift.simulation.plan import FlightPlan
 
 SPRING = SceneSpring(stiffness=8.0, damping=2.0, max_force=8.0)  # of a page's hand, where a mission has none
 WALL_THICKNESS = 0.02  # m, as drawn; walls have none
@@ -157,3 +167,41 @@ def _corridor(corridor: Mapping[str, Any]) -> SceneCorridor | None:
 
 def _list(values: Array) -> list[float]:
     return [float(v) + 0.0 for v in values]
+
+
+class FrameBuilder:
+    """Builds the frames of a mission's flight.
+
+    Args:
+        plan: of the mission in its engine.
+
+    Attributes:
+        scene: the description that a page needs to interpret frames.
+    """
+
+    def __init__(self, plan: FlightPlan) -> None:
+        mission = plan.mission
+        self.scene = scene_of(mission, plan.engine)
+        self._layout = layout_for(Vehicle.from_settings(mission.vehicle).rotor_count)
+        self._phases, self._columns = phase_times(tables_of(mission)["phases"]), channel_columns(plan.sample)
+        self._start = plan.model.flight_state.state
+
+    def values(self, sample: Array, at: float) -> dict[str, Components]:
+        """The values of the fields in a sample, at a time [s], component by component."""
+        channels = {name: tuple(map(float, sample[columns])) for name, columns in self._columns.items()}
+        return field_values(channels, at, self._phases)
+
+    def frame(self, values: Mapping[str, ArrayLike]) -> bytes:
+        """The frame of some values."""
+        return pack_frames(self._layout, values).tobytes()
+
+    def first(self) -> bytes:
+        """The frame of a flight that has not begun."""
+        s = self._start
+        at: dict[str, Any] = {
+            "position": s.position,
+            "attitude": s.attitude,
+            "velocity": s.velocity,
+            "reference": s.position,
+        }
+        return self.frame({name: np.array(value) for name, value in at.items()})

@@ -17,12 +17,12 @@ from numpy.typing import ArrayLike
 
 from tandemlift.apps.live.session import page_messages as page
 from tandemlift.apps.live.session.checks import check_may_tare, check_repeatable, check_takes_requests
-from tandemlift.apps.live.session.frame_builder import FrameBuilder
 from tandemlift.apps.live.session.hand_control import HandControl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission, other_mission, with_whole_rotors
 from tandemlift.apps.live.session.pacing import Pacer, RealTimeThread
 from tandemlift.apps.live.session.parameters import CHOICES, ParameterControl, scene_at
 from tandemlift.apps.live.session.saving import save_in_process
+from tandemlift.apps.live.session.scene_builder import FrameBuilder
 from tandemlift.apps.live.session.server_messages import (
     Answer,
     DoneMessage,

@@ -31,8 +31,7 @@ from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.overlay import legend_of_flights
-from tandemlift.pictures.drawing.panels import LONG, START, extent, fit, legend_above, line, time_axis
-from tandemlift.pictures.drawing.series import drawable
+from tandemlift.pictures.drawing.panels import LONG, START, drawable, extent, fit, legend_above, line, time_axis
 from tandemlift.pictures.drawing.style import BLUE, GREY, LIGHT_BLUE, look, page_figure, points, styled
 from tandemlift.pictures.figures.registry import plot
 

@@ -8,8 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from tandemlift.analysis.studies.design.statistics import finite
-from tandemlift.analysis.studies.quantities import Quantity
-from tandemlift.analysis.studies.study_rows import StudyRows
+from tandemlift.analysis.studies.study_rows import Quantity, StudyRows
 from tandemlift.core.types import Array
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.panels import legend_above

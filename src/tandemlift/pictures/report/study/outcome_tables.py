@@ -17,7 +17,7 @@ from tandemlift.analysis.studies.study_rows import WHO, RowGroup, StudyRows
 from tandemlift.analysis.studies.worst import WorstRow, reasons, worst_rows
 from tandemlift.core.files import atomic_write
 from tandemlift.core.phases import OUTCOMES
-from tandemlift.pictures.report.latex import NUMBER, latex_number, latex_table, latex_text
+from tandemlift.pictures.report.metric_tables import NUMBER, latex_number, latex_table, latex_text
 from tandemlift.pictures.report.page import html_table, number, with_keys
 from tandemlift.pictures.report.study.words import html_row_command, shown_column, shown_quantity
 

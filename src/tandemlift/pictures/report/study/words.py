@@ -10,8 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.studies.quantities import Quantity
-from tandemlift.analysis.studies.study_rows import RowGroup, StudyRows
+from tandemlift.analysis.studies.study_rows import Quantity, RowGroup, StudyRows
 from tandemlift.core.types import Array
 from tandemlift.missions.keys import sections
 from tandemlift.missions.reference import plain_name

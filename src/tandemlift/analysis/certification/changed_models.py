@@ -1,0 +1,72 @@
+"""The limit of a parameter by linear models of changed missions: each value that is tried is linearized anew.
+
+A change of mass or inertia changes what the joint sensors feel, so that it is more than a gain of the loop.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.analysis.certification.parameters import PARAMETERS, with_keys
+from tandemlift.analysis.linearization.linear_model import continuous
+from tandemlift.analysis.linearization.linearize import linearize
+from tandemlift.analysis.linearization.loop_margins import NO_KINK, ON_CIRCLE, calm_mission, is_calm
+from tandemlift.core.errors import InputError
+from tandemlift.missions import Mission
+
+STEP, ACCURACY = 1.25, 0.01  # factor between values that bracket a limit; relative width of the last bracket
+LEAST, MOST = 0.02, 50.0  # of the nominal value, between which a limit is looked for
+
+
+class LinearLimit(NamedTuple):
+    """A limit by linear models.
+
+    Attributes:
+        value: of the parameter; 0 or infinite where there is none between `LEAST` and `MOST` of the nominal value.
+        frequency: of the oscillation there [rad/s]; 0 where the motion grows without one.
+    """
+
+    value: float
+    frequency: float
+
+
+def fastest_growth(mission: Mission, name: str, value: float) -> complex | None:
+    """The eigenvalue [1/s] of a calm hover that grows fastest, with a value of a parameter; None if none grows.
+
+    A hover that cannot be flown to grows, by an infinite rate.
+    """
+    lag = mission.hover.lag if mission.actuators.model == "rotors" else None
+    try:
+        calm, at = calm_mission(mission, lag=lag)
+        changed = with_keys(calm, PARAMETERS[name].keys(mission, value))
+        model = linearize(changed, at, inputs=["thrust_offsets"], outputs=["rotor_thrusts"], kink_tolerance=NO_KINK)
+    except InputError:
+        return complex(math.inf)
+    z = np.linalg.eigvals(model.connected().A)
+    worst = z[np.argmax(np.abs(z))]
+    if abs(worst) > 1.0 + ON_CIRCLE:
+        return continuous(complex(worst), model.step)
+    return None if is_calm(model) else complex(math.inf)
+
+
+def linear_limit(mission: Mission, name: str, *, growing: bool) -> LinearLimit:
+    """The nearest value above (`growing`) or below the nominal one at which a hover is no longer stable.
+
+    Raises:
+        InputError: no parameter has this name.
+    """
+    nominal = PARAMETERS[name].nominal(mission)
+    factor, value, s = STEP if growing else 1.0 / STEP, nominal, None
+    while s is None:
+        stable, value = value, value * factor
+        if not LEAST * nominal < value < MOST * nominal:
+            return LinearLimit(math.inf if growing else 0.0, 0.0)
+        s = fastest_growth(mission, name, value)
+    while abs(value - stable) > ACCURACY * value:
+        middle = math.sqrt(value * stable)
+        found = fastest_growth(mission, name, middle)
+        stable, value, s = (middle, value, s) if found is None else (stable, middle, found)
+    return LinearLimit(math.sqrt(value * stable), abs(s.imag) if math.isfinite(s.real) else 0.0)

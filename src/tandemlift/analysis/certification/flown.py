@@ -1,0 +1,210 @@
+"""The limit of a parameter as flights show it, without a linear model: values near the predicted limit are flown.
+
+Each flight hovers calmly with the rotors and the parameter as they are, is pushed once, weakly, and flies on. It is
+stable if no rate of turn and no climb grows from the time after the push to the end.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.analysis.certification.certificate import FlownLimit
+from tandemlift.analysis.certification.parameters import ARM, parameter, with_keys
+from tandemlift.analysis.linearization.loop_margins import calm_mission
+from tandemlift.core.errors import InputError
+from tandemlift.core.phases import FAILURES
+from tandemlift.core.types import Array
+from tandemlift.missions import Mission, check, tables_of
+from tandemlift.simulation.fly import Flight, fly_many
+
+LEAST, MOST, COARSE, FINE = 0.5, 1.6, 16, 12  # factors of the predicted limit; flights that look for the limit
+PUSH, LASTS = 0.25, 0.1  # N along each axis, and s of its Gaussian: below the thresholds of a push
+SETTLES, WATCHED, LONG = 2.0, 4.0, 14.0  # s after the push; of each window; between their beginnings
+SMALL = 0.02  # of the largest motion: below it, motion is over
+PULL = 0.2  # N along x and y, by which an arm begins to pull
+BEGINS, RISES = 1.0, 4.0  # s of the first motion in an arm's hand; times it, beyond which the motion has grown
+SENSITIVE = 1e-3  # N: the threshold of a push while an arm holds the vehicle, which hides small oscillations else
+LOGGED = 0.005  # s
+LOST, OSCILLATES, REFUSED = "lost", "oscillation", "refused"
+
+
+class Trial(NamedTuple):
+    """How the limit of a parameter is flown.
+
+    Attributes:
+        mission: the flight with a value of the parameter; raises InputError for a value that is not allowed.
+        ended: what ended a flight's stability: "oscillation" or "lost"; "" if it is stable.
+        nominal: the value in the mission.
+    """
+
+    mission: Callable[[float], Mission]
+    ended: Callable[[Flight], str]
+    nominal: float
+
+
+def trial_of(mission: Mission, name: str) -> Trial:
+    """How the limit of a parameter of a mission is flown.
+
+    Raises:
+        InputError: no parameter has this name.
+    """
+    p = parameter(name)
+    if name == ARM:
+        return Trial(lambda k: held(mission, k), stability_in_hand, 0.0)
+    return Trial(lambda x: kicked(mission, p.keys(mission, x)), stability, p.nominal(mission))
+
+
+def flown_limit(trial: Trial, predicted: float, *, threads: int | None = None) -> FlownLimit:
+    """The limit of a parameter, found by flights between half the predicted value and 1.6 times it.
+
+    Args:
+        trial: how it is flown.
+        predicted: its limit by a model, in the parameter's unit.
+        threads: for the flights; by default one for each processor.
+    """
+    grows = predicted >= trial.nominal
+    factors = np.geomspace(LEAST, MOST, COARSE)
+    values = predicted * factors if grows else predicted / factors
+    coarse = _flown(trial, values, threads)
+    bad = next((i for i, (_, ended) in enumerate(coarse) if ended), None)
+    if bad is None:
+        return FlownLimit(float(values[-1]), math.inf if grows else 0.0, math.nan, "")
+    if bad == 0:
+        return FlownLimit(trial.nominal, float(values[0]), *_end(coarse[0]))
+    fine = np.geomspace(values[bad - 1], values[bad], FINE)[1:]
+    found = [*_flown(trial, fine[:-1], threads), coarse[bad]]
+    first = next(i for i, (_, ended) in enumerate(found) if ended)
+    below = fine[first - 1] if first else values[bad - 1]
+    return FlownLimit(float(below), float(fine[first]), *_end(found[first]))
+
+
+def _end(result: tuple[Flight | None, str]) -> tuple[float, str]:
+    flight, ended = result
+    return (frequency_of(flight) if flight is not None and ended == OSCILLATES else math.nan), ended
+
+
+def _flown(trial: Trial, values: Array, threads: int | None) -> list[tuple[Flight | None, str]]:
+    """A flight for each value of a parameter, and what ended its stability; "" for a stable one."""
+    missions = list[Mission | None]()
+    for value in values.tolist():
+        try:
+            missions.append(trial.mission(value))
+        except InputError:
+            missions.append(None)
+    flights = iter(fly_many([m for m in missions if m is not None], threads=threads))
+    found = [None if m is None else next(flights) for m in missions]
+    return [(flight, REFUSED if flight is None else trial.ended(flight)) for flight in found]
+
+
+def hover_as_flown(mission: Mission) -> tuple[Mission, float]:
+    """(A calm hover of a mission with its own rotors, the time [s] at which it is calm); sensors do not round."""
+    calm, at = calm_mission(mission)
+    own, t = tables_of(mission), tables_of(calm)
+    real = mission.actuators.model == "rotors"
+    lag = mission.hover.lag if real else 0.0
+    if real:
+        t["actuators"] = own["actuators"]
+    for q, original in zip(t["vehicle"]["quadrotors"], own["vehicle"]["quadrotors"], strict=True):
+        q |= {"max_speed": original["max_speed"], "lag_up": lag, "lag_down": lag}
+    t["sensors"] = _without_resolution(t["sensors"])
+    return check(t, mission.mission.name, quiet=True), at
+
+
+def kicked(mission: Mission, changes: Mapping[str, Any]) -> Mission:
+    """A calm hover of a mission with its own rotors and changes by dotted key, and one weak push.
+
+    Raises:
+        InputError: the changed mission is invalid.
+    """
+    hover, at = hover_as_flown(mission)
+    pushes = [{"force": [PUSH] * 3, "time": at + 3.0 * LASTS, "sigma": LASTS, "point": _grip(mission)}]
+    times = {"mission.duration": at + SETTLES + LONG + WATCHED, "mission.log_interval": LOGGED}
+    return with_keys(hover, {"pushes": pushes, **times, **changes})
+
+
+def held(mission: Mission, stiffness: float, changes: Mapping[str, Any] | None = None) -> Mission:
+    """A calm hover whose grip is held by a massless arm, which pulls it a little aside; with changes by dotted key.
+
+    Raises:
+        InputError: a change is invalid.
+    """
+    hover, at = hover_as_flown(mission)
+    x, y = hover.initial.position[:2]
+    aside = PULL / stiffness
+    place = {"point": [x + aside, y + mission.person.grip + aside], "dwell": 1e4}
+    arm = {"stiffness": stiffness, "damping": mission.person.damping, "tremor": 0.0, "max_force": 1e4}
+    person = {"model": "hold", "grip": mission.person.grip, "path": [place], "start_time": at, "delay": 0.01, **arm}
+    times = {"mission.duration": at + SETTLES + LONG + WATCHED, "mission.log_interval": LOGGED}
+    sensitive = {"admittance.threshold": [SENSITIVE] * 3}
+    return with_keys(hover, {"person": person, **sensitive, **times, **(changes or {})})
+
+
+def _grip(mission: Mission) -> list[float]:
+    """The first quadrotor, from the centre of mass: a push there turns the vehicle about all axes."""
+    vehicle = mission.hover.vehicle
+    return np.add(vehicle.origin, mission.vehicle.quadrotors[0].position).tolist()
+
+
+def _without_resolution(sensors: dict[str, Any]) -> dict[str, Any]:
+    """Sensors that do not round."""
+    return {
+        name: {key: 0.0 if key.endswith("resolution") else value for key, value in part.items()}
+        if isinstance(part, dict)
+        else part
+        for name, part in sensors.items()
+    }
+
+
+def motions(flight: Flight) -> Array:
+    """The rates of turn [rad/s] and the climb [m/s] (T, 4) of a flight."""
+    return np.column_stack([flight["rates"], flight["velocity"][:, 2]])
+
+
+def stability(flight: Flight) -> str:
+    """What ended the stability of a kicked flight: "oscillation" or "lost"; "" if it is stable."""
+    if flight.outcome in FAILURES or flight.failure:
+        return LOST
+    first, last = windows(flight)
+    floor = SMALL * np.abs(motions(flight)[flight.time >= flight.time[-1] - LONG - WATCHED - SETTLES]).max(axis=0)
+    return OSCILLATES if np.any((last > first) & (last > floor)) else ""
+
+
+def stability_in_hand(flight: Flight) -> str:
+    """What ended the stability of a flight in an arm's hand, whose limits keep an oscillation from growing on."""
+    if flight.outcome in FAILURES or flight.failure:
+        return LOST
+    motion, begins = np.abs(motions(flight)).max(axis=1), flight.time[-1] - LONG - WATCHED - SETTLES
+    first = motion[(flight.time >= begins) & (flight.time <= begins + BEGINS)].max()
+    sizes = windows(flight)
+    grows = np.any((sizes[1] > sizes[0]) & (sizes[1] > SMALL * first))
+    return OSCILLATES if grows or motion[flight.time >= begins].max() > RISES * first else ""
+
+
+def windows(flight: Flight) -> tuple[Array, Array]:
+    """Sizes (4,) of the motions after the push, and at the end."""
+    motion, end = motions(flight), flight.time[-1]
+    first, last = (
+        _sizes(motion[(flight.time >= start) & (flight.time <= start + WATCHED)])
+        for start in (end - LONG - WATCHED, end - WATCHED)
+    )
+    return first, last
+
+
+def _sizes(motion: Array) -> Array:
+    """The root mean square of each motion about its mean."""
+    return motion.std(axis=0)
+
+
+def frequency_of(flight: Flight) -> float:
+    """The frequency [rad/s] of the largest motion of the last window, by its crossings of its mean."""
+    motion = motions(flight)[flight.time >= flight.time[-1] - WATCHED]
+    values = motion[:, int(np.argmax(_sizes(motion)))]
+    values = values - values.mean()
+    crossings = np.flatnonzero((values[:-1] < 0.0) != (values[1:] < 0.0))
+    if len(crossings) < 3:
+        return math.nan
+    return float(math.pi * (len(crossings) - 1) / (LOGGED * (crossings[-1] - crossings[0])))

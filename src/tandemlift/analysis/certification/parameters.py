@@ -1,0 +1,92 @@
+"""Parameters of the real vehicle whose limits a certificate predicts, each with the keys that set it in a flight."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from tandemlift.core.errors import unknown
+from tandemlift.missions import Mission, check, tables_of
+from tandemlift.missions.changes import changed_tables
+
+ARM = "arm stiffness"
+AXES = ("z", "roll", "pitch", "yaw")
+
+
+class Parameter(NamedTuple):
+    """A number of the real vehicle or person that the pilot does not know.
+
+    Attributes:
+        name: of the parameter.
+        unit: of its values.
+        nominal: its value in a mission.
+        keys: the changes of a mission, by dotted key, that give it a value.
+    """
+
+    name: str
+    unit: str
+    nominal: Callable[[Mission], float]
+    keys: Callable[[Mission, float], dict[str, Any]]
+
+
+def _lag_keys(mission: Mission, lag: float) -> dict[str, Any]:
+    directions = ("lag_up", "lag_down")
+    return {f"vehicle.quadrotors.{i}.{key}": lag for i in range(len(mission.vehicle.quadrotors)) for key in directions}
+
+
+def _inertia(axis: int) -> Callable[[Mission, float], dict[str, Any]]:
+    def keys(mission: Mission, scale: float) -> dict[str, Any]:
+        scales = list(mission.plant.inertia_scale)
+        scales[axis] = scale
+        return {"plant.inertia_scale": scales}
+
+    return keys
+
+
+def _scale_of(axis: int) -> Callable[[Mission], float]:
+    return lambda mission: mission.plant.inertia_scale[axis]
+
+
+def _is_real(mission: Mission) -> bool:
+    return mission.actuators.model == "rotors"
+
+
+PARAMETERS = {
+    p.name: p
+    for p in (
+        Parameter(
+            "delay",
+            "s",
+            lambda m: m.actuators.delay if _is_real(m) else 0.0,
+            lambda m, x: {"actuators.delay": x},
+        ),
+        Parameter("lag", "s", lambda m: m.hover.lag if _is_real(m) else 0.0, _lag_keys),
+        Parameter("mass", "1", lambda m: m.plant.mass_scale, lambda m, x: {"plant.mass_scale": x}),
+        *(Parameter(f"{axis} inertia", "1", _scale_of(i), _inertia(i)) for i, axis in enumerate(AXES[1:])),
+        Parameter(ARM, "N/m", lambda m: m.person.stiffness, lambda m, x: {"person.stiffness": x}),
+    )
+}
+"""Mass and inertia are factors of the pilot's values."""
+
+
+def parameter(name: str) -> Parameter:
+    """A parameter by its name.
+
+    Raises:
+        InputError: there is none of this name.
+    """
+    if name not in PARAMETERS:
+        raise unknown("parameter", name, PARAMETERS)
+    return PARAMETERS[name]
+
+
+def with_keys(mission: Mission, changes: dict[str, Any]) -> Mission:
+    """A mission with changes by dotted key.
+
+    Raises:
+        InputError: the changed mission is invalid.
+    """
+    tables = tables_of(mission)
+    for key, value in changes.items():
+        tables = changed_tables(tables, key, value, "certificate")
+    return check(tables, mission.mission.name, quiet=True)

@@ -1,0 +1,176 @@
+"""The figures of a certificate: disk margins, limits, the admittance at the hand, and the map of arms."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tandemlift.analysis.certification.certificate import Certificate, Claim, Tier
+from tandemlift.analysis.certification.linear import DISK_PHASE_BAR
+from tandemlift.analysis.linearization.frequency_response import axis_responses
+from tandemlift.analysis.linearization.linear_model import MOST_STATES, LinearModel, modes_of, title_of
+from tandemlift.core.errors import InputError
+from tandemlift.pictures.drawing.figure import Caption
+from tandemlift.pictures.drawing.style import (
+    BLUE,
+    COMPONENTS,
+    GREY,
+    INK,
+    PAPER,
+    VERMILLION,
+    look,
+    page_figure,
+    save,
+    styled,
+)
+from tandemlift.pictures.figures.linear_model import Response, draw
+
+CAPTIONS = {
+    "margins": Caption(
+        "Disk margins over the frequency",
+        "The change of phase that each loop tolerates if its gain changes with it, the other loops closed; and that of "
+        "all rotors, each by itself. Grey: the bar. The margin is the lowest point of a curve.",
+        "Curves of the disk phase margin in degrees over the frequency, for each axis and for all rotors.",
+    ),
+    "limits": Caption(
+        "Limits of parameters, over the values of the mission",
+        "Bars: from the value at which the vehicle oscillates below it to that above it, by linear models; no end: "
+        "none within a factor of 50. Circles: the limits that flights found by bisection, without a model.",
+        "Horizontal bars of the tolerated range of each parameter, with circles where flights found the limit.",
+    ),
+    "hand": Caption(
+        "Admittance at the hand",
+        "Re Y over the frequency along each axis, while a push acts. Where it is negative, the vehicle can give energy "
+        "to a hand: it is not passive there, and a stiff arm may make it oscillate.",
+        "Curves of the real part of the admittance at the hand over the frequency, along x, y and z.",
+    ),
+    "map": Caption(
+        "Stiffest arm over virtual mass and damping",
+        "The stiffness [N/m] of a massless arm from which on the vehicle in its hand oscillates, by linear models. "
+        "Dot: the mission. Circles and crosses: flights with the arm of the black line, stable and oscillating.",
+        "A map of the largest stable arm stiffness over virtual mass and virtual damping.",
+    ),
+}
+MOST_PHASE = 120.0  # deg
+
+
+def certificate_figures(certificate: Certificate) -> dict[str, Figure]:
+    """The figures that a certificate has data for, by name."""
+    drawn = dict[str, Figure]()
+    tiers = {tier.name: tier for tier in certificate.tiers}
+    makers: tuple[tuple[str, str, str, Callable[[Tier], Figure]], ...] = (
+        ("margins", "linear", "frequency", draw_margins),
+        ("hand", "person", "frequency", draw_hand),
+        ("map", "person", "map", draw_map),
+    )
+    for name, tier, needed, make in makers:
+        if tier in tiers and needed in tiers[tier].curves:
+            drawn[name] = make(tiers[tier])
+    limits = [claim for tier in certificate.tiers for claim in tier.claims if claim.range]
+    return {**drawn, "limits": draw_limits(limits)} if limits else drawn
+
+
+@styled
+def draw_margins(tier: Tier) -> Figure:
+    """Draw the disk phase margin of each axis and of all rotors over the frequency."""
+    figure = page_figure(2.6)
+    axes = figure.add_subplot()
+    w = tier.curves["frequency"]
+    for place, (name, sizes) in enumerate((n, s) for n, s in tier.curves.items() if n != "frequency"):
+        axes.semilogx(w, 2.0 * np.degrees(np.arctan(0.5 * np.array(sizes))), label=name, **look(place))
+    axes.axhline(DISK_PHASE_BAR, color=GREY, lw=0.8)
+    axes.set_ylim(0.0, MOST_PHASE)
+    axes.set_xlim(w[0], w[-1])
+    axes.set_xlabel("frequency (rad/s)")
+    axes.set_ylabel("disk phase margin (°)")
+    figure.legend(loc="outside upper center", ncols=5)
+    return figure
+
+
+@styled
+def draw_limits(claims: list[Claim]) -> Figure:
+    """Draw the range of each parameter that has limits, over its value in the mission."""
+    rows = dict[str, list[Claim]]()
+    for claim in claims:
+        rows.setdefault(claim.parameter, []).append(claim)
+    figure = page_figure(0.9 + 0.28 * len(rows))
+    axes = figure.add_subplot()
+    for place, found in enumerate(rows.values()):
+        _limit_row(axes, -place, found)
+    axes.set_yticks([-place for place in range(len(rows))], list(rows))
+    axes.axvline(1.0, color=INK, lw=0.8)
+    axes.set_xscale("log")
+    axes.set_xlabel("limit over the value of the mission (1)")
+    return figure
+
+
+def _limit_row(axes: Axes, height: float, claims: list[Claim]) -> None:
+    low, high = 1.0, 1.0
+    for claim in claims:
+        assert claim.range
+        limit, flown = claim.range
+        low, high = min(low, limit), max(high, limit)
+        if flown is not None:
+            axes.plot(flown, height, "o", color=VERMILLION, ms=4.5, mfc=PAPER, mew=1.0, zorder=4)
+    axes.barh(height, high - low, left=low, height=0.5, color=BLUE, alpha=0.35, zorder=2)
+    for claim in claims:
+        assert claim.range
+        axes.plot([claim.range[0]] * 2, [height - 0.3, height + 0.3], color=BLUE, lw=1.4, zorder=3)
+
+
+@styled
+def draw_hand(tier: Tier) -> Figure:
+    """Draw the real part of the admittance at the hand."""
+    figure = page_figure(2.3)
+    axes = figure.add_subplot()
+    frequency = np.array(tier.curves["frequency"]) / (2.0 * math.pi)
+    for axis, style in zip("xyz", COMPONENTS, strict=True):
+        axes.semilogx(frequency, tier.curves[axis], label=axis, **style)
+    axes.axhline(0.0, color=GREY, lw=0.8)
+    axes.set_xlim(frequency[0], frequency[-1])
+    axes.set_xlabel("frequency (Hz)")
+    axes.set_ylabel("Re Y (m/(s N))")
+    figure.legend(loc="outside upper center", ncols=3)
+    return figure
+
+
+@styled
+def draw_map(tier: Tier) -> Figure:
+    """Draw the stiffest arm over virtual mass and damping."""
+    figure = page_figure(3.0)
+    axes = figure.add_subplot()
+    data = tier.curves["map"]
+    stiffness = np.maximum(np.array(data["stiffness"], float), 1e-3)
+    levels = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0]
+    drawn = axes.contourf(data["mass"], data["damping"], np.log10(stiffness).T, np.log10(levels), extend="both")
+    lines = axes.contour(data["mass"], data["damping"], stiffness.T, levels, colors=PAPER, linewidths=0.7)
+    axes.clabel(lines, fmt="%g")
+    axes.plot(*data["mission"], "o", color=VERMILLION, ms=6.0, mec=PAPER)
+    for x, y, stable in data.get("flown", ()):
+        axes.plot(x, y, "o" if stable else "x", color=INK, ms=4.0, mfc=PAPER)
+    axes.contour(data["mass"], data["damping"], stiffness.T, [data["arm_stiffness"]], colors=INK, linewidths=1.4)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("virtual mass (kg)")
+    axes.set_ylabel("virtual damping (N s/m)")
+    bar = figure.colorbar(drawn, ax=axes, label="arm stiffness (N/m)")
+    bar.set_ticks(np.log10(levels).tolist(), labels=[f"{level:g}" for level in levels])
+    return figure
+
+
+def draw_linear_model(connected: LinearModel, path: Path) -> Path:
+    """Draw the modes of a model and its response to a push into a file.
+
+    Raises:
+        InputError: it has too many states.
+    """
+    if len(connected.states) > MOST_STATES:
+        raise InputError(f"{path}: {len(connected.states)} states are too many to draw; at most {MOST_STATES}")
+    names = ("push_force" if connected.of == "loop" else "disturbance_force", "position")
+    response = Response(" → ".join(names).replace("_", " "), *axis_responses(connected, *names))
+    return save(draw(title_of(connected), [mode.s for mode in modes_of(connected).modes], response), path)

@@ -1,0 +1,125 @@
+"""A certificate as files: a page, its data as JSON, a PDF, and the missions that fly beyond each limit."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from tandemlift.analysis.certification.certificate import Certificate, Claim
+from tandemlift.core.errors import InputError
+from tandemlift.core.files import DATA, atomic_write
+from tandemlift.pictures.drawing.style import save
+from tandemlift.pictures.report.page import html, html_figures, write_page
+from tandemlift.pictures.report.paper_report import check_typesetting, typeset
+from tandemlift.pictures.report.study.certificate_figures import CAPTIONS, certificate_figures
+
+PAGE, JSON, PDF, SOURCE = "certificate.html", "certificate.json", "certificate.pdf", "report.typ"
+NONE, MINUS = "none", "−"
+
+
+def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
+    """Write a certificate into a folder, which is made; the PDF needs the extra "paper".
+
+    Returns:
+        The files: page, JSON, and PDF if there is one.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, text in ((n, t) for tier in certificate.tiers for n, t in tier.files.items()):
+        _write(folder / name, text)
+    certificate.save(folder / JSON)
+    figures = certificate_figures(certificate)
+    tiers = [
+        {"title": t.title, "assumptions": t.assumptions, "reason": t.reason, "rows": [_row(c) for c in t.claims]}
+        for t in certificate.tiers
+    ]
+    verdict, versions = _verdict(certificate), ", ".join(f"{n} {v}" for n, v in certificate.versions.items())
+    page = write_page(
+        folder / PAGE,
+        "certificate",
+        name=certificate.mission,
+        missed=[_name(claim) for claim in certificate.missed],
+        verdict=html(""),
+        tiers=tiers,
+        figures=html(html_figures(figures, CAPTIONS) if figures else ""),
+        versions=f"Computed with {versions}.",
+    )
+    files = [page, folder / JSON]
+    try:
+        check_typesetting()
+    except InputError:
+        return files
+    parts = folder / "pdf"
+    for name, figure in figures.items():
+        save(figure, parts / f"{name}.pdf")
+    shown = [{"file": f"{n}.pdf", "title": CAPTIONS[n].title, "text": CAPTIONS[n].text} for n in figures]
+    data = {"mission": certificate.mission, "verdict": verdict, "tiers": tiers, "figures": shown, "versions": versions}
+    _write(parts / "report.json", json.dumps(data, ensure_ascii=False, allow_nan=False))
+    _write(parts / SOURCE, (DATA / "report" / "certificate.typ").read_text("utf-8"))
+    typeset(parts, folder / PDF)
+    return [*files, folder / PDF]
+
+
+def _write(path: Path, text: str) -> None:
+    with atomic_write(path) as partial:
+        partial.write_text(text, "utf-8")
+
+
+def _verdict(certificate: Certificate) -> str:
+    missed = [_name(claim) for claim in certificate.missed]
+    return f"Below the bar: {', '.join(missed)}." if missed else "No number is below its bar."
+
+
+def _name(claim: Claim) -> str:
+    return f"{claim.quantity}, {claim.subject}" if claim.subject else claim.quantity
+
+
+def _row(claim: Claim) -> dict[str, Any]:
+    """A claim as texts."""
+    flown = ""
+    if claim.flown is not None:
+        scale = claim.value / claim.limit if claim.value and claim.limit else 1.0
+        flown = f"{shown(scale * claim.flown.above)} ({claim.flown.ended})" if claim.flown.ended else "not reached"
+    bar = "" if claim.bar is None else shown(claim.bar)
+    return {
+        "name": _name(claim),
+        "value": shown(claim.value),
+        "unit": "" if claim.unit == "1" else claim.unit,
+        "bar": bar,
+        "verdict": claim.verdict,
+        "flown": flown,
+        "text": claim.text,
+        "command": claim.command,
+    }
+
+
+def shown(value: float | None) -> str:
+    """A number with three digits; "none" for one without a limit."""
+    if value is None or math.isnan(value):
+        return "–"
+    return NONE if math.isinf(value) else f"{value:.3g}".replace("-", MINUS)
+
+
+def certificate_lines(certificate: Certificate) -> Iterator[str]:
+    """A certificate in words: its tiers, their assumptions and their numbers."""
+    for tier in certificate.tiers:
+        yield tier.title
+        yield from (f"  assumed: {text}" for text in tier.assumptions)
+        if tier.reason:
+            yield f"  not formed: {tier.reason}"
+        rows = [_row(claim) for claim in tier.claims]
+        wide = max((len(row["name"]) for row in rows), default=0)
+        for row in rows:
+            beside = " ".join(
+                text
+                for text in (
+                    f"bar {row['bar']}" if row["bar"] else "",
+                    row["verdict"],
+                    row["flown"] and f"flown {row['flown']}",
+                )
+                if text
+            )
+            yield f"  {row['name']:{wide}}  {row['value']:>8} {row['unit']:4} {beside:24} {row['text']}".rstrip()
+    yield _verdict(certificate)

@@ -1,0 +1,95 @@
+"""`tl.certify`, its files and its command; the bound on failures against SciPy."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from scipy.stats import beta
+
+import tandemlift as tl
+from tandemlift.analysis.certification.certificate import Certificate, Claim, FlownLimit, Tier
+from tandemlift.apps.cli.main import cli
+from tandemlift.pictures.report.study.certificate_report import certificate_lines, write_certificate
+
+QUICK = ["--set", "mission.duration=12.0", "--set", "phases.land_start=60.0"]
+
+
+def made():
+    """A certificate with a number of each kind."""
+    claims = (
+        Claim("phase margin", "pitch", 33.0, "deg", 45.0, "at 13 rad/s"),
+        Claim(
+            "delay limit",
+            "",
+            52.8,
+            "ms",
+            limit=0.0528,
+            nominal=0.01,
+            flown=FlownLimit(0.052, 0.053, 13.5, "oscillation"),
+        ),
+        Claim("largest inertia", "yaw", math.inf, "1"),
+    )
+    return Certificate("iris", (Tier("linear", "Linear", ("Small motions.",), claims),), {"numpy": "2"})
+
+
+def test_a_number_below_its_bar_is_missed_and_one_without_a_bar_is_not():
+    assert [claim.quantity for claim in made().missed] == ["phase margin"]
+    assert [claim.verdict for claim in made().tier("linear").claims] == ["missed", "", ""]
+
+
+def test_the_range_of_a_parameter_is_over_its_value_in_the_mission():
+    assert made().tier("linear").claims[1].range == pytest.approx((5.28, 5.3))
+    assert made().tier("linear").claims[2].range is None
+
+
+def test_a_tier_that_was_not_formed_is_named():
+    with pytest.raises(tl.InputError, match="tier 'person' is not in this certificate; it has linear"):
+        made().tier("person")
+
+
+def test_the_files_of_a_certificate(tmp_path):
+    page, data, pdf = write_certificate(made(), tmp_path)
+    said = json.loads(data.read_text("utf-8"))
+    assert said["tiers"][0]["claims"][2]["value"] == "unlimited"
+    assert said["tiers"][0]["claims"][1]["flown"]["above"] == 0.053
+    html = page.read_text("utf-8")
+    for words in ("Small motions.", "phase margin, pitch", "<strong>Below the bar</strong>: phase margin, pitch."):
+        assert words in html
+    assert pdf.read_bytes().startswith(b"%PDF")
+    assert any("flown 53 (oscillation)" in line for line in certificate_lines(made()))
+
+
+def test_an_unknown_tier_is_refused_before_anything_is_computed():
+    with pytest.raises(tl.InputError, match="unknown tier 'liner'"):
+        tl.certify("hover", ["liner"])
+
+
+def test_the_command_writes_a_study_that_goes_on_and_missions_that_fly(tmp_path):
+    def run(*more):
+        return CliRunner().invoke(
+            cli, ["certify", "hover", *QUICK, "--tiers", "statistics", "--out", str(tmp_path), *more]
+        )
+
+    assert run("--flights", "8").exit_code == 0
+    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "statistics" / "chunks").iterdir()}
+    again = run("--flights", "8")
+    assert again.exit_code == 0
+    assert before == {path: path.stat().st_mtime_ns for path in (tmp_path / "statistics" / "chunks").iterdir()}
+    bound = json.loads((tmp_path / "certificate.json").read_text("utf-8"))["tiers"][0]["claims"][0]
+    assert bound["value"] == pytest.approx(beta.ppf(0.95, 1, 8))
+    assert "0 of 8 flights failed" in again.output
+
+
+def test_the_mission_beside_a_limit_oscillates_when_it_is_flown(tmp_path):
+    certificate = tl.certify("iris", ["linear"])
+    write_certificate(certificate, tmp_path)
+    flight = tl.fly(tmp_path / "limits" / "delay-limit.toml")
+    late = flight["rates"][flight.time > flight.time[-1] - 3.0, 1]
+    assert late.std() > 0.5  # rad/s
+    turns = np.count_nonzero((late[:-1] < 0.0) != (late[1:] < 0.0)) * math.pi / 3.0
+    (claim,) = [claim for claim in certificate.tier("linear").claims if claim.quantity == "delay limit"]
+    assert turns == pytest.approx(claim.frequency, rel=0.1)

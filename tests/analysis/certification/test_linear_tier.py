@@ -1,0 +1,121 @@
+"""Margins against python-control, and limits of parameters against flights that know no linear model."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import control
+import numpy as np
+import pytest
+from listings import PLAIN
+
+from tandemlift.analysis.certification.disk_margins import DiskMargin, disk_margin, disk_sizes
+from tandemlift.analysis.certification.flown import flown_limit, trial_of
+from tandemlift.analysis.certification.linear import linear_tier, loop_as_flown, nearest_to_oscillation
+from tandemlift.analysis.linearization.loop_margins import single_loop
+from tandemlift.missions import load_mission
+from tandemlift.parts.controllers.user_controller import load_controller
+
+W = np.geomspace(0.01, 100.0, 600)
+
+
+@cache
+def tier(name):
+    return linear_tier(load_mission(name))
+
+
+def value(quantity, subject="", name="iris"):
+    (found,) = [c for c in tier(name).claims if (c.quantity, c.subject) == (quantity, subject)]
+    return found.value
+
+
+def test_the_disk_margin_of_one_loop_is_that_of_python_control():
+    L = control.tf([25.0], [1.0, 10.0, 10.0, 10.0])  # of the introduction to disk margins, Seiler et al. 2020
+    theirs, gain, phase = control.disk_margins(L, W, skew=0.0)
+    ours = disk_margin(W, L(1j * W)[:, None, None])
+    assert ours.alpha == pytest.approx(theirs, rel=1e-6)
+    assert ours.gain_db == pytest.approx(gain, rel=1e-6)
+    assert ours.phase == pytest.approx(phase, rel=1e-6)
+
+
+def test_the_disk_margin_of_two_loops_at_once_is_that_of_python_control():
+    P = control.ss([[0.0, 10.0], [-10.0, 0.0]], np.eye(2), [[1.0, 10.0], [-10.0, 1.0]], np.zeros((2, 2)))
+    K = control.ss([], [], [], [[1.0, -2.0], [0.0, 1.0]])
+    theirs, _, _ = control.disk_margins(P * K, W, skew=0.0)
+    response = np.moveaxis((P * K).frequency_response(W).complex, -1, 0)
+    ours = disk_margin(W, response)
+    assert ours.alpha == pytest.approx(theirs, rel=1e-3)
+    assert ours.alpha < min(disk_margin(W, response[:, i, i][:, None, None]).alpha for i in range(2))
+
+
+def test_a_disk_that_holds_every_gain_has_no_limit():
+    assert DiskMargin(2.0, 1.0).gain == math.inf
+    assert DiskMargin(2.0, 1.0).phase == pytest.approx(90.0)
+
+
+def test_no_factor_within_the_disk_of_all_rotors_makes_the_loop_singular():
+    loop = loop_as_flown(load_mission("iris"))
+    at = int(np.argmin(disk_sizes(loop.at_rotors)))
+    alpha, L = disk_sizes(loop.at_rotors[[at]])[0], loop.at_rotors[at]
+    draws = np.random.default_rng(7)
+    worst = math.inf
+    for _ in range(2000):
+        delta = 0.5 * alpha * np.exp(2j * math.pi * draws.random(len(L)))
+        factors = (1.0 + delta) / (1.0 - delta)
+        worst = min(worst, np.linalg.svd(np.eye(len(L)) + L * factors, compute_uv=False)[-1])
+    assert worst > 0.0
+    pitch = single_loop(loop.L, 2)[at]  # of which all rotors at once are the worst case: the bound is reached
+    assert 1.0 / abs(1.0 / (1.0 + pitch) - 0.5) == pytest.approx(alpha, rel=0.02)
+
+
+def test_the_frequency_of_an_oscillation_is_that_of_a_loop_through_minus_one():
+    s = 1j * W
+    L = 8.0 / (s + 1.0) ** 3  # through −1 at √3 rad/s
+    frequency, distance = nearest_to_oscillation(W, L)
+    assert frequency == pytest.approx(math.sqrt(3.0), rel=1e-3)
+    assert distance < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("name", "quantity", "subject"),
+    [
+        ("delay", "delay limit", ""),
+        ("lag", "lag limit", ""),
+        ("pitch inertia", "largest inertia", "pitch"),
+        ("roll inertia", "least inertia", "roll"),
+        ("mass", "least mass", ""),
+    ],
+)
+def test_flights_of_iris_begin_to_oscillate_at_the_predicted_limit_and_frequency(name, quantity, subject):
+    (claim,) = [c for c in tier("iris").claims if (c.quantity, c.subject) == (quantity, subject)]
+    flown = flown_limit(trial_of(load_mission("iris"), name), claim.limit)
+    assert flown.ended == "oscillation"
+    assert flown.above == pytest.approx(claim.limit, rel=0.1)
+    assert flown.frequency == pytest.approx(claim.frequency, rel=0.1)
+
+
+def test_the_heaviest_vehicle_is_that_which_its_rotors_lift():
+    mission = load_mission("iris")
+    assert value("largest mass") == pytest.approx(mission.hover.lift / mission.hover.weight, rel=1e-6)
+
+
+def test_every_margin_of_an_axis_has_a_bar_and_those_of_all_rotors_are_no_wider():
+    for axis in ("z", "roll", "pitch", "yaw"):
+        assert value("disk gain margin", "all rotors") <= value("disk gain margin", axis) + 1e-6
+    bars = {c.quantity: c.bar for c in tier("iris").claims if c.subject == "roll" and "margin" in c.quantity}
+    assert bars == {"gain margin": 6.0, "phase margin": 45.0, "disk gain margin": 5.5, "disk phase margin": 35.0}
+
+
+def test_a_hover_that_is_unstable_has_no_claims_but_the_reason():
+    shaky = linear_tier(load_mission("iris", {"actuators.delay": 0.08}))
+    assert shaky.claims == ()
+    assert "the hover is unstable with the delay and lag of its rotors" in shaky.reason
+
+
+def test_a_controller_in_plain_python_has_the_reason_that_there_is_no_linear_model(tmp_path):
+    path = tmp_path / "plain.py"
+    path.write_text(PLAIN, "utf-8")
+    told = linear_tier(load_mission("hover", controller=load_controller(path)))
+    assert told.claims == ()
+    assert "there is no linear model" in told.reason
