@@ -14,7 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.analysis.certification.structured_singular_value import Complex
-from tandemlift.analysis.linearization.linear_model import LinearModel, frequency_response
+from tandemlift.analysis.linearization.frequency_response import frequency_response
+from tandemlift.analysis.linearization.linear_model import LinearModel
 from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.analysis.linearization.loop_margins import LOWEST, NO_KINK, POINTS, WAITS, calm_mission, is_calm
 from tandemlift.core.errors import InputError, unknown, without_flight_warnings
