@@ -1,0 +1,237 @@
+"""The structured tier of a certificate: how far all parameters at once may be off, by µ-analysis.
+
+The upper bound of µ proves a factor of the box within which no parameters make the hover oscillate. A search over the
+box finds parameters that do: the factor at which they do bounds the true one from the other side. They are linearized
+again, and written as a mission that flies to oscillation.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.analysis.certification.certificate import Claim, Tier
+from tandemlift.analysis.certification.uncertain_loop import CLOSER, EVERY, DeviatingLoop, found_factor, proven_factor
+from tandemlift.analysis.certification.uncertainty import (
+    DEFAULT_BOX,
+    INERTIAS,
+    LARGEST,
+    LONGEST,
+    UNITS,
+    Values,
+    calm_model,
+    family_at,
+    hovers_of,
+    largest_factor,
+    parameters_of,
+    uncertain_tables,
+    weakens,
+)
+from tandemlift.analysis.linearization.loop_margins import LOWEST, ON_CIRCLE, POINTS, calm_mission, is_calm
+from tandemlift.core.errors import InputError, without_flight_warnings
+from tandemlift.missions import Mission, built_in, check, format_toml, load_mission, tables_of
+
+NAME, TITLE = "structured", "Structured: all parameters at once"
+FARTHEST = 4.0  # the largest deviation of a parameter alone, relative
+ACCURACY = 0.01  # relative, of the factor at which the mission oscillates
+CONFIRMED = 1.1  # times a limit and by it, where the mission is linearized again
+NEARER = 0.85  # of the factor that is found: the search of the linearized mission begins there
+BEYOND = 1.1  # times the factor at which the model oscillates, of the mission that is flown
+FLOWN = 20.0  # s, of its hover
+
+
+class Worst(NamedTuple):
+    """Parameters that make the hover oscillate.
+
+    Attributes:
+        factor: of the box that they lie on.
+        values: deviations by name.
+        frequency: of the growing mode [rad/s].
+    """
+
+    factor: float
+    values: Values
+    frequency: float
+
+
+def structured_tier(mission: Mission, box: Mapping[str, float] = DEFAULT_BOX) -> Tier:
+    """The factors of a box of parameters: proven, and found to oscillate.
+
+    Args:
+        mission: the nominal one.
+        box: half width of each parameter, as `DEFAULT_BOX`.
+
+    Raises:
+        InputError: a parameter is unknown or its width not allowed, there are too many, or scipy is not installed.
+    """
+    widths = parameters_of(mission, box)
+    said = assumptions(mission, box, widths)
+    share = mission.hover.share
+    if share >= 1.0:
+        reason = f"the hover saturates: its most loaded rotor needs {100.0 * share:.3g} % of its largest thrust"
+        return Tier(NAME, TITLE, said, reason=reason)
+    if not widths:
+        return Tier(NAME, TITLE, said, reason="no parameter of the box has an effect on this mission")
+    try:
+        hovers = hovers_of(mission, widths)
+        deviations = DeviatingLoop(family_at(hovers, hovers.w), widths)
+    except InputError as error:
+        return Tier(NAME, TITLE, said, reason=f"there is no linear model: {error}")
+    if growing(mission, {})[0] > ON_CIRCLE:
+        return Tier(NAME, TITLE, said, reason="the hover is not stable with all parameters as they are")
+    most = largest_factor(widths)
+    factor, signs = found_factor(deviations, most, flyable=False)
+    found = deviations.along(signs, factor)
+    frequency = deviations.frequency(found) if found else math.nan
+    proven, w, bounds = proven_factor(hovers, deviations, frequency)
+    worst = worst_of(mission, deviations, most)
+    curves, files = {"frequency": w, "upper_bound": bounds, "widths": widths}, dict[str, str]()
+    claims = [*factors_of(proven, Worst(factor, found, frequency), most)]
+    if worst is not None:
+        beyond = within_steps({name: BEYOND * p for name, p in worst.values.items()}, mission.mission.step)
+        text, command = f"the mission linearized with {words(worst.values)} oscillates", ""
+        try:
+            files[f"{mission.mission.name}-worst.toml"] = worst_mission(mission, beyond, worst)
+            command = f"tandemlift run {mission.mission.name}-worst.toml"
+        except InputError as error:
+            text = f"{text}, but cannot be flown: {error}"
+        claims.append(Claim("factor to fly", "box", worst.factor, "box", None, text, worst.frequency, command))
+        curves |= {"worst": worst.values, "flown": beyond}
+    claims += [alone(mission, deviations, name) for name in widths if name in UNITS]
+    return Tier(NAME, TITLE, said, tuple(claims), curves, files)
+
+
+def worst_of(mission: Mission, deviations: DeviatingLoop, most: float) -> Worst | None:
+    """The parameters that can be flown in the smallest box at which the mission, linearized there, oscillates.
+
+    None if there are none up to a factor `most`.
+    """
+    factor, signs = found_factor(deviations, most, flyable=True)
+    if math.isinf(factor):
+        return None
+    step = mission.mission.step
+
+    def there(factor: float) -> Worst:
+        values = within_steps(deviations.along(signs, factor), step)
+        growth, frequency = growing(mission, values)
+        return Worst(factor if growth > ON_CIRCLE else math.inf, values, frequency or deviations.frequency(values))
+
+    low, worst = NEARER * factor, there(factor)
+    while math.isinf(worst.factor):
+        low, factor = factor, CONFIRMED * factor
+        if factor > most:
+            return None
+        worst = there(factor)
+    while worst.factor - low > ACCURACY * low:
+        middle = there(0.5 * (low + worst.factor))
+        low, worst = (0.5 * (low + worst.factor), worst) if math.isinf(middle.factor) else (low, middle)
+    return worst
+
+
+def within_steps(values: Values, step: float) -> dict[str, float]:
+    """Deviations with a delay of whole steps [s], as it is flown, and not beyond the box."""
+    return {name: math.floor(p / step + 1e-9) * step if name == "delay" else p for name, p in values.items()}
+
+
+def growing(mission: Mission, values: Values) -> tuple[float, float]:
+    """(|z| − 1, frequency [rad/s]) of the fastest mode of a mission whose vehicle deviates; infinite if it is lost."""
+    try:
+        model = calm_model(mission, values, real=True)
+    except InputError:
+        return math.inf, 0.0
+    z = np.linalg.eigvals(model.connected().A)
+    fastest = z[np.abs(z).argmax()]
+    return float(abs(fastest) - 1.0) if is_calm(model) else math.inf, float(abs(np.angle(fastest)) / model.step)
+
+
+def worst_mission(mission: Mission, values: Values, worst: Worst) -> str:
+    """A mission file that hovers with deviations of the vehicle, without pushes, person and landing.
+
+    Raises:
+        InputError: such a mission is refused.
+    """
+    name, whole = mission.mission.name, tables_of(mission)
+    end = calm_mission(mission)[1] + FLOWN
+    rest: dict[str, Any] = {"pushes": [], "requests": [], "changes": [], "person": {"model": "none"}}
+    rest |= {"detection": {"model": "none"}, "phases": {**whole["phases"], "land_start": 2.0 * end}}
+    rest["mission"] = {**whole["mission"], "name": f"{name}-worst", "duration": end}
+    keys = uncertain_tables(whole, values) | rest
+    with without_flight_warnings():
+        check(keys, f"{name}-worst")
+    if name in built_in() and load_mission(name) == mission:
+        keys = {"extends": name} | {key: value for key, value in keys.items() if value != whole.get(key)}
+    return (
+        f"# {name} with parameters {BEYOND:g} times those at which its linear model begins to oscillate, at "
+        f"{worst.frequency:.3g} rad/s.\n\n{format_toml(keys)}"
+    )
+
+
+def factors_of(proven: float, found: Worst, most: float) -> Iterator[Claim]:
+    """The factor that is proven, the one that was found up to `most`, and the gap between them."""
+    reach = ", the largest that is tried"
+    text = f"no parameters within it make the hover oscillate{reach if proven >= most else ''}"
+    yield Claim("guaranteed factor", "box", proven, "box", 1.0, text)
+    text = f"with {words(found.values)} the model oscillates" if found.values else f"none up to {most:.3g}{reach}"
+    yield Claim("factor found", "box", found.factor, "box", None, text, found.frequency)
+    if found.values:
+        text = "the factor found over the guaranteed one: between them nothing is known"
+        yield Claim("gap", "box", found.factor / proven, "1", None, text)
+
+
+def alone(mission: Mission, deviations: DeviatingLoop, name: str) -> Claim:
+    """The nearest deviation of one parameter at which the loop oscillates, as the mission linearized there confirms."""
+    unit, width = UNITS[name], deviations.widths[name]
+    ends = {} if weakens(name) else {1.0: (LONGEST if name == "delay" else FARTHEST) / width}
+    ends |= {} if name in ("lag", "delay") else {-1.0: LARGEST / width}
+    factors = {sign: deviations.limit({name: sign}, end) for sign, end in ends.items()}
+    sign = min(factors, key=lambda sign: factors[sign])
+    if math.isinf(factors[sign]):
+        reach = " and ".join(words({name: sign * end * width}) for sign, end in ends.items())
+        return Claim("limit alone", name, math.inf, unit, None, f"no limit up to {reach}")
+    values = deviations.along({name: sign}, factors[sign])
+    frequency = deviations.frequency(values)
+    text = f"with {words(values)} alone, the model oscillates at {frequency:.3g} rad/s"
+    sides = [growing(mission, {name: side * values[name]})[0] > ON_CIRCLE for side in (1.0 / CONFIRMED, CONFIRMED)]
+    if sides == [False, True]:
+        return Claim("limit alone", name, values[name], unit, None, text, frequency)
+    return Claim("limit alone", name, None, unit, None, f"{text}; the mission linearized about there does not agree")
+
+
+def words(values: Values) -> str:
+    """Deviations other than 0 in words."""
+    return ", ".join(
+        f"{name} {1e3 * p:+.3g} ms" if UNITS.get(name) == "s" else f"{name} {100.0 * p:+.3g} %"
+        for name, p in values.items()
+        if p != 0.0
+    )
+
+
+def assumptions(mission: Mission, box: Mapping[str, float], widths: Mapping[str, float]) -> tuple[str, ...]:
+    """What the tier takes for granted, a sentence each."""
+    said = [
+        "The loop is the linear model of a calm hover, sampled, without noise, wind, ground effect and thrust limits.",
+        f"Parameters are real and constant, in a box about the mission: {words(box).replace('+', '±')}; a delay only "
+        "grows, and the lag is the mean of up and down.",
+        "The pilot keeps its own model of the vehicle, except for what it identifies in flight.",
+        f"The bound holds at some {POINTS // EVERY} frequencies from {LOWEST:g} rad/s to half of the sample rate, a "
+        f"quarter with slower sensors, and {CLOSER} about each peak; it is not proven between them and below.",
+    ]
+    if {"mass", "thrust"} & set(widths):
+        said.append(
+            "What mass and thrust change by another hover comes from models at three values of each, and both together "
+            "from either alone."
+        )
+    if any(map(weakens, widths)):
+        said.append(
+            "No key changes the thrust constant of the vehicle without that of its pilot: weaker rotors are flown as "
+            "faults that the pilot does not know; stronger ones are in the guarantee, but cannot be flown."
+        )
+    J = mission.hover.vehicle.real_inertia(mission.plant)
+    if np.abs(J - np.diag(np.diag(J))).max() > 1e-6 * J.max() and set(INERTIAS) & set(widths):
+        said.append("Products of inertia stay as they are, while an inertia deviates.")
+    if mission.actuators.model != "rotors":
+        said.append('actuators.model = "ideal": there are no lag, delay and rotors that could deviate.')
+    return tuple(said)

@@ -1,0 +1,265 @@
+"""The loop of an uncertain vehicle as M and Δ, det(I − M Δ) = 0 where it oscillates, and the factors of its box.
+
+Each parameter p lies within a range and enters as p = middle + half δ, |δ| ≤ 1, δ real:
+
+- a rotor's own gain adds the thrust p T of that rotor;
+- an inertia adds the moment −p J ω̇ about its axis;
+- the rotors' lag is τ (1 + p);
+- their delay is longer by p: e^(−jωp) = (1 − jt)/(1 + jt), with a real t = tan(ωp/2);
+- all rotors' thrust is 1 + p times what is commanded;
+- mass and thrust also change the hover, by `Trim`. Both together add in the open loop, where the thrust scales what the
+  mass has changed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.analysis.certification.structured_singular_value import TINY, Bound, Complex, DeltaBlock, upper_bound
+from tandemlift.analysis.certification.uncertainty import (
+    INERTIAS,
+    RANK,
+    Family,
+    Hovers,
+    Span,
+    Values,
+    box_at,
+    family_at,
+    largest_factor,
+    weakens,
+)
+from tandemlift.analysis.linearization.loop_margins import rotors_response
+from tandemlift.core.errors import extra
+from tandemlift.core.types import Array
+
+ACCURACY = 2e-4  # of a limit
+FINER = 2000  # frequencies at which a smooth determinant is interpolated
+EVERY = 4  # of the frequencies of a loop, at which µ is bounded
+HIGH, CLOSER = 0.8, 17  # of the largest bound: a peak, with so many frequencies about it
+ABOUT = 0.03  # of the frequency that is known
+SMALLER = 0.99  # of a factor that is not proven
+STARTS, SEED = 6, 1  # of the search
+BETTER = 0.999  # of a factor, which is worth a change
+TURNED = 0.75 * math.pi  # less than a real pole turns the determinant by, or half of what a pair turns it by
+
+
+class Network:
+    """Signals that are sums of others times matrices, at frequencies.
+
+    Args:
+        count: of frequencies F.
+    """
+
+    def __init__(self, count: int) -> None:
+        self.count, self.size = count, 0
+        self.at: dict[str, slice] = {}
+        self.terms: list[tuple[str, str, Any]] = []
+
+    def add(self, name: str, size: int, **terms: Any) -> None:
+        """A signal of `size` numbers: the sum of others, each times a number, numbers (F) or matrices (F, a, b)."""
+        self.at[name], self.size = slice(self.size, self.size + size), self.size + size
+        self.terms += [(name, other, np.asarray(factor)) for other, factor in terms.items()]
+
+    def response(self, rows: Sequence[str], columns: Sequence[str]) -> Complex:
+        """The response of signals to what is added to others (F, r, c)."""
+        P = np.zeros((self.count, self.size, self.size), dtype=complex)
+        for name, other, factor in self.terms:
+            a, b = self.at[name], self.at[other]
+            P[:, a, b] += factor if factor.ndim > 1 else np.multiply.outer(factor, np.eye(a.stop - a.start))
+        r, c = ([i for name in names for i in range(self.size)[self.at[name]]] for names in (rows, columns))
+        added = np.broadcast_to(np.eye(self.size)[:, c], (self.count, self.size, len(c)))
+        return np.asarray(np.linalg.solve(np.eye(self.size) - P, added)[:, r])
+
+
+class UncertainLoop(NamedTuple):
+    """M (F, k, k) of a box, and the blocks of Δ in the order of its parameters."""
+
+    M: Complex
+    blocks: tuple[DeltaBlock, ...]
+
+
+def uncertain_loop(family: Family, box: Mapping[str, Span], *, late: bool = True) -> UncertainLoop:
+    """M of a box about its middle.
+
+    Args:
+        family: responses of the vehicle.
+        box: ranges of deviations.
+        late: whether the delay's δ is that of tan(ωp/2); else it is e^(−jωp) − 1 itself.
+    """
+    w, n = family.w, len(family.spread)
+    net, keys = Network(len(w)), {name: list[str]() for name in box}
+
+    def uncertain(name: str, of: str, size: int, y: Mapping[str, Any], by: Any = None) -> str:
+        """The signal p y, y a sum of signals; with `by`, the signal δ y instead, of which y has `by` too."""
+        key = f"{name}_{of}"
+        keys[name].append(key)
+        net.add(f"z_{key}", size)
+        net.add(f"y_{key}", size, **y, **({} if by is None else {f"z_{key}": by}))
+        scale = {f"y_{key}": box[name].middle, f"z_{key}": box[name].half} if by is None else {f"z_{key}": 1.0}
+        net.add(key, size, **scale)
+        return key
+
+    ports = {"wrench": slice(0, 4), "own": slice(4, 4 + n), "moment": slice(4 + n, None)}
+    trims = {name: trim for name, trim in family.trims.items() if name in box}
+    for name, rows, size in (("command", slice(0, 4), 4), ("turning", slice(4, None), 3)):
+        net.add(name, size, **{port: family.H[:, rows, at] for port, at in ports.items()})
+        net.terms += [(name, f"{trim}_hover", family.trims[trim].U[:, rows]) for trim in trims]
+    square = [*range(4), *range(-3, 0)]  # wrench and moment
+    opened = np.linalg.inv(family.H[:, :, square] + np.diag([1.0] * 4 + [0.0] * 3))
+    for name, (U, W, V) in trims.items():
+        felt: dict[str, Any] = {port: W[:, :, at] for port, at in ports.items()} | {f"{name}_hover": V}
+        for other in [other for other in trims if other != name]:
+            felt[f"{other}_hover"] = W[:, :, square] @ opened @ trims[other].U  # around the loop
+            if name == "thrust":  # it scales what the mass has changed
+                felt[f"{other}_hover"] += np.linalg.pinv(U, rcond=RANK) @ trims[other].U
+        uncertain(name, "hover", W.shape[1], felt)
+    axes = {name: np.eye(3)[None, i : i + 1] for i, name in enumerate(INERTIAS) if name in box}
+    slower = {uncertain(name, "axis", 1, {"turning": axis}): -axis.transpose(0, 2, 1) for name, axis in axes.items()}
+    net.add("moment", 3, **slower)
+    lifting = {"command": 1.0} | ({uncertain("thrust", "gain", 4, {"command": 1.0}): 1.0} if "thrust" in box else {})
+    net.add("lifting", 4, **lifting)
+    arrived: dict[str, Any] = {"lifting": 1.0}
+    if "delay" in box:
+        t = 1j * np.tan(0.5 * w * box["delay"].half)
+        z = uncertain("delay", "rotors", 4, arrived, by=-t if late else 0.0)
+        middle = rotors_response(w, box["delay"].middle, 0.0)
+        arrived = {"lifting": middle, z: -2.0 * t * middle} if late else {"lifting": 1.0, z: 1.0}
+    lag, slow = 1j * w * family.lag, box.get("lag", Span(0.0, 0.0))
+    answer = 1.0 / (1.0 + lag * (1.0 + slow.middle))
+    lagging = {uncertain("lag", "rotors", 4, {"speed": 1.0}, by=0.0): -lag * slow.half * answer} if "lag" in box else {}
+    net.add("arrived", 4, **arrived)
+    net.add("speed", 4, arrived=answer, **lagging)
+    net.add("given", 4, speed=rotors_response(w, family.delay, 0.0))
+    net.add("wrench", 4, given=1.0, command=-1.0)
+    own = {name: np.eye(n)[None, :, int(name[6:]) - 1, None] for name in box if name.startswith("rotor.")}
+    spread = {name: {"given": unit.transpose(0, 2, 1) @ family.spread} for name, unit in own.items()}
+    net.add("own", n, **{uncertain(name, "gain", 1, spread[name]): unit for name, unit in own.items()})
+    order = [key for name in box for key in keys[name]]
+    M = net.response([f"y_{key}" for key in order], [f"z_{key}" for key in order])
+    sizes = [sum(net.at[key].stop - net.at[key].start for key in keys[name]) for name in box]
+    return UncertainLoop(M, tuple(DeltaBlock(size, real=True) for size in sizes))
+
+
+class DeviatingLoop:
+    """The stability of a loop with given deviations, by the winding of det(I − M Δ) about 0.
+
+    Args:
+        family: responses of a vehicle that is stable without deviations.
+        widths: half width of each parameter.
+    """
+
+    def __init__(self, family: Family, widths: Mapping[str, float]) -> None:
+        self.w, self.widths = family.w, widths
+        self.finer = np.geomspace(self.w[0], self.w[-1], FINER)
+        self.loop = uncertain_loop(family, {name: Span(0.0, width) for name, width in widths.items()}, late=False)
+
+    def determinant(self, values: Values) -> Complex:
+        """det(I − M Δ) at the finer frequencies; it has zeros near the axis, but is smooth as the nominal loop is."""
+        with extra("certify", "the structured tier"):
+            from scipy.interpolate import CubicSpline
+        delta = {n: np.full(len(self.w), values.get(n, 0.0) / width + 0j) for n, width in self.widths.items()}
+        if "delay" in delta:
+            delta["delay"] = rotors_response(self.w, values.get("delay", 0.0), 0.0) - 1.0
+        sizes = [block.size for block in self.loop.blocks]
+        by = np.repeat(np.array(list(delta.values())), sizes, axis=0).T
+        determinant = np.linalg.det(np.eye(by.shape[1]) - self.loop.M * by[:, None, :])
+        return np.asarray(CubicSpline(np.log(self.w), determinant)(np.log(self.finer)))
+
+    def stable(self, values: Values) -> bool:
+        """Whether the loop is stable."""
+        turned = np.unwrap(np.angle(self.determinant(values)))
+        return bool(abs(turned[-1] - turned[0]) < TURNED)
+
+    def along(self, signs: Values, factor: float) -> dict[str, float]:
+        """The deviations at a factor of the box, along a direction."""
+        return {name: factor * sign * self.widths[name] for name, sign in signs.items()}
+
+    def limit(self, signs: Values, below: float) -> float:
+        """The factor below another at which stability is lost along a direction; infinite if it is not lost there."""
+        if self.stable(self.along(signs, below)):
+            return math.inf
+        low, high = 0.0, below
+        while high - low > ACCURACY * below:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if self.stable(self.along(signs, middle)) else (low, middle)
+        return high
+
+    def frequency(self, values: Values) -> float:
+        """The frequency at which the determinant is smallest, of a loop about to oscillate [rad/s]."""
+        return float(self.finer[np.abs(self.determinant(values)).argmin()])
+
+
+def proven_factor(hovers: Hovers, deviations: DeviatingLoop, near: float) -> tuple[float, Array, Array]:
+    """(the largest factor whose box has µ ≤ 1 at all frequencies, these [rad/s], bounds of µ of the box itself).
+
+    The frequencies are closer about the peaks: µ of real parameters has sharp ones.
+
+    Args:
+        hovers: of the mission.
+        deviations: of its vehicle.
+        near: a frequency at which the loop is known to oscillate first [rad/s]; NaN if none is.
+    """
+    widths, w = deviations.widths, np.append(hovers.w[:-1:EVERY], hovers.w[-1])
+    bounds = bounds_of(family_at(hovers, w), widths)
+    values = np.array([0.0, *[bound.value for bound in bounds], 0.0])
+    high = values[1:-1] > HIGH * values.max()
+    peaks = np.flatnonzero(high & (values[1:-1] >= values[:-2]) & (values[1:-1] >= values[2:]))
+    between = [np.geomspace(w[max(k - 1, 0)], w[min(k + 1, len(w) - 1)], CLOSER)[1:-1] for k in map(int, peaks)]
+    critical = np.geomspace((1.0 - ABOUT) * near, (1.0 + ABOUT) * near, CLOSER) if near < w[-1] else w[-1:]
+    w = np.unique(np.clip(np.concatenate([w, *between, critical]), w[0], w[-1]))
+    family = family_at(hovers, w)
+    bounds = bounds_of(family, widths)
+    order = sorted(range(len(w)), key=lambda k: -bounds[k].value)
+
+    def proves(factor: float) -> bool:
+        box = box_at(widths, factor)
+        loop = uncertain_loop(family, box)
+        return deviations.stable({name: p.middle for name, p in box.items()}) and all(
+            upper_bound(loop.M[k], loop.blocks, bounds[k], enough=1.0).value <= 1.0 for k in order
+        )
+
+    factor = min(1.0 / max(bounds[order[0]].value, TINY), largest_factor(widths))
+    while not proves(factor):
+        factor *= SMALLER
+    return factor, w, np.array([bound.value for bound in bounds])
+
+
+def bounds_of(family: Family, widths: Mapping[str, float]) -> list[Bound]:
+    """The bounds of µ of a box at the frequencies of a family."""
+    loop, bounds = uncertain_loop(family, box_at(widths, 1.0)), list[Bound]()
+    for M in loop.M:
+        bounds.append(upper_bound(M, loop.blocks, bounds[-1] if bounds else None))
+    return bounds
+
+
+def found_factor(deviations: DeviatingLoop, most: float, *, flyable: bool) -> tuple[float, Values]:
+    """(the smallest factor of the box at which a search loses stability, in which direction), infinite up to `most`.
+
+    From each start, one parameter after the other changes its sign while that makes the factor smaller; at the end,
+    those that do not matter are 0. `flyable`: without rotors that are stronger than the pilot assumes.
+    """
+    rng, best, found = np.random.default_rng(SEED), math.inf, dict[str, float]()
+    choices = {
+        name: (0.0, 1.0) if name == "delay" else (-1.0, 0.0) if flyable and weakens(name) else (-1.0, 0.0, 1.0)
+        for name in deviations.widths
+    }
+    for _ in range(STARTS):
+        signs = {name: 1.0 if name == "lag" else float(rng.choice(choices[name])) for name in choices}
+        factor, improved = min(deviations.limit(signs, most), most), True
+        while improved:
+            improved = False
+            for name, sign in [(str(n), sign) for n in rng.permutation(list(choices)) for sign in choices[str(n)]]:
+                other = {**signs, name: sign}
+                smaller = deviations.limit(other, min(factor, best)) if other != signs else math.inf
+                if smaller < BETTER * factor:
+                    signs, factor, improved = other, smaller, True
+        if factor < min(best, most):
+            best, found = factor, signs
+    for name in found:
+        if not deviations.stable(deviations.along({**found, name: 0.0}, best / BETTER)):
+            found[name] = 0.0
+    return best, found
