@@ -31,7 +31,7 @@ EDGE = 1e-6  # below 1, of the modulus from which on an eigenvalue counts as one
 SEEN = 1e-6  # relative, of a response in which a mode shows
 STRICT = 1e-7  # of a strict inequality
 DOUBLINGS = 60
-BISECTIONS = 6
+BISECTIONS = 8
 
 
 class Plant(NamedTuple):
