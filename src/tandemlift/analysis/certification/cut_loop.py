@@ -41,7 +41,8 @@ DISTURBED = tuple(f"{what}.{axis}" for what in OFFSETS for axis in "xyz")
 MOST_STATES, ENOUGH = 16, 0.02  # of a part; error bound, in units of the loop's response
 SMALL = 0.003  # size of a disturbance, in its unit, that hardly counts in the reduction
 EXACT = 1e-4  # error bound of the loop before it is split
-APART = 1e-6  # of the largest response, below which two channels are not coupled
+APART = 0.02  # of the largest response at equal scale, below which cuts are not coupled
+ONE_WAY, SWEEPS = 1e-6, 20
 LOW, HIGH, POINTS = 0.05, 0.95, 80  # rad/s, of the Nyquist frequency
 
 
@@ -139,7 +140,9 @@ def parts_of(
         response(Plant(p.A, p.B[:, chosen], p.C[chosen], p.D[np.ix_(chosen, chosen)]), np.exp(1j * w * loop.step))
     ).max(axis=0)
     found = list[tuple[Part, list[Start]]]()
-    for own in _connected(size > APART * size.max()):
+    apart = _balance(size, ONE_WAY)
+    equal = size * apart[:, None] / apart
+    for own in _connected(equal > APART * np.diag(size).max()):
         scale, at = _balance(size[np.ix_(own, own)]) / unit, [chosen[i] for i in own]
         D = p.D[np.ix_(at, at)] * scale[:, None] / scale
         part = Plant(
@@ -168,12 +171,16 @@ def _connected(coupled: Any) -> list[list[int]]:
     return found
 
 
-def _balance(size: Array) -> Array:
-    """Scales (m) of channels that make rows and columns of their response equally large (Osborne, 1960)."""
-    scale = np.ones(len(size))
-    for i in list(range(len(size))) * 20:
+def _balance(size: Array, least: float = 0.0) -> Array:
+    """Scales (m) of channels that make rows and columns of their response equally large (Osborne, 1960).
+
+    A response of one channel to another without a way back is part of no loop: `least`, which is added to both, lets
+    its scale grow until it counts for nothing.
+    """
+    scale, added = np.ones(len(size)), least * float(size.max())
+    for i in list(range(len(size))) * SWEEPS:
         now = size * scale[:, None] / scale
-        row, column = (float(np.linalg.norm(np.delete(x[i], i))) for x in (now, now.T))
+        row, column = (float(np.linalg.norm(np.delete(x[i], i))) + added for x in (now, now.T))
         if row > 0.0 and column > 0.0:
             scale[i] *= math.sqrt(column / row)
     return scale

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from tandemlift.analysis.certification.certificate import Claim, FlownLimit, Tier
-from tandemlift.analysis.certification.cut_loop import APART, DISTURBED, SURFACES, Loop, loop_of, parts_of
+from tandemlift.analysis.certification.cut_loop import DISTURBED, SURFACES, Loop, loop_of, parts_of
 from tandemlift.analysis.certification.intervals import bounds
 from tandemlift.analysis.certification.sector_bound import Part, Sectors, region_of, solvers, tolerated
 from tandemlift.analysis.linearization.loop_margins import AXES, calm_mission
@@ -25,6 +25,7 @@ from tandemlift.simulation.pilot_api import pilot_at_start
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import Stepper
 
+SLIGHT = 1e-3  # of the largest response to an offset, below which a part does not respond
 MOST_GAIN = 4.0  # that is tried, times a response
 UNITS = {"velocity": "m/s", "rates": "rad/s", "attitude": "rad"}
 SETTLES, RESTS = 8.0, 0.1  # s after an offset; m/s and rad/s, of a vehicle that has recovered
@@ -90,9 +91,9 @@ def _sector_claims(mission: Mission, loop: Loop) -> Iterator[Claim]:
 
             lost, added = tolerated(stable, 1.0), tolerated(lambda x: stable(-x), MOST_GAIN)
             text, all_of_it = texts[what], "; tanh and saturation lose less than 1" if what == "switching" else ""
-            yield Claim(f"{what} loss tolerated", subject, lost, "1", text=text.format("lost", all_of_it))
+            yield Claim(f"{what} loss tolerated", subject, lost or None, "1", text=text.format("lost", all_of_it))
             added = math.inf if added == MOST_GAIN else added
-            yield Claim(f"{what} gain tolerated", subject, added, "1", text=text.format("added", ""))
+            yield Claim(f"{what} gain tolerated", subject, added or None, "1", text=text.format("added", ""))
 
 
 def offsets_of(mission: Mission, loop: Loop) -> dict[str, float]:
@@ -102,7 +103,7 @@ def offsets_of(mission: Mission, loop: Loop) -> dict[str, float]:
         sectors = sectors_of(part, mission, 1.0, limits=room)
         sizes = [float(np.linalg.norm(start.state)) for start in starts]
         for name, start, size in zip(DISTURBED, starts, sizes, strict=True):
-            region = region_of(part, sectors, start) if size > APART * max(sizes) else None
+            region = region_of(part, sectors, start) if size > SLIGHT * max(sizes) else None
             if region is not None:
                 found[name] = min(found.get(name, math.inf), region.size)
     return {name: found[name] for name in DISTURBED if name in found}
@@ -208,6 +209,7 @@ ASSUMED = (
     "Sectors: what a cut takes away acts for a whole sample of the sensors' common period.",
     "Sectors: losses of one part reach the others only through the allocation, which gives up axes in the order of its "
     "priorities; each part is bounded as if the others kept theirs.",
+    "Sectors: responses of one part to another below 2 % of the parts' own, or without a way back, are left out.",
     "Sectors: what reduction left out is a further block of the loop with a proven bound of its gain.",
     "Offsets: the pilot knows of the offset by its sensors only, and all else is at rest. Flights that confirm it have "
     "every nonlinearity.",
