@@ -191,7 +191,7 @@ def _size(x: Interval) -> Interval:
 
 
 def _root(x: Interval) -> Interval:
-    return _unless(x.lo < 0.0, Interval(np.maximum(_down(np.sqrt(x.lo)), 0.0), _up(np.sqrt(x.hi))))
+    return _unless(x.lo < 0.0, Interval(np.maximum(_down(np.sqrt(abs(x.lo))), 0.0), _up(np.sqrt(abs(x.hi)))))
 
 
 def _where(condition: Any, a: Any, b: Any) -> Interval:

@@ -15,7 +15,7 @@ import numpy as np
 from tandemlift.analysis.certification.certificate import Claim, FlownLimit, Tier
 from tandemlift.analysis.certification.cut_loop import DISTURBED, SURFACES, Loop, loop_of, parts_of
 from tandemlift.analysis.certification.intervals import bounds
-from tandemlift.analysis.certification.sector_bound import Part, Sectors, region_of, solvers, tolerated
+from tandemlift.analysis.certification.sector_bound import Part, Sectors, Start, region_of, solvers, tolerated
 from tandemlift.analysis.linearization.loop_margins import AXES, calm_mission
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.types import Array
@@ -96,17 +96,32 @@ def _sector_claims(mission: Mission, loop: Loop) -> Iterator[Claim]:
             yield Claim(f"{what} gain tolerated", subject, added or None, "1", text=text.format("added", ""))
 
 
-def offsets_of(mission: Mission, loop: Loop) -> dict[str, float]:
-    """The largest offset from hover by each of `DISTURBED` from which the loop comes to rest within thrust limits."""
-    room, found = thrust_room(mission), dict[str, float]()
-    for part, starts in parts_of(loop, AXES, unit=float(room.min()), disturbance=DISTURBANCE):
-        sectors = sectors_of(part, mission, 1.0, limits=room)
-        sizes = [float(np.linalg.norm(start.state)) for start in starts]
-        for name, start, size in zip(DISTURBED, starts, sizes, strict=True):
-            region = region_of(part, sectors, start) if size > SLIGHT * max(sizes) else None
-            if region is not None:
-                found[name] = min(found.get(name, math.inf), region.size)
-    return {name: found[name] for name in DISTURBED if name in found}
+def offset_parts(mission: Mission, loop: Loop) -> list[tuple[Part, list[Start]]]:
+    """The parts of a loop between its thrust limits, in units of the room that the limits leave."""
+    return parts_of(loop, AXES, unit=float(thrust_room(mission).min()), disturbance=DISTURBANCE)
+
+
+def farthest(mission: Mission, parts: list[tuple[Part, list[Start]]], offset: Mapping[str, float]) -> float | None:
+    """The largest factor of an offset from which the loop comes to rest within thrust limits; None if none is found.
+
+    Args:
+        mission: of the loop.
+        parts: by `offset_parts`.
+        offset: of the state, by the names of `DISTURBED`.
+    """
+    room, shares = thrust_room(mission), np.array([offset.get(name, 0.0) for name in DISTURBED])
+    moved = [
+        Start(shares @ [s.state for s in starts], float(abs(shares) @ [s.left_out for s in starts]))
+        for _, starts in parts
+    ]
+    most, found = max(float(np.linalg.norm(start.state)) for start in moved), math.inf
+    for (part, _), start in zip(parts, moved, strict=True):
+        if np.linalg.norm(start.state) > SLIGHT * most:
+            region = region_of(part, sectors_of(part, mission, 1.0, limits=room), start)
+            if region is None:
+                return None
+            found = min(found, region.size)
+    return found
 
 
 class OffsetFlights:
@@ -153,11 +168,13 @@ class OffsetFlights:
 
 def _offset_claims(mission: Mission, loop: Loop, fly: bool) -> Iterator[Claim]:
     flights = OffsetFlights(mission) if fly else None
-    for name, size in offsets_of(mission, loop).items():
+    parts = offset_parts(mission, loop)
+    for name in DISTURBED:
         what, axis = name.split(".")
-        shown = f" ({math.degrees(size):.3g} deg)" if what == "attitude" else ""
+        size = farthest(mission, parts, {name: 1.0})
+        shown = "" if size is None or what != "attitude" else f" ({math.degrees(size):.3g} deg)"
         text = f"with {what} off by less than this{shown} along {axis}, thrust limits do not prevent a return to hover"
-        flown = flights.limit(name, size) if flights is not None else None
+        flown = flights.limit(name, size) if flights is not None and size is not None else None
         command = f"tandemlift certify {mission.mission.name} --fly"
         yield Claim("offset recovered", name, size, UNITS[what], text=text, command=command, flown=flown)
 

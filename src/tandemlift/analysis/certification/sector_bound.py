@@ -29,7 +29,7 @@ from tandemlift.core.types import Array
 
 EDGE = 1e-6  # below 1, of the modulus from which on an eigenvalue counts as one that stays
 SEEN = 1e-6  # relative, of a response in which a mode shows
-STRICT = 1e-7  # of a strict inequality
+STRICT = (1e-7, 1e-6, 1e-5)  # of a strict inequality; the first at which the solver's numbers satisfy it
 DOUBLINGS = 60
 BISECTIONS = 8
 
@@ -219,6 +219,11 @@ def region_of(part: Part, sectors: Sectors, start: Start | None = None) -> Regio
     Raises:
         InputError: cvxpy is not installed.
     """
+    slack = STRICT if start is not None else STRICT[:1]
+    return next((found for one in slack if (found := _solution(part, sectors, start, one)) is not None), None)
+
+
+def _solution(part: Part, sectors: Sectors, start: Start | None, strict: float) -> Region | None:
     cp = solvers()
     (n, m), rows = part.plant.B.shape, sectors.rows
     Q, mu, level, own = cp.Variable((n, n), symmetric=True), cp.Variable(), cp.Variable((1, 1)), cp.Variable(m + 1)
@@ -231,7 +236,7 @@ def region_of(part: Part, sectors: Sectors, start: Start | None = None) -> Regio
     u = _Unknowns(Q, inverse, held, mu)
     spread = 1.0 if start is None else math.sqrt(2.0)  # |a + b|² ≤ 2|a|² + 2|b|²
     whole = _inequality(part, sectors.upper, spread, u, cp.diag, cp.bmat)
-    rules = [whole << -STRICT * np.eye(whole.shape[0])]
+    rules = [whole << -strict * np.eye(whole.shape[0])]
     for row in rows:
         arm = cp.reshape(row[:m] @ held + row[m:] @ part.plant.C @ Q, (n, 1), order="F")
         rules.append(cp.bmat([[np.eye(1), arm.T], [arm, Q]]) >> 0)
