@@ -13,7 +13,7 @@ import pytest
 from tandemlift.analysis.certification import cut_loop, nonlinear
 from tandemlift.analysis.certification.nonlinear import nonlinear_tier
 from tandemlift.analysis.certification.sector_bound import (
-    Part,
+    LoopPart,
     Plant,
     Sectors,
     Start,
@@ -41,7 +41,7 @@ PITCHES, ROLLS = ("velocity.x", "rates.y", "attitude.y"), ("velocity.y", "rates.
 
 
 def part_of(plant, error=0.0):
-    return Part(plant, tuple(range(plant.B.shape[1])), error, np.ones(plant.B.shape[1]))
+    return LoopPart(plant, tuple(range(plant.B.shape[1])), error, np.ones(plant.B.shape[1]))
 
 
 def sector(upper, count=1, rows=None):
@@ -217,6 +217,12 @@ def test_a_rotor_that_hovers_at_a_limit_is_named():
     tilted = heavy.model_copy(update={"vehicle": heavy.vehicle.model_copy(update={"quadrotors": tuple(quadrotors)})})
     with pytest.raises(InputError, match=r"rotor 5 hovers at 6\.74 N, and its limits are 0 and 4\.73 N"):
         nonlinear.thrust_room(tilted)
+
+
+def test_a_hover_that_is_not_stable_has_a_reason_and_keeps_the_boxes():
+    tier = nonlinear_tier(load_mission("iris", {"actuators.delay": 0.09}))
+    assert {c.quantity for c in tier.claims} == {"finite thrusts", "thrusts within limits"}
+    assert "iris does not hover calmly" in tier.reason
 
 
 def test_a_plain_python_controller_has_a_reason_and_no_claims(plain_python):

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.analysis.certification.sector_bound import (
-    Part,
+    LoopPart,
     Plant,
     Start,
     difference,
@@ -46,7 +46,7 @@ ONE_WAY, SWEEPS = 1e-6, 20
 LOW, HIGH, POINTS = 0.05, 0.95, 80  # rad/s, of the Nyquist frequency
 
 
-class Loop(NamedTuple):
+class CutLoop(NamedTuple):
     """The closed loop of a calm hover with its cuts.
 
     Attributes:
@@ -62,7 +62,7 @@ class Loop(NamedTuple):
     error: float
 
 
-def loop_of(mission: Mission) -> Loop:
+def loop_of(mission: Mission) -> CutLoop:
     """The loop of a mission, cut at the thrust limits of a constrained allocation and at the switching of NFTSMC.
 
     Raises:
@@ -102,7 +102,7 @@ def loop_of(mission: Mission) -> Loop:
     )
     whole = Plant(made.A[np.ix_(kept, kept)], B[kept], C[:, kept], D)
     plant, error = reduced(without_resting_modes(whole), len(kept), EXACT)
-    return Loop(plant, names, request.steps * calm.mission.step, error)
+    return CutLoop(plant, names, request.steps * calm.mission.step, error)
 
 
 def _results(graph: Any, smooth: frozenset[int], law: Callable[..., Any]) -> list[int]:
@@ -130,8 +130,8 @@ def _disturbances(names: Sequence[str], size: int) -> Array:
 
 
 def parts_of(
-    loop: Loop, cuts: Sequence[str], unit: float = 1.0, disturbance: float = SMALL
-) -> list[tuple[Part, list[Start]]]:
+    loop: CutLoop, cuts: Sequence[str], unit: float = 1.0, disturbance: float = SMALL
+) -> list[tuple[LoopPart, list[Start]]]:
     """The parts of a loop between some of its cuts, reduced, each with its starts after a unit disturbance."""
     chosen, m = [loop.names.index(name) for name in cuts], len(loop.names)
     p = loop.plant
@@ -139,7 +139,7 @@ def parts_of(
     size = np.abs(
         response(Plant(p.A, p.B[:, chosen], p.C[chosen], p.D[np.ix_(chosen, chosen)]), np.exp(1j * w * loop.step))
     ).max(axis=0)
-    found = list[tuple[Part, list[Start]]]()
+    found = list[tuple[LoopPart, list[Start]]]()
     apart = _balance(size, ONE_WAY)
     equal = size * apart[:, None] / apart
     for own in _connected(equal > APART * np.diag(size).max()):
@@ -155,7 +155,7 @@ def parts_of(
         rest = loop.error * scale.max() / scale.min()
         left, k = energies(difference(part, few)), len(at)
         starts = [Start(few.B[:, k + j] / disturbance, left[k + j] / disturbance) for j in range(len(DISTURBED))]
-        found.append((Part(Plant(few.A, few.B[:, :k], few.C, D), tuple(at), error + rest, scale), starts))
+        found.append((LoopPart(Plant(few.A, few.B[:, :k], few.C, D), tuple(at), error + rest, scale), starts))
     return found
 
 

@@ -13,9 +13,9 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from tandemlift.analysis.certification.certificate import Claim, FlownLimit, Tier
-from tandemlift.analysis.certification.cut_loop import DISTURBED, SURFACES, Loop, loop_of, parts_of
+from tandemlift.analysis.certification.cut_loop import DISTURBED, SURFACES, CutLoop, loop_of, parts_of
 from tandemlift.analysis.certification.intervals import bounds
-from tandemlift.analysis.certification.sector_bound import Part, Sectors, Start, region_of, solvers, tolerated
+from tandemlift.analysis.certification.sector_bound import LoopPart, Sectors, Start, region_of, solvers, tolerated
 from tandemlift.analysis.linearization.loop_margins import AXES, calm_mission
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.types import Array
@@ -37,7 +37,7 @@ LARGEST_BOX, BOX_BISECTIONS = 100.0, 14
 DISTURBANCE = 0.2  # size of an offset, in its unit, whose response is reduced as exactly as the loop's
 
 
-def sectors_of(part: Part, mission: Mission, lost: float, *, limits: Array | None = None) -> Sectors:
+def sectors_of(part: LoopPart, mission: Mission, lost: float, *, limits: Array | None = None) -> Sectors:
     """The sectors of a part's cuts.
 
     Args:
@@ -77,16 +77,16 @@ def thrust_room(mission: Mission) -> Array:
     return room
 
 
-def _sector_claims(mission: Mission, loop: Loop) -> Iterator[Claim]:
+def _sector_claims(mission: Mission, loop: CutLoop) -> Iterator[Claim]:
     texts = {
-        "thrust": "share of a commanded change of thrust or moment that may be {}, by any law and at any time",
-        "switching": "share of the switching's slope at 0 that may be {}, by any law and at any time{}",
+        "thrust": "share of a commanded change of thrust or moment that may be {}, at any time, while the pilot knows it",
+        "switching": "share of the switching's slope at 0 that may be {}, at any time{}",
     }
     for what, cuts in (("thrust", AXES), ("switching", SURFACES)):
         for part, _ in parts_of(loop, cuts) if set(cuts) <= set(loop.names) else ():
             subject = ", ".join(loop.names[i] for i in part.channels)
 
-            def stable(share: float, part: Part = part) -> bool:
+            def stable(share: float, part: LoopPart = part) -> bool:
                 return region_of(part, sectors_of(part, mission, share)) is not None
 
             lost, added = tolerated(stable, 1.0), tolerated(lambda x: stable(-x), MOST_GAIN)
@@ -96,12 +96,12 @@ def _sector_claims(mission: Mission, loop: Loop) -> Iterator[Claim]:
             yield Claim(f"{what} gain tolerated", subject, added or None, "1", text=text.format("added", ""))
 
 
-def offset_parts(mission: Mission, loop: Loop) -> list[tuple[Part, list[Start]]]:
+def offset_parts(mission: Mission, loop: CutLoop) -> list[tuple[LoopPart, list[Start]]]:
     """The parts of a loop between its thrust limits, in units of the room that the limits leave."""
     return parts_of(loop, AXES, unit=float(thrust_room(mission).min()), disturbance=DISTURBANCE)
 
 
-def farthest(mission: Mission, parts: list[tuple[Part, list[Start]]], offset: Mapping[str, float]) -> float | None:
+def farthest(mission: Mission, parts: list[tuple[LoopPart, list[Start]]], offset: Mapping[str, float]) -> float | None:
     """The largest factor of an offset from which the loop comes to rest within thrust limits; None if none is found.
 
     Args:
@@ -166,7 +166,7 @@ class OffsetFlights:
         return FlownLimit(low, high, math.nan, "not at rest")
 
 
-def _offset_claims(mission: Mission, loop: Loop, fly: bool) -> Iterator[Claim]:
+def _offset_claims(mission: Mission, loop: CutLoop, fly: bool) -> Iterator[Claim]:
     flights = OffsetFlights(mission) if fly else None
     parts = offset_parts(mission, loop)
     for name in DISTURBED:
@@ -223,10 +223,12 @@ def _box_text(scale: float) -> str:
 ASSUMED = (
     "Sectors: the loop is linear about a calm hover but for the cut that is named: small angles, no wind, push, person "
     "or noise, no limit of tilt or slope; delay as flown, lag the mean of up and down.",
+    "Sectors: what limits take away is known to the pilot's observer, as in flight; a rotor that fails is not.",
     "Sectors: what a cut takes away acts for a whole sample of the sensors' common period.",
     "Sectors: losses of one part reach the others only through the allocation, which gives up axes in the order of its "
     "priorities; each part is bounded as if the others kept theirs.",
     "Sectors: responses of one part to another below 2 % of the parts' own, or without a way back, are left out.",
+    "Sectors: inequalities are checked in double precision, not by intervals.",
     "Sectors: what reduction left out is a further block of the loop with a proven bound of its gain.",
     "Offsets: the pilot knows of the offset by its sensors only, and all else is at rest. Flights that confirm it have "
     "every nonlinearity.",

@@ -43,7 +43,7 @@ class Plant(NamedTuple):
     D: Array
 
 
-class Part(NamedTuple):
+class LoopPart(NamedTuple):
     """A part of a loop.
 
     Attributes:
@@ -189,7 +189,7 @@ class _Unknowns(NamedTuple):
     mu: Any
 
 
-def _inequality(part: Part, K: Array, spread: float, u: _Unknowns, diagonal: Any, block: Any) -> Any:
+def _inequality(part: LoopPart, K: Array, spread: float, u: _Unknowns, diagonal: Any, block: Any) -> Any:
     """The matrix that has to be negative definite; its columns are those of x, φ, v, x⁺ and ε φ."""
     p, D = part.plant, diagonal(u.multipliers)
     n, m = p.B.shape
@@ -208,7 +208,7 @@ def _inequality(part: Part, K: Array, spread: float, u: _Unknowns, diagonal: Any
     return 0.5 * (whole + whole.T)
 
 
-def region_of(part: Part, sectors: Sectors, start: Start | None = None) -> Region | None:
+def region_of(part: LoopPart, sectors: Sectors, start: Start | None = None) -> Region | None:
     """The region of a part that reaches farthest along a start, or any region without one; None if none is found.
 
     Args:
@@ -223,7 +223,7 @@ def region_of(part: Part, sectors: Sectors, start: Start | None = None) -> Regio
     return next((found for one in slack if (found := _solution(part, sectors, start, one)) is not None), None)
 
 
-def _solution(part: Part, sectors: Sectors, start: Start | None, strict: float) -> Region | None:
+def _solution(part: LoopPart, sectors: Sectors, start: Start | None, strict: float) -> Region | None:
     cp = solvers()
     (n, m), rows = part.plant.B.shape, sectors.rows
     Q, mu, level, own = cp.Variable((n, n), symmetric=True), cp.Variable(), cp.Variable((1, 1)), cp.Variable(m + 1)
@@ -264,10 +264,11 @@ def _solution(part: Part, sectors: Sectors, start: Start | None, strict: float) 
     return _checked(part, sectors, spread, start, values)
 
 
-def _checked(part: Part, sectors: Sectors, spread: float, start: Start | None, u: _Unknowns) -> Region | None:
+def _checked(part: LoopPart, sectors: Sectors, spread: float, start: Start | None, u: _Unknowns) -> Region | None:
     """The region of a solution whose own numbers satisfy the inequality: the solver's word is not taken."""
     whole = _inequality(part, sectors.upper, spread, u, np.diag, np.block)
-    if np.linalg.eigvalsh(whole).max() >= 0.0 or np.linalg.eigvalsh(u.Q).min() <= 0.0:
+    signs = [-np.linalg.eigvalsh(whole).max(), np.linalg.eigvalsh(u.Q).min(), u.multipliers.min(), u.mu]
+    if min(signs) <= 0.0:
         return None
     inverse, m = np.linalg.inv(u.Q), len(sectors.upper)
     reach = sectors.rows[:, :m] @ u.held + sectors.rows[:, m:] @ part.plant.C @ u.Q
