@@ -79,7 +79,7 @@ def thrust_room(mission: Mission) -> Array:
 
 def _sector_claims(mission: Mission, loop: CutLoop) -> Iterator[Claim]:
     texts = {
-        "thrust": "share of a commanded change of thrust or moment that may be {}, at any time, while the pilot knows it",
+        "thrust": "share of a commanded change of thrust or moment that may be {}, at any time, known to the pilot",
         "switching": "share of the switching's slope at 0 that may be {}, at any time{}",
     }
     for what, cuts in (("thrust", AXES), ("switching", SURFACES)):
