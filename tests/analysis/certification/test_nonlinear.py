@@ -225,6 +225,12 @@ def test_a_hover_that_is_not_stable_has_a_reason_and_keeps_the_boxes():
     assert "iris does not hover calmly" in tier.reason
 
 
+def test_a_mission_without_limits_and_switching_keeps_the_boxes():
+    tier = nonlinear_tier(load_mission("hover", controller="pid"))
+    assert [c.quantity for c in tier.claims] == ["finite thrusts"]
+    assert "neither thrust limits nor a switching function" in tier.reason
+
+
 def test_a_plain_python_controller_has_a_reason_and_no_claims(plain_python):
     tier = nonlinear_tier(plain_python)
     assert tier.claims == ()

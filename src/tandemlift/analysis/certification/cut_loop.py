@@ -66,7 +66,7 @@ def loop_of(mission: Mission) -> CutLoop:
     """The loop of a mission, cut at the thrust limits of a constrained allocation and at the switching of NFTSMC.
 
     Raises:
-        InputError: the controller is plain Python, or the calm flight is lost, or its hover does not settle.
+        InputError: the controller is plain Python, the calm flight is lost or does not settle, or there is no cut.
     """
     calm, at = calm_mission(mission, lag=mission.hover.lag if mission.actuators.model == "rotors" else None)
     point = flown_to(calm, at)
@@ -89,6 +89,8 @@ def loop_of(mission: Mission) -> CutLoop:
         into.append(-np.eye(6))
         out.append(np.diag(slopes))
         names += SURFACES
+    if not names:
+        raise InputError("no cut: neither thrust limits nor a switching function with a slope")
     late = {one.number for one in request.delayed if one.under_way}
     columns = [InputColumn(Variable("cut", ""), (("node", node, 1.0),)) for node in nodes]
     request = request._replace(choice=graph.choose(outputs, [], late), inputs=columns, outputs=outputs)
