@@ -136,8 +136,8 @@ def step_inputs(r: LinearizationPlan, numbers: Array, step: int) -> StepSeeds:
         for kind, index, weight in column.seeds:
             if kind == "thrust":
                 fixed[r.graph.thrusts[index]] = seed
-            elif kind == "offset":
-                added[r.graph.thrusts[index]] = seed
+            elif kind in ("offset", "node"):
+                added[index if kind == "node" else r.graph.thrusts[index]] = seed
             else:
                 before = rows[kind][index]
                 rows[kind][index] = seed * weight if before is None else before + seed * weight

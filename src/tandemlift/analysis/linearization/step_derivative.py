@@ -77,12 +77,15 @@ class StepDerivative:
         d.bind("fly", x.flight, x.rows.get("fly"))
         for kind, values in x.given.items():
             d.bind(kind, values, x.rows.get(kind))
+        before_limits = [node for node in sorted(x.added) if traced.limits and node < traced.limits.beyond.node]
+        for node in before_limits:
+            d.add_row(node, x.added[node])
         if traced.limits:
             self._limit_thrusts(traced.limits)
         for node, row in x.fixed.items():
             d.fix_row(node, row)
-        for node, row in x.added.items():
-            d.add_row(node, row)
+        for node in sorted(x.added.keys() - before_limits):  # what a node depends on comes first
+            d.add_row(node, x.added[node])
         d.compute(graph.contact_tests)
         self.may_touch = any(d.values[n] for n in graph.contact_tests)
         in_air = traced.body_in_free_air and not self.may_touch
