@@ -8,12 +8,14 @@ from dataclasses import replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from tandemlift.analysis.certification.certificate import Certificate, Claim, Tier
 from tandemlift.analysis.certification.flown import Trial, flown_limit, trial_of
 from tandemlift.analysis.certification.linear import linear_tier
 from tandemlift.analysis.certification.parameters import PARAMETERS
 from tandemlift.analysis.certification.person import ArmBox, flown_map, person_tier
 from tandemlift.analysis.certification.statistics import FLIGHTS, statistics_tier
+from tandemlift.analysis.robustness.certificate import Certificate, Claim, Tier
+from tandemlift.analysis.robustness.nonlinear import nonlinear_tier
+from tandemlift.analysis.robustness.structured import DEFAULT_BOX, structured_tier
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Progress
@@ -62,7 +64,7 @@ def certify(
     arms = ArmBox() if arm is None else ArmBox(*arm).checked()
     with progress_or_own(f"{mission.mission.name}, certified", progress, "tiers") as shown:
         for done, name in enumerate(chosen, 1):
-            found.append(_with_limits(_tier(name, mission, arms, box, flights, folder), mission, fly))
+            found.append(_with_limits(_tier(name, mission, arms, box, flights, folder, fly), mission, fly))
             if shown:
                 shown(done, len(chosen))
     return Certificate(mission.mission.name, tuple(found), _versions())
@@ -75,12 +77,17 @@ def _tier(
     box: Mapping[str, float] | None,
     flights: int,
     folder: str | Path | None,
+    fly: bool,
 ) -> Tier:
     """One tier of a mission."""
     if name == "linear":
         return linear_tier(mission)
+    if name == "structured":
+        return structured_tier(mission, box or DEFAULT_BOX)
     if name == "person":
         return person_tier(mission, arms)
+    if name == "nonlinear":
+        return nonlinear_tier(mission, fly=fly)
     if folder is not None:
         return statistics_tier(mission, Path(folder), flights)
     with tempfile.TemporaryDirectory() as aside:

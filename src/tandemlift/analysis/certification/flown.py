@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.certification.certificate import FlownLimit
 from tandemlift.analysis.certification.parameters import ARM, parameter, with_keys
 from tandemlift.analysis.linearization.loop_margins import calm_mission
+from tandemlift.analysis.robustness.certificate import FlownLimit
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array

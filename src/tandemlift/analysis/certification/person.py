@@ -17,7 +17,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.certification.certificate import Claim, Tier
 from tandemlift.analysis.certification.contact_limits import HAND, contact_claims
 from tandemlift.analysis.certification.flown import held, hover_as_flown, stability_in_hand
 from tandemlift.analysis.certification.linear import nearest_to_oscillation
@@ -25,6 +24,7 @@ from tandemlift.analysis.certification.parameters import ARM, with_keys
 from tandemlift.analysis.linearization.frequency_response import frequency_response
 from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.analysis.linearization.loop_margins import NO_KINK
+from tandemlift.analysis.robustness.certificate import Claim, Tier
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission

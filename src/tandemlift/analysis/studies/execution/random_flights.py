@@ -1,4 +1,4 @@
-"""Random flights of a mission: those that its uncertain parameters draw, by outcome and findings, and bounds on both."""
+"""Random flights of a mission, with its uncertain parameters drawn: outcomes, findings, and bounds on their probability."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from tandemlift.analysis.certification.certificate import Certificate, Claim
+from tandemlift.analysis.robustness.certificate import Certificate, Claim
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import DATA, atomic_write
 from tandemlift.pictures.drawing.style import save

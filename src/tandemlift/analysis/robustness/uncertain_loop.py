@@ -19,8 +19,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.certification.structured_singular_value import TINY, Bound, Complex, DeltaBlock, upper_bound
-from tandemlift.analysis.certification.uncertainty import (
+from tandemlift.analysis.linearization.loop_margins import rotors_response
+from tandemlift.analysis.robustness.structured_singular_value import TINY, Bound, Complex, DeltaBlock, upper_bound
+from tandemlift.analysis.robustness.uncertainty import (
     INERTIAS,
     RANK,
     Family,
@@ -32,7 +33,6 @@ from tandemlift.analysis.certification.uncertainty import (
     largest_factor,
     weakens,
 )
-from tandemlift.analysis.linearization.loop_margins import rotors_response
 from tandemlift.core.errors import extra
 from tandemlift.core.types import Array
 

@@ -13,11 +13,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.certification.structured_singular_value import Complex
 from tandemlift.analysis.linearization.frequency_response import frequency_response
 from tandemlift.analysis.linearization.linear_model import LinearModel
 from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.analysis.linearization.loop_margins import LOWEST, NO_KINK, POINTS, WAITS, calm_mission, is_calm
+from tandemlift.analysis.robustness.structured_singular_value import Complex
 from tandemlift.core.errors import InputError, unknown, without_flight_warnings
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from tandemlift.analysis.certification import cut_loop, nonlinear
-from tandemlift.analysis.certification.nonlinear import nonlinear_tier
-from tandemlift.analysis.certification.sector_bound import (
+from tandemlift.analysis.robustness.nonlinear import nonlinear_tier
+from tandemlift.analysis.robustness.sector_bound import (
     LoopPart,
     Plant,
     Sectors,

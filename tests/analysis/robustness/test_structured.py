@@ -11,9 +11,10 @@ import pytest
 from listings import LISTINGS
 
 import tandemlift as tl
-from tandemlift.analysis.certification.structured import Worst, growing, structured_tier, worst_mission
-from tandemlift.analysis.certification.uncertain_loop import DeviatingLoop, Network
-from tandemlift.analysis.certification.uncertainty import (
+from tandemlift.analysis.linearization.loop_margins import ON_CIRCLE
+from tandemlift.analysis.robustness.structured import Worst, growing, structured_tier, worst_mission
+from tandemlift.analysis.robustness.uncertain_loop import DeviatingLoop, Network
+from tandemlift.analysis.robustness.uncertainty import (
     MOST,
     family_at,
     hovers_of,
@@ -21,7 +22,6 @@ from tandemlift.analysis.certification.uncertainty import (
     rational,
     uncertain_tables,
 )
-from tandemlift.analysis.linearization.loop_margins import ON_CIRCLE
 from tandemlift.core.errors import InputError
 from tandemlift.missions import check, load_mission, mission_from_text, tables_of
 

@@ -9,8 +9,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from tandemlift.analysis.certification.intervals import Interval, bounds
-from tandemlift.analysis.certification.nonlinear import box_of
+from tandemlift.analysis.robustness.intervals import Interval, bounds
+from tandemlift.analysis.robustness.nonlinear import box_of
 from tandemlift.core import algebra
 from tandemlift.missions import load_mission
 from tandemlift.parts.pilot.thrust_bounds import commanded_thrusts

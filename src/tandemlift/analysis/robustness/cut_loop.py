@@ -14,7 +14,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.certification.sector_bound import (
+from tandemlift.analysis.linearization.linear_model import Variable, reachable
+from tandemlift.analysis.linearization.linearize import linearization_plan
+from tandemlift.analysis.linearization.loop_margins import AXES, calm_mission
+from tandemlift.analysis.linearization.model_inputs import InputColumn
+from tandemlift.analysis.linearization.operating_point import flown_to
+from tandemlift.analysis.linearization.period import differentiate
+from tandemlift.analysis.robustness.sector_bound import (
     LoopPart,
     Plant,
     Start,
@@ -24,12 +30,6 @@ from tandemlift.analysis.certification.sector_bound import (
     response,
     without_resting_modes,
 )
-from tandemlift.analysis.linearization.linear_model import Variable, reachable
-from tandemlift.analysis.linearization.linearize import linearization_plan
-from tandemlift.analysis.linearization.loop_margins import AXES, calm_mission
-from tandemlift.analysis.linearization.model_inputs import InputColumn
-from tandemlift.analysis.linearization.operating_point import flown_to
-from tandemlift.analysis.linearization.period import differentiate
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission

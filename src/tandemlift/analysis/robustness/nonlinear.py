@@ -12,11 +12,11 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from tandemlift.analysis.certification.certificate import Claim, FlownLimit, Tier
-from tandemlift.analysis.certification.cut_loop import DISTURBED, SURFACES, CutLoop, loop_of, parts_of
-from tandemlift.analysis.certification.intervals import bounds
-from tandemlift.analysis.certification.sector_bound import LoopPart, Sectors, Start, region_of, solvers, tolerated
 from tandemlift.analysis.linearization.loop_margins import AXES, calm_mission
+from tandemlift.analysis.robustness.certificate import Claim, FlownLimit, Tier
+from tandemlift.analysis.robustness.cut_loop import DISTURBED, SURFACES, CutLoop, loop_of, parts_of
+from tandemlift.analysis.robustness.intervals import bounds
+from tandemlift.analysis.robustness.sector_bound import LoopPart, Sectors, Start, region_of, solvers, tolerated
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of

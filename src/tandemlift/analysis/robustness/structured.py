@@ -13,9 +13,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.certification.certificate import Claim, Tier
-from tandemlift.analysis.certification.uncertain_loop import CLOSER, EVERY, DeviatingLoop, found_factor, proven_factor
-from tandemlift.analysis.certification.uncertainty import (
+from tandemlift.analysis.linearization.loop_margins import LOWEST, ON_CIRCLE, POINTS, calm_mission, is_calm
+from tandemlift.analysis.robustness.certificate import Claim, Tier
+from tandemlift.analysis.robustness.uncertain_loop import CLOSER, EVERY, DeviatingLoop, found_factor, proven_factor
+from tandemlift.analysis.robustness.uncertainty import (
     DEFAULT_BOX,
     INERTIAS,
     LARGEST,
@@ -30,7 +31,6 @@ from tandemlift.analysis.certification.uncertainty import (
     uncertain_tables,
     weakens,
 )
-from tandemlift.analysis.linearization.loop_margins import LOWEST, ON_CIRCLE, POINTS, calm_mission, is_calm
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.missions import Mission, built_in, check, format_toml, load_mission, tables_of
 
