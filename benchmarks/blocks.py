@@ -56,7 +56,7 @@ def of_block(name: str, lanes: int, rounds: int) -> float:
 
 
 def of_environment(lanes: int, rounds: int) -> float:
-    from tandemlift.analysis.learning.environments import FlightVectorEnv
+    from tandemlift.apps.export.gymnasium_environments import FlightVectorEnv
 
     envs = FlightVectorEnv(TASK, lanes, interval=INTERVAL, threads=1)
     best(envs.block)

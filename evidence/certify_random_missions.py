@@ -21,10 +21,10 @@ from typing import Any
 import numpy as np
 
 import tandemlift as tl
+from tandemlift.analysis.certification.felt_admittance import felt_admittance, stiffness_limit
 from tandemlift.analysis.certification.flown import flown_limit, trial_of
 from tandemlift.analysis.certification.linear import linear_tier
 from tandemlift.analysis.certification.parameters import ARM
-from tandemlift.analysis.certification.person import felt_admittance, stiffness_limit
 from tandemlift.missions import Mission
 
 BASES = ("iris", "zigzag", "rotor-loss", "gusts")

@@ -14,16 +14,15 @@ from typing import TYPE_CHECKING, Any
 from tandemlift.core.files import __version__ as __version__
 
 if TYPE_CHECKING:
-    from tandemlift.analysis.certification.certify import certify
     from tandemlift.analysis.certification.mission_check import check
-    from tandemlift.analysis.learning.block import Block
-    from tandemlift.analysis.learning.registration import register_environments
     from tandemlift.analysis.linearization.differentiable_step import jax_step
     from tandemlift.analysis.linearization.linear_model import LinearModel
     from tandemlift.analysis.linearization.linearize import linearize
+    from tandemlift.analysis.studies.execution.block import Block
     from tandemlift.analysis.studies.study import study
     from tandemlift.analysis.studies.table import Study, load_study
     from tandemlift.analysis.studies.tuning.tune import train, tune
+    from tandemlift.apps.export.registration import register_environments
     from tandemlift.codegen.mission_module import compile_mission
     from tandemlift.core.errors import FlightWarning, InputError
     from tandemlift.flight.record import Flight
@@ -31,13 +30,14 @@ if TYPE_CHECKING:
     from tandemlift.parts.controllers.user_controller import load_controller
     from tandemlift.parts.mechanics.vehicle import Vehicle
     from tandemlift.pictures.figures.registry import plot
+    from tandemlift.pictures.report.study.certificate_report import certify
     from tandemlift.pictures.report.study.feel_report import feel
     from tandemlift.simulation.fly import fly, fly_many
     from tandemlift.simulation.pilot_api import Pilot
     from tandemlift.simulation.simulation import Simulation
 
 _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
-    "Block": "analysis.learning.block",
+    "Block": "analysis.studies.execution.block",
     "Flight": "flight.record",
     "FlightWarning": "core.errors",
     "InputError": "core.errors",
@@ -47,7 +47,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Simulation": "simulation.simulation",
     "Study": "analysis.studies.table",
     "Vehicle": "parts.mechanics.vehicle",
-    "certify": "analysis.certification.certify",
+    "certify": "pictures.report.study.certificate_report",
     "check": "analysis.certification.mission_check",
     "compile_mission": "codegen.mission_module",
     "feel": "pictures.report.study.feel_report",
@@ -59,7 +59,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "load_mission": "missions",
     "load_study": "analysis.studies.table",
     "plot": "pictures.figures.registry",
-    "register_environments": "analysis.learning.registration",
+    "register_environments": "apps.export.registration",
     "study": "analysis.studies.study",
     "train": "analysis.studies.tuning.tune",
     "tune": "analysis.studies.tuning.tune",

@@ -11,7 +11,8 @@ from click.testing import CliRunner
 from scipy.stats import beta
 
 import tandemlift as tl
-from tandemlift.analysis.robustness.certificate import Certificate, Claim, FlownLimit, Tier
+from tandemlift.analysis.certification.certificate import Certificate
+from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
 from tandemlift.apps.cli.main import cli
 from tandemlift.pictures.report.study.certificate_report import certificate_lines, write_certificate
 

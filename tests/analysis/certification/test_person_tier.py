@@ -9,20 +9,17 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.analysis.certification.admittance_map import admittance_family, family_limit
 from tandemlift.analysis.certification.contact_limits import REGIONS, tolerated_speed
-from tandemlift.analysis.certification.flown import flown_limit, hover_as_flown, trial_of
-from tandemlift.analysis.certification.person import (
-    ArmBox,
+from tandemlift.analysis.certification.felt_admittance import (
     ArmImpedance,
     FeltAdmittance,
-    admittance_family,
-    family_limit,
     felt_admittance,
     is_coupled_stable,
-    leading_impedance,
-    person_tier,
     stiffness_limit,
 )
+from tandemlift.analysis.certification.flown import flown_limit, hover_as_flown, trial_of
+from tandemlift.analysis.certification.person import ArmBox, leading_impedance, person_tier
 from tandemlift.missions import load_mission
 
 W = np.geomspace(0.01, 300.0, 500)

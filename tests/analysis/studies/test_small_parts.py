@@ -8,10 +8,10 @@ from scipy.integrate import solve_ivp
 from study_runs import TWELVE, fly
 
 import tandemlift as tl
+from tandemlift.analysis.studies import estimate
 from tandemlift.analysis.studies.closed_form import _free, axes_of, speed_at
 from tandemlift.analysis.studies.dataset import MOST_NAMES, study_html
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.execution import estimate
 from tandemlift.analysis.studies.feel_study import _both, feel_checks
 from tandemlift.analysis.studies.standard_push import ARM, _pushes, answer_of
 from tandemlift.analysis.studies.study import mission_of_row

@@ -13,7 +13,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from tandemlift.analysis.robustness.certificate import Claim
+from tandemlift.analysis.linearization.claims import Claim
 from tandemlift.missions import Mission
 
 

@@ -8,17 +8,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from tandemlift.analysis.certification.parameters import ARM, parameter, with_keys
+from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
 from tandemlift.analysis.linearization.loop_margins import calm_mission
-from tandemlift.analysis.robustness.certificate import FlownLimit
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
-from tandemlift.missions import Mission, check, tables_of
+from tandemlift.missions import Mission, check, format_toml, tables_of
 from tandemlift.simulation.fly import Flight, fly_many
 
 LEAST, MOST, COARSE, FINE = 0.5, 1.6, 16, 12  # factors of the predicted limit; flights that look for the limit
@@ -30,9 +31,10 @@ BEGINS, RISES = 1.0, 4.0  # s of the first motion in an arm's hand; times it, be
 SENSITIVE = 1e-3  # N: the threshold of a push while an arm holds the vehicle, which hides small oscillations else
 LOGGED = 0.005  # s
 LOST, OSCILLATES, REFUSED = "lost", "oscillation", "refused"
+PAST = 1.05  # of a limit: the mission beside it flies beyond, where the oscillation grows
 
 
-class Trial(NamedTuple):
+class LimitTrial(NamedTuple):
     """How the limit of a parameter is flown.
 
     Attributes:
@@ -46,7 +48,7 @@ class Trial(NamedTuple):
     nominal: float
 
 
-def trial_of(mission: Mission, name: str) -> Trial:
+def trial_of(mission: Mission, name: str) -> LimitTrial:
     """How the limit of a parameter of a mission is flown.
 
     Raises:
@@ -54,11 +56,11 @@ def trial_of(mission: Mission, name: str) -> Trial:
     """
     p = parameter(name)
     if name == ARM:
-        return Trial(lambda k: held(mission, k), stability_in_hand, 0.0)
-    return Trial(lambda x: kicked(mission, p.keys(mission, x)), stability, p.nominal(mission))
+        return LimitTrial(lambda k: held(mission, k), stability_in_hand, 0.0)
+    return LimitTrial(lambda x: kicked(mission, p.keys(mission, x)), stability, p.nominal(mission))
 
 
-def flown_limit(trial: Trial, predicted: float, *, threads: int | None = None) -> FlownLimit:
+def flown_limit(trial: LimitTrial, predicted: float, *, threads: int | None = None) -> FlownLimit:
     """The limit of a parameter, found by flights between half the predicted value and 1.6 times it.
 
     Args:
@@ -87,7 +89,7 @@ def _end(result: tuple[Flight | None, str]) -> tuple[float, str]:
     return (frequency_of(flight) if flight is not None and ended == OSCILLATES else math.nan), ended
 
 
-def _flown(trial: Trial, values: Array, threads: int | None) -> list[tuple[Flight | None, str]]:
+def _flown(trial: LimitTrial, values: Array, threads: int | None) -> list[tuple[Flight | None, str]]:
     """A flight for each value of a parameter, and what ended its stability; "" for a stable one."""
     missions = list[Mission | None]()
     for value in values.tolist():
@@ -208,3 +210,29 @@ def frequency_of(flight: Flight) -> float:
     if len(crossings) < 3:
         return math.nan
     return float(math.pi * (len(crossings) - 1) / (LOGGED * (crossings[-1] - crossings[0])))
+
+
+def with_limits(tier: Tier, mission: Mission, fly: bool) -> Tier:
+    """A tier with a mission that flies beyond each limit of a parameter, and the flown limits if asked for."""
+    files, claims = dict(tier.files), list[Claim]()
+    for claim in tier.claims:
+        if claim.limit is not None:
+            trial, name = trial_of(mission, claim.parameter), f"limits/{claim.slug}.toml"
+            files[name] = format_toml(tables_of(_mission_beyond(trial, claim.limit)))
+            flown = flown_limit(trial, claim.limit) if fly else None
+            claim = claim._replace(command=f"tandemlift run {name}", nominal=_nominal(mission, claim), flown=flown)
+        claims.append(claim)
+    return replace(tier, claims=tuple(claims), files=files)
+
+
+def _nominal(mission: Mission, claim: Claim) -> float:
+    return parameter(claim.parameter).nominal(mission)
+
+
+def _mission_beyond(trial: LimitTrial, limit: float) -> Mission:
+    """The mission that flies beyond a limit, or just within it if missions beyond are refused."""
+    beyond = PAST if limit >= trial.nominal else 1.0 / PAST
+    try:
+        return trial.mission(limit * beyond)
+    except InputError:
+        return trial.mission(limit / beyond)

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from tandemlift.analysis.certification.changed_models import LinearLimit, linear_limit
 from tandemlift.analysis.certification.disk_margins import disk_margin, disk_sizes
 from tandemlift.analysis.certification.parameters import PARAMETERS
+from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.analysis.linearization.loop_margins import (
     AXES,
     OpenLoop,
@@ -25,7 +26,6 @@ from tandemlift.analysis.linearization.loop_margins import (
     rotors_response,
     single_loop,
 )
-from tandemlift.analysis.robustness.certificate import Claim, Tier
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission

@@ -13,7 +13,7 @@ ARM = "arm stiffness"
 AXES = ("z", "roll", "pitch", "yaw")
 
 
-class Parameter(NamedTuple):
+class UncertainParameter(NamedTuple):
     """A number of the real vehicle or person that the pilot does not know.
 
     Attributes:
@@ -54,22 +54,22 @@ def _is_real(mission: Mission) -> bool:
 PARAMETERS = {
     p.name: p
     for p in (
-        Parameter(
+        UncertainParameter(
             "delay",
             "s",
             lambda m: m.actuators.delay if _is_real(m) else 0.0,
             lambda m, x: {"actuators.delay": x},
         ),
-        Parameter("lag", "s", lambda m: m.hover.lag if _is_real(m) else 0.0, _lag_keys),
-        Parameter("mass", "1", lambda m: m.plant.mass_scale, lambda m, x: {"plant.mass_scale": x}),
-        *(Parameter(f"{axis} inertia", "1", _scale_of(i), _inertia(i)) for i, axis in enumerate(AXES[1:])),
-        Parameter(ARM, "N/m", lambda m: m.person.stiffness, lambda m, x: {"person.stiffness": x}),
+        UncertainParameter("lag", "s", lambda m: m.hover.lag if _is_real(m) else 0.0, _lag_keys),
+        UncertainParameter("mass", "1", lambda m: m.plant.mass_scale, lambda m, x: {"plant.mass_scale": x}),
+        *(UncertainParameter(f"{axis} inertia", "1", _scale_of(i), _inertia(i)) for i, axis in enumerate(AXES[1:])),
+        UncertainParameter(ARM, "N/m", lambda m: m.person.stiffness, lambda m, x: {"person.stiffness": x}),
     )
 }
 """Mass and inertia are factors of the pilot's values."""
 
 
-def parameter(name: str) -> Parameter:
+def parameter(name: str) -> UncertainParameter:
     """A parameter by its name.
 
     Raises:

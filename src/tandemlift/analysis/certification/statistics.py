@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-from tandemlift.analysis.robustness.certificate import Claim, Tier
+from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.analysis.studies.execution.random_flights import (
     DELAY,
     INERTIA,

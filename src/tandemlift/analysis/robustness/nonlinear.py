@@ -12,8 +12,8 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
 from tandemlift.analysis.linearization.loop_margins import AXES, calm_mission
-from tandemlift.analysis.robustness.certificate import Claim, FlownLimit, Tier
 from tandemlift.analysis.robustness.cut_loop import DISTURBED, SURFACES, CutLoop, loop_of, parts_of
 from tandemlift.analysis.robustness.intervals import bounds
 from tandemlift.analysis.robustness.sector_bound import LoopPart, Sectors, Start, region_of, solvers, tolerated

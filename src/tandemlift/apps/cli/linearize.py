@@ -104,11 +104,11 @@ def check(mission: str, settings: tuple[str, ...], controller: str | None, stric
 
     Exit code 3: with --strict, a check fails.
     """
-    from tandemlift.analysis.certification.mission_check import check as checked
+    import tandemlift as tl
 
     with without_flight_warnings():  # the table has the same
         loaded = load(mission, settings, controller)
-    results = checked(loaded)
+    results = tl.check(loaded)
     print_checks(results)
     if file:
         rows = [{**result._asdict(), "margin": result.margin} for result in results]
@@ -155,9 +155,8 @@ def certify(
 
     Exit code 3: with --strict, a number is below its bar.
     """
-    from tandemlift.analysis.certification.certify import TIERS
-    from tandemlift.analysis.certification.certify import certify as certified
-    from tandemlift.pictures.report.study.certificate_report import certificate_lines, write_certificate
+    from tandemlift.pictures.report.study.certificate_report import TIERS, certificate_lines, write_certificate
+    from tandemlift.pictures.report.study.certificate_report import certify as certified
 
     loaded, chosen = load(mission, settings), tiers.split(",") if tiers else TIERS
     with results_folder(out, Path("out") / f"{loaded.mission.name}-certificate", ()) as folder:

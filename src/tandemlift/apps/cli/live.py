@@ -85,8 +85,7 @@ def live(
     check_live_installed()
     engine_named(engine)
     from tandemlift.apps.live.page_files import page_files, with_script
-    from tandemlift.apps.live.server import PageServer
-    from tandemlift.apps.live.session.session import Session
+    from tandemlift.apps.live.server import PageServer, Session
 
     files = with_script(page_files(), script)
     session = Session(load(mission, settings, controller), engine, Path(out))

@@ -116,13 +116,16 @@ def plot(figure: str, flights: tuple[str, ...], out: str | None) -> None:
       tandemlift plot path out/light out/heavy
       tandemlift plot position_error out/light out/heavy --out errors.pdf --style elsevier
     """
-    from tandemlift.pictures.figures import registry
+    import tandemlift as tl
+    from tandemlift.pictures.drawing.style import save
 
     path = file_path("--out", out or f"out/{figure}.png", *DRAWINGS)
     loaded = [_load(given) for given in flights]
     names = [folder.resolve().name for _, folder in loaded]
     named = dict(zip(names if len(set(names)) == len(names) else flights, (f for f, _ in loaded), strict=True))
-    echo(f"{figure}: {registry.save_figure(registry.plot(named, figure), path)}")
+    drawn = tl.plot(named, figure)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    echo(f"{figure}: {save(drawn, path)}")
 
 
 def _load(given: str) -> tuple[Flight, Path]:

@@ -29,7 +29,7 @@ from tandemlift.apps.cli.run import write_results
 from tandemlift.core.errors import InputError, without_flight_warnings
 
 if TYPE_CHECKING:
-    from tandemlift.apps.live.session.session import Session
+    from tandemlift.apps.live.server import Session
     from tandemlift.apps.ros.gazebo_flight import GazeboSession
     from tandemlift.apps.ros.middleware import Middleware
     from tandemlift.flight.record import Flight
@@ -79,7 +79,7 @@ def ros(
       2   bad input: one message, nothing is flown
       3   crashed, diverged or interrupted, or ROS 1's master is gone: the flight so far is saved with --save
     """
-    from tandemlift.apps.live.session.session import Session
+    from tandemlift.apps.live.server import Session
     from tandemlift.apps.ros import ros1, ros2
     from tandemlift.apps.ros.node import middleware_for, version_for
     from tandemlift.apps.ros.sample_queue import steps_between_samples

@@ -95,7 +95,7 @@ def study(
     rows = f"{plan.count:,} rows = {plan.sizes}" if plan.count > 1 else plan.sizes
     echo(f"{plan.settings.study.name}: {rows}")
     if dry_run:
-        from tandemlift.analysis.studies.execution.estimate import estimate
+        from tandemlift.analysis.studies.estimate import estimate
 
         with compile_notices.together():
             expected = estimate(plan)

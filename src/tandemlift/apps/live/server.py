@@ -15,7 +15,7 @@ import threading
 import webbrowser
 from collections.abc import Callable, Mapping
 from http import HTTPStatus
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 from websockets.asyncio.server import Server as SocketServer
 from websockets.asyncio.server import ServerConnection, serve
@@ -29,11 +29,9 @@ from tandemlift.apps.live.page_files import media_type_of
 from tandemlift.apps.live.session.frames import RATE
 from tandemlift.apps.live.session.page_messages import MAX_SIZE
 from tandemlift.apps.live.session.server_messages import SceneMessage
+from tandemlift.apps.live.session.session import Session
 from tandemlift.apps.live.viewers import FAREWELL, Viewer, Viewers, dismiss
 from tandemlift.core.errors import extra
-
-if TYPE_CHECKING:
-    from tandemlift.apps.live.session.session import Session
 
 STATUS_EVERY = RATE // 4  # frames
 MAX_VIEWERS = 16

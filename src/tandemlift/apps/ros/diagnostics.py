@@ -8,11 +8,11 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from tandemlift import Flight
 from tandemlift.apps.export.messages import event_maker, status_maker
 from tandemlift.apps.export.topics import DIAGNOSTICS
 from tandemlift.apps.ros.middleware import Middleware
 from tandemlift.core.phases import CONTACT
-from tandemlift.flight.record import Flight
 from tandemlift.simulation.results import describe_event
 from tandemlift.simulation.touches import contact_codes
 

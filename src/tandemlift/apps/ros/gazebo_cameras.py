@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tandemlift import Flight
 from tandemlift.core.phases import GUIDED
 from tandemlift.core.types import Array
 from tandemlift.engines.models.sdf_elements import FixedCamera, reach_of
-from tandemlift.flight.record import Flight
 
 DISTANCE = 5.0  # from the vehicle to a camera, as a multiple of the vehicle's reach
 ELEVATION, OFFSET = np.radians([34.0, 24.0])  # rad, of a camera above the horizon and beside the way

@@ -13,6 +13,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
+from tandemlift import Flight
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.apps.ros.gazebo_cameras import ViewRequest, views_from
 from tandemlift.core.errors import InputError
@@ -20,7 +21,6 @@ from tandemlift.core.types import Progress
 from tandemlift.engines.gazebo import CHECKS, PORT, REAL_TIME, world_from
 from tandemlift.engines.gazebo_server import GazeboServer, free_port, root, shell_command, with_gazebo_environment
 from tandemlift.engines.models.sdf_elements import PICTURES, add_cameras
-from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission
 from tandemlift.simulation.fly import fly
 from tandemlift.simulation.recorded_flight import RecordedFlight

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Sequence
 from functools import partial
 
+from tandemlift import Flight
 from tandemlift.apps.export.recipes import WRENCH
 from tandemlift.apps.export.topics import ROOT
 from tandemlift.apps.live.session.server_messages import ENDS
@@ -21,9 +22,7 @@ from tandemlift.apps.ros.sample_queue import Clock, SampleBatch, SampleQueue, as
 from tandemlift.apps.ros.topics import LatchedTopics, MarkerTopics, SampleTopics
 from tandemlift.core.errors import InputError, install_command
 from tandemlift.engines.rospy import has_rospy
-from tandemlift.flight.record import Flight
 from tandemlift.missions import tables_of
-from tandemlift.parts.mechanics.vehicle import Vehicle
 
 PUSH = f"{ROOT}/push"
 RATE = 100.0  # Hz
@@ -46,7 +45,7 @@ class FlightNode:
     def __init__(self, session: Session, middleware: Middleware, rate: float = RATE) -> None:
         self._session, self._middleware = session, middleware
         self._flight = session.flight
-        vehicle = Vehicle.from_settings(self._flight.now.vehicle)
+        vehicle = self._flight.now.hover.vehicle
         self._tables = tables_of(self._flight.now)
         self._clock = Clock(session)
         self._queue = SampleQueue(steps_between_samples(rate, self._flight.dt), self._clock)

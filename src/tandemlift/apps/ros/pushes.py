@@ -24,7 +24,6 @@ from tandemlift.apps.ros.middleware import Answer
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.core.types import Array
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 COMES_TO = {"lift": "lift", "land": "land", "stop": "stopped"}  # the phase that a request leads to
@@ -105,7 +104,7 @@ class Pushes:
         self._session, self._notify = session, notify
         self._until = self._look = math.inf  # steps at which it ends, and at which it is looked at
         self._turn = threading.Lock()  # of several who push; the flight's thread never takes it
-        vehicle = Vehicle.from_settings(session.flight.now.vehicle)
+        vehicle = session.flight.now.hover.vehicle
         self._origins = {WORLD: np.zeros(3), ALIGNED: np.zeros(3), BASE: np.zeros(3), **dict(fixed(vehicle))}
         guards = np.array([q.guard_radius for q in vehicle.quadrotors])
         self._reach = float(np.max(np.linalg.norm(vehicle.lever_arms, axis=1) + guards))

@@ -11,11 +11,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift import Flight
 from tandemlift.apps.export.messages import SECOND
 from tandemlift.apps.live.session.session import Session
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
-from tandemlift.flight.record import Flight
 from tandemlift.simulation.recorded_flight import RecordedFlight
 from tandemlift.simulation.results import channels_of
 

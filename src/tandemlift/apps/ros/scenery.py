@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift import Vehicle
 from tandemlift.apps.export.coordinate_frames import ALIGNED, BASE, WORLD, quaternions, to_world
 from tandemlift.apps.export.messages import MessageTypes
 from tandemlift.apps.live.session.frames import points_of
 from tandemlift.core.types import Array
 from tandemlift.engines.models.visuals import LEVEL, PUSH_COLOR, VisualShape, payload_shapes, vehicle_shapes, wall_shape
-from tandemlift.parts.mechanics.vehicle import Vehicle
 
 MARKER, MARKERS = "visualization_msgs/Marker", "visualization_msgs/MarkerArray"
 ARROW, CUBE, SPHERE, CYLINDER, LINES, TEXT = 0, 1, 2, 3, 5, 9

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift import Flight, Vehicle
 from tandemlift.apps.export.coordinate_frames import ALIGNED, BASE, WORLD, fixed, quaternions
 from tandemlift.apps.export.messages import Maker, MessageTypes, Transforms, message_maker
 from tandemlift.apps.export.recipes import POSE, Recipe, Source, Topic
@@ -15,9 +16,7 @@ from tandemlift.apps.export.topics import MISSION, ROOT, TF, TF_STATIC, OtherTop
 from tandemlift.apps.ros import scenery
 from tandemlift.apps.ros.middleware import Middleware, TopicPublisher
 from tandemlift.apps.ros.scenery import MARKERS
-from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
-from tandemlift.parts.mechanics.vehicle import Vehicle
 
 PATH = "nav_msgs/Path"
 FLOWN = OtherTopic(f"{ROOT}/path", PATH, "path flown in the last minute, 5 times a second", (WORLD,))

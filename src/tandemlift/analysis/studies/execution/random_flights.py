@@ -1,4 +1,4 @@
-"""Random flights of a mission, with its uncertain parameters drawn: outcomes, findings, and bounds on their probability."""
+"""Random flights of a mission, with uncertain parameters drawn: outcomes, findings, bounds on their probability."""
 
 from __future__ import annotations
 

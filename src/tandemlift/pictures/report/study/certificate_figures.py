@@ -10,10 +10,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from tandemlift.analysis.certification.certificate import Certificate
 from tandemlift.analysis.certification.linear import DISK_PHASE_BAR
+from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.analysis.linearization.frequency_response import axis_responses
 from tandemlift.analysis.linearization.linear_model import MOST_STATES, LinearModel, modes_of, title_of
-from tandemlift.analysis.robustness.certificate import Certificate, Claim, Tier
 from tandemlift.core.errors import InputError
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.style import (

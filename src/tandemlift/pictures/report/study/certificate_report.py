@@ -1,16 +1,28 @@
-"""A certificate as files: a page, its data as JSON, a PDF, and the missions that fly beyond each limit."""
+"""`tl.certify`, and a certificate as files: a page, JSON, a PDF, and the missions that fly beyond each limit."""
 
 from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from tandemlift.analysis.robustness.certificate import Certificate, Claim
-from tandemlift.core.errors import InputError
+from tandemlift.analysis.certification.certificate import Certificate
+from tandemlift.analysis.certification.flown import with_limits
+from tandemlift.analysis.certification.linear import linear_tier
+from tandemlift.analysis.certification.person import ArmBox, person_tier
+from tandemlift.analysis.certification.statistics import FLIGHTS, statistics_tier
+from tandemlift.analysis.linearization.claims import Claim, Tier
+from tandemlift.analysis.robustness.nonlinear import nonlinear_tier
+from tandemlift.analysis.robustness.structured import DEFAULT_BOX, structured_tier
+from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.files import DATA, atomic_write
+from tandemlift.core.progress import progress_or_own
+from tandemlift.core.types import Progress
+from tandemlift.missions import Mission, MissionLike, mission_of
 from tandemlift.pictures.drawing.style import save
 from tandemlift.pictures.report.page import html, html_figures, write_page
 from tandemlift.pictures.report.paper_report import check_typesetting, typeset
@@ -18,6 +30,86 @@ from tandemlift.pictures.report.study.certificate_figures import CAPTIONS, certi
 
 PAGE, JSON, PDF, SOURCE = "certificate.html", "certificate.json", "certificate.pdf", "report.typ"
 NONE, MINUS = "none", "−"
+TIERS = ("linear", "structured", "person", "nonlinear", "statistics")
+PACKAGES = ("tandemlift", "numpy", "scipy", "slycot", "cvxpy", "clarabel")
+
+
+def certify(
+    mission: MissionLike,
+    tiers: Sequence[str] = TIERS,
+    *,
+    fly: bool = False,
+    arm: tuple[float, float, float] | None = None,
+    box: Mapping[str, float] | None = None,
+    flights: int = FLIGHTS,
+    folder: str | Path | None = None,
+    progress: Progress | None = None,
+) -> Certificate:
+    """How far a mission is from instability, with which parameters and person, and how often it fails.
+
+    Args:
+        mission: from `load_mission`, or its name or path.
+        tiers: those to be formed, by name.
+        fly: whether to fly each predicted limit of a parameter, by bisection without a linear model.
+        arm: largest stiffness [N/m], damping [N s/m] and hand mass [kg] of the arms that may hold the vehicle.
+        box: half widths of uncertain parameters, by name, of the structured tier.
+        flights: number of random flights of the tier of statistics.
+        folder: of that tier's study, which goes on where it stopped; by default a temporary one.
+        progress: called with (tiers done, tiers in all).
+
+    Returns:
+        The certificate; a tier that cannot be formed for this mission has the reason.
+
+    Raises:
+        InputError: the mission cannot be loaded, a tier is unknown, a box is empty or too large, or an optional package
+            is missing (extra: certify).
+    """
+    mission = mission_of(mission)
+    for name in tiers:
+        if name not in TIERS:
+            raise unknown("tier", name, TIERS)
+    chosen, found = [name for name in TIERS if name in tiers], list[Tier]()
+    arms = ArmBox() if arm is None else ArmBox(*arm).checked()
+    with progress_or_own(f"{mission.mission.name}, certified", progress, "tiers") as shown:
+        for done, name in enumerate(chosen, 1):
+            found.append(with_limits(_tier(name, mission, arms, box, flights, folder, fly), mission, fly))
+            if shown:
+                shown(done, len(chosen))
+    return Certificate(mission.mission.name, tuple(found), _versions())
+
+
+def _tier(
+    name: str,
+    mission: Mission,
+    arms: ArmBox,
+    box: Mapping[str, float] | None,
+    flights: int,
+    folder: str | Path | None,
+    fly: bool,
+) -> Tier:
+    """One tier of a mission."""
+    if name == "linear":
+        return linear_tier(mission)
+    if name == "structured":
+        return structured_tier(mission, box or DEFAULT_BOX)
+    if name == "person":
+        return person_tier(mission, arms, fly=fly)
+    if name == "nonlinear":
+        return nonlinear_tier(mission, fly=fly)
+    if folder is not None:
+        return statistics_tier(mission, Path(folder), flights)
+    with tempfile.TemporaryDirectory() as aside:
+        return statistics_tier(mission, Path(aside) / "study", flights)
+
+
+def _versions() -> dict[str, str]:
+    found = dict[str, str]()
+    for name in PACKAGES:
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:
+            continue
+    return found
 
 
 def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, cast
 
-from tandemlift.analysis.learning.tasks import TASKS
+from tandemlift.apps.export.gymnasium_tasks import TASKS
 from tandemlift.core.errors import extra
 
 
@@ -17,7 +17,7 @@ def register_environments() -> None:
     with extra("gymnasium", "an environment for learning"):
         from gymnasium.envs.registration import register, registry
 
-    from tandemlift.analysis.learning.environments import FlightEnv, FlightVectorEnv
+    from tandemlift.apps.export.gymnasium_environments import FlightEnv, FlightVectorEnv
 
     for task in TASKS:
         name = f"tandemlift/{task}-v0"

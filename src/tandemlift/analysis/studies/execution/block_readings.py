@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.learning.block_memory import BlockOfFlights, EndedFlights
-from tandemlift.analysis.learning.lanes import Lanes, lane_numbers
+from tandemlift.analysis.studies.execution.block_memory import BlockOfFlights, EndedFlights
+from tandemlift.analysis.studies.execution.lanes import Lanes, lane_numbers
 from tandemlift.core.findings import Finding
 from tandemlift.core.types import Array, leaves, unflat
 from tandemlift.missions import Mission

@@ -9,9 +9,16 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tandemlift.analysis.learning.block_memory import BlockOfFlights, EndedFlights
-from tandemlift.analysis.learning.block_readings import BlockReadings
-from tandemlift.analysis.learning.lanes import Keys, Lanes, checked_actions, lane_numbers, one_for_each, steps_before
+from tandemlift.analysis.studies.execution.block_memory import BlockOfFlights, EndedFlights
+from tandemlift.analysis.studies.execution.block_readings import BlockReadings
+from tandemlift.analysis.studies.execution.lanes import (
+    Keys,
+    Lanes,
+    checked_actions,
+    lane_numbers,
+    one_for_each,
+    steps_before,
+)
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array, flat, leaves
 from tandemlift.missions import MissionLike, mission_of

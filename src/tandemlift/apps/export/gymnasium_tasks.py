@@ -10,7 +10,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.learning.block import Actions, Block
+from tandemlift.analysis.studies.execution.block import Actions, Block
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.missions import Mission

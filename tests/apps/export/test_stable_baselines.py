@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.analysis.learning.tasks import TASKS
+from tandemlift.apps.export.gymnasium_tasks import TASKS
 
 pytestmark = [pytest.mark.learning, pytest.mark.filterwarnings("ignore")]
 

@@ -7,8 +7,8 @@ from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode
 
 import tandemlift as tl
-from tandemlift.analysis.learning.environments import FlightVectorEnv
-from tandemlift.analysis.learning.tasks import TASKS
+from tandemlift.apps.export.gymnasium_environments import FlightVectorEnv
+from tandemlift.apps.export.gymnasium_tasks import TASKS
 
 NAMES = sorted(TASKS)
 tl.register_environments()

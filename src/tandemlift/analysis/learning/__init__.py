@@ -1,1 +1,0 @@
-"""Many flights that step together from Python (`tl.Block`), and environments of Gymnasium over them."""
