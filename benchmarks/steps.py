@@ -64,7 +64,7 @@ def step(name, kind, repeats=5):
     missions = [load(name)] if kind == "alone" else [lane(name, i) for i in range(8)]
     if traced:
         exec(PLAN, globals())
-        best(loop_code(FlightPlan(missions[0])).loop(len(missions)))
+        best(code_of(missions))
     found = []
     for _ in range(repeats + 1):
         flown = [tl.fly(missions[0]).metrics()] if kind == "alone" else tl.fly_many(missions, "metrics", threads=1)

@@ -57,9 +57,9 @@ def _fly_compiled(
     """Fly one flight, or up to LANES of one variant and grid; diverged ones are flown again alone, to stop in time."""
     p, count = flights[0], len(flights)
     lanes = [*flights, *[flights[-1]] * (LANES - count)] if count > 1 else flights
-    memory = FlightMemory(
-        p.loop_code.loop(len(lanes), going), [f.start() for f in lanes], p.grid(rows, every), leaves(p.sample)
-    )
+    starts = [f.start() for f in lanes]
+    code = p.loop_code.loop(len(lanes), going, differ=p.loop_code.parts_that_differ(starts))
+    memory = FlightMemory(code, starts, p.grid(rows, every), leaves(p.sample))
     began, early = time.perf_counter(), [EMPTY] * len(lanes)
     for k in _stretches(p, memory, going):
         if k == p.late_step < p.steps:
