@@ -54,6 +54,12 @@ except ImportError:  # a base of before this folder
     from tandemlift.prepared import Prepared as FlightPlan
 def loop_code(plan):
     return plan.loop_code if hasattr(plan, 'loop_code') else plan.kernels
+def code_of(missions):  # that these fly in together
+    plans = [FlightPlan(mission) for mission in missions]
+    code = loop_code(plans[0])
+    own = hasattr(code, 'parts_that_differ') and len(plans) > 1  # not a base of before scalars
+    differ = {'differ': code.parts_that_differ([plan.start() for plan in plans])} if own else {}
+    return code.loop(len(plans), **differ)
 """
 FIRST = f"{LOAD}tl.fly(mission, progress=first)"
 BEST = f"""{LOAD}

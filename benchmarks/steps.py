@@ -5,7 +5,8 @@ code throughout. With `--base PATH` the same is measured in another checkout, tu
 over the pairs. How a base of Numba is set up is said in `compiling.py`.
 
 A block's eight flights differ in their seed and in what the body weighs; with real rotors two of them lose one, at
-different times. In missions with "rates" the IMU gives 250 samples a second, the motion measurement 125.
+different times. Those of "seeds" differ in their seed alone: their block reads most parameters as scalars. In missions
+with "rates" the IMU gives 250 samples a second, the motion measurement 125.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ MISSIONS = (
     *("iris, rates", "zigzag, rates"),
 )
 PILOTS = ("paper", "iris")
-KINDS = ("alone", "block", "pilot")
+KINDS = ("alone", "block", "seeds", "pilot")
 MEASURE = (
     f"""
 PLAN = {PLAN!r}
@@ -61,10 +62,11 @@ def lane(name, i):
     return load(name, {**changes, **({"faults": [fault]} if can_fail else {})})
 
 def step(name, kind, repeats=5):
-    missions = [load(name)] if kind == "alone" else [lane(name, i) for i in range(8)]
+    made = (lambda i: load(name, {"mission.seed": i})) if kind == "seeds" else lambda i: lane(name, i)
+    missions = [load(name)] if kind == "alone" else [made(i) for i in range(8)]
     if traced:
         exec(PLAN, globals())
-        best(loop_code(FlightPlan(missions[0])).loop(len(missions)))
+        best(code_of(missions))
     found = []
     for _ in range(repeats + 1):
         flown = [tl.fly(missions[0]).metrics()] if kind == "alone" else tl.fly_many(missions, "metrics", threads=1)
@@ -138,8 +140,9 @@ def main() -> None:
                 [measured(c, caches[i], name, kind) for i, c in enumerate(checkouts)] for _ in range(options.rounds)
             ]
             results[f"{name}, {kind}"] = turns
-            what = {"alone": f"`{name}`", "block": f"`{name}`, eight at once", "pilot": f"`Pilot.step` of `{name}`"}
-            rows.append(row(what[kind], turns, 8 if kind == "block" else 1))
+            many = {"block": f"`{name}`, eight at once", "seeds": f"`{name}`, eight seeds"}
+            what = {"alone": f"`{name}`", **many, "pilot": f"`Pilot.step` of `{name}`"}
+            rows.append(row(what[kind], turns, 8 if kind in many else 1))
     print(heading(about), *[c.about for c in checkouts], sep="\n\n", end="\n\n")
     print(table(HEADER, rows))
     load = f"{os.getloadavg()[0]:.2f}" if hasattr(os, "getloadavg") else "unknown"

@@ -18,7 +18,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from compiling import HERE, PACKAGES, Checkout
+from compiling import HERE, PACKAGES, PLAN, Checkout
 from machine import NO_RESULT, describe, heading, number, save, table
 from waiting import PATIENCE
 
@@ -29,11 +29,12 @@ MISSIONS: dict[str, dict[str, Any]] = {  # common changes
 }
 FLIGHTS = {"one-push": 400, "paper": 160, "iris": 80}  # a turn
 THREADS = (1, 2)
-PREPARING = """
+PREPARING = (
+    PLAN
+    + """
 import json, sys, time, warnings
 warnings.simplefilter("ignore")
 import tandemlift as tl
-from tandemlift.simulation.plan import FlightPlan
 try:
     from tandemlift.missions.loading import MissionTemplate
 except ImportError:  # a base of before
@@ -49,9 +50,7 @@ def missions(count):
     template = MissionTemplate.read(name, common, quiet=True)
     return (template.mission(changes(i)) for i in range(count))
 
-first, = missions(1)
-plan = FlightPlan(first)
-code = (plan.loop_code if hasattr(plan, "loop_code") else plan.kernels).loop(8)  # a base of before
+code = code_of(list(missions(8)))
 code.optimise()
 while not code.is_best:
     time.sleep(0.05)
@@ -64,6 +63,7 @@ spent = time.process_time()
 tl.fly_many(missions(count), "metrics", 1)
 print(json.dumps([1e3 * seconds / count for seconds in (wall, cpu, time.process_time() - spent)]))
 """
+)
 COLUMNS = ("wall", "processor", "Python")
 
 

@@ -95,6 +95,24 @@ def test_missions_of_an_iterator_are_read_while_others_fly_and_come_back_in_orde
     assert all(flown <= total <= 200 for flown, total in totals)
 
 
+def test_flights_are_sorted_by_when_rotors_fail_and_come_back_in_the_order_given(monkeypatch):
+    monkeypatch.setattr(fly_module, "SORTED", 2 * LANES)
+    template = MissionTemplate.read("rotor-loss", {"mission.duration": 1.5, "phases.lift_start": 0.1}, quiet=True)
+    times = [
+        *np.random.default_rng(0).permutation(np.linspace(0.3, 1.4, 2 * LANES + 3)),
+        *[9.0 + i for i in range(LANES)],
+    ]
+    missions = [template.mission({"mission.seed": i, "faults.0.time": float(t)}) for i, t in enumerate(times)]
+    groups = fly_module._FlightGroups(missions, False)
+    blocks = [sorted(times[place] for place in group.places) for group in iter(groups.take, None)]
+    assert sorted(map(len, blocks)) == [3, LANES, LANES, LANES]
+    assert [9.0 + i for i in range(LANES)] in blocks  # after the end, where they are alike and wait for no others
+    early, late = (block for block in blocks if len(block) == LANES and block[0] < 1.5)
+    assert max(early) < min(late)
+    for flown, mission in zip(tl.fly_many(missions), missions, strict=True):
+        assert different(flown, tl.fly(mission)) == []
+
+
 def test_no_more_missions_wait_for_others_of_their_variant_than_allowed(monkeypatch):
     monkeypatch.setattr(fly_module, "WAITING", 20)
     read, ahead = [], []

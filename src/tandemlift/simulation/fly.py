@@ -24,6 +24,7 @@ from tandemlift.simulation.stepping import body_of, fly_stepwise
 
 STRETCH = 0.1  # s of flight code between updates of the progress bar and checks for Ctrl-C
 FIRST_STRETCH = 5_000  # steps of the first stretch of code
+SORTED = 8 * LANES  # flights of one variant that are sorted before they are cut into blocks
 WAITING = 64 * LANES  # flights, at most, that wait for others of their variant
 
 
@@ -57,9 +58,9 @@ def _fly_compiled(
     """Fly one flight, or up to LANES of one variant and grid; diverged ones are flown again alone, to stop in time."""
     p, count = flights[0], len(flights)
     lanes = [*flights, *[flights[-1]] * (LANES - count)] if count > 1 else flights
-    memory = FlightMemory(
-        p.loop_code.loop(len(lanes), going), [f.start() for f in lanes], p.grid(rows, every), leaves(p.sample)
-    )
+    starts = [f.start() for f in lanes]
+    code = p.loop_code.loop(len(lanes), going, differ=p.loop_code.parts_that_differ(starts))
+    memory = FlightMemory(code, starts, p.grid(rows, every), leaves(p.sample))
     began, early = time.perf_counter(), [EMPTY] * len(lanes)
     for k in _stretches(p, memory, going):
         if k == p.late_step < p.steps:
@@ -67,17 +68,12 @@ def _fly_compiled(
         if progress:
             progress(k, p.steps)
     wall = (time.perf_counter() - began) / count
-    states = memory.numbers.reshape(-1, len(lanes))[: leaves(p.model.flight_state)]
+    like = p.model.flight_state
+    states = memory.numbers.reshape(-1, len(lanes))[: leaves(like)]
     last = memory.work[memory.span("sample")].reshape(-1, len(lanes)) if count > 1 else memory.last[:, None]
+    logs = [log.copy() for log in memory.log[:count]] if count > 1 else memory.log  # copies let go of all lanes
     flown = [
-        RawResult(
-            unflat(states[:, i], p.model.flight_state),
-            early[i],
-            min(memory.k, p.steps),
-            memory.log[i].copy() if count > 1 else memory.log[0],  # a copy lets go of the other lanes' logs
-            last[:, i].copy(),
-            wall,
-        )
+        RawResult(unflat(states[:, i], like), early[i], min(memory.k, p.steps), logs[i], last[:, i].copy(), wall)
         for i in range(count)
     ]
     if count == 1:
@@ -217,6 +213,18 @@ class _FlightGroup(NamedTuple):
     flights: list[FlightPlan]
     refusal: InputError | None = None
 
+    def pop(self, numbers: Sequence[int]) -> _FlightGroup:
+        """Take some of them out."""
+        taken = _FlightGroup([self.places[i] for i in numbers], [self.flights[i] for i in numbers])
+        for i in sorted(numbers, reverse=True):
+            del self.places[i], self.flights[i]
+        return taken
+
+    def blocks(self) -> Iterator[_FlightGroup]:
+        """Take out all, at most LANES at once, in the order of what happens in the flights."""
+        while self.flights:
+            yield self.pop(sorted(range(len(self.flights)), key=lambda i: self.flights[i].regime)[:LANES])
+
 
 class _FlightGroups:
     """The groups of some missions, for any number of threads: each takes the next group when it is free.
@@ -238,11 +246,7 @@ class _FlightGroups:
         self._lock = threading.Lock()
 
     def take(self) -> _FlightGroup | None:
-        """The next group; None if there is no other.
-
-        Raises:
-            InputError: a mission cannot be built.
-        """
+        """The next group; None if there is no other. An `InputError` if a mission cannot be built."""
         with self._lock:
             return next(self._groups, None)
 
@@ -266,8 +270,11 @@ class _FlightGroups:
             return error
 
     def _grouped(self, missions: Iterable[MissionLike]) -> Iterator[_FlightGroup]:
-        """Groups of flights of one variant and grid, at most LANES; stepwise flights alone."""
-        waiting, count = OrderedDict[Any, _FlightGroup](), 0
+        """Groups of flights of one variant and grid, at most LANES; stepwise flights alone.
+
+        A block takes as long as if what happens in a lane happened in all, so flights wait for others of their regime.
+        """
+        waiting = OrderedDict[Any, _FlightGroup]()
         for place, mission in enumerate(missions):
             self.read, p = place + 1, self._plan(mission)
             if isinstance(p, InputError):
@@ -279,10 +286,14 @@ class _FlightGroups:
                 group = waiting.setdefault(key, _FlightGroup([], []))
                 group.places.append(place)
                 group.flights.append(p)
-                count += 1
-                full = len(group.flights) == LANES
-                if full or count > WAITING:  # a full group, else the one that waits longest
-                    group = waiting.pop(key) if full else waiting.popitem(last=False)[1]
-                    count -= len(group.flights)
-                    yield group
-        yield from waiting.values()
+                alike = [i for i, flight in enumerate(group.flights) if flight.regime == p.regime]
+                if len(alike) == LANES:
+                    yield group.pop(alike)
+                elif len(group.flights) == SORTED:
+                    yield from group.blocks()
+                elif sum(len(g.flights) for g in waiting.values()) > WAITING:  # the group that waits longest flies
+                    yield from waiting.popitem(last=False)[1].blocks()
+                if not group.flights:
+                    waiting.pop(key, None)
+        for group in waiting.values():
+            yield from group.blocks()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -26,7 +27,6 @@ from tandemlift.simulation.preparation.traced_assembly import assembled_by_graph
 INPUT = PilotInput(
     State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Absent(), NO_REQUEST, UNKNOWN_STATUS
 )
-SHAPE, FLOAT64 = (16,), np.dtype(np.float64)
 
 
 def pilot_at_start(mission: Mission) -> PilotData:
@@ -57,7 +57,8 @@ class Pilot:
         self._numbers = np.array(flat(self._start))
         self.thrusts: Array = np.zeros(4 * len(mission.vehicle.quadrotors))
         self._input = np.zeros(leaves(INPUT))
-        self._measurement, self._moment, self._requests = self._input[:16], self._input[16:19], self._input[19:23]
+        self._measurement: Any = self._input[:16].data  # takes such an array only, and faster than an array does
+        self._moment, self._requests = self._input[16:19], self._input[19:23]
         self._has_moment, self._last_requests = False, (False, False, False, False)
 
     @cached_property
@@ -101,10 +102,11 @@ class Pilot:
         Raises:
             InputError: the measurement is not a float64 array of 16 numbers.
         """
-        if type(measurement) is not np.ndarray or measurement.shape != SHAPE or measurement.dtype != FLOAT64:
+        try:
+            self._measurement[:] = measurement
+        except (TypeError, ValueError, NotImplementedError) as error:
             given = f"{getattr(measurement, 'dtype', type(measurement).__name__)} {np.shape(measurement)}"
-            raise InputError(f"measurement is {given}: must be a float64 array of shape {SHAPE}")
-        self._measurement[:] = measurement
+            raise InputError(f"measurement is {given}: must be a float64 array of shape (16,)") from error
         if moment is not None or self._has_moment:
             self._moment[:] = 0.0 if moment is None else moment
             self._has_moment = moment is not None

@@ -100,6 +100,12 @@ class FlightPlan:
         return math.ceil(LATE / self.dt - 1e-9)
 
     @cached_property
+    def regime(self) -> tuple[float, ...]:
+        """What happens in the flight that takes code of its own: the number of walls, and when rotors fail [s]."""
+        times = sorted(min(fault.time, self.mission.mission.duration) for fault in self.mission.faults)
+        return len(self.tables.walls), *times
+
+    @cached_property
     def loop_code(self) -> LoopCode:
         """The compiled loops of this variant."""
         return LOOP_CODE.of(self.variant, lambda: LoopCode(self.model, self.given, fuses=self.mission.mission.fma))

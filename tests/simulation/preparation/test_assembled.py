@@ -90,8 +90,8 @@ def test_a_step_in_pieces_has_the_bits_of_the_step_in_one(mission, largest, tmp_
     mission = tl.load_mission(mission, {"mission.duration": 4.0})
     whole, writers = tl.fly(mission), []
 
-    def in_pieces(traced, lanes):
-        writers.append(LoopWriter(traced, lanes, largest=largest))
+    def in_pieces(traced, lanes, alike):
+        writers.append(LoopWriter(traced, lanes, largest=largest, alike=alike))
         return writers[-1]
 
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path))

@@ -19,6 +19,7 @@ from tandemlift.compiler.tracer.text import BASE, Module, constant
 
 BINARY = frozenset(["fadd", "fsub", "fmul", "fdiv", "add", "sub", "mul", "and", "or", "xor", "shl", "ashr"])
 INTRINSICS = {"fma": "fma", "sqrt": "sqrt", "fabs": "fabs", "floor": "floor"}
+NOWHERE = Place("", 0)
 Read = Callable[[int], "str | Place"]
 
 
@@ -30,7 +31,8 @@ class Function(GraphText):
         graph: the graph whose nodes it computes.
         lanes: numbers in a value, one for each flight.
         head: its name and parameters, as in `i64 @fly(ptr %c)`.
-        uniform: kinds of inputs that are equal in all lanes.
+        uniform: kinds of inputs that are equal in all lanes, or single ones as (kind, index), whose number stands in
+            the first place of its vector in memory.
 
     Attributes:
         read: for each kind of input, a function from its index to its text or place.
@@ -41,7 +43,7 @@ class Function(GraphText):
         seldom: whether what is written now runs seldom, and needs no other order than that of creation.
     """
 
-    def __init__(self, module: Module, graph: Graph, lanes: int, head: str, uniform: Iterable[str] = ()) -> None:
+    def __init__(self, module: Module, graph: Graph, lanes: int, head: str, uniform: Iterable[Any] = ()) -> None:
         super().__init__(module, lanes, head)
         self.graph, self.sets, self.orders = graph, Sets(self), lanes > 1 and not graph.rolls_from
         self.same, self.seldom = dict[int, int](), False
@@ -82,7 +84,7 @@ class Function(GraphText):
             if g.counts[i]:
                 known.append(False)
             elif g.ops[i] in LEAVES:
-                known.append(g.ops[i] == "const" or g.args[i][0] in self._uniform_kinds)
+                known.append(g.ops[i] == "const" or not self._uniform_kinds.isdisjoint((g.args[i][0], g.args[i])))
             else:
                 known.append(all(known[a] for a in g.args[i]))
         return known[node]
@@ -118,13 +120,15 @@ class Function(GraphText):
         if g.ops[node] == "const":
             text = constant(g.args[node][0])
             return f"splat ({BASE[g.types[node]]} {text})" if spread and self.lanes > 1 else text
-        if spread and self.lanes > 1 and self.is_uniform(node):
-            if node not in self._spread:
-                self._spread[node] = self.spread(self._values[node], BASE[g.types[node]])
-            return self._spread[node]
-        if node not in self._values:
-            return self._text_of(self._given(node))
-        return self._values[node]
+        alike, base = self.lanes > 1 and self.is_uniform(node), BASE[g.types[node]]
+        if node not in self._values:  # read where it is used, each time anew
+            text = self._text_of(self._given(node), base if alike else self.vector)
+            return self.spread(text, base) if alike and spread else text
+        if not (alike and spread):
+            return self._values[node]
+        if node not in self._spread:
+            self._spread[node] = self.spread(self._values[node], base)
+        return self._spread[node]
 
     def _given(self, node: int) -> str | Place:
         if node in self.kept:
@@ -170,11 +174,11 @@ class Function(GraphText):
             for node in nodes:
                 self.write_number(node)
 
-    def _write_ordered(self, nodes: list[int], to: NumbersInMemory, base: str = "", at: str | int = 0) -> None:
-        """Write nodes in an order of few waiting values; with `base`, numbers to memory as soon as that is possible."""
+    def _write_ordered(self, nodes: list[int], to: NumbersInMemory, base: Place = NOWHERE) -> None:
+        """Write nodes in an order of few waiting values, and numbers to memory as soon as that is possible."""
         work = [node for node in nodes if not self.is_leaf(node)]
         for node in set(nodes).difference(work):
-            if self.is_uniform(node):
+            if self.graph.args[node][0] in self._uniform_kinds:
                 self.write_number(node)
         operands = dict.fromkeys(work, ()) if self.seldom else self._operands(work)
         order, stores = best_order(self.graph, operands, to, self.same, seldom=self.seldom)
@@ -182,7 +186,7 @@ class Function(GraphText):
             if node >= 0:
                 self.write_number(node)
             for i, value in [(i, self.operand(to.numbers[i])) for i in stores.get(place, ())]:
-                self.store(value, base, self.integer("add", at, i))
+                self.store(value, base.base, self.offset(base, i))
 
     def hold(self, nodes: Iterable[int]) -> None:
         """Read inputs now, whatever is written to memory later."""
@@ -198,8 +202,9 @@ class Function(GraphText):
         done: set[int] | None = None,
         later: Sequence[Symbol] = (),
         unknown: Container[str] = (),
+        stride: str | int = 1,
     ) -> None:
-        """Write numbers to consecutive memory, in which the inputs of `kind` stand, and no other of their inputs.
+        """Write numbers to memory, one every `stride` places, where the inputs of `kind` stand, and none of the others.
 
         In a block, each is written as soon as nothing reads the old one any more. `more` are computed too. `done` holds
         the places of numbers written before, and gets theirs. While kinds of input are `unknown`, only those numbers
@@ -208,7 +213,7 @@ class Function(GraphText):
         if not self.orders:
             if more:
                 self.values([*symbols, *more])
-            self.put(base, at, symbols, kind)
+            self.put(base, at, symbols, kind, stride)
             return
         g, done, late = self.graph, set() if done is None else done, set[int]()
         numbers, also = ([self.same.get(s.node, s.node) for s in given] for given in (symbols, more))
@@ -220,7 +225,7 @@ class Function(GraphText):
             known = {n for n in nodes if not self.is_leaf(n)} | self.known() | self.kept.keys()
             read = [g.args[n] for n in g.needed([s.node for s in later], known) if g.ops[n] == "in"]
             late |= {i for of, i in read if of == kind}
-        self._write_ordered(nodes, NumbersInMemory(numbers, kind, also, late | done), base, at)
+        self._write_ordered(nodes, NumbersInMemory(numbers, kind, also, late | done), Place(base, at, stride))
         done |= set(range(len(numbers))) - late
 
     def write_number(self, node: int) -> None:
@@ -230,7 +235,7 @@ class Function(GraphText):
         if op == "const" or node in self._values:  # the reader of an input may compute other nodes
             return
         if self.is_leaf(node):
-            self._values[node] = self._text_of(self._given(node))
+            self._values[node] = self._operand(node, spread=False)
         elif op.startswith("get "):
             at = self.sets.places[args[0]]
             self._values[node] = self.load(at.base, self.integer("add", at.first, int(op[4:]) * at.stride))
@@ -239,15 +244,19 @@ class Function(GraphText):
             operands = [self._operand(a, not uniform) for a in args]
             self._values[node] = self.op(self.instruction(node, lambda t: self._kind(t, uniform), operands))
 
-    def _text_of(self, given: str | Place) -> str:
-        return self.load(given.base, given.first) if isinstance(given, Place) else given
+    def _text_of(self, given: str | Place, kind: str) -> str:
+        if not isinstance(given, Place):
+            return given
+        return self.load(
+            given.base, given.first if kind == self.vector else self.integer("mul", given.first, self.lanes), kind
+        )
 
-    def put(self, base: str, at: str | int, symbols: Sequence[Symbol], kind: str = "") -> None:
-        """Write numbers to consecutive memory, the values of a set in a loop.
+    def put(self, base: str, at: str | int, symbols: Sequence[Symbol], kind: str = "", stride: str | int = 1) -> None:
+        """Write numbers to memory, one every `stride` places, the values of a set in a loop.
 
         Everything is computed before anything is written. Inputs of `kind` are in place already.
         """
-        self.sets.put(base, at, symbols, kind)
+        self.sets.put(Place(base, at, stride), symbols, kind)
 
     def instruction(self, node: int, kind_of: Callable[[str], str], x: list[str]) -> str:
         """The instruction that computes a node from operands; `kind_of`: LLVM's name for a type of the graph."""

@@ -24,7 +24,7 @@ class Place(NamedTuple):
 
     base: str
     first: str | int
-    stride: int = 1
+    stride: str | int = 1
 
 
 class GraphText(Text):
@@ -41,6 +41,10 @@ class GraphText(Text):
     read: dict[str, Callable[[int], str | Place]]
     kept: dict[int, Callable[[], str | Place]]
     sets: Sets
+
+    def offset(self, to: Place, i: int) -> str:
+        """The offset of value `i` of a place."""
+        return self.integer("add", to.first, i if to.stride == 1 else self.integer("mul", i, to.stride))
 
     @abstractmethod
     def values(self, symbols: Iterable[Symbol]) -> list[str]:
@@ -133,8 +137,7 @@ class Loop:
 
     def address(self, at: Place) -> str:
         """Address of the first value of this iteration."""
-        f = self.f
-        return f.at(at.base, f.integer("add", at.first, f.integer("mul", self.i, at.stride)))
+        return self.f.at(at.base, self.f.integer("add", at.first, self.f.integer("mul", self.i, at.stride)))
 
     def truth(self, node: int, value: str) -> str:
         """A truth from its stored form, 1.0 or 0.0; numbers as they are."""
@@ -144,8 +147,7 @@ class Loop:
 
     def constant(self, value: float) -> str:
         """A constant for all values of this iteration."""
-        text = double(value)
-        return text if self.kind("f") == "double" else f"splat (double {text})"
+        return double(value) if self.kind("f") == "double" else f"splat (double {double(value)})"
 
     def store(self, node: int, to: Place) -> None:
         """Store the values of this iteration."""
@@ -254,21 +256,20 @@ class Sets:
             f.store(text if f.lanes == 1 else f"splat (double {text})", to.base, f.integer("add", to.first, i))
         return to
 
-    def put(self, base: str, at: str | int, symbols: Sequence[Symbol], kind: str = "") -> None:
+    def put(self, to: Place, symbols: Sequence[Symbol], kind: str = "") -> None:
         """See `llvm.Function.put`."""
         f = self.f
         parts = [part for part in self._parts(symbols) if not self._stays(part, kind)]
-        values = f.values(Symbol(f.graph, part.node, "f") for part in parts if not part.size)
+        numbers = iter(f.values(Symbol(f.graph, part.node, "f") for part in parts if not part.size))
         sources = [part.node for part in parts if part.size]
         f.write(sources)
-        moved = {node: self._copy_source(node, base) for node in sources}
-        numbers = iter(values)
+        moved = {node: self._copy_source(node, to.base) for node in sources}
         for part in parts:
-            place = f.integer("add", at, part.first)
+            place = Place(to.base, f.offset(to, part.first), to.stride)
             if part.size:
-                self._copy(moved[part.node], f.graph.counts[part.node], Place(base, place))
+                self._copy(moved[part.node], f.graph.counts[part.node], place)
             else:
-                f.store(next(numbers), base, place)
+                f.store(next(numbers), *place[:2])
 
     def _parts(self, symbols: Sequence[Symbol]) -> Iterator[Part]:
         g, i = self.f.graph, 0

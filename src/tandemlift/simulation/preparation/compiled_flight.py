@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Sequence
 from functools import cached_property
+
+import numpy as np
 
 from tandemlift.compiler.machine_code import machine
 from tandemlift.compiler.machine_code.code import Code, Written
 from tandemlift.compiler.machine_code.store import key_of
 from tandemlift.compiler.tracer import Function
 from tandemlift.core.progress import always
-from tandemlift.simulation.loop.sources import delayed_spans
+from tandemlift.simulation.loop.sources import LeafSpan, delayed_spans, leaf_offset
 from tandemlift.simulation.loop.step import FlightModel, StepInputs
 from tandemlift.simulation.preparation.loops import LoopWriter
-from tandemlift.simulation.preparation.memory import AT, WORDS
+from tandemlift.simulation.preparation.memory import AT, WORDS, FlightStart
 from tandemlift.simulation.preparation.templates import PythonController, templates_from
 from tandemlift.simulation.preparation.traced_step import TracedStep
 
 CALL = ("contexts", "first", "end", "stop", "actions", "rows", "lanes", "place", "halted")  # words of `fly_blocks`
+
+PARTS = FlightModel._fields[1:]  # those with parameters
+DRAWN = "sensors"  # the one with numbers that are drawn by the seed
 
 
 class LoopCode:
@@ -31,6 +36,7 @@ class LoopCode:
         self.templates, self.fuses = templates_from(model, given), fuses
         self.delayed = delayed_spans(self.templates.model)
         self._lock, self._codes = threading.RLock(), dict[tuple[str, int], Code]()
+        self._own = set[str]()
 
     @cached_property
     def calls_python(self) -> bool:
@@ -42,13 +48,32 @@ class LoopCode:
         """The graph of a step."""
         return TracedStep(self.templates, self.calls_python, fuses=self.fuses)
 
-    def loop(self, lanes: int, going: Callable[[], bool] = always) -> Code:
+    def loop(self, lanes: int, going: Callable[[], bool] = always, *, differ: Collection[str] = ()) -> Code:
         """`fly`, the loop over steps, for one flight or for a block of LANES; compiled only while `going()` is true.
+
+        The code of a block reads as scalars the parameters of parts in which its lanes do not `differ`. The first block
+        decides which these are; for blocks that this does not fit, there is code without such scalars.
 
         Raises:
             Stopped: `going()` was false before the compilation began.
         """
-        return self._code("loop", lanes, ["fly", "fly_blocks"] if lanes > 1 else ["fly"], going)
+        if lanes == 1:
+            return self._code("loop", lanes, ["fly"], going)
+        with self._lock:
+            self._own = self._own or {DRAWN, *differ}
+            own = self._own if self._own.issuperset(differ) else PARTS
+        return self._code(" ".join(["loop", *sorted(own)]), lanes, ["fly", "fly_blocks"], going)
+
+    def parts_that_differ(self, starts: Sequence[FlightStart]) -> set[str]:
+        """The parts of a `FlightModel` in whose parameters flights differ by a bit; all if these have most of them."""
+        numbers = np.array([start.numbers for start in starts]).view(np.int64)
+        differ = (numbers != numbers[0]).any(axis=0)
+        found = {name: size for name, (at, size) in self._spans.items() if differ[at : at + size].any()}
+        return set(found if 2 * sum(found.values()) < sum(span.size for span in self._spans.values()) else PARTS)
+
+    @cached_property
+    def _spans(self) -> dict[str, LeafSpan]:
+        return {name: leaf_offset(self.templates.model, name) for name in PARTS}
 
     def parts(self, *, leaves_body: bool) -> Code:
         """A step in parts: `ask` up to a controller in Python, `decide` up to another body, `complete` to its end."""
@@ -60,19 +85,21 @@ class LoopCode:
             if (kind, number) not in self._codes:
                 x = self.templates
                 key = key_of((x.model, x.given), kind, number, x.nowhere, self.fuses)
-                best = machine.BEST_OF_VECTORS if kind == "loop" and number > 1 else machine.BEST
+                best = machine.BEST_OF_VECTORS if kind != "parts" and number > 1 else machine.BEST
                 self._codes[kind, number] = Code(key, names, lambda: self._written(kind, number), best, going)
             return self._codes[kind, number]
 
     def _written(self, kind: str, number: int) -> Written:
         with self._lock:
-            step = LoopWriter(self.traced, number if kind == "loop" else 1)
-            text = step.write_loop() if kind == "loop" else step.write_parts(bool(number))
-            if kind == "loop" and number > 1:
+            (what, *own), lanes = kind.split(), 1 if kind == "parts" else number
+            alike = [span for name, span in self._spans.items() if lanes > 1 and name not in own]
+            step = LoopWriter(self.traced, lanes, alike=[i for at, size in alike for i in range(at, at + size)])
+            text = step.write_loop() if what == "loop" else step.write_parts(bool(number))
+            if lanes > 1:
                 write_many_blocks(step)
                 text = step.module.text
             spans = {name: span for name, span in step.scratch.spans.items() if "_" not in name}
-            return Written(text, {"size": step.scratch.size, "rooms": spans})
+            return Written(text, {"size": step.scratch.size, "rooms": spans, "own": own})
 
 
 def write_many_blocks(step: LoopWriter) -> None:

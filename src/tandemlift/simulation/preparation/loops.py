@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import NamedTuple
 
 from tandemlift.compiler.tracer import LEAVES, Function, Place, Symbol, double
 from tandemlift.simulation.loop.external_inputs import SPAN
@@ -27,16 +26,7 @@ from tandemlift.simulation.preparation.step_end import write_early, write_estima
 from tandemlift.simulation.preparation.step_writer import StepWriter
 from tandemlift.simulation.preparation.traced_step import Symbols
 
-
-class StepHalves(NamedTuple):
-    """A step of the loop in two halves, each to be written by a call: up to its sample, and the rest."""
-
-    sample: Callable[[], None]
-    go_on: Callable[[], None]
-
-
-def _write_nodes(nodes: list[int], f: Function) -> None:
-    f.write(nodes)
+Halves = tuple[Callable[[], None], Callable[[], None]]  # each writes a part of a step: up to its sample, and the rest
 
 
 class LoopWriter(StepWriter):
@@ -176,7 +166,7 @@ class LoopWriter(StepWriter):
         self.export("fly")
         return self.module.text
 
-    def _step_in_place(self, f: Function, steps: str) -> StepHalves:
+    def _step_in_place(self, f: Function, steps: str) -> Halves:
         x, done = self.traced, set[int]()
         early = f.orders and bool(x.limits or x.body_in_free_air)
 
@@ -196,14 +186,14 @@ class LoopWriter(StepWriter):
             if early or self.held:
                 self._copy_state(f, final, before, "%flight")
 
-        return StepHalves(sample, lambda: write_next_state(self, f, "%k", done))
+        return (sample, lambda: write_next_state(self, f, "%k", done))
 
     def _copy_state(self, f: Function, is_last: str, source: str, to: str) -> None:
         """Copy the numbers that change from step to step in the last step, which takes a sample and changes none."""
         with f.when(is_last), f.repeat(self.state_size) as i:
             f.store(f.load(source, i), to, i)
 
-    def _step_in_pieces(self, f: Function, kept: ScratchValues) -> StepHalves:
+    def _step_in_pieces(self, f: Function, kept: ScratchValues) -> Halves:
         """Write a step as functions of some `largest` operations each, which are called one after another."""
         x, sampling = self.traced, list[str]()
         end = [*x.next_state, *x.sample]
@@ -222,14 +212,14 @@ class LoopWriter(StepWriter):
             for name in sampling:
                 self.call(f, name, "i64 %k")
 
-        return StepHalves(sample, lambda: self.call(f, last, "i64 %k"))
+        return (sample, lambda: self.call(f, last, "i64 %k"))
 
     def _pieces(self, name: str, kept: ScratchValues, roots: Symbols, later: Symbols) -> list[str]:
         """Compute roots in functions of some `largest` operations each; names of the functions."""
         g, ids = self.graph, [s.node for s in roots]
         nodes = [n for n in g.needed(ids, kept.at) if g.ops[n] not in LEAVES and n not in kept.at]
         parts = [nodes[cut : cut + self.largest] for cut in range(0, len(nodes), self.largest)]
-        writers = [functools.partial(_write_nodes, part) for part in parts]
+        writers = [functools.partial(Function.write, roots=part) for part in parts]
         return [self._piece(f"{name}{i}", write, kept, [*roots, *later]) for i, write in enumerate(writers)]
 
     def _piece(self, name: str, write: Callable[[Function], None], kept: ScratchValues, later: Symbols) -> str:
@@ -287,13 +277,16 @@ class LoopWriter(StepWriter):
         """At the start of a flight or after a change: form the tables for step k and store the constant values."""
         kept = ScratchValues(self.graph, self.scratch)
         nodes = steady(self.graph, roots, self.state_size)
-        f.values(Symbol(self.graph, n, "f") for n in nodes if f.is_uniform(n))
+        f.values(Symbol(self.graph, n, "f") for n, common in nodes.items() if common)
+        own = [n for n, common in nodes.items() if not common]
+        alike = [n for n in own if f.is_uniform(n)]
         with f.when(f.op(f"icmp ne i64 {self.context_word(f, 'fresh')}, 0")):
             self.call(f, "sum_pushes", f"i64 {k}")
             if self.free_draws and self.lanes == 1:
                 self.call(f, "draw_noise", f"i64 {k}")
             f.store(double(float(self.templates.has_floor)), "%work", self.low * self.lanes, "double")
             f.put("%work", self.moved + self.moved_touches, self.traced.touches_before)
-            kept.store(f, [n for n in nodes if not f.is_uniform(n)])
+            kept.store(f, [n for n in own if not f.is_uniform(n) and self.graph.ops[n] not in LEAVES])
+            kept.store_alike(f, alike)
         kept.bind(f)
         return kept

@@ -99,6 +99,7 @@ class FlightMemory:
         numbers: of all flights, interleaved: number i of lane l stands at i · lanes + l.
         log: samples (lanes, rows, columns).
         k: the next step.
+        starts: of the flight in each lane.
         rings: rows of the delay lines.
     """
 
@@ -110,16 +111,15 @@ class FlightMemory:
         columns: int,
         shared: tuple[Numbers, Words] | None = None,
     ) -> None:
-        self.code, self.grid, self.k, lanes = code, grid, 0, len(starts)
+        self.grid, self.k, self.starts, lanes = grid, 0, list(starts), len(starts)
         own = aligned(starts[0].numbers.size * lanes), np.zeros(len(WORDS), dtype=np.int64)
         self.numbers, self._context = shared or own
         self.ring, self.keys = aligned(starts[0].ring.size * lanes), aligned(starts[0].keys.size * lanes)
-        self.work = aligned(code.about["size"] * lanes)
+        self.use(code)
         self.log, self.last = np.zeros((lanes, grid.rows, columns)), np.full(columns, np.nan)
         arrays = (self.numbers, self.work, self.ring, grid.delays, self.keys, self.log, self.last)
         for word, array in zip(WORDS, arrays, strict=False):
             self.put(word, array.ctypes.data)
-        self._starts = list(starts)
         for lane in range(lanes):
             self._write(lane)
         self._write_tables()
@@ -128,22 +128,27 @@ class FlightMemory:
         self.put("stride", grid.rows * columns)
         self.put("steps", grid.steps)
         self.put("every", grid.every)
-        self.put("fresh", 1)
         self.put("show", NEVER)
         self._context.view(np.float64)[AT["dt"]] = grid.dt
         self.address = self._context.ctypes.data
 
+    def use(self, code: Code) -> None:
+        """Fly on in other code."""
+        self.code, self.work = code, aligned(code.about["size"] * len(self.starts))
+        self.put("work", self.work.ctypes.data)
+        self.put("fresh", 1)
+
     def begin(self, lane: int, start: FlightStart) -> None:
         """Begin a flight in a lane; the others go on."""
-        same = self._starts[lane] is start or all(map(np.array_equal, self._starts[lane].tables, start.tables))
-        self._starts[lane] = start
+        same = self.starts[lane] is start or all(map(np.array_equal, self.starts[lane].tables, start.tables))
+        self.starts[lane] = start
         self._write(lane)
         if not same:
             self._write_tables()
         self.put("fresh", 1)
 
     def _write(self, lane: int) -> None:
-        start, lanes = self._starts[lane], len(self._starts)
+        start, lanes = self.starts[lane], len(self.starts)
         for array, own in ((self.numbers, start.numbers), (self.ring, start.ring), (self.keys, start.keys)):
             array.reshape(-1, lanes)[:, lane] = own.ravel()
 
@@ -156,7 +161,7 @@ class FlightMemory:
 
     @property
     def _tables_of_lanes(self) -> list[tuple[Numbers, ...]]:
-        return list(zip(*[start.tables for start in self._starts], strict=True))
+        return list(zip(*[start.tables for start in self.starts], strict=True))
 
     def put(self, word: str, value: int) -> None:
         """Set a word of the context."""

@@ -5,7 +5,8 @@ Scratch memory keeps the values that are constant within a flight, and those tha
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import functools
+from collections.abc import Sequence
 
 from tandemlift.compiler.tracer import LEAVES, Function, Graph, Place, Symbol, symbols
 from tandemlift.core.types import leaves
@@ -157,24 +158,24 @@ def _find_legs(step: StepWriter, f: Function) -> None:
                 f.store(f.load(row, m * lanes + lane, "double"), "%flight", (leg + m) * lanes + lane, "double")
 
 
-def steady(graph: Graph, roots: Symbols, state_size: int) -> list[int]:
-    """The nodes that steps need and that are constant within a flight.
+def steady(graph: Graph, roots: Symbols, state_size: int) -> dict[int, bool]:
+    """The nodes that steps need and that are constant within a flight, parameters too; whether any flight has the same.
 
     Args:
         graph: of a step.
         roots: every value that a step computes.
         state_size: how many of the flight's leading numbers change from step to step.
     """
-    constant, wanted = [False] * len(graph.ops), set[int]()
+    constant, common, wanted = [False] * len(graph.ops), [False] * len(graph.ops), set[int]()
     for node in graph.needed([s.node for s in roots]):
         op, args = graph.ops[node], graph.args[node]
-        if op == "in":
-            constant[node] = args[0] == "dt" or (args[0] == "fly" and args[1] >= state_size)
-        else:
-            constant[node] = op == "const" or all(constant[a] for a in args)
-        if not constant[node] and op not in LEAVES:
-            wanted.update(args)
-    return sorted(n for n in wanted if constant[n] and graph.ops[n] not in LEAVES and graph.types[n] == "f")
+        inner = () if op in LEAVES else args
+        common[node] = all(common[a] for a in inner) if inner else op == "const" or args[0] == "dt"
+        own = all(constant[a] for a in inner) if inner else args[0] == "fly" and args[1] >= state_size
+        constant[node] = common[node] or own
+        wanted.update(inner if not constant[node] else ())
+    found = sorted(n for n in wanted if constant[n] and graph.types[n] == "f")
+    return {n: common[n] for n in found if not (common[n] and graph.ops[n] in LEAVES)}
 
 
 class ScratchValues:
@@ -182,7 +183,7 @@ class ScratchValues:
 
     def __init__(self, graph: Graph, scratch: ScratchLayout) -> None:
         self.graph, self.scratch = graph, scratch
-        self.at: dict[int, int] = {}
+        self.at, self.alike = dict[int, int](), dict[int, int]()
 
     def store(self, f: Function, nodes: list[int]) -> None:
         """Write nodes to scratch memory."""
@@ -191,13 +192,17 @@ class ScratchValues:
             self.at[node] = self.scratch.take(f"node_{node}", g.counts[node] or 1)
         f.put("%work", first, [s for n in nodes for s in symbols(g, Symbol(g, n, "f"))])
 
+    def store_alike(self, f: Function, nodes: list[int]) -> None:
+        """Write nodes that are equal in all lanes to scratch memory, one number each."""
+        first = self.scratch.take("alike_", -(-len(nodes) // f.lanes)) * f.lanes
+        self.alike = {node: i for i, node in enumerate(nodes, first)}
+        for node, i in self.alike.items():
+            f.store(f.scalar(Symbol(self.graph, node, "f")), "%work", i, "double")
+
     def bind(self, f: Function) -> None:
         """Make a function read the stored nodes instead of computing them."""
-        for node, at in self.at.items():
-            f.kept[node] = self._place(at)
-
-    def _place(self, at: int) -> Callable[[], Place]:
-        return lambda: Place("%work", at)
+        f.kept |= {node: functools.partial(Place, "%work", at) for node, at in self.at.items()}
+        f.kept |= {node: functools.partial(f.load, "%work", i, "double") for node, i in self.alike.items()}
 
     def store_for_later(self, f: Function, later: Symbols) -> None:
         """Store the values known now that the later parts of the step need."""

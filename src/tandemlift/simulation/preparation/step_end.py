@@ -26,12 +26,15 @@ def write_sample(step: StepWriter, f: Function, k: str) -> None:
         return
     shown = f.op(f"icmp eq i64 {k}, {step.context_word(f, 'show')}")
     shown = f.op(f"or i1 {shown}, {_halts_now(step, f)}")
-    with f.when(f.op(f"or i1 {due}, {shown}")):
-        step.store_values(f, step.sample, step.traced.sample)
+    with f.when(f.op(f"or i1 {due}, {shown}")):  # never logged and shown at once
+        log, show = (f.at("%work", step.sample), "1"), (step.context_word(f, "shown"), step.context_word(f, "apart"))
+        base, stride = (
+            f.op(f"select i1 {shown}, {kind} {b}, {kind} {a}")
+            for kind, a, b in zip(("ptr", "i64"), log, show, strict=True)
+        )
+        f.update(base, 0, step.traced.sample, stride=stride)
         with f.when(logged):
             _log_lanes(step, f, row)
-        with f.when(shown):
-            _show_lanes(step, f)
 
 
 def _write_one_sample(step: StepWriter, f: Function, row: str, logged: str, final: str) -> None:
@@ -59,14 +62,6 @@ def _log_lanes(step: StepWriter, f: Function, row: str) -> None:
         with f.repeat(columns) as m:
             at = f.integer("add", f.integer("mul", f.integer("add", m, step.sample), step.lanes), lane)
             f.store(f.load("%work", at, "double"), log, f.integer("add", to, m), "double")
-
-
-def _show_lanes(step: StepWriter, f: Function) -> None:
-    """Write the sample to memory in which number m of all blocks stands together, `apart` numbers after m - 1."""
-    shown, apart = step.context_word(f, "shown"), step.context_word(f, "apart")
-    with f.repeat(len(step.traced.sample)) as m:
-        value = f.load("%work", f.integer("add", m, step.sample))
-        f.store(value, f.at(shown, f.integer("mul", m, apart), "double"))
 
 
 def _numbers_of_each_step(step: StepWriter) -> Symbols:

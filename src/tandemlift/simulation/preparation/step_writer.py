@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from tandemlift.compiler.tracer import Function, Module, Place, double
 from tandemlift.core.types import leaves
 from tandemlift.simulation.loop.external_inputs import HALVES, SPAN
@@ -9,7 +11,6 @@ from tandemlift.simulation.loop.sources import HeldPart, delayed_spans, held_par
 from tandemlift.simulation.preparation.memory import AT, MEMORY, POINTERS, ScratchLayout
 from tandemlift.simulation.preparation.traced_step import Symbols, TracedStep
 
-UNIFORM = ("dt",)
 ARGUMENTS = "ptr %c, ptr %flight, ptr %work"
 
 
@@ -20,13 +21,16 @@ class StepWriter:
         traced: the graph of a step.
         lanes: flights that one instruction serves: 1, or LANES for a block.
         largest: operations of a function, about, where a step is cut into several; 0 for a step in one function.
+        alike: numbers of a flight that are equal in all lanes.
         draw_lanes: steps that one instruction draws random numbers for, in a flight alone: a power of two up to SPAN.
     """
 
-    def __init__(self, traced: TracedStep, lanes: int, draw_lanes: int = 8, largest: int = 0) -> None:
+    def __init__(
+        self, traced: TracedStep, lanes: int, draw_lanes: int = 8, largest: int = 0, alike: Iterable[int] = ()
+    ) -> None:
         self.traced, self.templates, self.graph, self.lanes = traced, traced.templates, traced.graph, lanes
         self.module, self.scratch, self.draw_lanes, self.largest = Module(), ScratchLayout(), draw_lanes, largest
-        self.moves_body = True
+        self.moves_body, self.uniform = True, ("dt", *[("fly", i) for i in alike])
         self.width, self.draws = leaves(self.templates.given.hand.start), 0
         self.held, self.drawn, self.fresh = list[HeldPart](), dict[int, int](), dict[int, str]()
         self.state_size = leaves(self.templates.model.flight_state)
@@ -105,7 +109,7 @@ class StepWriter:
     def function(self, name: str, more: str = "", result: str = "void") -> Function:
         """An internal function whose arguments are the context %c, the flight, the scratch memory, and `more`."""
         head = f"internal {result} @{name}({MEMORY}{more}) #1"
-        f = Function(self.module, self.graph, self.lanes, head, UNIFORM)
+        f = Function(self.module, self.graph, self.lanes, head, self.uniform)
         f.lines.append(f"  %dt = load double, ptr {f.at('%c', AT['dt'], 'i64')}, align 8")
         f.sets.room = self.scratch_place
         f.read = {"fly": lambda i: Place("%flight", i), "dt": lambda i: "%dt"}

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.simulation.preparation import LANES, FlightMemory, FlightStart, LeafSpan, LoopCode, TimeGrid
+from tandemlift.simulation.preparation.compiled_flight import PARTS
 from tandemlift.simulation.preparation.memory import AT, NEVER, WORDS, Numbers, Words, aligned
 
 WORTH = 2e-4  # s of flight code in a call, from which on threads share it
@@ -47,7 +48,8 @@ class BlockOfFlights:
         self.threads, self._pace = threads, 0.0  # s for a step of eight flights
         lanes, width = len(starts), LANES
         blocks, size = lanes // width, starts[0].numbers.size
-        self.code, self._contexts = loop_code.loop(LANES), np.zeros((blocks, len(WORDS)), dtype=np.int64)
+        self.code, self._loop_code = loop_code.loop(LANES, differ=loop_code.parts_that_differ(starts)), loop_code
+        self._contexts, self._unsure = np.zeros((blocks, len(WORDS)), dtype=np.int64), set[int]()
         self.flights = aligned(lanes * size).reshape(blocks, size, width)
         apart = lanes + width  # no power of two, so that the columns share no place in the processor's cache
         self.sample = aligned(columns * apart).reshape(columns, apart)[:, :lanes]
@@ -58,15 +60,33 @@ class BlockOfFlights:
         ]
         for b, memory in enumerate(self.blocks):
             memory.put("shown", self.sample[:, b * width :].ctypes.data)
-            memory.put("apart", apart)
+            memory.put("apart", apart // width)
             memory.put("steps", NEVER)
             memory.put("every", 1 << 62)  # with `since`: never logged
             memory.put("since", NEVER)
-        self.halts, self.begun = np.ones((blocks, width)), np.zeros((blocks, width), dtype=np.int64)
+        self.halts, self.begun = np.zeros((blocks, width)), np.zeros((blocks, width), dtype=np.int64)
+        self._call = np.array(
+            [self._contexts.ctypes.data, 0, 0, 0, self.actions.ctypes.data, held[1], lanes, held[0], 0]
+        )
+        self._find_places()
+
+    def _find_places(self) -> None:
+        """Find what stands in the scratch memory of the blocks."""
         self._halting = [memory.work[memory.span("halts")] for memory in self.blocks]
         self._begun = [memory.work[memory.span("begun")].view(np.int64) for memory in self.blocks]
-        place = self.code.about["rooms"]["external"][0] + held[0]
-        self._call = np.array([self._contexts.ctypes.data, 0, 0, 0, self.actions.ctypes.data, held[1], lanes, place, 0])
+        self._external = self.code.about["rooms"]["external"][0]
+        for b in range(len(self.blocks)):
+            self._halting[b][:], self._begun[b][:] = self.halts[b], self.begun[b]
+
+    def _check_code(self) -> None:
+        """Fly on in code for lanes of any parameters, if some that have begun differ where this code has scalars."""
+        differ = set[str]().union(*[self._loop_code.parts_that_differ(self.blocks[b].starts) for b in self._unsure])
+        self._unsure.clear()
+        if not differ <= set(self.code.about["own"]):
+            self.code = self._loop_code.loop(LANES, differ=PARTS)
+            for memory in self.blocks:
+                memory.use(self.code)
+            self._find_places()
 
     @property
     def reached(self) -> Words:
@@ -80,6 +100,8 @@ class BlockOfFlights:
     def begin(self, lane: int, start: FlightStart) -> None:
         """Begin a flight in a lane at the next step of its block."""
         b, place = divmod(lane, LANES)
+        if self.blocks[b].starts[place] is not start:
+            self._unsure.add(b)
         self.blocks[b].begin(place, start)
         self.begun[b, place] = self._begun[b][place] = self.reached[b]
         self.sample[:, lane] = np.nan
@@ -103,6 +125,7 @@ class BlockOfFlights:
         """The samples of a block at its present step (columns, 8), taken without a step and without actions."""
         own, memory, k = slice(b * LANES, (b + 1) * LANES), self.blocks[b], int(self.reached[b])
         before = self.sample[:, own].copy(), self.actions[:, own].copy()
+        self._check_code()
         self.actions[:, own] = 0.0
         memory.put("steps", k)
         self._fly_some(k + 1, b, b + 1)
@@ -118,6 +141,7 @@ class BlockOfFlights:
         Returns:
             The number of blocks in which one has ended.
         """
+        self._check_code()
         count, steps = len(self.blocks), stop - int(self.reached.min())
         parts = max(1, min(self.threads, count, int(self._pace * count * steps / WORTH)))
         began, cuts = time.perf_counter(), [count * i // parts for i in range(parts + 1)]
@@ -137,6 +161,7 @@ class BlockOfFlights:
     def _fly_some(self, stop: int, first: int, end: int) -> int:
         call = self._call.copy()
         call[1:4] = first, end, stop
+        call[-2] += self._external
         self.code.free["fly_blocks"](call.ctypes.data)
         return int(call[-1])
 
