@@ -25,10 +25,9 @@ from tandemlift.analysis.linearization.loop_margins import NO_KINK
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
-from tandemlift.simulation.simulation import Simulation
 
 SLOWEST, FASTEST, POINTS = 0.03, 300.0, 240  # rad/s
-BEYOND, PUSHED = 0.2, 2.5  # N beyond the threshold, and s, of the push in which the model is formed
+BEYOND, LASTS, REACH = 0.2, 1.0, 5.0  # N beyond the threshold and s of the push in whose middle the model is formed
 LARGEST = 1e5  # N/m, kg, s: more is not tried
 ACCURACY = 5e-3  # relative
 GROWS = 1e-6  # beyond 1, of an eigenvalue that grows
@@ -70,12 +69,11 @@ def felt_admittance(mission: Mission, changes: dict[str, Any] | None = None) -> 
         InputError: the controller is plain Python, a change is invalid, or the flight is lost.
     """
     hover, at = hover_as_flown(mission)
-    hover = with_keys(hover, {"mission.duration": at + 2.0 * PUSHED, **(changes or {})})
-    sim = Simulation(hover)
-    sim.step(steps=round(at / sim.dt))
-    sim.step([x + BEYOND for x in hover.admittance.threshold], steps=round(PUSHED / sim.dt))
-    groups = ["push_force", "push_moment"], ["velocity", "rates"]
-    model = linearize(sim, inputs=groups[0], outputs=groups[1], kink_tolerance=NO_KINK).connected()
+    top = at + REACH * LASTS
+    pushes = [{"force": [x + BEYOND for x in mission.admittance.threshold], "time": top, "sigma": LASTS}]
+    hover = with_keys(hover, {"pushes": pushes, "mission.duration": top + 1.0, **(changes or {})})
+    inputs, outputs = ["push_force", "push_moment"], ["velocity", "rates"]
+    model = linearize(hover, top, inputs=inputs, outputs=outputs, kink_tolerance=NO_KINK).connected()
     if np.abs(np.linalg.eigvals(model.A)).max() > 1.0 + GROWS:
         raise InputError(f"{mission.mission.name}: a push beyond the threshold makes the hover unstable")
     T, h = hover.mission.step, model.step

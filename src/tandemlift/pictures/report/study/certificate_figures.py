@@ -38,6 +38,12 @@ CAPTIONS = {
         "all rotors, each by itself. Grey: the bar. The margin is the lowest point of a curve.",
         "Curves of the disk phase margin in degrees over the frequency, for each axis and for all rotors.",
     ),
+    "box": Caption(
+        "All parameters at once",
+        "Upper bound of the structured singular value over the frequency, for the box of parameters. Below 1 nothing "
+        "in it makes the hover oscillate; 1 over the peak is the factor of the box that is proven.",
+        "A curve of the upper bound of mu over the frequency, with a line at 1.",
+    ),
     "limits": Caption(
         "Limits of parameters, over the values of the mission",
         "Bars: from the value at which the vehicle oscillates below it to that above it, by linear models; no end: "
@@ -66,6 +72,7 @@ def certificate_figures(certificate: Certificate) -> dict[str, Figure]:
     tiers = {tier.name: tier for tier in certificate.tiers}
     makers: tuple[tuple[str, str, str, Callable[[Tier], Figure]], ...] = (
         ("margins", "linear", "frequency", draw_margins),
+        ("box", "structured", "upper_bound", draw_box),
         ("hand", "person", "frequency", draw_hand),
         ("map", "person", "map", draw_map),
     )
@@ -90,6 +97,21 @@ def draw_margins(tier: Tier) -> Figure:
     axes.set_xlabel("frequency (rad/s)")
     axes.set_ylabel("disk phase margin (°)")
     figure.legend(loc="outside upper center", ncols=5)
+    return figure
+
+
+@styled
+def draw_box(tier: Tier) -> Figure:
+    """Draw the upper bound of the structured singular value over the frequency."""
+    figure = page_figure(2.2)
+    axes = figure.add_subplot()
+    w = np.array(tier.curves["frequency"], float)
+    axes.semilogx(w, tier.curves["upper_bound"], color=BLUE, lw=1.2)
+    axes.axhline(1.0, color=GREY, lw=0.8)
+    axes.set_ylim(bottom=0.0)
+    axes.set_xlim(w[0], w[-1])
+    axes.set_xlabel("frequency (rad/s)")
+    axes.set_ylabel("upper bound of µ (1)")
     return figure
 
 

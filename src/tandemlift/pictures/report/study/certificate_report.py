@@ -18,7 +18,7 @@ from tandemlift.analysis.certification.statistics import FLIGHTS, statistics_tie
 from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.analysis.robustness.nonlinear import nonlinear_tier
 from tandemlift.analysis.robustness.structured import DEFAULT_BOX, structured_tier
-from tandemlift.core.errors import InputError, unknown
+from tandemlift.core.errors import InputError, extra, unknown
 from tandemlift.core.files import DATA, atomic_write
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Progress
@@ -31,7 +31,7 @@ from tandemlift.pictures.report.study.certificate_figures import CAPTIONS, certi
 PAGE, JSON, PDF, SOURCE = "certificate.html", "certificate.json", "certificate.pdf", "report.typ"
 NONE, MINUS = "none", "−"
 TIERS = ("linear", "structured", "person", "nonlinear", "statistics")
-PACKAGES = ("tandemlift", "numpy", "scipy", "slycot", "cvxpy", "clarabel")
+PACKAGES = ("tandemlift", "numpy", "scipy", "slycot", "cvxpy")
 
 
 def certify(
@@ -70,7 +70,10 @@ def certify(
             raise unknown("tier", name, TIERS)
     chosen, found = [name for name in TIERS if name in tiers], list[Tier]()
     arms = ArmBox() if arm is None else ArmBox(*arm).checked()
-    with progress_or_own(f"{mission.mission.name}, certified", progress, "tiers") as shown:
+    with extra("certify", "a certificate"):
+        from threadpoolctl import threadpool_limits
+    # many small matrices: threads of BLAS would only wait for each other
+    with threadpool_limits(1), progress_or_own(f"{mission.mission.name}, certified", progress, "tiers") as shown:
         for done, name in enumerate(chosen, 1):
             found.append(with_limits(_tier(name, mission, arms, box, flights, folder, fly), mission, fly))
             if shown:
@@ -161,7 +164,7 @@ def _write(path: Path, text: str) -> None:
 
 def _verdict(certificate: Certificate) -> str:
     missed = [_name(claim) for claim in certificate.missed]
-    return f"Below the bar: {', '.join(missed)}." if missed else "No number is below its bar."
+    return f"Below the bar: {'; '.join(missed)}." if missed else "No number is below its bar."
 
 
 def _name(claim: Claim) -> str:
