@@ -21,7 +21,7 @@ from tandemlift.core.vector import (
 )
 from tandemlift.parts.contact import feet as contact
 from tandemlift.parts.contact import hull, impulses, spheres, touches, walls
-from tandemlift.parts.controllers import equations_of_motion, sliding_surface
+from tandemlift.parts.controllers import attitude_reference, equations_of_motion, sliding_surface
 from tandemlift.parts.estimation import wind_compensation
 from tandemlift.parts.guidance import guidance
 from tandemlift.parts.interaction import policy
@@ -29,7 +29,7 @@ from tandemlift.parts.mechanics import loads, low_pass, parts, rotation
 from tandemlift.parts.mechanics.push import PointPush
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench, motion
 from tandemlift.parts.mechanics.wall_geometry import Wall
-from tandemlift.parts.rotors import allocation, ground_effect, rotor_faults, rotor_lag, rotors
+from tandemlift.parts.rotors import allocation, ground_effect, rotor_faults, rotor_lag, rotor_lead, rotors
 from tandemlift.parts.rotors import decision as rotor_loss_decision
 from tandemlift.parts.rotors import detection as rotor_loss_detection
 
@@ -84,7 +84,8 @@ WATCHING = rotor_loss_detection.DetectionState(
     *[SMOOTHS] * 2, *[SMOOTH] * 4, rotor_loss_decision.DecisionState(EIGHT, 0.0, 0.0, EIGHT, 0.0)
 )
 HEARD = guidance.PilotInput(STATE, V, V, 0.0, Absent())
-BLOWN = wind_compensation.PayloadDragState(V, 0.0, low_pass.LowPassState(V, V))
+SLOPE = low_pass.LowPassState(V, V)
+BLOWN = wind_compensation.PayloadDragState(V, 0.0, SLOPE)
 CONSTRAINED = allocation.ConstrainedAllocation(
     MIXER, MIXER, Wrench(0.0, V), EIGHT, rotor_faults.RotorFaults(EIGHT, EIGHT)
 )
@@ -114,6 +115,22 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "wind on the payload": (
         wind_compensation.wind_on_payload,
         (wind_compensation.PayloadDrag(0.0, 0.0, LOW), BLOWN, TWO, TWO, 1.0, 0.0, 0.0),
+    ),
+    "a wrench with lead": (
+        rotor_lead.lead_step,
+        (
+            rotor_lead.RotorLead(LOW, 0.0, V),
+            rotor_lead.RotorLeadState(low_pass.LowPassState(0.0, 0.0), SLOPE),
+            Wrench(0.0, V),
+        ),
+    ),
+    "a smooth attitude reference": (
+        attitude_reference.shape_reference,
+        (
+            attitude_reference.SmoothCommandFilter(LOW, attitude_reference.CommandFilter(*[0.0] * 5)),
+            attitude_reference.SmoothCommandFilterState(SLOPE, attitude_reference.CommandFilterState(V, V)),
+            V,
+        ),
     ),
     "share of a wrench": (allocation.achieved_fraction, (MIXER, Wrench(0.0, V), Wrench(0.0, V), EIGHT)),
     "what joints pass on": (loads.readings_with_load, (LOADS.quadrotors, FRAME, Q, FELT)),
