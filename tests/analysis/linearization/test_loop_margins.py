@@ -23,7 +23,7 @@ from tandemlift.missions import load_mission, tables_of
 from tandemlift.missions.flight_checks import CHECKS
 
 HOVER = {"pushes": [], "mission.duration": 14.0, "phases.land_start": 60.0}
-SHAKEN = 0.5  # rad/s, of rates in hover
+SHAKEN, BOUNCED = 0.5, 0.02  # rad/s and m/s: of rates in hover, and of the vertical velocity, whose swing stays small
 
 
 @cache
@@ -36,7 +36,9 @@ def shakes(changes):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", tl.FlightWarning)
         flight = tl.fly(load_mission("iris", {**HOVER, **changes}))
-    return flight.ending is not None or flight["rates"][flight.time > 9.0].std(axis=0).max() > SHAKEN
+    late = flight.time > 9.0
+    bounces = flight["velocity"][late, 2].std() > BOUNCED
+    return flight.ending is not None or bounces or flight["rates"][late].std(axis=0).max() > SHAKEN
 
 
 def onset(changes_at, low, high, accuracy):

@@ -201,7 +201,9 @@ def open_loop(loop: ControlLoop, w: Array, K: NDArray[np.complex128] | Array) ->
     if push is not None:
         errs = push.compensated(s, push.moment_lead)[:, None] - Q[:, 1:]
         feedback[:, 1:, 1:] += errs[:, :, None] * (moved - np.eye(4))[1:, 1:]
-    return (feedback + Q[:, :, None] * moved) * (N / (1.0 - Q * M[:, None] * N))[:, :, None]
+    led = np.linalg.solve(assumed, N[:, :, None] * assumed)  # of accelerations: a lead acts on the wrench
+    known = np.eye(4) - led * (Q * M[:, None])[:, None, :]
+    return np.linalg.solve(known, led @ (feedback + Q[:, :, None] * moved))
 
 
 def _lead(table: AllocationTable, s: NDArray[np.complexfloating], step: float) -> NDArray[np.complexfloating]:
