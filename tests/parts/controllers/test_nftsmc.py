@@ -183,7 +183,6 @@ def test_a_smooth_reference_follows_a_ramp_by_the_delay_of_both_filters():
         tracked, memory = shape_reference(k, memory, Vec3(0.001 * i, 0.0, 0.0))
     assert tracked.angles.x == pytest.approx(1.999 - 4.0 / 40.0, abs=1.1e-3)
     assert tracked.rates.x == pytest.approx(1.0, abs=1e-3)
-    assert tracked.accelerations.x == pytest.approx(0.0, abs=1e-6)
 
 
 def test_noise_in_the_accelerations_of_a_smooth_reference_is_that_of_the_closed_form():

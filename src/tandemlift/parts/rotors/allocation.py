@@ -72,7 +72,9 @@ class AllocationTable(Table):
         "s",
         "lead times of thrust, roll, pitch and yaw, against lag and delay of the rotors; all 0: as the controller asks",
     )
-    lead_bandwidth: Bandwidth = key(200.0, "rad/s", "bandwidth of the low-pass that smooths a wrench with lead time")
+    lead_bandwidth: Bandwidth = key(
+        200.0, "rad/s", "bandwidth of the low-pass that smooths a wrench with lead time", source="chosen"
+    )
 
 
 class Mixer(NamedTuple):
