@@ -18,13 +18,13 @@ from tandemlift.core.vector import (
     each,
     outer,
 )
-from tandemlift.parts.controllers import equations_of_motion, sliding_surface
+from tandemlift.parts.controllers import attitude_reference, equations_of_motion, sliding_surface
 from tandemlift.parts.estimation import wind_compensation
 from tandemlift.parts.guidance import guidance
 from tandemlift.parts.interaction import policy
 from tandemlift.parts.mechanics import low_pass, parts, rotation
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench
-from tandemlift.parts.rotors import allocation
+from tandemlift.parts.rotors import allocation, rotor_lead
 from tandemlift.parts.rotors import decision as rotor_loss_decision
 from tandemlift.parts.rotors import detection as rotor_loss_detection
 
@@ -48,7 +48,8 @@ WATCHING = rotor_loss_detection.DetectionState(
     *[SMOOTHS] * 2, *[SMOOTH] * 4, rotor_loss_decision.DecisionState(EIGHT, 0.0, 0.0, EIGHT, 0.0)
 )
 HEARD = guidance.PilotInput(STATE, V, V, 0.0, Absent())
-BLOWN = wind_compensation.PayloadDragState(V, 0.0, low_pass.LowPassState(V, V))
+SLOPE = low_pass.LowPassState(V, V)
+BLOWN = wind_compensation.PayloadDragState(V, 0.0, SLOPE)
 
 LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "outer": (outer, (V, V)),
@@ -73,6 +74,22 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "wind on the payload": (
         wind_compensation.wind_on_payload,
         (wind_compensation.PayloadDrag(0.0, 0.0, LOW), BLOWN, TWO, TWO, 1.0, 0.0, 0.0),
+    ),
+    "a wrench with lead": (
+        rotor_lead.lead_step,
+        (
+            rotor_lead.RotorLead(LOW, 0.0, V),
+            rotor_lead.RotorLeadState(low_pass.LowPassState(0.0, 0.0), SLOPE),
+            Wrench(0.0, V),
+        ),
+    ),
+    "a smooth attitude reference": (
+        attitude_reference.shape_reference,
+        (
+            attitude_reference.SmoothCommandFilter(LOW, attitude_reference.CommandFilter(*[0.0] * 5)),
+            attitude_reference.SmoothCommandFilterState(SLOPE, attitude_reference.CommandFilterState(V, V)),
+            V,
+        ),
     ),
     "damping by a policy": (
         policy.policy_damping,

@@ -23,7 +23,7 @@ from tandemlift.missions import load_mission, tables_of
 from tandemlift.missions.flight_checks import CHECKS
 
 HOVER = {"pushes": [], "mission.duration": 14.0, "phases.land_start": 60.0}
-SHAKEN = 0.5  # rad/s, of rates in hover
+SHAKEN, BOUNCED = 0.5, 0.02  # rad/s and m/s: of rates in hover, and of the vertical velocity, whose swing stays small
 
 
 @cache
@@ -36,7 +36,9 @@ def shakes(changes):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", tl.FlightWarning)
         flight = tl.fly(load_mission("iris", {**HOVER, **changes}))
-    return flight.ending is not None or flight["rates"][flight.time > 9.0].std(axis=0).max() > SHAKEN
+    late = flight.time > 9.0
+    bounces = flight["velocity"][late, 2].std() > BOUNCED
+    return flight.ending is not None or bounces or flight["rates"][late].std(axis=0).max() > SHAKEN
 
 
 def onset(changes_at, low, high, accuracy):
@@ -82,6 +84,21 @@ def test_margins_are_those_of_python_control():
         assert found.crossover == pytest.approx(crossovers[least], rel=0.01)
 
 
+@pytest.mark.parametrize("name", ["iris", "zigzag", "rotor-loss"])
+def test_every_axis_has_the_usual_margins(name):
+    """6 dB and 45 deg alone; 5.5 dB and 35 deg at once, as the disk margin α, the inverse of the peak of |S − T|/2."""
+    mission, loop = load_mission(name), loop_of(name)
+    L = loop.L * rotors_response(loop.w, mission.actuators.delay, mission.hover.lag)[:, None, None]
+    for i, found in enumerate(axis_margins(loop.w, L)):
+        assert found.gain > 2.0, found.axis
+        assert found.least_gain < 0.5, found.axis
+        assert found.phase > 45.0, found.axis
+        own = single_loop(L, i)
+        disk = 2.0 / np.abs((1.0 - own) / (1.0 + own)).max()
+        assert 20.0 * np.log10((2.0 + disk) / (2.0 - disk)) > 5.5, found.axis
+        assert np.degrees(2.0 * np.arctan(disk / 2.0)) > 35.0, found.axis
+
+
 def test_margins_of_a_known_loop_are_its_closed_forms():
     """L = k e^(−sT)/s: 90° − k T of phase, and the gain may grow by π/(2 k T)."""
     w = np.geomspace(0.1, 300.0, 400)
@@ -108,7 +125,7 @@ def test_both_limits_of_the_gain_are_told_and_which_is_near():
         far = {"most": "least", "least": "most"}[near]
         assert rows[f"{axis}, {near} (nearer)"].margin < rows[f"{axis}, {far}"].margin
     limits = [rows[f"{axis}, least (nearer)"].value for axis in ("roll", "pitch", "yaw")]
-    assert limits == pytest.approx([0.377, 0.435, 0.122], rel=0.01)
+    assert limits == pytest.approx([0.346, 0.418, 0.122], rel=0.01)
 
 
 def test_a_vehicle_that_calms_down_slowly_is_not_called_unstable():

@@ -169,6 +169,33 @@ def test_the_command_filter_is_exact_for_a_held_command(seed):
     assert array(tracked.accelerations) == pytest.approx(rate(0.0, y0)[3:], rel=1e-12, abs=1e-9)
 
 
+def smooth_filter(bandwidth):
+    """A command filter behind a low-pass of the same bandwidth, ω⁴/(s + ω)⁴, and its memory at rest."""
+    filters = {"attitude_reference_derivatives": "filtered", "filter_bandwidth": bandwidth}
+    changes = {f"controller.{key}": value for key, value in (filters | {"smoothing_bandwidth": bandwidth}).items()}
+    model = assemble(tl.load_mission("paper", changes)).model
+    return model.pilot.controller.derivatives, model.flight_state.memory.controller
+
+
+def test_a_smooth_reference_follows_a_ramp_by_the_delay_of_both_filters():
+    k, memory = smooth_filter(40.0)
+    for i in range(2000):
+        tracked, memory = shape_reference(k, memory, Vec3(0.001 * i, 0.0, 0.0))
+    assert tracked.angles.x == pytest.approx(1.999 - 4.0 / 40.0, abs=1.1e-3)
+    assert tracked.rates.x == pytest.approx(1.0, abs=1e-3)
+
+
+def test_noise_in_the_accelerations_of_a_smooth_reference_is_that_of_the_closed_form():
+    """White noise σ every h leaves s² ω⁴/(s + ω)⁴ with σ √(h ω⁵/32): √(Σ g²) of the impulse response g."""
+    bandwidth = 40.0
+    k, memory = smooth_filter(bandwidth)
+    squares = 0.0
+    for i in range(1000):
+        tracked, memory = shape_reference(k, memory, Vec3(0.0 if i else 1.0, 0.0, 0.0))
+        squares += tracked.accelerations.x**2
+    assert np.sqrt(squares) == pytest.approx(np.sqrt(0.001 * bandwidth**5 / 32.0), rel=0.05)  # ω h = 0.04
+
+
 def test_without_a_filter_the_attitude_reference_is_at_rest():
     tracked, memory = shape_reference(Unfiltered(), CommandFilterState(ZERO, ZERO), Vec3(0.1, 0.2, 0.3))
     assert tracked == AttitudeReference(Vec3(0.1, 0.2, 0.3), ZERO, ZERO)

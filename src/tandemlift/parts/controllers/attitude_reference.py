@@ -14,6 +14,7 @@ from tandemlift.core.law import choice, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.controllers.interface import NoMemory
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.trajectories import Reference
 
 
@@ -34,11 +35,25 @@ class CommandFilter(NamedTuple):
     velocity_from_velocity: Number
 
 
+class SmoothCommandFilter(NamedTuple):
+    """A command filter behind a low-pass, so that the accelerations of the reference do not contain raw noise."""
+
+    smooth: LowPass
+    filter: CommandFilter
+
+
 class CommandFilterState(NamedTuple):
     """Memory of the command filter: angles [rad] and rates [rad/s]."""
 
     angles: Vec3
     rates: Vec3
+
+
+class SmoothCommandFilterState(NamedTuple):
+    """Memory of the low-pass [rad] and of the command filter."""
+
+    smooth: LowPassState[Vec3]
+    filter: CommandFilterState
 
 
 class AttitudeReference(NamedTuple):
@@ -51,8 +66,10 @@ class AttitudeReference(NamedTuple):
 
 @choice
 def shape_reference(
-    kind: Unfiltered | CommandFilter, memory: NoMemory | CommandFilterState, desired: Vec3
-) -> tuple[AttitudeReference, NoMemory | CommandFilterState]:
+    kind: Unfiltered | CommandFilter | SmoothCommandFilter,
+    memory: NoMemory | CommandFilterState | SmoothCommandFilterState,
+    desired: Vec3,
+) -> tuple[AttitudeReference, NoMemory | CommandFilterState | SmoothCommandFilterState]:
     """(the attitude law's reference, the new memory), from the desired orientation [rad]."""
 
 
@@ -72,6 +89,15 @@ def _filtered(
         x * kind.velocity_from_position + memory.rates * kind.velocity_from_velocity,
     )
     return AttitudeReference(memory.angles, memory.rates, acceleration), after
+
+
+@shape_reference.register(SmoothCommandFilter)
+def _smooth(
+    kind: SmoothCommandFilter, memory: SmoothCommandFilterState, desired: Vec3
+) -> tuple[AttitudeReference, SmoothCommandFilterState]:
+    smooth = low_pass_step(kind.smooth, memory.smooth, desired)
+    reference, after = shape_reference(kind.filter, memory.filter, smooth.value)
+    return reference, SmoothCommandFilterState(smooth, after)
 
 
 @law

@@ -25,6 +25,8 @@ from tandemlift.parts.controllers.attitude_reference import (
     AttitudeReference,
     CommandFilter,
     CommandFilterState,
+    SmoothCommandFilter,
+    SmoothCommandFilterState,
     Unfiltered,
     command_filter,
     shape_reference,
@@ -41,6 +43,7 @@ from tandemlift.parts.controllers.sliding_surface import (
     Tanh,
     wanted_acceleration,
 )
+from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass
 from tandemlift.parts.mechanics.rigid_body import UP, Inertia, State, Wrench, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rotation import (
     Euler,
@@ -57,6 +60,8 @@ from tandemlift.parts.mechanics.rotation import (
 )
 from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
 from tandemlift.parts.mechanics.vehicle import Vehicle
+
+FilterMemory = CommandFilterState | SmoothCommandFilterState | NoMemory
 
 
 class Gains(Table):
@@ -99,6 +104,12 @@ class NFTSMCSettings(ControllerTable):
     )
     filter_bandwidth: Annotated[float, Field(gt=0.0, le=1e4)] = key(
         60.0, "rad/s", "bandwidth of the command filter of attitude_reference_derivatives", source="chosen"
+    )
+    smoothing_bandwidth: Annotated[float, Field(ge=0.0, le=1e4)] = key(
+        0.0,
+        "rad/s",
+        "bandwidth of a low-pass before this filter, which keeps noise out of the reference's accelerations; 0: none",
+        example=100.0,
     )
     euler_rates: Literal["exact", "body"] = key(
         "exact",
@@ -152,7 +163,7 @@ class NFTSMC(NamedTuple):
     drag_moment: Vec3
     position: Surface
     attitude: Surface
-    derivatives: Unfiltered | CommandFilter
+    derivatives: Unfiltered | CommandFilter | SmoothCommandFilter
     rates: ExactRates | BodyRates
     inverse: TiltZXY | TiltPrinted
     tilt: TiltLimit | Absent
@@ -190,9 +201,7 @@ def attitude_law(k: NFTSMC, e: Euler, rates: Vec3, desired: AttitudeReference) -
 
 
 @control.register(NFTSMC)
-def nftsmc(
-    k: NFTSMC, memory: CommandFilterState | NoMemory, measured: Measured, reference: Reference
-) -> tuple[Command, CommandFilterState | NoMemory]:
+def nftsmc(k: NFTSMC, memory: FilterMemory, measured: Measured, reference: Reference) -> tuple[Command, FilterMemory]:
     """The whole controller at one sample."""
     e = euler_from_quaternion(measured.state.attitude)
     force = position_law(k, measured.state, reference.trajectory, measured.push)
@@ -218,10 +227,23 @@ def _surface(s: NFTSMCSettings, first: int) -> Surface:
     return Surface(pick(g.xi), pick(g.eta), exponent, pick(g.lambda_1), pick(g.lambda_2), kinds[s.switching])
 
 
+def _derivatives(
+    s: NFTSMCSettings, step: float
+) -> tuple[Unfiltered | CommandFilter | SmoothCommandFilter, FilterMemory]:
+    """The filter of the attitude reference, and its memory at rest at zero."""
+    if s.attitude_reference_derivatives == "zero":
+        return Unfiltered(), NoMemory()
+    own, level = command_filter(s.filter_bandwidth, step), CommandFilterState(ZERO, ZERO)
+    if s.smoothing_bandwidth == 0.0:
+        return own, level
+    smooth = SmoothCommandFilterState(LowPassState(ZERO, ZERO), level)
+    return SmoothCommandFilter(low_pass(s.smoothing_bandwidth, step), own), smooth
+
+
 @register("nftsmc", NFTSMCSettings)
-def start(s: NFTSMCSettings, vehicle: Vehicle, step: float) -> tuple[NFTSMC, CommandFilterState | NoMemory]:
+def start(s: NFTSMCSettings, vehicle: Vehicle, step: float) -> tuple[NFTSMC, FilterMemory]:
     """Nonsingular fast terminal sliding mode control of position and attitude (the paper's)."""
-    filtered = s.attitude_reference_derivatives == "filtered"
+    derivatives, memory = _derivatives(s, step)
     gains = NFTSMC(
         mass=vehicle.mass,
         inertia=inertia_value(vehicle.inertia),
@@ -229,10 +251,10 @@ def start(s: NFTSMCSettings, vehicle: Vehicle, step: float) -> tuple[NFTSMC, Com
         drag_moment=vec3(vehicle.drag.moment),
         position=_surface(s, 0),
         attitude=_surface(s, 3),
-        derivatives=command_filter(s.filter_bandwidth, step) if filtered else Unfiltered(),
+        derivatives=derivatives,
         rates=ExactRates() if s.euler_rates == "exact" else BodyRates(),
         inverse=TiltZXY() if s.tilt_inverse == "zxy" else TiltPrinted(),
         tilt=tilt_limit(s.max_tilt),
         feedforward=1.0 if s.human_force_feedforward else 0.0,
     )
-    return gains, CommandFilterState(ZERO, ZERO) if filtered else NoMemory()
+    return gains, memory

@@ -2,12 +2,12 @@
 
 The loop leads from the thrust and the moments of the rotors by the body, the sensors' delay, the controller and the
 disturbance observer back to them. It is a matrix of z, roll, pitch and yaw, in accelerations, cut at the rotors:
-L(s) = (1 − Q M)⁻¹ (K P + W + Q) E · G.
+L(s) = N (1 − Q M N)⁻¹ (K P + W + Q) E · G.
 
 - P: the body: 1/s²; roll moves y and pitch moves x by the weight's share, ∓g/s².
 - K: the controller, linear about hover (`controller_response`), sampled; over the mass and the inertia that it assumes.
 - E: the accelerations of the real body over those of the assumed one, J⁻¹ Ĵ: 1 where the model is right.
-- Q = λ²/(s + λ)², the observer of bandwidth λ along each axis; M: its model of the rotors.
+- Q = λ²/(s + λ)², the observer of bandwidth λ along each axis; M: its model of the rotors; N: the lead of the wrench.
 - W: the feedback through the measured push, if the payload's mass and inertia differ from those that the pilot assumes.
 - G = e^(−sT)/(1 + τ s): delay and lag of the rotors, half a step of the hold, and the readings' delay.
 
@@ -38,6 +38,7 @@ from tandemlift.parts.guidance.compliance_table import ComplianceTable
 from tandemlift.parts.guidance.guidance import PilotTable
 from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable
 from tandemlift.parts.pilot.controller_response import INPUTS, controller_response
+from tandemlift.parts.rotors.allocation import AllocationTable
 from tandemlift.parts.rotors.hover import HoverFacts
 from tandemlift.parts.sensors.sensors_table import SensorsTable
 
@@ -186,6 +187,7 @@ def open_loop(loop: ControlLoop, w: Array, K: NDArray[np.complex128] | Array) ->
     bandwidth = np.array([o.force_bandwidth[2], *o.moment_bandwidth])
     Q = (bandwidth / (s[:, None] + bandwidth)) ** 2 * (o.model != "none")
     M = 1.0 / (1.0 + 0.5 * s * (o.rotor_lag + o.rotor_delay + loop.step)) ** 2
+    N = _lead(hover.allocation, s, loop.step)
     read = np.zeros((len(w), INPUTS, 3, 4), complex)  # position, velocity, angles, rates, push: of a height, of angles
     read[:, 0, 2, 0] = 1.0
     read[:, 0, 0, 2], read[:, 0, 1, 1] = GRAVITY / (s * s), -GRAVITY / (s * s)
@@ -199,7 +201,15 @@ def open_loop(loop: ControlLoop, w: Array, K: NDArray[np.complex128] | Array) ->
     if push is not None:
         errs = push.compensated(s, push.moment_lead)[:, None] - Q[:, 1:]
         feedback[:, 1:, 1:] += errs[:, :, None] * (moved - np.eye(4))[1:, 1:]
-    return (feedback + Q[:, :, None] * moved) / (1.0 - Q * M[:, None])[:, :, None]
+    led = np.linalg.solve(assumed, N[:, :, None] * assumed)  # of accelerations: a lead acts on the wrench
+    known = np.eye(4) - led * (Q * M[:, None])[:, None, :]
+    return np.linalg.solve(known, led @ (feedback + Q[:, :, None] * moved))
+
+
+def _lead(table: AllocationTable, s: NDArray[np.complexfloating], step: float) -> NDArray[np.complexfloating]:
+    """The response (w, 4) of the wrench's lead at s [rad/s]: its low-pass contains the newest sample already."""
+    led = 1.0 + np.multiply.outer(s, table.lead)
+    return led * (np.exp(0.5 * step * s) / (1.0 + s / table.lead_bandwidth) ** 2)[:, None] if any(table.lead) else led
 
 
 def eigenvalues_by_axis(L: NDArray[np.complex128]) -> NDArray[np.complex128]:

@@ -1,8 +1,8 @@
 """The pilot: from a measurement to rotor thrusts, the same for every body that it flies.
 
-measured push → guidance (gate, admittance, phases) → reference → controller → wrench → allocation → thrusts, and beside
-it the disturbance observer and the detection of rotor failures. The pilot is sampled every `mission.step`; its outputs
-are held until the next sample. `simulation.preparation.start_pilot` makes one from a mission.
+measured push → guidance (gate, admittance, phases) → reference → controller → wrench → lead → allocation → thrusts, and
+beside it the disturbance observer and the detection of rotor failures. The pilot is sampled every `mission.step`; its
+outputs are held until the next sample. `simulation.preparation.start_pilot` makes one from a mission.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
 from tandemlift.parts.interaction.admittance import AdmittanceState
 from tandemlift.parts.rotors.allocation import AllocationState, ConstrainedAllocation, Mixer, allocate
 from tandemlift.parts.rotors.detection import DetectionState, RotorLossDetection, detection_step, failed_rotors
+from tandemlift.parts.rotors.rotor_lead import RotorLead, RotorLeadState, lead_step
 
 __all__ = [
     "ControlInput",
@@ -45,6 +46,7 @@ class PilotParameters(NamedTuple):
     guidance: ScheduledGuidance | HandGuidance
     observer: DisturbanceObserver | Absent
     controller: object
+    lead: RotorLead | Absent
     allocation: Mixer | ConstrainedAllocation
     detection: RotorLossDetection | Absent
 
@@ -55,6 +57,7 @@ class PilotMemory(NamedTuple):
     guidance: AdmittanceState | HandGuidanceState
     observer: ObserverState | Absent
     controller: object
+    lead: RotorLeadState | Absent
     allocation: AllocationState | Absent
     detection: DetectionState | Absent
 
@@ -119,12 +122,14 @@ def with_command(
     p: PilotParameters, m: PilotMemory, given: ControlInput, command: Command, memory: object
 ) -> tuple[Decision, PilotMemory]:
     """(`Decision`, the new memory) once the controller has commanded; `memory` is the controller's."""
-    thrusts = running(given.guidance.running, allocate(p.allocation, command.wrench))
-    decision = Decision(given.guidance, given.disturbance, command, thrusts)
+    led, lead = lead_step(p.lead, m.lead, command.wrench)
+    thrusts = running(given.guidance.running, allocate(p.allocation, led))
+    decision = Decision(given.guidance, given.disturbance, command._replace(wrench=led), thrusts)
     return decision, m._replace(
         guidance=given.guidance_memory,
         observer=given.observer_memory,
         controller=memory,
+        lead=lead,
         detection=given.detection_memory,
     )
 

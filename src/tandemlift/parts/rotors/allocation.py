@@ -10,7 +10,7 @@ from pydantic_core import core_schema
 from tandemlift.core.algebra import clip, maximum, sqrt, where
 from tandemlift.core.arrays import array, square_roots
 from tandemlift.core.caching import cached
-from tandemlift.core.keys import PerAxis, Positive, Scale, Table, is_number, key, must
+from tandemlift.core.keys import Bandwidth, Delay, PerAxis, Positive, Scale, Table, is_number, key, must
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, PerRotor, number
 from tandemlift.core.vector import Absent, Vec3, dot, each
@@ -19,6 +19,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import RotorFaults, efficiency_at
 
 Priorities = Annotated[tuple[Scale, Scale, Scale, Scale], PerAxis(4)]
+Leads = Annotated[tuple[Delay, Delay, Delay, Delay], PerAxis(4)]
 
 
 class Weights:
@@ -65,6 +66,14 @@ class AllocationTable(Table):
         "1",
         "for 'constrained': weights of the errors in thrust, roll, pitch and yaw when the rotors cannot give all four",
         source="chosen: roll and pitch first, then thrust, then yaw",
+    )
+    lead: Leads = key(
+        (0.0, 0.0, 0.0, 0.0),
+        "s",
+        "lead times of thrust, roll, pitch and yaw, against lag and delay of the rotors; all 0: as the controller asks",
+    )
+    lead_bandwidth: Bandwidth = key(
+        200.0, "rad/s", "bandwidth of the low-pass that smooths a wrench with lead time", source="chosen"
     )
 
 

@@ -42,6 +42,7 @@ from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters
 from tandemlift.parts.rotors.allocation import mixer_of, start_allocation
 from tandemlift.parts.rotors.detection_table import start_detection
 from tandemlift.parts.rotors.rotor_faults import RotorFaults, known_faults
+from tandemlift.parts.rotors.rotor_lead import start_lead
 from tandemlift.parts.sensors.readings import Readings
 from tandemlift.parts.sensors.sensors_table import steps_of
 from tandemlift.simulation.loop.perception import (
@@ -72,8 +73,9 @@ def start_pilot(mission: Mission, vehicle: Vehicle) -> tuple[PilotParameters, Pi
     observer, observer_memory = start_observer(mission.observer, vehicle, effect, step, initial, hovers=hovers)
     allocation, allocation_memory = start_allocation(mission.allocation, vehicle, known)
     detection, detection_memory = start_detection(mission.detection, vehicle, effect, step, initial, hovers=hovers)
-    parameters = PilotParameters(guidance, observer, gains, allocation, detection)
-    return parameters, PilotMemory(guidance_memory, observer_memory, memory, allocation_memory, detection_memory)
+    lead, led = start_lead(mission.allocation, vehicle.weight, step, hovers=hovers)
+    parameters = PilotParameters(guidance, observer, gains, lead, allocation, detection)
+    return parameters, PilotMemory(guidance_memory, observer_memory, memory, led, allocation_memory, detection_memory)
 
 
 def start_scheduled_guidance(table: AdmittanceTable, p: PhasesTable) -> tuple[ScheduledGuidance, AdmittanceState]:
