@@ -26,9 +26,9 @@ LEAST, MOST, COARSE, FINE = 0.5, 1.6, 16, 12  # factors of the predicted limit; 
 PUSH, LASTS = 0.25, 0.1  # N along each axis, and s of its Gaussian: below the thresholds of a push
 SETTLES, WATCHED, LONG = 2.0, 4.0, 14.0  # s after the push; of each window; between their beginnings
 SMALL = 0.02  # of the largest motion: below it, motion is over
-PULL = 0.2  # N along x and y, by which an arm begins to pull
-BEGINS, RISES = 1.0, 4.0  # s of the first motion in an arm's hand; times it, beyond which the motion has grown
-SENSITIVE = 1e-3  # N: the threshold of a push while an arm holds the vehicle, which hides small oscillations else
+PULL = 0.02  # N along x and y, by which an arm begins to pull
+LARGE = 0.3  # rad/s and m/s: a motion that so weak a pull does not cause by itself
+SENSITIVE = 1e-4  # N: the threshold of a push while an arm holds the vehicle, which hides small oscillations else
 LOGGED = 0.005  # s
 LOST, OSCILLATES, REFUSED = "lost", "oscillation", "refused"
 PAST = 1.05  # of a limit: the mission beside it flies beyond, where the oscillation grows
@@ -179,11 +179,10 @@ def stability_in_hand(flight: Flight) -> str:
     """What ended the stability of a flight in an arm's hand, whose limits keep an oscillation from growing on."""
     if flight.outcome in FAILURES or flight.failure:
         return LOST
-    motion, begins = np.abs(motions(flight)).max(axis=1), flight.time[-1] - LONG - WATCHED - SETTLES
-    first = motion[(flight.time >= begins) & (flight.time <= begins + BEGINS)].max()
-    sizes = windows(flight)
-    grows = np.any((sizes[1] > sizes[0]) & (sizes[1] > SMALL * first))
-    return OSCILLATES if grows or motion[flight.time >= begins].max() > RISES * first else ""
+    motion = np.abs(motions(flight)).max(axis=1)[flight.time >= flight.time[-1] - LONG - WATCHED - SETTLES]
+    first, last = windows(flight)
+    grows = np.any((last > first) & (last > SMALL * motion.max()))
+    return OSCILLATES if grows or motion.max() > LARGE else ""
 
 
 def windows(flight: Flight) -> tuple[Array, Array]:

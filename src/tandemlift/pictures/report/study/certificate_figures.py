@@ -128,12 +128,16 @@ def draw_limits(claims: list[Claim]) -> Figure:
     axes.set_yticks([-place for place in range(len(rows))], list(rows))
     axes.axvline(1.0, color=INK, lw=0.8)
     axes.set_xscale("log")
+    axes.margins(x=0.03)
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.xaxis.set_minor_formatter("{x:g}")
     axes.set_xlabel("limit over the value of the mission (1)")
     return figure
 
 
 def _limit_row(axes: Axes, height: float, claims: list[Claim]) -> None:
     low, high = 1.0, 1.0
+    axes.use_sticky_edges = False
     for claim in claims:
         assert claim.range
         limit, flown = claim.range
@@ -179,6 +183,9 @@ def draw_map(tier: Tier) -> Figure:
     axes.contour(data["mass"], data["damping"], stiffness.T, [data["arm_stiffness"]], colors=INK, linewidths=1.4)
     axes.set_xscale("log")
     axes.set_yscale("log")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter("{x:g}")
     axes.set_xlabel("virtual mass (kg)")
     axes.set_ylabel("virtual damping (N s/m)")
     bar = figure.colorbar(drawn, ax=axes, label="arm stiffness (N/m)")
