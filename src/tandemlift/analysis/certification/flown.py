@@ -27,7 +27,7 @@ PUSH, LASTS = 0.25, 0.1  # N along each axis, and s of its Gaussian: below the t
 SETTLES, WATCHED, LONG = 2.0, 4.0, 14.0  # s after the push; of each window; between their beginnings
 SMALL = 0.02  # of the largest motion: below it, motion is over
 PULL = 0.02  # N along x and y, by which an arm begins to pull
-LARGE = 0.3  # rad/s and m/s: a motion that so weak a pull does not cause by itself
+LARGE = 0.3  # rad/s and m/s: a motion that such a push or pull does not cause by itself
 SENSITIVE = 1e-4  # N: the threshold of a push while an arm holds the vehicle, which hides small oscillations else
 LOGGED = 0.005  # s
 LOST, OSCILLATES, REFUSED = "lost", "oscillation", "refused"
@@ -172,7 +172,7 @@ def stability(flight: Flight) -> str:
         return LOST
     first, last = windows(flight)
     floor = SMALL * np.abs(motions(flight)[flight.time >= flight.time[-1] - LONG - WATCHED - SETTLES]).max(axis=0)
-    return OSCILLATES if np.any((last > first) & (last > floor)) else ""
+    return OSCILLATES if np.any((last > first) & (last > floor)) or last.max() > LARGE else ""
 
 
 def stability_in_hand(flight: Flight) -> str:
