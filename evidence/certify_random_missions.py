@@ -23,7 +23,7 @@ import numpy as np
 import tandemlift as tl
 from tandemlift.analysis.certification.felt_admittance import felt_admittance, stiffness_limit
 from tandemlift.analysis.certification.flown import flown_limit, trial_of
-from tandemlift.analysis.certification.linear import linear_tier
+from tandemlift.analysis.certification.linear import CHANGED, changed_limits, loop_as_flown, rotor_limits
 from tandemlift.analysis.certification.parameters import ARM
 from tandemlift.missions import Mission
 
@@ -76,7 +76,10 @@ def random_mission(number: int, seed: int) -> tuple[str, Mission] | None:
 
 def limits(mission: Mission, chosen: tuple[str, ...]) -> Iterator[tuple[str, str, float, float]]:
     """(parameter, bound, predicted limit, frequency) of a mission; nothing for an unstable hover."""
-    for claim in linear_tier(mission).claims:
+    loop = loop_as_flown(mission)
+    if not loop.stable:
+        return
+    for claim in (*rotor_limits(loop), *changed_limits(mission, [name for name in CHANGED if name in chosen])):
         if claim.limit is not None and claim.parameter in chosen and math.isfinite(claim.frequency):
             yield claim.parameter, claim.quantity.split()[0], claim.limit, claim.frequency
     if ARM in chosen:
@@ -88,6 +91,14 @@ def limits(mission: Mission, chosen: tuple[str, ...]) -> Iterator[tuple[str, str
             yield ARM, "largest", limit, math.nan
 
 
+def _limits_or_none(mission: Mission, chosen: tuple[str, ...]) -> list[tuple[str, str, float, float]]:
+    """The limits of a mission; none where its calm flight is lost."""
+    try:
+        return list(limits(mission, chosen))
+    except tl.InputError:
+        return []
+
+
 def rows_of(number: int, seed: int, chosen: tuple[str, ...]) -> Iterator[dict[str, Any]]:
     """The rows of a mission, one for each limit; one without numbers if there is none."""
     drawn = random_mission(number, seed)
@@ -96,7 +107,7 @@ def rows_of(number: int, seed: int, chosen: tuple[str, ...]) -> Iterator[dict[st
         return
     base, mission = drawn
     none = True
-    for name, bound, predicted, frequency in limits(mission, chosen):
+    for name, bound, predicted, frequency in _limits_or_none(mission, chosen):
         none, flown = False, flown_limit(trial_of(mission, name), predicted)
         numbers = (predicted, flown.above, flown.above / predicted, frequency, flown.frequency)
         values = (number, base, name, bound, *(f"{x:.6g}" for x in numbers), flown.ended)

@@ -46,6 +46,8 @@ def fastest_growth(mission: Mission, name: str, value: float) -> complex | None:
     except InputError:
         return complex(math.inf)
     z = np.linalg.eigvals(model.connected().A)
+    if not len(z):  # rotors at their limits: no thrust moves anything
+        return complex(math.inf)
     worst = z[np.argmax(np.abs(z))]
     if abs(worst) > 1.0 + ON_CIRCLE:
         return continuous(complex(worst), model.step)

@@ -6,7 +6,7 @@ The loop is that of a calm hover, cut at the rotors, sampled and delayed as flow
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -95,7 +95,7 @@ def linear_tier(mission: Mission) -> Tier:
     if not loop.stable:
         what = "with the delay and lag of its rotors" if loop.open.stable else "even without delay and lag"
         return Tier("linear", TITLE, ASSUMPTIONS, reason=f"the hover is unstable {what}: lower the gains")
-    claims = (*_margins(loop), *_limits(mission, loop))
+    claims = (*_margins(loop), *rotor_limits(loop), *changed_limits(mission))
     return Tier("linear", TITLE, ASSUMPTIONS, claims, _curves(loop))
 
 
@@ -126,8 +126,8 @@ def _disk(
     yield Claim("disk phase margin", subject, d.phase, "deg", phase, text, d.frequency)
 
 
-def _limits(mission: Mission, loop: LoopAsFlown) -> Iterator[Claim]:
-    """Delay, lag and inertias at which the loop oscillates."""
+def rotor_limits(loop: LoopAsFlown) -> Iterator[Claim]:
+    """Delay and lag of the rotors at which a loop oscillates."""
     for name, nominal, at in (
         ("delay", loop.delay, largest(lambda x: is_stable(loop.open, x, loop.lag))),
         ("lag", loop.lag, largest(lambda x: is_stable(loop.open, loop.delay, x))),
@@ -139,7 +139,11 @@ def _limits(mission: Mission, loop: LoopAsFlown) -> Iterator[Claim]:
         axis, frequency = oscillation(limit.open.w, limit.L)
         text = f"{axis} oscillates at {frequency:.3g} rad/s; the rotors' {name} is {1e3 * nominal:.3g} ms"
         yield Claim(f"{name} limit", "", 1e3 * at, "ms", None, text, frequency, parameter=name, limit=at)
-    for name in CHANGED:
+
+
+def changed_limits(mission: Mission, names: Iterable[str] = CHANGED) -> Iterator[Claim]:
+    """Mass and inertias at which a mission's hover is no longer stable, by a linear model of each value."""
+    for name in names:
         for bound, growing in (("least", False), ("largest", True)):
             yield _changed_limit(mission, name, bound, linear_limit(mission, name, growing=growing))
 
@@ -152,11 +156,8 @@ def _changed_limit(mission: Mission, name: str, bound: str, found: LinearLimit) 
     if not 0.0 < at < math.inf:
         return Claim(f"{bound} {kind}", axis, at, "1", text="no limit within a factor of 50")
     if name == "mass" and at > lifted:
-        at, found, text = (
-            lifted,
-            found._replace(frequency=math.nan),
-            "times the pilot's value: all that the rotors lift",
-        )
+        at, found = lifted, found._replace(frequency=math.nan)
+        text = "times the pilot's value: all that the rotors lift"
     return Claim(f"{bound} {kind}", axis, at, "1", None, text, found.frequency, parameter=name, limit=at)
 
 
