@@ -40,10 +40,10 @@ def push(**keys):
 
 HEARD = "turbulence pushes the payload along x"
 TOLD = {  # of iris, and what its warnings must say: quantity, limit, key
-    "delay 0.1 s": ({"actuators.delay": 0.1}, ["the pitch loop tolerates 5", "actuators.delay = 0.1 s", "102 ms"]),
-    "delay 0.2 s": ({"actuators.delay": 0.2}, ["the pitch loop tolerates 5", "actuators.delay = 0.2 s", "202 ms"]),
+    "delay 0.1 s": ({"actuators.delay": 0.1}, ["the z loop tolerates 5", "actuators.delay = 0.1 s", "102 ms"]),
+    "delay 0.2 s": ({"actuators.delay": 0.2}, ["the z loop tolerates 5", "actuators.delay = 0.2 s", "202 ms"]),
     "lag 0.5 s": (rotors(lag_up=40.0, lag_down=20.0), ["oscillates with the rotors' lag of 500 ms", "lag_up"]),
-    "slow and late": (rotors(lag_up=4.0, lag_down=4.0) | {"actuators.delay": 0.03}, ["tolerates 1", "31.5 ms"]),
+    "slow and late": (rotors(lag_up=4.0, lag_down=4.0) | {"actuators.delay": 0.03}, ["tolerates 2", "31.5 ms"]),
     "an unknown yaw moment": ({"disturbance.moment": [0.0, 0.0, 3.0]}, ["yaw moment of 3 N m", "disturbance.moment"]),
     "wind along x": (wind(4.0, 0.0), [HEARD, "admittance.threshold is 0.3 N", "controller.max_tilt = 0.25"]),
     "wind along -x": (wind(-4.0, 0.0), [HEARD]),

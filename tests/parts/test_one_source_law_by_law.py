@@ -24,7 +24,8 @@ from tandemlift.parts.guidance import guidance
 from tandemlift.parts.interaction import policy
 from tandemlift.parts.mechanics import low_pass, parts, rotation
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench
-from tandemlift.parts.rotors import allocation, rotor_lead
+from tandemlift.parts.pilot import rotor_lead
+from tandemlift.parts.rotors import allocation
 from tandemlift.parts.rotors import decision as rotor_loss_decision
 from tandemlift.parts.rotors import detection as rotor_loss_detection
 

@@ -100,7 +100,7 @@ def test_a_vehicle_pressed_against_a_wall_by_the_wind_is_so_in_both(by_hand):
     assert mean[0][0] < -0.5  # N
     np.testing.assert_allclose(*mean, rtol=0.05, atol=0.1)
     across = np.abs(a["position"] - b["position"])[pressed, :2]
-    assert across.max() < 0.01  # m; pressed by 6 N it also slides down, where friction holds and yields differently
+    assert across.max() < 0.02  # m; pressed by 6 N it also slides down, where friction holds and yields differently
 
 
 def test_a_flight_that_is_lost_is_lost_in_both_at_the_same_time():

@@ -38,7 +38,7 @@ def test_it_flies_the_same_in_mujoco(both):
     a, b = both
     assert np.abs(a["push_force"]).max() > 1.0
     for name, most in (("position", 1e-3), ("attitude", 1e-3), ("joint_force", 0.1)):
-        flies = a.time > 3.0  # uneven on the floor it rocks first
+        flies = (a.time > 3.0) & (a.time < 20.0)  # uneven on the floor it rocks first; later a rotor is at its limit
         assert np.abs(a[name] - b[name])[flies].max() < most, name
 
 

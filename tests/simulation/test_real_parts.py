@@ -135,7 +135,7 @@ def test_its_first_steps_are_those_of_plain_python():
         "phases.rotors": "flight",
         "initial.euler": [0.01, -0.01, 0.02],
         "initial.velocity": [0.1, 0.0, -0.05],
-        "ground.height": -0.1755,  # m: one foot touches
+        "ground.height": -0.174,  # m: one foot touches
         "walls.0": {"start": [0.42, -3.0], "end": [0.4, 3.0]},
         "initial.position": 0.0,
         "estimator.tare_start": 0.02,

@@ -64,11 +64,8 @@ def test_a_sensor_period_is_composed_of_single_steps():
 
 
 def test_the_solver_of_limits_is_differentiated_at_its_active_set():
-    """Limits act from 13.432 s, and no edge is within the differences.
-
-    From 13.437 s, free rotors are too close to their limits. From 13.442 s, the commands that arrive are at the limit.
-    """
-    of = linearized("iris", QUIET | MOST_ROTORS | FOLLOWING, 13.433, steps=1)
+    """Limits act from 13.426 s; from 13.431 s, free rotors are closer to them than the differences."""
+    of = linearized("iris", QUIET | MOST_ROTORS | FOLLOWING, 13.428, steps=1)
     (step,) = of.made.steps
     assert step.limits_active
     held = [of.recipe.graph.next[i] for i, n in enumerate(of.recipe.graph.names) if n.startswith("memory.allocation.a")]

@@ -96,7 +96,7 @@ def test_thrusts_over_a_box_hold_those_of_every_state_in_it(controller):
 
 
 def test_thrusts_over_a_small_box_are_bounded_within_a_tenth():
-    pilot = pilot_at_start(load_mission("iris"))
+    pilot = pilot_at_start(load_mission("zigzag"))
     thrusts, half = commanded_thrusts(pilot.parameters, pilot.memory), np.full(12, 0.01)
     least, most = bounds(thrusts, *box_of(half))
     corners = np.sign(np.random.default_rng(5).normal(size=(4000, 12)))

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from tandemlift.analysis.certification import cut_loop, nonlinear
+from tandemlift.analysis.robustness import cut_loop, nonlinear
 from tandemlift.analysis.robustness.nonlinear import nonlinear_tier
 from tandemlift.analysis.robustness.sector_bound import (
     LoopPart,

@@ -232,8 +232,8 @@ ASSUMED = (
     "Sectors: what reduction left out is a further block of the loop with a proven bound of its gain.",
     "Offsets: the pilot knows of the offset by its sensors only, and all else is at rest. Flights that confirm it have "
     "every nonlinearity.",
-    "Boxes: controller and allocation alone, its estimates anywhere in the box, its reference at rest, memories as at "
-    "the start; rounding of every operation is covered, in machine code too.",
+    "Boxes: controller and allocation alone, without allocation.lead; estimates anywhere in the box, the reference at "
+    "rest, memories as at the start; rounding of every operation is covered, in machine code too.",
 )
 
 

@@ -137,7 +137,7 @@ def certify(
     strict: bool,
     **how: Any,
 ) -> None:
-    """Certify MISSION: how far from instability, with which arm, how often it fails.
+    """Certify MISSION: margins, limits, a person's arm, failures.
 
     Five tiers, each with its assumptions first: margins of the linear loops; worst parameters of the vehicle; the arm
     of a person; bounds on switching and thrust limits; failures among random flights.

@@ -109,7 +109,7 @@ class NFTSMCSettings(ControllerTable):
         0.0,
         "rad/s",
         "bandwidth of a low-pass before this filter, which keeps noise out of the reference's accelerations; 0: none",
-        example=100.0,
+        source="the paper has none",
     )
     euler_rates: Literal["exact", "body"] = key(
         "exact",

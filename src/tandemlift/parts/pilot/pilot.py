@@ -24,9 +24,9 @@ from tandemlift.parts.guidance.guidance import Guidance, PilotInput, checked_inp
 from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
 from tandemlift.parts.interaction.admittance import AdmittanceState
+from tandemlift.parts.pilot.rotor_lead import RotorLead, RotorLeadState, lead_step
 from tandemlift.parts.rotors.allocation import AllocationState, ConstrainedAllocation, Mixer, allocate
 from tandemlift.parts.rotors.detection import DetectionState, RotorLossDetection, detection_step, failed_rotors
-from tandemlift.parts.rotors.rotor_lead import RotorLead, RotorLeadState, lead_step
 
 __all__ = [
     "ControlInput",

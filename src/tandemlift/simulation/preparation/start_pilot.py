@@ -39,10 +39,10 @@ from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.trajectories import PhasesTable, scheduled_phases
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters
+from tandemlift.parts.pilot.rotor_lead import start_lead
 from tandemlift.parts.rotors.allocation import mixer_of, start_allocation
 from tandemlift.parts.rotors.detection_table import start_detection
 from tandemlift.parts.rotors.rotor_faults import RotorFaults, known_faults
-from tandemlift.parts.rotors.rotor_lead import start_lead
 from tandemlift.parts.sensors.readings import Readings
 from tandemlift.parts.sensors.sensors_table import steps_of
 from tandemlift.simulation.loop.perception import (

@@ -6,8 +6,8 @@ import pytest
 from tandemlift.core.vector import Absent, Vec3
 from tandemlift.missions import load_mission
 from tandemlift.parts.mechanics.rigid_body import Wrench
+from tandemlift.parts.pilot.rotor_lead import lead_step, start_lead
 from tandemlift.parts.rotors.allocation import AllocationTable
-from tandemlift.parts.rotors.rotor_lead import lead_step, start_lead
 
 H = 1e-3
 TABLE = AllocationTable(lead=(0.01, 0.02, 0.03, 0.0), lead_bandwidth=150.0)
