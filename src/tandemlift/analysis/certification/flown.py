@@ -1,7 +1,7 @@
 """The limit of a parameter as flights show it, without a linear model: values near the predicted limit are flown.
 
 Each flight hovers calmly with the rotors and the parameter as they are, is pushed once, weakly, and flies on. It is
-stable if no rate of turn and no climb grows from the time after the push to the end.
+stable if all rates of turn and the climb decay from the time after the push to the end.
 """
 
 from __future__ import annotations
@@ -24,8 +24,9 @@ from tandemlift.simulation.fly import Flight, fly_many
 
 LEAST, MOST, COARSE, FINE = 0.5, 1.6, 16, 12  # factors of the predicted limit; flights that look for the limit
 PUSH, LASTS = 0.25, 0.1  # N along each axis, and s of its Gaussian: below the thresholds of a push
-SETTLES, WATCHED, LONG = 2.0, 4.0, 14.0  # s after the push; of each window; between their beginnings
-SMALL = 0.02  # of the largest motion: below it, motion is over
+SETTLES, WATCHED, LONG = 4.0, 8.0, 8.0  # s after the push; of each window; between their beginnings
+SMALL = 0.005  # of the largest motion: below it, motion is over
+PERSISTS = 0.8  # of the motion before: what is left of it at the end does not decay, also in a limit cycle
 PULL = 0.02  # N along x and y, by which an arm begins to pull
 LARGE = 0.3  # rad/s and m/s: a motion that such a push or pull does not cause by itself
 SENSITIVE = 1e-4  # N: the threshold of a push while an arm holds the vehicle, which hides small oscillations else
@@ -172,7 +173,7 @@ def stability(flight: Flight) -> str:
         return LOST
     first, last = windows(flight)
     floor = SMALL * np.abs(motions(flight)[flight.time >= flight.time[-1] - LONG - WATCHED - SETTLES]).max(axis=0)
-    return OSCILLATES if np.any((last > first) & (last > floor)) or last.max() > LARGE else ""
+    return OSCILLATES if np.any((last > PERSISTS * first) & (last > floor)) or last.max() > LARGE else ""
 
 
 def stability_in_hand(flight: Flight) -> str:
@@ -181,7 +182,7 @@ def stability_in_hand(flight: Flight) -> str:
         return LOST
     motion = np.abs(motions(flight)).max(axis=1)[flight.time >= flight.time[-1] - LONG - WATCHED - SETTLES]
     first, last = windows(flight)
-    grows = np.any((last > first) & (last > SMALL * motion.max()))
+    grows = np.any((last > PERSISTS * first) & (last > SMALL * motion.max()))
     return OSCILLATES if grows or motion.max() > LARGE else ""
 
 

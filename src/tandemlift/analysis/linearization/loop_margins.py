@@ -41,6 +41,7 @@ FASTER = 10.0  # times the largest speed of the rotors, so that no thrust is lim
 RESTING = 0.02  # m/s and rad/s, of a calm hover
 FIRST, MOST = 1e-4, 100.0  # s, the shortest and the longest delay and lag that are tried
 RELATIVE = 1e-4  # accuracy of the results
+FINER = 10  # frequencies for each at which a response is computed
 
 
 class OpenLoop(NamedTuple):
@@ -175,10 +176,19 @@ def is_stable(loop: OpenLoop, delay: float, lag: float) -> bool:
     """Whether the loop is stable with a delay and a lag of the rotors [s]."""
     if not loop.stable:
         return False
-    eye, G = np.eye(4), rotors_response(loop.w, delay, lag)[:, None, None]
-    ratio = np.linalg.det(eye + loop.L * G) / np.linalg.det(eye + loop.L)
+    w, L = refined(loop.w, loop.L)
+    eye, G = np.eye(4), rotors_response(w, delay, lag)[:, None, None]
+    ratio = np.linalg.det(eye + L * G) / np.linalg.det(eye + L)
     turned = np.unwrap(np.angle(ratio))
     return bool(abs(turned[-1] - turned[0]) < math.pi)
+
+
+def refined(w: Array, L: NDArray[np.complexfloating]) -> tuple[Array, NDArray[np.complexfloating]]:
+    """A response (F, n, n) at more frequencies, straight over log w in between: its turns about 0 are counted then."""
+    at = np.arange(0.0, len(w) - 1 + 1e-9, 1.0 / FINER)
+    k = np.minimum(at.astype(int), len(w) - 2)
+    part = at - k
+    return w[k] * (w[k + 1] / w[k]) ** part, L[k] + (L[k + 1] - L[k]) * part[:, None, None]
 
 
 def largest(stable: Callable[[float], bool]) -> float:
