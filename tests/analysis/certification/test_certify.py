@@ -12,8 +12,10 @@ from scipy.stats import beta
 
 import tandemlift as tl
 from tandemlift.analysis.certification.certificate import Certificate
+from tandemlift.analysis.certification.flown import with_limits
 from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
 from tandemlift.apps.cli.main import cli
+from tandemlift.missions import load_mission
 from tandemlift.pictures.report.study.certificate_report import certificate_lines, write_certificate
 
 QUICK = ["--set", "mission.duration=12.0", "--set", "phases.land_start=60.0"]
@@ -62,6 +64,14 @@ def test_the_files_of_a_certificate(tmp_path):
         assert words in html
     assert pdf.read_bytes().startswith(b"%PDF")
     assert any("flown 53 (oscillation)" in line for line in certificate_lines(made()))
+
+
+def test_an_arm_without_a_limit_is_not_flown():
+    mission = load_mission("hover")
+    endless = Claim("arm stiffness limit", "", math.inf, "N/m", parameter="arm stiffness")
+    tier = with_limits(Tier("person", "Person", (), (endless,)), mission, fly=True)
+    assert tier.claims == (endless,)
+    assert tier.files == {}
 
 
 def test_an_unknown_tier_is_refused_before_anything_is_computed():

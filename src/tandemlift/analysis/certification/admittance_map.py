@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.certification.felt_admittance import FeltAdmittance, felt_admittance, stiffness_limit
+from tandemlift.analysis.certification.felt_admittance import LARGEST, FeltAdmittance, felt_admittance, stiffness_limit
 from tandemlift.analysis.certification.flown import held, stability_in_hand
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
@@ -67,10 +67,10 @@ def admittance_family(mission: Mission) -> AdmittanceFamily:
 
 
 def family_limit(family: AdmittanceFamily, mass: float, damping: float, arm: float) -> float:
-    """The stiffness [N/m] of massless arms with a damping of `arm` [N s/m] from which on an axis oscillates."""
+    """The stiffness [N/m] from which on an axis oscillates in massless arms of a damping [N s/m]; at most `LARGEST`."""
     Y = family.at(mass, damping)
     axes = (FeltAdmittance(family.w, Y[:, i, None, None]) for i in range(3))
-    return min(stiffness_limit(axis, arm) for axis in axes)
+    return min(LARGEST, *(stiffness_limit(axis, arm) for axis in axes))
 
 
 def admittance_map(mission: Mission) -> dict[str, Any]:

@@ -21,7 +21,7 @@ from tandemlift.analysis.certification.flown import hover_as_flown
 from tandemlift.analysis.certification.parameters import with_keys
 from tandemlift.analysis.linearization.frequency_response import frequency_response
 from tandemlift.analysis.linearization.linearize import linearize
-from tandemlift.analysis.linearization.loop_margins import NO_KINK
+from tandemlift.analysis.linearization.loop_margins import NO_KINK, largest
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
@@ -96,16 +96,8 @@ def is_coupled_stable(felt: FeltAdmittance, Z: NDArray[np.complexfloating]) -> b
 
 
 def largest_stable(stable: Callable[[float], bool], start: float, most: float = LARGEST) -> float:
-    """The smallest number above 0 at which stability is lost, by bisection; infinite beyond `most`."""
-    low, high = 0.0, start
-    while stable(high):
-        low, high = high, 1.5 * high
-        if high > most:
-            return math.inf
-    while high - low > ACCURACY * high:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if stable(middle) else (low, middle)
-    return 0.5 * (low + high)
+    """The smallest number above 0 at which stability is lost; infinite beyond `most`."""
+    return largest(stable, start, most, ACCURACY)
 
 
 def stiffness_limit(felt: FeltAdmittance, damping: float, mass: float = 0.0) -> float:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from tandemlift.analysis.certification.admittance_map import admittance_map, flown_map
 from tandemlift.analysis.certification.contact_limits import HAND, contact_claims
 from tandemlift.analysis.certification.felt_admittance import (
+    LARGEST,
     ArmImpedance,
     FeltAdmittance,
     felt_admittance,
@@ -85,7 +86,7 @@ def person_tier(mission: Mission, box: ArmBox, *, fly: bool = False) -> Tier:
     curves = {
         "frequency": felt.w.tolist(),
         **{axis: felt.Y[:, i, i].real.tolist() for i, axis in enumerate("xyz")},
-        "map": flown_map(mission, drawn) if fly else drawn,
+        "map": flown_map(mission, drawn) if fly and drawn["arm_stiffness"] < LARGEST else drawn,
     }
     return Tier("person", TITLE, ASSUMPTIONS, claims, curves)
 
@@ -117,7 +118,17 @@ def _arms(mission: Mission, felt: FeltAdmittance, box: ArmBox) -> Iterator[Claim
     if at < math.inf:
         frequency = coupled_frequency(felt, ArmImpedance(at, p.damping).impedance(w))
         text += f"; it oscillates at {frequency:.3g} rad/s"
-    yield Claim("arm stiffness limit", "", at, "N/m", p.stiffness, text, frequency, parameter=ARM, limit=at)
+    yield Claim(
+        "arm stiffness limit",
+        "",
+        at,
+        "N/m",
+        p.stiffness,
+        text,
+        frequency,
+        parameter=ARM,
+        limit=at if at < math.inf else None,
+    )
     worst = min((stiffness_limit(felt, b, m), b, m) for b in np.linspace(0.0, box.damping, 4) for m in (0.0, box.mass))
     text = (
         f"damping up to {box.damping:g} N s/m, hands up to {box.mass:g} kg at the grip: the worst of them has "

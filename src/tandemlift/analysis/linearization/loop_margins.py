@@ -191,14 +191,16 @@ def refined(w: Array, L: NDArray[np.complexfloating]) -> tuple[Array, NDArray[np
     return w[k] * (w[k + 1] / w[k]) ** part, L[k] + (L[k + 1] - L[k]) * part[:, None, None]
 
 
-def largest(stable: Callable[[float], bool]) -> float:
-    """The smallest number above 0 at which stability is lost, by bisection; infinite beyond `MOST`."""
-    low, high = 0.0, FIRST
+def largest(
+    stable: Callable[[float], bool], first: float = FIRST, most: float = MOST, accuracy: float = RELATIVE
+) -> float:
+    """The smallest number above 0 at which stability is lost, by bisection from `first` on; infinite beyond `most`."""
+    low, high = 0.0, first
     while stable(high):
         low, high = high, 1.5 * high
-        if high > MOST:
+        if high > most:
             return math.inf
-    while high - low > RELATIVE * high:
+    while high - low > accuracy * high:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if stable(middle) else (low, middle)
     return 0.5 * (low + high)
