@@ -16,9 +16,22 @@ LONGEST_FILE = {PACKAGE: 300, TESTS: 400}  # lines
 LONGEST_FUNCTION = 60  # lines
 
 
+ARROWS_OF_A_FOLDER = 3
+
+
+def limits_in(text):
+    """The most that each count may be, by table, and the arrows that each new folder brings."""
+    tables = tomllib.loads(text)
+    folders = tables.pop("folders", {})
+    return tables, folders
+
+
 def limits():
-    """The most that each count may be, by table."""
-    return tomllib.loads(LIMITS.read_text("utf-8"))
+    """The most that each count may be, by table, with what new folders bring."""
+    tables, folders = limits_in(LIMITS.read_text("utf-8"))
+    tables["rooms"]["rooms"] += len(folders)
+    tables["rooms"]["arrows"] += sum(folders.values())
+    return tables
 
 
 @pytest.fixture(scope="module")
@@ -58,9 +71,22 @@ def test_no_limit_was_ever_lower():
     ).stdout.split()  # none: no history
     for commit in commits:
         show = ["git", "show", f"{commit}:{LIMITS.relative_to(ROOT).as_posix()}"]
-        earlier = tomllib.loads(subprocess.run(show, cwd=ROOT, capture_output=True, text=True, check=True).stdout)
-        raised = [(t, n) for t, table in earlier.items() for n, most in table.items() if limits()[t][n] > most]
+        earlier, _ = limits_in(subprocess.run(show, cwd=ROOT, capture_output=True, text=True, check=True).stdout)
+        today, _ = limits_in(LIMITS.read_text("utf-8"))
+        raised = [(t, n) for t, table in earlier.items() for n, most in table.items() if today[t][n] > most]
         assert raised == [], f"lower in {commit[:8]}: cut an arrow instead"
+
+
+def test_a_new_folder_stands_behind_a_door_and_brings_at_most_three_arrows():
+    _, folders = limits_in(LIMITS.read_text("utf-8"))
+    wrong = [
+        name
+        for name, arrows in folders.items()
+        if not (PACKAGE / name).is_dir() or "/" not in name or arrows > ARROWS_OF_A_FOLDER
+    ]
+    assert_none(
+        wrong, 'a line `"door/folder" = arrows` of [folders] is for a folder that exists, with at most 3 arrows'
+    )
 
 
 def test_no_files_import_each_other_be_it_for_types_alone(files):
