@@ -107,6 +107,12 @@ def save_figure(figure: Figure, path: Path) -> Path:
     return save(figure, path)
 
 
+def save_flight_figure(flight: Flight, name: str, folder: Path) -> list[Path]:
+    """Draw a figure that a flight has and write it atomically as NAME.png and NAME.pdf."""
+    page = figures()[name].draw(flight)
+    return [save_figure(page, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
+
+
 def save_figures(
     flight: Flight, folder: str | os.PathLike[str], progress: Progress | None = None, *, style: str | None = None
 ) -> list[Path]:
@@ -130,9 +136,8 @@ def save_figures(
         folder.mkdir(parents=True, exist_ok=True)
         if progress:
             progress(0, len(drawn))
-        for done, (name, figure) in enumerate(drawn.items(), 1):
-            page = figure.draw(flight)
-            written += [save_figure(page, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
+        for done, name in enumerate(drawn, 1):
+            written += save_flight_figure(flight, name, folder)
             if progress:
                 progress(done, len(drawn))
     return written

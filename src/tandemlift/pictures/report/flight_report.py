@@ -20,7 +20,7 @@ from tandemlift.core.findings import Finding
 from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
-from tandemlift.pictures.figures.registry import VIEWS, captions, figures_for, save_figures, save_photographs
+from tandemlift.pictures.figures.registry import VIEWS, captions, figures_for, save_photographs
 from tandemlift.pictures.report.metric_tables import write_metric_tables
 from tandemlift.pictures.report.page import (
     DASH,
@@ -33,6 +33,7 @@ from tandemlift.pictures.report.page import (
     with_keys,
     write_page,
 )
+from tandemlift.pictures.report.second_drawer import second_drawer
 from tandemlift.pictures.report.setup_section import html_setup
 
 ARRIVED = 0.5  # m: a vehicle that ends farther from its reference has not arrived
@@ -200,6 +201,20 @@ def write_flight_files(
         progress: called after each figure with (figures written, figures in all).
         replay: a page that plays the flight, for the report.
     """
+    with second_drawer(figures) as drawer:  # starts while the files are written
+        _write_data(flight, folder)
+        for name in captions():
+            for kind in ("png", "pdf"):
+                (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
+        if figures:
+            drawer.save_figures(flight, folder / FLIGHT_FILE, folder / "figures", progress)
+    if photographs:
+        save_photographs(photographs, folder / "figures")
+    write_report(flight, folder / "figures", folder / "report.html", replay)
+
+
+def _write_data(flight: Flight, folder: Path) -> None:
+    """Write mission, flight, metrics and findings."""
     with atomic_write(folder / "mission.toml") as partial:
         partial.write_text(format_toml(flight.mission), "utf-8")
     flight.save(folder / FLIGHT_FILE)
@@ -211,11 +226,3 @@ def write_flight_files(
     with atomic_write(folder / "findings.json") as partial:
         found = [finding.as_table() for finding in flight.findings]
         partial.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", "utf-8")
-    for name in captions():
-        for kind in ("png", "pdf"):
-            (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
-    if figures:
-        save_figures(flight, folder / "figures", progress)
-    if photographs:
-        save_photographs(photographs, folder / "figures")
-    write_report(flight, folder / "figures", folder / "report.html", replay)

@@ -1,0 +1,45 @@
+"""Figures that two processes draw are those that one draws, also when the second process fails."""
+
+import pytest
+
+import tandemlift as tl
+from tandemlift.pictures.figures.registry import figures_for, save_figures
+from tandemlift.pictures.report import second_drawer as drawing
+from tandemlift.pictures.report.second_drawer import SecondDrawer, second_drawer
+
+
+@pytest.fixture(scope="module")
+def flight():
+    return tl.fly(tl.load_mission("one-push", {"mission.duration": 3.0}))
+
+
+@pytest.fixture(scope="module")
+def alone(flight, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("alone")
+    return {file.name: file.read_bytes() for file in save_figures(flight, folder)}
+
+
+def drawn(drawer, flight, file, folder):
+    told = []
+    drawer.save_figures(flight, file, folder, lambda done, total: told.append((done, total)))
+    count = len(figures_for(flight))
+    assert sorted(told) == [(done, count) for done in range(count + 1)]
+    return {file.name: file.read_bytes() for file in folder.iterdir()}
+
+
+def test_two_processes_write_the_bytes_of_one(flight, alone, tmp_path, monkeypatch):
+    monkeypatch.setattr(drawing.os, "cpu_count", lambda: 2)
+    monkeypatch.setattr(drawing, "_draw_each", lambda *_: None)  # so the second process draws all
+    flight.save(tmp_path / "flight.npz")
+    with second_drawer() as drawer:
+        assert drawn(drawer, flight, tmp_path / "flight.npz", tmp_path / "figures") == alone
+
+
+def test_figures_that_the_second_process_cannot_draw_are_drawn_by_the_first(flight, alone, tmp_path, monkeypatch):
+    monkeypatch.setattr(drawing.os, "cpu_count", lambda: 2)
+    with second_drawer() as drawer:  # the file does not exist: the process ends
+        assert drawn(drawer, flight, tmp_path / "none.npz", tmp_path / "figures") == alone
+
+
+def test_one_processor_draws_without_a_second_process(flight, alone, tmp_path):
+    assert drawn(SecondDrawer(), flight, tmp_path / "none.npz", tmp_path / "figures") == alone
