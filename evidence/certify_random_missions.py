@@ -1,10 +1,15 @@
 """Predicted and flown limits of random missions: prints the table of the validation.
 
-python evidence/certify_random_missions.py [--missions 500] [--seed 29] [--parameters delay,lag,mass,…] [--out FILE.csv]
+python evidence/certify_random_missions.py [--missions 500] [--jobs 16] [--minutes 8] [--engine mujoco]
+    [--parameters delay,mass] [--out FILE.csv]
 
 Each mission is one of `BASES` with gains, filters, lags, delays and the admittance drawn around its own values. For
 each parameter the certificate predicts a limit from linear models, and flights find it by bisection, without a model.
-Rows already in FILE.csv are not computed again.
+The inertia about an axis stands for the gain of that axis, which no key of a mission changes alone. Of mass and of
+each inertia, the nearer of the least and the largest limit is flown.
+
+Rows are written as they come. Missions whose rows FILE.csv holds are not computed again, so the same command resumes;
+with `--missions 0` it prints the table only. Needs numpy, scipy and llvmlite; MuJoCo for its flights.
 """
 
 from __future__ import annotations
@@ -12,38 +17,52 @@ from __future__ import annotations
 import argparse
 import csv
 import math
+import multiprocessing
 import sys
+import time
 import warnings
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 import tandemlift as tl
+from tandemlift.analysis.certification.changed_models import linear_limit
 from tandemlift.analysis.certification.felt_admittance import felt_admittance, stiffness_limit
-from tandemlift.analysis.certification.flown import flown_limit, trial_of
-from tandemlift.analysis.certification.linear import CHANGED, changed_limits, loop_as_flown, rotor_limits
+from tandemlift.analysis.certification.flown import LimitTrial, flown_limit, frequency_of, trial_of
+from tandemlift.analysis.certification.linear import CHANGED, loop_as_flown, rotor_limits
 from tandemlift.analysis.certification.parameters import ARM
+from tandemlift.analysis.linearization.claims import FlownLimit
+from tandemlift.analysis.robustness.uncertain_loop import DeviatingLoop
+from tandemlift.analysis.robustness.uncertainty import family_at, hovers_of
 from tandemlift.missions import Mission
 
 BASES = ("iris", "zigzag", "rotor-loss", "gusts")
-PARAMETERS = ("delay", "lag", "mass", "roll inertia", "pitch inertia", "yaw inertia", ARM)
+PARAMETERS = ("delay", "lag", *CHANGED, ARM)
 GAINS, FEEL = (0.6, 1.5), (0.5, 3.0)  # factors of gains and filters; of the admittance
 LAGS, DELAY = (0.5, 2.0), 0.025  # factors of lags; s
+WIDTHS = dict(
+    zip(CHANGED, (0.3, 0.5, 0.5, 0.5), strict=True)
+)  # relative: deviations of the models that look for limits
+UNCERTAIN = dict(zip(CHANGED, ("mass", "inertia_x", "inertia_y", "inertia_z"), strict=True))
+FARTHEST = {-1.0: 0.9, 1.0: 8.0}  # relative: the deviations up to which a limit is looked for
 COLUMNS = (
-    "mission",
-    "base",
-    "parameter",
-    "bound",
-    "predicted",
-    "flown",
-    "ratio",
-    "predicted_rad_s",
-    "flown_rad_s",
-    "ended",
+    *("mission", "base", "engine", "parameter", "bound", "predicted", "flown", "ratio"),
+    *("predicted_rad_s", "flown_rad_s", "ended", "seconds"),
 )
 CLOSE, SAFE = 0.1, 0.8  # of the predicted limit
+BRACKET, WIDTH = 1.1, 0.02  # factor between flights of an engine that are flown one by one; of the last bracket
+
+
+class Prediction(NamedTuple):
+    """A predicted limit: of which parameter, the least or the largest, its value, and the frequency [rad/s]."""
+
+    parameter: str
+    bound: str
+    value: float
+    frequency: float
 
 
 def random_mission(number: int, seed: int) -> tuple[str, Mission] | None:
@@ -74,93 +93,162 @@ def random_mission(number: int, seed: int) -> tuple[str, Mission] | None:
         return None
 
 
-def limits(mission: Mission, chosen: tuple[str, ...]) -> Iterator[tuple[str, str, float, float]]:
-    """(parameter, bound, predicted limit, frequency) of a mission; nothing for an unstable hover."""
+def predictions(mission: Mission, chosen: tuple[str, ...]) -> Iterator[Prediction]:
+    """The predicted limits of a mission that flights can confirm; none for an unstable hover.
+
+    Raises:
+        InputError: the calm flight is lost.
+    """
     loop = loop_as_flown(mission)
     if not loop.stable:
         return
-    for claim in (*rotor_limits(loop), *changed_limits(mission, [name for name in CHANGED if name in chosen])):
-        if claim.limit is not None and claim.parameter in chosen and math.isfinite(claim.frequency):
-            yield claim.parameter, claim.quantity.split()[0], claim.limit, claim.frequency
+    for claim in rotor_limits(loop):
+        if claim.limit is not None and claim.parameter in chosen:
+            yield Prediction(claim.parameter, "largest", claim.limit, claim.frequency)
+    yield from _changed_predictions(mission, tuple(name for name in CHANGED if name in chosen))
     if ARM in chosen:
         try:
             limit = stiffness_limit(felt_admittance(mission), mission.person.damping)
         except tl.InputError:
             return
         if limit < math.inf:
-            yield ARM, "largest", limit, math.nan
+            yield Prediction(ARM, "largest", limit, math.nan)
 
 
-def _limits_or_none(mission: Mission, chosen: tuple[str, ...]) -> list[tuple[str, str, float, float]]:
-    """The limits of a mission; none where its calm flight is lost."""
-    try:
-        return list(limits(mission, chosen))
-    except tl.InputError:
-        return []
+def _changed_predictions(mission: Mission, names: tuple[str, ...]) -> Iterator[Prediction]:
+    """The limits of mass and inertias by the linear tier, whose search begins where the structured tier's model ends.
 
-
-def rows_of(number: int, seed: int, chosen: tuple[str, ...]) -> Iterator[dict[str, Any]]:
-    """The rows of a mission, one for each limit; one without numbers if there is none."""
-    drawn = random_mission(number, seed)
-    if drawn is None:
-        yield {"mission": number, "ended": "refused"}
+    A mass that the rotors do not lift is left out.
+    """
+    if not names:
         return
+    widths = {UNCERTAIN[name]: WIDTHS[name] for name in names}
+    hovers = hovers_of(mission, widths)
+    deviations = DeviatingLoop(family_at(hovers, hovers.w), widths)
+    lifted = mission.hover.lift / mission.hover.vehicle.weight
+    for name in names:
+        key, nearest = UNCERTAIN[name], math.inf
+        for sign in (-1.0, 1.0):
+            near = 1.0 + sign * widths[key] * deviations.limit({key: sign}, FARTHEST[sign] / widths[key])
+            if 0.0 < near < (lifted if name == "mass" else math.inf):
+                nearest = min(nearest, near, key=lambda x: abs(math.log(x)))
+        if nearest < math.inf:
+            found = linear_limit(mission, name, growing=nearest > 1.0, near=nearest)
+            if 0.0 < found.value < math.inf:
+                yield Prediction(name, "largest" if nearest > 1.0 else "least", found.value, found.frequency)
+
+
+def flown_one_by_one(trial: LimitTrial, predicted: float, engine: str) -> FlownLimit:
+    """The limit of a parameter by flights one after the other, which begin at the predicted limit; then bisection."""
+    grows = predicted >= trial.nominal
+    factor, ends = BRACKET if grows else 1.0 / BRACKET, dict[float, tuple[float, str]]()
+
+    def stable(value: float) -> bool:
+        try:
+            flight = tl.fly(trial.mission(value), engine)
+        except tl.InputError:
+            ends[value] = math.nan, "refused"
+            return False
+        ended = trial.ended(flight)
+        ends[value] = (frequency_of(flight) if ended else math.nan), ended
+        return not ended
+
+    low = high = predicted
+    if stable(predicted):
+        while stable(high := high * factor):
+            low = high
+    else:
+        while not stable(low := low / factor):
+            high = low
+            if (low < trial.nominal) == grows:
+                return FlownLimit(trial.nominal, high, *ends[high])
+    while abs(high - low) > WIDTH * low:
+        middle = math.sqrt(low * high)
+        low, high = (middle, high) if stable(middle) else (low, middle)
+    return FlownLimit(low, high, *ends[high])
+
+
+def rows_of(number: int, seed: int, chosen: tuple[str, ...], engine: str) -> list[dict[str, Any]]:
+    """The rows of a mission, one for each limit; one without numbers if there is none."""
+    warnings.simplefilter("ignore", tl.FlightWarning)
+    began, drawn, rows = time.process_time(), random_mission(number, seed), list[dict[str, Any]]()
+    if drawn is None:
+        return [{"mission": number, "engine": engine, "ended": "refused"}]
     base, mission = drawn
-    none = True
-    for name, bound, predicted, frequency in _limits_or_none(mission, chosen):
-        none, flown = False, flown_limit(trial_of(mission, name), predicted)
-        numbers = (predicted, flown.above, flown.above / predicted, frequency, flown.frequency)
-        values = (number, base, name, bound, *(f"{x:.6g}" for x in numbers), flown.ended)
-        yield dict(zip(COLUMNS, values, strict=True))
-    if none:
-        yield {"mission": number, "base": base, "ended": "unstable hover"}
+    try:
+        expected = list(predictions(mission, chosen))
+    except tl.InputError:
+        expected = []
+    for p in expected:
+        trial = trial_of(mission, p.parameter)
+        compiled = engine == "compiled"
+        flown = flown_limit(trial, p.value, threads=1) if compiled else flown_one_by_one(trial, p.value, engine)
+        numbers = (p.value, flown.above, flown.above / p.value, p.frequency, flown.frequency)
+        spent = f"{time.process_time() - began:.1f}"
+        values = (number, base, engine, p.parameter, p.bound, *(f"{x:.6g}" for x in numbers), flown.ended, spent)
+        rows.append(dict(zip(COLUMNS, values, strict=True)))
+    return rows or [{"mission": number, "base": base, "engine": engine, "ended": "unstable hover"}]
 
 
 def table(rows: list[dict[str, str]]) -> str:
-    """The rows as a Markdown table, a line for each parameter."""
+    """The rows as a Markdown table, a line for each engine and parameter."""
     lines = [
-        "| parameter | limits | within 10 % | flown over predicted, least, median, largest | unstable below 0.8 |",
-        "|---|---:|---:|---:|---:|",
+        "| engine | parameter | limits | within 10 % | flown over predicted, least, median, largest | below 0.8 |",
+        "|---|---|---:|---:|---:|---:|",
     ]
-    for name in PARAMETERS:
-        mine = [r for r in rows if r["parameter"] == name and r["ended"] == "oscillation"]
+    kinds = [(engine, name) for engine in ("compiled", "mujoco") for name in PARAMETERS]
+    for engine, name in [*kinds, ("compiled", "all"), ("mujoco", "all")]:
+        mine = [r for r in rows if r["engine"] == engine and r["parameter"] and name in (r["parameter"], "all")]
+        mine = [r for r in mine if r["ended"] == "oscillation"]
         if mine:
-            grows = np.array([1.0 if r["bound"] != "least" else -1.0 for r in mine])
-            ratio = np.array([float(r["ratio"]) for r in mine]) ** grows
+            ratio = np.array([float(r["ratio"]) ** (-1.0 if r["bound"] == "least" else 1.0) for r in mine])
             close = np.mean(np.abs(ratio - 1.0) <= CLOSE)
-            numbers = ", ".join(f"{x:.3g}" for x in (ratio.min(), np.median(ratio), ratio.max()))
-            lines.append(f"| {name} | {len(mine)} | {100 * close:.0f} % | {numbers} | {np.sum(ratio < SAFE)} |")
-    others = [r["ended"] for r in rows if r["ended"] != "oscillation"]
-    return "\n".join(
-        [*lines, "", f"Others: {', '.join(f'{k} {others.count(k)}' for k in sorted(set(others))) or 'none'}."]
-    )
+            numbers = ", ".join(f"{x:.3f}" for x in (ratio.min(), np.median(ratio), ratio.max()))
+            lines.append(
+                f"| {engine} | {name} | {len(mine)} | {100 * close:.1f} % | {numbers} | {np.sum(ratio < SAFE)} |"
+            )
+    others = [r["ended"] or "no limit up to 1.6 of the predicted one" for r in rows if r["ended"] != "oscillation"]
+    counts = ", ".join(f"{kind} {others.count(kind)}" for kind in sorted(set(others))) or "none"
+    return "\n".join([*lines, "", f"{len({r['mission'] for r in rows})} missions. Other ends: {counts}."])
+
+
+def compute(given: argparse.Namespace, numbers: list[int]) -> None:
+    """Append the rows of missions to the file, as they come, until the time is over."""
+    new, until = not given.out.exists(), time.monotonic() + 60.0 * given.minutes
+    rows = partial(rows_of, seed=given.seed, chosen=tuple(given.parameters.split(",")), engine=given.engine)
+    with given.out.open("a", encoding="utf-8", newline="") as file, multiprocessing.Pool(given.jobs) as pool:
+        writer = csv.DictWriter(file, COLUMNS, restval="")
+        if new:
+            writer.writeheader()
+        for done, some in enumerate(pool.imap_unordered(rows, numbers), 1):
+            writer.writerows(some)
+            file.flush()
+            print(f"{done} of {len(numbers)}", file=sys.stderr)
+            if time.monotonic() > until:
+                break
 
 
 def main() -> None:
     """Compute what is missing and print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--missions", type=int, default=500)
+    parser.add_argument("--first", type=int, default=0, help="number of the first mission")
     parser.add_argument("--seed", type=int, default=29)
+    parser.add_argument("--jobs", type=int, default=1, help="processes")
+    parser.add_argument("--minutes", type=float, default=math.inf, help="after which no row is waited for")
+    parser.add_argument("--engine", default="compiled", choices=("compiled", "mujoco"))
     parser.add_argument("--parameters", default=",".join(PARAMETERS))
     parser.add_argument("--out", type=Path, default=Path("out/certified.csv"))
     given = parser.parse_args()
-    warnings.simplefilter("ignore", tl.FlightWarning)
     given.out.parent.mkdir(parents=True, exist_ok=True)
-    done = set[str]()
+    held = list[dict[str, str]]()
     if given.out.exists():
-        with given.out.open(encoding="utf-8") as file:
-            done = {row["mission"] for row in csv.DictReader(file)}
-    with given.out.open("a", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS, restval="")
-        if not done:
-            writer.writeheader()
-        for number in range(given.missions):
-            if str(number) not in done:
-                writer.writerows(rows_of(number, given.seed, tuple(given.parameters.split(","))))
-                file.flush()
-                print(f"{number + 1} of {given.missions}", file=sys.stderr)
-    with given.out.open(encoding="utf-8") as file:
-        print(table(list(csv.DictReader(file))))
+        held = list(csv.DictReader(given.out.read_text("utf-8").splitlines()))
+    done = {int(row["mission"]) for row in held if row["engine"] == given.engine}
+    missing = [number for number in range(given.first, given.missions) if number not in done]
+    if missing:
+        compute(given, missing)
+    print(table(list(csv.DictReader(given.out.read_text("utf-8").splitlines()))))
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ from tandemlift.analysis.linearization.loop_margins import NO_KINK, ON_CIRCLE, c
 from tandemlift.core.errors import InputError
 from tandemlift.missions import Mission
 
-STEP, ACCURACY = 1.25, 0.01  # factor between values that bracket a limit; relative width of the last bracket
+STEP, CLOSER, ACCURACY = 1.25, 1.04, 0.01  # factors between values that bracket a limit; width of the last bracket
 LEAST, MOST = 0.02, 50.0  # of the nominal value, between which a limit is looked for
 
 
@@ -54,19 +54,30 @@ def fastest_growth(mission: Mission, name: str, value: float) -> complex | None:
     return None if is_calm(model) else complex(math.inf)
 
 
-def linear_limit(mission: Mission, name: str, *, growing: bool) -> LinearLimit:
+def linear_limit(mission: Mission, name: str, *, growing: bool, near: float | None = None) -> LinearLimit:
     """The nearest value above (`growing`) or below the nominal one at which a hover is no longer stable.
+
+    Args:
+        mission: the nominal one.
+        name: of the parameter.
+        growing: whether the limit is above the nominal value.
+        near: a value on that side near the limit, at which the search begins; by default, the nominal one.
 
     Raises:
         InputError: no parameter has this name.
     """
-    nominal = PARAMETERS[name].nominal(mission)
-    factor, value, s = STEP if growing else 1.0 / STEP, nominal, None
+    nominal, step = PARAMETERS[name].nominal(mission), STEP if near is None else CLOSER
+    factor = step if growing else 1.0 / step
+    stable, value = nominal, nominal * factor if near is None else near
+    s = fastest_growth(mission, name, value)
     while s is None:
         stable, value = value, value * factor
         if not LEAST * nominal < value < MOST * nominal:
             return LinearLimit(math.inf if growing else 0.0, 0.0)
         s = fastest_growth(mission, name, value)
+    while stable == nominal and abs(math.log(value / nominal)) > 1.01 * math.log(step):  # back from `near`
+        found = fastest_growth(mission, name, value / factor)
+        stable, value, s = (value / factor, value, s) if found is None else (stable, value / factor, found)
     while abs(value - stable) > ACCURACY * value:
         middle = math.sqrt(value * stable)
         found = fastest_growth(mission, name, middle)

@@ -64,6 +64,8 @@ def trial_of(mission: Mission, name: str) -> LimitTrial:
 def flown_limit(trial: LimitTrial, predicted: float, *, threads: int | None = None) -> FlownLimit:
     """The limit of a parameter, found by flights between half the predicted value and 1.6 times it.
 
+    They begin at the nominal value if that is nearer.
+
     Args:
         trial: how it is flown.
         predicted: its limit by a model, in the parameter's unit.
@@ -71,7 +73,7 @@ def flown_limit(trial: LimitTrial, predicted: float, *, threads: int | None = No
     """
     grows = predicted >= trial.nominal
     factors = np.geomspace(LEAST, MOST, COARSE)
-    values = predicted * factors if grows else predicted / factors
+    values = np.maximum(predicted * factors, trial.nominal) if grows else np.minimum(predicted / factors, trial.nominal)
     coarse = _flown(trial, values, threads)
     bad = next((i for i, (_, ended) in enumerate(coarse) if ended), None)
     if bad is None:
