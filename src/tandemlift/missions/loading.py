@@ -45,13 +45,18 @@ def path_of(name: str | os.PathLike[str], folder: Path) -> Path:
     """The file of a built-in mission, or a path relative to a folder; for a saved flight (.zip) that of its mission."""
     if isinstance(name, str) and name in built_in():
         return DATA / "missions" / f"{name}.toml"
-    if isinstance(name, str) and not name.endswith((".toml", ".zip")) and not re.search(r"[/\\]", name):
+    if isinstance(name, str) and not name.endswith((".toml", ".zip", ".npz", ".py")) and not re.search(r"[/\\]", name):
         raise InputError(f"{unknown('mission', name, built_in())} The name of a file of your own ends in .toml.")
     path = folder / name
-    if path.is_dir():
-        raise InputError(f"{path} is a folder, not a mission file")
+    if path.suffix == ".py":
+        raise InputError(f"{path} is Python, not a mission file; fly a controller by run MISSION --controller {path}")
+    if path.is_dir() or path.suffix == ".npz":
+        flown = (path if path.is_dir() else path.parent) / "mission.toml"
+        instead = f"; the mission of its flight is {flown}" if flown.exists() else ""
+        raise InputError(f"{path} is a {'folder' if path.is_dir() else 'saved flight'}, not a mission file{instead}")
     if not path.exists():
-        raise InputError(f"mission file {path} does not exist.{suggestion(path.stem, built_in())}")
+        near = suggestion(path.name, [*built_in(), *(file.name for file in path.parent.glob("*.toml"))])
+        raise InputError(f"mission file {path} does not exist.{near}")
     return unpacked_recording(path, path.stat().st_mtime_ns) if path.suffix == ".zip" else path
 
 

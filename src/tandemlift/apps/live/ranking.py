@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import zipfile
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -12,7 +13,7 @@ from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.core.errors import InputError, shown, without_flight_warnings
 from tandemlift.core.types import Progress
 from tandemlift.missions import Mission, load_mission, tables_of
-from tandemlift.missions.recording import MISSION_FILE
+from tandemlift.missions.recording import MISSION_FILE, read_recording
 from tandemlift.simulation.fly import fly
 
 FREE = ("mission.name", "mission.duration", "person.recording", "mission.fma")  # of each flight; rounding, of its page
@@ -20,23 +21,27 @@ EQUAL = 1e-6  # s: scores are the same
 
 
 class HandedIn(NamedTuple):
-    """What a participant handed in: name, and its score, or the reason for which it has none."""
+    """What a participant handed in: name, and its score, or the reason for which it has none; its recording."""
 
     name: str
     score: CorridorScore | None
     refused: str = ""
+    hand: bytes = b""  # the recording
 
 
-def handed_in(folder: Path) -> list[Path]:
-    """The saved flights in a folder, in the order of their names: a folder or a .zip each, as pages save them.
+def handed_in(folder: Path) -> tuple[list[Path], list[Path]]:
+    """What a folder holds, by name: saved flights, a folder or a .zip each, as pages save them; and all else.
 
     Raises:
-        InputError: there are none.
+        InputError: there is no such folder, or no flight in it.
     """
-    found = sorted(p for p in folder.glob("*") if p.suffix == ".zip" or (p / MISSION_FILE).exists())
+    if not folder.is_dir():
+        raise InputError(f"{folder}: {'is a file, not a folder' if folder.exists() else 'there is no such folder'}")
+    here = sorted(folder.iterdir())
+    found = [p for p in here if p.suffix == ".zip" or (p / MISSION_FILE).exists()]
     if not found:
         raise InputError(f"{folder}: must hold flights that a page saved, a folder or a .zip each; there are none")
-    return found
+    return found, [p for p in here if p not in found]
 
 
 def scored(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]) -> HandedIn:
@@ -48,31 +53,43 @@ def scored(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]) -> H
         free: keys, or tables of keys, that may differ from it.
     """
     try:
-        return HandedIn(path.stem, _score_again(path, challenge, free))
+        return _flown_again(path, challenge, free)
     except InputError as error:
         return HandedIn(path.stem, None, str(error))
 
 
-def _score_again(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]) -> CorridorScore:
+def _flown_again(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]) -> HandedIn:
     with without_flight_warnings():
         mission = load_mission(path if path.suffix == ".zip" else path / MISSION_FILE)
         if mission.person.recording is None:
             raise InputError(f"{path.name}: has no recording of a hand")
         _check_unchanged(dict(_keys_of(tables_of(mission))), challenge, free)
+        hand = read_recording(mission.person.recording)
         score = score_of(fly(mission))
-    if (path / SCORE_FILE).exists():
-        try:
-            claimed = float(json.loads((path / SCORE_FILE).read_text("utf-8"))["score"])
-        except (ValueError, KeyError, TypeError):
-            raise InputError(f"{path / SCORE_FILE}: is no score") from None
-        if abs(claimed - score.total) > EQUAL:
-            raise InputError(f"{SCORE_FILE} says {claimed:.2f} s, but the recording flies {score.total:.2f} s")
-    return score
+    claimed = _claimed(path)
+    if claimed is not None and abs(claimed - score.total) > EQUAL:
+        raise InputError(f"{SCORE_FILE} says {claimed:.2f} s, but the recording flies {score.total:.2f} s")
+    return HandedIn(path.stem, score, hand=hand.steps.tobytes() + hand.hands.tobytes())
+
+
+def _claimed(path: Path) -> float | None:
+    """The score [s] that the page wrote beside the flight; None for a flight that was saved without one."""
+    try:
+        if path.suffix == ".zip":
+            with zipfile.ZipFile(path) as archive:
+                text = archive.read(SCORE_FILE) if SCORE_FILE in archive.namelist() else None
+        else:
+            text = (path / SCORE_FILE).read_bytes() if (path / SCORE_FILE).exists() else None
+        return None if text is None else float(json.loads(text)["score"])
+    except (ValueError, KeyError, TypeError):
+        raise InputError(f"{path.name}: {SCORE_FILE} is no score") from None
 
 
 def _check_unchanged(theirs: dict[str, Any], ours: Mapping[str, Any], free: tuple[str, ...]) -> None:
     """Raise an InputError that names the first key that a participant changed and was not free to."""
     theirs |= {change["key"]: change["value"] for change in theirs.pop("changes", [])}
+    if theirs.get("corridor.centreline") != ours.get("corridor.centreline"):
+        raise InputError(f"flew another corridor than that of {ours.get('mission.name')}")
     for key in sorted({*theirs, *ours} - {"changes"}):
         if theirs.get(key) != ours.get(key) and not any(key == f or key.startswith(f"{f}.") for f in free):
             raise InputError(f"{key} = {shown(theirs.get(key))}: the challenge has {shown(ours.get(key))}")
@@ -100,17 +117,19 @@ def ranked(
     Raises:
         InputError: nothing was handed in.
     """
-    paths, results = handed_in(folder), list[HandedIn]()
+    (paths, others), results = handed_in(folder), list[HandedIn]()
     keys = dict(_keys_of(tables_of(interactive_mission(challenge))))
     for path in paths:
         results.append(scored(path, keys, (*FREE, *free)))
         if progress:
             progress(len(results), len(paths))
     width = max(len(one.name) for one in results)
-    scores = sorted([(one.name, one.score) for one in results if one.score], key=lambda row: row[1].total)
+    scores = sorted([(one, one.score) for one in results if one.score], key=lambda row: row[1].total)
     rows = [f"rank  {'name':{width}}   score    time  touches     effort  jerk"] if scores else []
-    for rank, (name, score) in enumerate(scores, 1):
+    for rank, (one, score) in enumerate(scores, 1):
         cells = f"{score.total:6.1f} s {score.time:5.1f} s {score.touches:8d} {score.effort:6.1f} N s {score.jerk:5.1f}"
-        rows.append(f"{rank:4d}  {name:{width}} {cells}")
+        same = [other.name for other, _ in scores if other is not one and other.hand == one.hand]
+        rows.append(f"{rank:4d}  {one.name:{width}} {cells}{'  same recording as ' + ', '.join(same) if same else ''}")
     refused = [f"   –  {one.name:{width}} refused: {one.refused}" for one in results if not one.score]
-    return [*rows, *refused], len(refused)
+    skipped = [f"   –  {path.name}: is no saved flight, and was skipped" for path in others]
+    return [*rows, *refused, *skipped], len(refused)

@@ -114,8 +114,27 @@ def test_a_file_of_a_page_without_a_server_is_ranked_although_it_rounds_in_its_o
     assert (code, said.splitlines()[1].split()[:2]) == (0, ["1", "emil"])
 
 
+def test_a_zip_with_another_score_a_copy_another_mission_and_other_files_are_told(handed_in, tmp_path):
+    place = tmp_path / "in"
+    shutil.copytree(handed_in / "in" / "anna", place / "anna")
+    shutil.copytree(handed_in / "in" / "anna", place / "mallory")
+    (place / "notes.txt").write_text("late")
+    with zipfile.ZipFile(place / "oscar.zip", "w") as archive:
+        for name in ("recorded.toml", "hand.npz"):
+            archive.write(handed_in / "in" / "bert" / name, name)
+        archive.write(handed_in / "in" / "anna" / "score.json", "score.json")
+    _, said, _ = run(place, "--mission", handed_in / "class.toml")
+    anna, mallory, oscar, notes = said.splitlines()[1:]
+    assert anna.endswith("same recording as mallory")
+    assert mallory.endswith("same recording as anna")
+    assert "score.json says" in oscar
+    assert "notes.txt: is no saved flight" in notes
+    assert "flew another corridor than that of zigzag" in run(place)[1]
+
+
 def test_a_folder_without_flights_and_a_mission_without_a_corridor_are_refused(tmp_path):
     assert "must hold flights that a page saved" in run(tmp_path)[2]
+    assert "there is no such folder" in run(tmp_path / "none")[2]
     with pytest.raises(tl.InputError, match=r"has no \[corridor\]"):
         score_of(tl.fly("one-push"))
 
