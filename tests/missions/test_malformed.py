@@ -128,6 +128,12 @@ def test_a_missing_file_a_folder_and_a_misspelt_name_are_told_apart(mine, tmp_pa
     (tmp_path / "folder.toml").mkdir()
     assert refusal("absent.toml") == "mission file absent.toml does not exist."
     assert "Did you mean 'paper'?" in refusal("papr.toml")
+    mine('')
+    assert "Did you mean 'mine'?" in refusal("mien.toml")
+    (tmp_path / "flown").mkdir()
+    (tmp_path / "flown" / "mission.toml").touch()
+    assert refusal("flown/flight.npz").endswith("the mission of its flight is flown/mission.toml")
+    assert "--controller pd.py" in refusal("pd.py")
     assert refusal("folder.toml") == "folder.toml is a folder, not a mission file"
     assert f"unknown mission 'papper'; there are {', '.join(built_in())}. Did" in refusal("papper")
     assert "Did you mean 'paper'?" in refusal("PAPER")

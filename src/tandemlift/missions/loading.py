@@ -55,7 +55,7 @@ def path_of(name: str | os.PathLike[str], folder: Path) -> Path:
         instead = f"; the mission of its flight is {flown}" if flown.exists() else ""
         raise InputError(f"{path} is a {'folder' if path.is_dir() else 'saved flight'}, not a mission file{instead}")
     if not path.exists():
-        near = suggestion(path.name, [*built_in(), *(file.name for file in path.parent.glob("*.toml"))])
+        near = suggestion(path.stem, [*built_in(), *(file.stem for file in path.parent.glob("*.toml"))])
         raise InputError(f"mission file {path} does not exist.{near}")
     return unpacked_recording(path, path.stat().st_mtime_ns) if path.suffix == ".zip" else path
 
