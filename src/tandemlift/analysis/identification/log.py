@@ -10,7 +10,7 @@ docs/how-to/log-a-vehicle.md is the contract for users.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -28,7 +28,6 @@ MOTION = ("measured_position", "measured_velocity", "measured_attitude")
 STREAMS = (*IMU, *JOINTS, *MOTION, COMMANDS, SPEED_COMMANDS, "push_force")
 """The streams that readers know; a log may have others, by names of channels."""
 
-SPEED = Channel("rad/s", "body z", "commanded speed of each rotor", 1, "rotor")
 PER = {"": 1, "quadrotor": 1, "rotor": 4}  # the number of columns of a stream is a multiple of its width times this
 
 
@@ -38,7 +37,7 @@ def stream_channel(name: str) -> Channel:
     Raises:
         InputError: there is no such stream.
     """
-    channel = SPEED if name == SPEED_COMMANDS else channel_of(name)
+    channel = channel_of(name)
     if channel == OTHER:
         raise unknown("stream", name, STREAMS)
     return channel
@@ -49,6 +48,12 @@ class Stream(NamedTuple):
 
     time: Array
     values: Array
+
+
+def without_repeats(stream: Stream) -> Stream:
+    """A stream without the samples whose stamp is that of the sample before: of a stamp that comes twice, the first."""
+    new = np.diff(stream.time, prepend=-np.inf) != 0.0
+    return Stream(stream.time[new], stream.values[new])
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,6 +165,24 @@ class Log(Mapping[str, Stream]):
             return Stream(stream.time[inside], stream.values[inside])
 
         return self.mapped(part)
+
+    def aligned(self, names: Collection[str], offset: float, drift: float = 0.0, about: float = 0.0) -> Log:
+        """The log with other stamps of some streams: t + offset + drift · (t − about) [s] for each stamp t."""
+
+        def moved(name: str, stream: Stream) -> Stream:
+            time = stream.time
+            return Stream(time + offset + drift * (time - about), stream.values) if name in names else stream
+
+        return self.mapped(moved)
+
+    def synchronised(self) -> tuple[Log, list[str]]:
+        """The log with all stamps on the inertial unit's clock, and a line about the clock of each other source.
+
+        A source whose clock the motion does not tell keeps its stamps; `analysis.identification.clocks` has the law.
+        """
+        from tandemlift.analysis.identification.clocks import synchronised
+
+        return synchronised(self)
 
 
 def log_of(flight: Flight) -> Log:
