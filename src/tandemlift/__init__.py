@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from tandemlift.analysis.studies.study import study
     from tandemlift.analysis.studies.table import Study, load_study
     from tandemlift.analysis.studies.tuning.tune import train, tune
+    from tandemlift.apps.export.logs import read_log
     from tandemlift.apps.export.registration import register_environments
     from tandemlift.codegen.mission_module import compile_mission
     from tandemlift.core.errors import FlightWarning, InputError
@@ -59,6 +60,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "load_mission": "missions",
     "load_study": "analysis.studies.table",
     "plot": "pictures.figures.registry",
+    "read_log": "apps.export.logs",
     "register_environments": "apps.export.registration",
     "study": "analysis.studies.study",
     "train": "analysis.studies.tuning.tune",
@@ -88,6 +90,7 @@ __all__ = [
     "load_mission",
     "load_study",
     "plot",
+    "read_log",
     "register_environments",
     "study",
     "train",
