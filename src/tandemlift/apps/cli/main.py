@@ -8,7 +8,6 @@ import warnings
 
 import click
 
-from tandemlift.apps.cli.compare import compare
 from tandemlift.apps.cli.console import compile_notices, exit_now, handle_interrupts
 from tandemlift.apps.cli.export import compile, export, render
 from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, new, schema, template
@@ -17,7 +16,7 @@ from tandemlift.apps.cli.live import live, page, replay, score
 from tandemlift.apps.cli.report import paper, plot, report
 from tandemlift.apps.cli.ros import gazebo, ros
 from tandemlift.apps.cli.run import run
-from tandemlift.apps.cli.study import study
+from tandemlift.apps.cli.study import compare, study
 from tandemlift.apps.cli.tune import feel, train, tune
 from tandemlift.core.errors import FlightWarning, InputError, suggestion
 from tandemlift.core.files import __version__
