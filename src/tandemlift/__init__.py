@@ -15,6 +15,7 @@ from tandemlift.core.files import __version__ as __version__
 
 if TYPE_CHECKING:
     from tandemlift.analysis.certification.mission_check import check
+    from tandemlift.analysis.identification.shadow import shadow
     from tandemlift.analysis.linearization.differentiable_step import jax_step
     from tandemlift.analysis.linearization.linear_model import LinearModel
     from tandemlift.analysis.linearization.linearize import linearize
@@ -62,6 +63,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "plot": "pictures.figures.registry",
     "read_log": "apps.export.logs",
     "register_environments": "apps.export.registration",
+    "shadow": "analysis.identification.shadow",
     "study": "analysis.studies.study",
     "train": "analysis.studies.tuning.tune",
     "tune": "analysis.studies.tuning.tune",
@@ -92,6 +94,7 @@ __all__ = [
     "plot",
     "read_log",
     "register_environments",
+    "shadow",
     "study",
     "train",
     "tune",

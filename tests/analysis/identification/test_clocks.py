@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.analysis.identification.clocks import clock_of
+from tandemlift.analysis.identification.clocks import clock_of, synchronised
 from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION, Log, Stream, without_repeats
 
 DURATION = 30.0  # s
@@ -98,12 +98,14 @@ def test_the_clock_of_joints_and_the_mass_they_carry_are_found_beside_slow_pushe
 def test_stamps_are_corrected_where_the_motion_tells_and_kept_where_it_does_not(motions):
     streams = moving(motions, 0, 0.3, 50e-6)
     streams |= {name: Stream(streams[MOTION[2]].time, np.ones((len(FAST[::5]), 3))) for name in MOTION[:2]}
-    aligned, (line,) = Log(streams).synchronised()
+    aligned = synchronised(Log(streams))
+    (line,) = aligned.notes
     assert aligned[MOTION[0]].time == pytest.approx(FAST[::5], abs=2e-3)
     assert line.startswith("motion: offset 30")
     assert "ppm" in line
     still = {**streams, IMU[1]: Stream(FAST, np.random.default_rng(3).standard_normal((len(FAST), 3)))}
-    kept, (line,) = Log(still).synchronised()
+    kept = synchronised(Log(still))
+    (line,) = kept.notes
     assert np.array_equal(kept[MOTION[0]].time, streams[MOTION[0]].time)
     assert "its stamps are kept" in line
 

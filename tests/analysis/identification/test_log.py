@@ -2,9 +2,21 @@
 
 import numpy as np
 import pytest
+from repository import ROOT
 
 import tandemlift as tl
-from tandemlift.analysis.identification.log import COMMANDS, IMU, JOINTS, MOTION, SPEED_COMMANDS, Log, Stream, log_of
+from tandemlift.analysis.identification.log import (
+    COMMANDS,
+    IMU,
+    JOINTS,
+    MOTION,
+    SPEED_COMMANDS,
+    STREAMS,
+    Log,
+    Stream,
+    log_of,
+    stream_channel,
+)
 
 DELAYS = {"sensors.delay": 0.003, "sensors.motion.delay": 0.007}
 CLOCKS = {
@@ -83,6 +95,12 @@ def test_a_part_keeps_the_clock(flown):
 def test_a_flight_without_sensors_has_no_log():
     with pytest.raises(tl.InputError, match=r'sensors\.model = "simulated"'):
         log_of(tl.fly(tl.load_mission("hover", {"mission.duration": 0.1})))
+
+
+def test_the_contract_has_every_stream_with_its_unit():
+    page = (ROOT / "docs" / "how-to" / "log-a-vehicle.md").read_text("utf-8")
+    units = {name: stream_channel(name).unit.replace("^2", "²") for name in STREAMS}
+    assert [name for name, unit in units.items() if f"| `{name}` | {unit}" not in page] == []
 
 
 @pytest.mark.parametrize(

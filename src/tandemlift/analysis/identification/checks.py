@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tandemlift.analysis.identification.clocks import TOLD, Clock, fitted_clock, means_of, turn_windows
+from tandemlift.analysis.identification.clocks import TOLD, SourceClock, fitted_clock, means_of, turn_windows
 from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY
@@ -110,7 +110,7 @@ def _check_rates(log: Log) -> None:
     """Refuse a gyroscope and an attitude that do not belong together."""
     (time, q), gyroscope = log[ATTITUDE], log[RATES]
 
-    def agreement(order: list[int], signs: list[float], of_rates: list[float]) -> Clock:
+    def agreement(order: list[int], signs: list[float], of_rates: list[float]) -> SourceClock:
         turned = Stream(gyroscope.time, gyroscope.values * of_rates)
         return fitted_clock(turn_windows(Stream(time, q[:, order] * signs)), turned)
 

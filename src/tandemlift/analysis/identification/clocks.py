@@ -21,6 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -43,7 +44,7 @@ UNSURE = 0.005  # s, of the offset
 HUBER = 1.345  # standard deviations beyond which a residual counts less: 95 % efficient under Gaussian noise
 
 
-class Clock(NamedTuple):
+class SourceClock(NamedTuple):
     """A source's clock: the inertial unit's time is t + offset + drift · (t − about) [s] at its time t.
 
     Attributes:
@@ -69,7 +70,7 @@ class Clock(NamedTuple):
         return f"{offset}, drift {1e6 * self.drift:.1f} ppm ± {2e6 * self.drift_sigma:.1f}"
 
 
-NOTHING_TOLD = Clock(0.0, 0.0, 0.0, math.inf, math.inf, 0.0, 0.0)
+NOTHING_TOLD = SourceClock(0.0, 0.0, 0.0, math.inf, math.inf, 0.0, 0.0)
 
 
 class Windows(NamedTuple):
@@ -84,7 +85,7 @@ class Windows(NamedTuple):
     back: float = 0.0
 
 
-def clock_of(log: Log, group: str) -> Clock:
+def clock_of(log: Log, group: str) -> SourceClock:
     """The clock of the source "motion" or "joints" of a log.
 
     Raises:
@@ -97,17 +98,20 @@ def clock_of(log: Log, group: str) -> Clock:
     return fitted_clock(change_windows(Stream(time, forces.reshape(len(time), -1, 3).sum(axis=1))), log[IMU[0]])
 
 
-def synchronised(log: Log) -> tuple[Log, list[str]]:
-    """A log with all stamps on the inertial unit's clock, and a line about the clock of each source."""
-    lines = []
+def synchronised(log: Log) -> Log:
+    """A log with all stamps on the inertial unit's clock, and a note about the clock of each other source.
+
+    A source whose clock the motion does not tell, to `UNSURE`, keeps its stamps.
+    """
     for group, names in GROUPS.items():
         if not {*names, *IMU} <= {*log}:
             continue
         clock = clock_of(log, group)
         told = clock.offset_sigma < UNSURE and clock.correlation > TOLD
-        lines.append(f"{group}: {clock if told else 'the motion does not tell its clock; its stamps are kept'}")
+        note = f"{group}: {clock if told else 'the motion does not tell its clock; its stamps are kept'}"
         log = log.aligned(names, clock.offset, clock.drift, clock.about) if told else log
-    return log, lines
+        log = replace(log, notes=(*log.notes, note))
+    return log
 
 
 def turn_windows(attitude: Stream) -> Windows:
@@ -167,7 +171,7 @@ def means_of(stream: Stream, back: float = 0.0) -> Means:
     return lambda begin, end: mean(begin, end) - mean(begin - back, end - back) if back else mean(begin, end)
 
 
-def fitted_clock(y: Windows, unit: Stream) -> Clock:
+def fitted_clock(y: Windows, unit: Stream) -> SourceClock:
     """The clock by which windows agree best with a stream of the inertial unit."""
     if len(y.begin) < FEWEST or len(unit.time) < FEWEST:
         return NOTHING_TOLD
@@ -198,7 +202,7 @@ def fitted_clock(y: Windows, unit: Stream) -> Clock:
     both, mine, yours = (
         float(np.sum((a - a.mean(0)) * c)) for a, c in ((m, mean), (mean, mean - mean.mean(0)), (m, m - m.mean(0)))
     )
-    return Clock(offset, drift, about, float(sigmas[0]), float(sigmas[1]), scale, both / math.sqrt(mine * yours))
+    return SourceClock(offset, drift, about, float(sigmas[0]), float(sigmas[1]), scale, both / math.sqrt(mine * yours))
 
 
 def _solved(jacobian: Array, rest: Array, weight: Array, lags: int) -> tuple[Array, Array]:

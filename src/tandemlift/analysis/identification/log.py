@@ -63,6 +63,7 @@ class Log(Mapping[str, Stream]):
     Attributes:
         streams: by name; at least one.
         source: file or flight that it came from, for messages.
+        notes: what was found and changed since it was read, a line each.
 
     Raises:
         InputError: a stream is unknown or empty, has another width, a number that is not finite, or a stamp that is not
@@ -71,6 +72,7 @@ class Log(Mapping[str, Stream]):
 
     streams: Mapping[str, Stream]
     source: str = "log"
+    notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.streams:
@@ -174,15 +176,6 @@ class Log(Mapping[str, Stream]):
             return Stream(time + offset + drift * (time - about), stream.values) if name in names else stream
 
         return self.mapped(moved)
-
-    def synchronised(self) -> tuple[Log, list[str]]:
-        """The log with all stamps on the inertial unit's clock, and a line about the clock of each other source.
-
-        A source whose clock the motion does not tell keeps its stamps; `analysis.identification.clocks` has the law.
-        """
-        from tandemlift.analysis.identification.clocks import synchronised
-
-        return synchronised(self)
 
 
 def log_of(flight: Flight) -> Log:

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.analysis.identification.clocks import synchronised
 from tandemlift.analysis.identification.log import MOTION, Log, Stream, log_of, stream_channel, without_repeats
 from tandemlift.apps.export.coordinate_frames import to_world
 from tandemlift.apps.export.log_tables import TIME, LogTables, bag_tables, csv_table, ulog_tables
@@ -63,18 +64,26 @@ class Way(NamedTuple):
         return [self.topic] if isinstance(self.topic, str) else self.topic
 
 
-def read_log(path: str | os.PathLike[str], columns: Map | str | os.PathLike[str] | None = None) -> Log:
+def read_log(
+    path: str | os.PathLike[str], columns: Map | str | os.PathLike[str] | None = None, *, align: bool = False
+) -> Log:
     """The log in a file. Its time 0 is that of its first sample; in a flight it is the flight's.
 
     Args:
         path: a flight (.npz, or the folder of a run), a bag (.bag, .mcap, or the folder of a ROS 2 bag), a ULog (.ulg)
             or a table (.csv).
         columns: the map: nested tables with the keys of `Way`, or the path of a TOML file with them. A .csv needs one.
+        align: whether to find the clocks of motion capture and joints against the inertial unit's, and to correct their
+            stamps; `notes` of the log has what was found.
 
     Raises:
         InputError: the file cannot be read, a package is missing, or a column or topic of the map is not there.
     """
-    path = Path(path)
+    read = _read(Path(path), columns)
+    return synchronised(read) if align else read
+
+
+def _read(path: Path, columns: Map | str | os.PathLike[str] | None) -> Log:
     kind = path.suffix.lower()
     given = _ways(columns if isinstance(columns, Mapping) else _map_in(Path(columns)) if columns else {})
     if kind == ".npz" or (path / FLIGHT_FILE).is_file():
