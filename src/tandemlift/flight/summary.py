@@ -28,6 +28,10 @@ def summary_lines(flight: Flight) -> Iterator[str]:
     yield f"{flight.name}: {flight.outcome}; {m['steps']} steps, flown in {m['wall_s'] * 1e3:.1f} ms"
     if FLOWN in flight:
         commands = flight["rotor_commands" if "rotor_commands" in flight else "rotor_thrusts"]
+        if "push_estimate" in flight:
+            rows.append(
+                ("largest push felt", _list([float((flight["push_estimate"] ** 2).sum(axis=1).max() ** 0.5)], 2), "N")
+            )
         rows.append(("commands beside the flown, RMS", _list([_rms(commands - flight[FLOWN])], 3), "N"))
     for label, value, unit in rows:
         if value:

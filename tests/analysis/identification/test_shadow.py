@@ -121,6 +121,12 @@ def test_what_cannot_be_the_log_of_the_mission_is_refused(log, change, mission, 
         tl.shadow(change(log), iris(**mission))
 
 
+def test_a_log_with_fewer_samples_than_the_mission_takes_is_warned_of(log):
+    sparse = log.mapped(lambda name, stream: Stream(stream.time[::4], stream.values[::4])).between(-1.0, 2.0)
+    with pytest.warns(tl.FlightWarning, match=r"measured_rates at 250 Hz, .* at 1000 Hz.*set sensors.interval = 0.004"):
+        tl.shadow(sparse, iris())
+
+
 def test_a_vehicle_of_more_quadrotors_is_refused(log):
     with pytest.raises(tl.InputError, match="has 6 columns: must be 3 for each of the 4 quadrotors of mission four"):
         tl.shadow(log, tl.load_mission("four", {"sensors.model": "simulated"}))

@@ -36,18 +36,18 @@ def same_attitude(values):
 
 
 def ulog_of(path, topics):
-    """A ULog; topics: name → (fields as in the format, stamps [µs], rows of numbers)."""
+    """A ULog; topics: name → (fields as in the format, stamps [µs], 3 ms before they are logged, rows of numbers)."""
 
     def message(kind, payload):
         return struct.pack("<HB", len(payload), ord(kind)) + payload
 
     parts = [b"\x55\x4c\x6f\x67\x01\x12\x35\x01" + struct.pack("<Q", 0), message("B", bytes(40))]
     for name, (fields, _, _) in topics.items():
-        parts.append(message("F", f"{name}:uint64_t timestamp;{fields};".encode()))
+        parts.append(message("F", f"{name}:uint64_t timestamp;uint64_t timestamp_sample;{fields};".encode()))
     for number, (name, (_, stamps, rows)) in enumerate(topics.items()):
         parts.append(message("A", struct.pack("<BH", 0, number) + name.encode()))
         for stamp, row in zip(stamps, rows, strict=True):
-            parts.append(message("D", struct.pack(f"<HQ{len(row)}f", number, stamp, *row)))
+            parts.append(message("D", struct.pack(f"<HQQ{len(row)}f", number, stamp + 3000, stamp, *row)))
     path.write_bytes(b"".join(parts))
     return path
 
@@ -317,7 +317,7 @@ def test_what_is_no_table_or_no_log_is_refused(table, tmp_path):
 
 
 def test_our_own_flight_is_the_same_log_from_its_file_and_from_its_bag(tmp_path):
-    flight = tl.fly(tl.load_mission("iris", {"mission.duration": 1.0, "mission.log_interval": 0.001}))
+    flight = tl.fly(tl.load_mission("iris", {"mission.duration": 0.3, "mission.log_interval": 0.001}))
     log = log_of(flight)
     for path in (flight.save(tmp_path / "flight.npz"), export(flight, tmp_path / "flight.mcap")):
         read = tl.read_log(path)

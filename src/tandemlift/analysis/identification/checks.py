@@ -127,9 +127,9 @@ def _check_rates(log: Log) -> None:
 def acceleration(log: Log) -> Stream:
     """The acceleration [m/s²] of the accelerometer, world axes, with the attitude of the log."""
     time, force = log[FORCE]
-    q = np.array([np.interp(time, log[ATTITUDE].time, column) for column in log[ATTITUDE].values.T])
-    w, v = q[:1].T, q[1:].T
-    turned = force + 2.0 * np.cross(v, np.cross(v, force) + w * force) / np.sum(q * q, axis=0)[:, None]
+    q = log[ATTITUDE].at(time)
+    w, v = q[:, :1], q[:, 1:]
+    turned = force + 2.0 * np.cross(v, np.cross(v, force) + w * force) / np.sum(q * q, axis=1)[:, None]
     return Stream(time, turned - [0.0, 0.0, GRAVITY])
 
 

@@ -28,6 +28,7 @@ MOTION = ("measured_position", "measured_velocity", "measured_attitude")
 STREAMS = (*IMU, *JOINTS, *MOTION, COMMANDS, SPEED_COMMANDS, "push_force")
 """The streams that readers know; a log may have others, by names of channels."""
 
+SOON = 1e-6  # s: a stamp that much later than a time still counts as it
 PER = {"": 1, "quadrotor": 1, "rotor": 4}  # the number of columns of a stream is a multiple of its width times this
 
 
@@ -48,6 +49,10 @@ class Stream(NamedTuple):
 
     time: Array
     values: Array
+
+    def at(self, times: Array) -> Array:
+        """The last sample at some times [s]; before the first one, that one."""
+        return self.values[np.maximum(np.searchsorted(self.time, times + SOON, side="right") - 1, 0)]
 
 
 def without_repeats(stream: Stream) -> Stream:

@@ -10,6 +10,7 @@ of tracking wander if the log's pilot tracked something else.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Container
 from dataclasses import replace
 from typing import Any
@@ -17,8 +18,8 @@ from typing import Any
 import numpy as np
 
 from tandemlift.analysis.identification.checks import check_log
-from tandemlift.analysis.identification.log import COMMANDS, IMU, JOINTS, MOTION, SPEED_COMMANDS, Log
-from tandemlift.core.errors import InputError, without_flight_warnings
+from tandemlift.analysis.identification.log import COMMANDS, IMU, JOINTS, MOTION, SOON, SPEED_COMMANDS, Log
+from tandemlift.core.errors import FlightWarning, InputError, without_flight_warnings
 from tandemlift.core.types import Array, Progress, flat, leaves, unflat
 from tandemlift.flight.channels import FLOWN
 from tandemlift.flight.record import Flight
@@ -30,8 +31,8 @@ from tandemlift.simulation.stepping import Stepper, fly_stepwise
 ENGINE = "log"
 PUSH, RATES = "push_force", IMU[1]
 ELSEWHERE = 0.5  # m: a log that begins farther from the mission's start is of another flight
+SPARSE = 0.8  # of the mission's rate: with fewer samples the estimators take one sample for several
 HOLDERS = ((("readings",), ()), (("sensing",), ("reading",)))  # of the last readings, in a flight's state
-SOON = 1e-6  # s: a stamp this much later than a step still counts as its time
 ERRORS = ("noise", "bias", "drift", "resolution", "misalignment")  # keys of sensors, at the end of their names
 
 
@@ -79,11 +80,11 @@ class LogBody:
         times: Array = np.arange(p.steps + 2, dtype=float) * p.dt
         none = {IMU[0]: 3, **dict.fromkeys(JOINTS, 3 * len(p.mission.vehicle.quadrotors)), "contact": 3}
         loads = [rows(log, name, times) if name in log else np.zeros((len(times), none[name])) for name in none]
-        self._states = np.hstack([rows(log, name, times) for name in (*MOTION, RATES)])
+        self._states = np.hstack([log[name].at(times) for name in (*MOTION, RATES)])
         self._readings = np.hstack(loads)  # in the order of a `PerfectReadings`
         self.state, self.readings = self._states[0].copy(), self._readings[0].copy()
         self.flown = flown_commands(log, p.mission, times)
-        self._pushes = rows(log, PUSH, times) if PUSH in log else None
+        self._pushes = log[PUSH].at(times) if PUSH in log else None
         self._external, self._step = np.zeros(leaves(p.given.external)), 0
         self._sample, self._own = SampleChannels(p.sample), p.place("flight_state", "memory", "allocation", "thrusts")
 
@@ -106,12 +107,9 @@ class LogBody:
 
 
 def rows(log: Log, name: str, times: Array) -> Array:
-    """The last samples of a stream at some times [s], the first one before it; of joints, all x, then y, then z."""
-    stream = log[name]
-    values = stream.values[np.maximum(np.searchsorted(stream.time, times + SOON, side="right") - 1, 0)]
-    if name not in JOINTS:
-        return values
-    return values.reshape(len(values), -1, 3).swapaxes(1, 2).reshape(len(values), -1)
+    """The last samples of a stream at some times [s]; of joints, x of all, then y, then z."""
+    values = log[name].at(times)
+    return values.reshape(len(values), -1, 3).swapaxes(1, 2).reshape(len(values), -1) if name in JOINTS else values
 
 
 def check_vehicle(log: Log, mission: Mission) -> None:
@@ -130,6 +128,15 @@ def check_vehicle(log: Log, mission: Mission) -> None:
     if np.linalg.norm(start - mission.initial.position) > ELSEWHERE:
         at, other = np.round(start, 3).tolist(), list(mission.initial.position)
         raise InputError(f"{log.source}: begins at {at} m, mission {name} at {other} m: set initial.position")
+    for device, interval, stream in (
+        ("", mission.sensors.interval, RATES),
+        (".motion", mission.sensors.motion.interval, MOTION[0]),
+    ):
+        asked = 1.0 / (interval or mission.mission.step)
+        if sensed != (RATES,) and log.rate(stream) < SPARSE * asked:
+            found = f"{stream} at {log.rate(stream):.4g} Hz, which mission {name} samples at {asked:.4g} Hz"
+            set_it = f"set sensors{device}.interval = {1.0 / max(log.rate(stream), 0.1):.4g}"
+            warnings.warn(FlightWarning(f"{log.source}: has {found}: samples are held between; {set_it}"), stacklevel=3)
     if log.end < mission.mission.step:
         raise InputError(f"{log.source}: ends at {log.end:g} s, before the first step of the mission")
 
@@ -150,7 +157,7 @@ def plan_of(log: Log, mission: Mission) -> FlightPlan:
                 if place.size:
                     numbers[place.at : place.at + place.size] = rows(log, name, np.array([-p.dt]))[0]
     state = p.place("flight_state", "state")
-    numbers[state.at : state.at + state.size] = np.hstack([rows(log, n, np.zeros(1))[0] for n in (*MOTION, RATES)])
+    numbers[state.at : state.at + state.size] = np.hstack([log[name].at(np.zeros(1))[0] for name in (*MOTION, RATES)])
     p.model = unflat(numbers, p.model)
     return p
 
@@ -163,11 +170,11 @@ def commands_of(channels: Container[str]) -> str:
 def flown_commands(log: Log, mission: Mission, times: Array) -> Array | None:
     """The commanded thrusts (n, 4N) [N] at some times; of speeds, by the thrust map of the mission's rotors."""
     if COMMANDS in log:
-        return rows(log, COMMANDS, times)
+        return log[COMMANDS].at(times)
     if SPEED_COMMANDS not in log:
         return None
     constants = [q.thrust_constant for q in mission.vehicle.quadrotors for _ in range(4)]
-    return np.array(constants) * rows(log, SPEED_COMMANDS, times) ** 2
+    return np.array(constants) * log[SPEED_COMMANDS].at(times) ** 2
 
 
 def without_errors(mission: Mission) -> Mission:

@@ -45,7 +45,7 @@ class Way(NamedTuple):
             the samples of all are interpolated at the times of the first.
         unit: of the columns, one of `UNITS`.
         scale: factor, or one for each column, beside that of the unit: signs for other axes.
-        time: the column of stamps.
+        time: the column of stamps; of a list, the first that is there.
         time_unit: of it.
         frame: "body" for a velocity in body axes, which the attitude turns into world axes.
     """
@@ -54,7 +54,7 @@ class Way(NamedTuple):
     topic: str | list[str] = ""
     unit: str = "1"
     scale: Any = 1.0
-    time: str = TIME
+    time: str | list[str] = TIME
     time_unit: str = "s"
     frame: str = ""
 
@@ -177,7 +177,9 @@ def _part(place: str, way: Way, tables: LogTables, topic: str) -> Stream:
         except KeyError:
             raise InputError(f"{place}: {unknown('column', name, tables.columns(topic))}") from None
 
-    time, values = column(way.time) * UNITS[way.time_unit], [column(name) for name in way.columns]
+    stamps = [way.time] if isinstance(way.time, str) else way.time
+    time = column(next((name for name in stamps if name in tables.columns(topic)), stamps[0])) * UNITS[way.time_unit]
+    values = [column(name) for name in way.columns]
     rows = np.hstack([v.reshape(len(time), -1) for v in values])
     some = np.isfinite(rows).any(axis=1)
     return without_repeats(Stream(time[some], rows[some]))
@@ -187,5 +189,4 @@ def _in_world(place: str, stream: Stream, attitude: Stream | None) -> Stream:
     """A stream of vectors in body axes, in world axes."""
     if attitude is None:
         raise InputError(f'{place}: frame = "body" needs {MOTION[2]}')
-    last = np.maximum(np.searchsorted(attitude.time, stream.time, side="right") - 1, 0)
-    return Stream(stream.time, to_world(attitude.values[last], stream.values))
+    return Stream(stream.time, to_world(attitude.at(stream.time), stream.values))
