@@ -110,6 +110,15 @@ def test_stamps_are_corrected_where_the_motion_tells_and_kept_where_it_does_not(
     assert "its stamps are kept" in line
 
 
+def test_perfect_readings_tell_the_clock_exactly_and_still_ones_nothing(motions):
+    rates, attitude = motions[0]
+    streams = {MOTION[2]: Stream(FAST[::5] - 0.04, attitude[::5]), IMU[1]: Stream(FAST, rates)}
+    streams[IMU[0]] = Stream(FAST, np.tile([0.0, 0.0, 9.81], (len(FAST), 1)))
+    assert clock_of(Log(streams), "motion").offset == pytest.approx(0.04, abs=1e-5)
+    still = {name: Stream(time, np.zeros_like(values) + values[0]) for name, (time, values) in streams.items()}
+    assert clock_of(Log(still), "motion").correlation == pytest.approx(0.0, abs=1e-6)
+
+
 def test_a_log_without_an_attitude_has_no_clock_of_motion_capture(motions):
     streams = moving(motions, 0, 0.0, 0.0)
     del streams[MOTION[2]]

@@ -66,6 +66,18 @@ def test_it_does_so_with_slow_and_late_sensors_and_whatever_the_log_interval_of_
     assert np.array_equal(shadow["measured_joint_force"], flight["measured_joint_force"][::10][:count])
 
 
+@pytest.mark.parametrize(
+    ("name", "engine", "duration"),
+    [("iris", "mujoco", 6.0), ("rotor-loss", "compiled", 17.0), ("doorway", "compiled", 14.0)],
+)
+def test_it_does_so_whatever_engine_flew_and_where_a_rotor_fails_or_a_person_leads(name, engine, duration):
+    if engine == "mujoco":
+        pytest.importorskip("mujoco")
+    mission = tl.load_mission(name, {"mission.duration": duration, "mission.log_interval": 0.001})
+    flight = tl.fly(mission, engine)
+    same_bits(flight, tl.shadow(log_of(flight), mission), OF_THE_PILOT[:-1])
+
+
 def test_without_commands_the_pilot_takes_its_own_for_flown(flown, log):
     shadow = tl.shadow(without(log, COMMANDS, SPEED_COMMANDS, "push_force").between(-1.0, 8.0), iris())
     assert np.array_equal(shadow["rotor_commands"], flown["rotor_commands"][: len(shadow.time)])

@@ -8,9 +8,11 @@ an order with which the streams agree. Where the vehicle hardly moved, nothing i
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
-from tandemlift.analysis.identification.clocks import TOLD, SourceClock, fitted_clock, means_of, turn_windows
+from tandemlift.analysis.identification.clocks import SPAN, TOLD, SourceClock, fitted_clock, means_of, turn_windows
 from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY
@@ -20,14 +22,14 @@ FORCE, RATES = IMU
 LONG_ENOUGH = 100  # samples
 SATURATED = 0.01  # of the samples: the largest part that may be at the end of the range
 NEAR = 0.15  # relative: numbers closer than this agree
-AGREES = 0.6  # correlation from which changes over `LONG` tell a ratio
+AGREES, WINDOWS = 0.8, 20  # correlation from which changes over so many windows of `LONG` tell a ratio: never by chance
 LONG = 0.5  # s, windows of changes of position and velocity: noise of the samples is small against them
 GRAVITIES = {
     1.0: 'in g: unit = "g"',
     1e3 * GRAVITY: "in mm/s²: scale = 0.001",
     GRAVITY / 0.3048: "in feet/s²: scale = 0.3048",
 }
-FAR = 0.5  # relative: ratios farther from 1 are no matter of noise
+FAR = 2.0  # a ratio beyond this, or below one over it, is no matter of noise
 RATIOS = {
     180.0 / np.pi: 'in deg/s: unit = "deg/s"',
     1e3: "in millimetres: scale = 0.001",
@@ -117,6 +119,8 @@ def _check_rates(log: Log) -> None:
     given = agreement(*AS_GIVEN)
     if given.correlation >= TOLD:
         _check_ratio(log, RATES, 1.0 / given.scale, "the turn of the attitude")
+    if time[-1] - time[0] < SPAN:
+        return
     found = {key: agreement(*other).correlation for key, other in OTHERWISE.items()}
     (name, text), best = max(found.items(), key=lambda item: item[1])
     if best >= max(TOLD, 2.0 * given.correlation):
@@ -140,16 +144,17 @@ def _check_change(log: Log, name: str, slope: Stream, meaning: str) -> None:
     last = np.searchsorted(time, time[first] + LONG)
     inside = (time[first] >= slope.time[0]) & (time[last] <= slope.time[-1])
     begin, end = time[first[inside]], time[last[inside]]
-    if len(begin) < LONG_ENOUGH:
+    if len(begin) < LONG_ENOUGH or end[-1] - begin[0] < WINDOWS * LONG:
         return
     changes = (values[last[inside]] - values[first[inside]]) / (end - begin)[:, None]
     for axis, (x, y) in enumerate(zip(means_of(slope)(begin, end).T, changes.T, strict=True)):
         x, y = x - x.mean(), y - y.mean()
         if abs(x @ y) >= AGREES * np.sqrt((x @ x) * (y @ y)) > 0.0:
-            _check_ratio(log, name, float(y @ y / (x @ y)), f"the integral of {meaning} along {'xyz'[axis]}")
+            ratio = math.copysign(math.sqrt(y @ y / (x @ x)), x @ y)
+            _check_ratio(log, name, ratio, f"the integral of {meaning} along {'xyz'[axis]}")
 
 
 def _check_ratio(log: Log, name: str, ratio: float, other: str) -> None:
-    if abs(ratio - 1.0) > FAR:
-        likely = [f"; it seems to be {text}" for size, text in RATIOS.items() if abs(ratio / size - 1.0) < FAR]
+    if not 1.0 / FAR < ratio < FAR:
+        likely = [f"; it seems to be {text}" for size, text in RATIOS.items() if 1.0 / FAR < ratio / size < FAR]
         raise _wrong(log, name, f"it is {ratio:.3g} times {other}: must be equal{likely[0] if likely else ''}")

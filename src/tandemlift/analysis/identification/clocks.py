@@ -37,9 +37,10 @@ OVERLAP = 8  # windows, at most, that a sample is in
 GRID = 0.01  # s, of the correlation
 GAP = 4.0  # times the median interval: a longer one is a gap
 MEMORY = 8  # windows, over which residuals are correlated: the end of one is the beginning of another
+TINY = 1e-9  # of a reading: less is no noise
 FEWEST = 20  # windows and samples
 STEPS, ENOUGH = 12, 1e-8  # steps of Gauss-Newton at most, and the last change of the offset [s]
-TOLD = 0.25  # correlation from which the motion tells a clock: chance gives less than 0.1
+TOLD, SPAN = 0.25, 5.0  # correlation from which a span [s] of motion tells a clock: chance gives less than 0.2
 UNSURE = 0.005  # s, of the offset
 HUBER = 1.345  # standard deviations beyond which a residual counts less: 95 % efficient under Gaussian noise
 
@@ -107,7 +108,7 @@ def synchronised(log: Log) -> Log:
         if not {*names, *IMU} <= {*log}:
             continue
         clock = clock_of(log, group)
-        told = clock.offset_sigma < UNSURE and clock.correlation > TOLD
+        told = clock.offset_sigma < UNSURE and clock.correlation > TOLD and log.duration > SPAN
         note = f"{group}: {clock if told else 'the motion does not tell its clock; its stamps are kept'}"
         log = log.aligned(names, clock.offset, clock.drift, clock.about) if told else log
         log = replace(log, notes=(*log.notes, note))
@@ -187,22 +188,23 @@ def fitted_clock(y: Windows, unit: Stream) -> SourceClock:
         b, e, t, mean = (v[inside] for v in (y.begin + delta, y.end + delta, middle - about, y.mean))
         m, later, earlier = (felt(b + h, e + h) for h in (0.0, 0.5 * GRID, -0.5 * GRID))
         slope = (later - earlier) / GRID
-        scale = scale or float(np.sum((m - m.mean(0)) * (mean - mean.mean(0))) / np.sum((m - m.mean(0)) ** 2))
+        moved = m - m.mean(axis=0)
+        scale = scale or float(np.sum(moved * mean) / max(np.sum(moved**2), TINY))
         by = np.broadcast_to(np.eye(m.shape[1]), (len(m), m.shape[1], m.shape[1]))
         jacobian = np.concatenate([np.stack([scale * slope, scale * slope * t[:, None], m], axis=2), by], axis=2)
         rest = mean - scale * m
         rest -= np.median(rest, axis=0)
-        size = 1.4826 * np.median(np.abs(rest), axis=0)
-        weight = np.minimum(1.0, HUBER * size / np.maximum(np.abs(rest), 1e-300)) / np.maximum(size, 1e-300) ** 2
+        size = np.maximum(1.4826 * np.median(np.abs(rest), axis=0), TINY)
+        weight = np.minimum(1.0, HUBER * size / np.maximum(np.abs(rest), TINY)) / size**2
         step, covariance = _solved(jacobian, rest, weight, max(1, round(WINDOW / float(np.median(np.diff(middle))))))
         offset, drift, scale = offset + float(step[0]), drift + float(step[1]), scale + float(step[2])
         sigmas = np.sqrt(np.maximum(np.diag(covariance)[:2], 0.0))
         if abs(step[0]) < ENOUGH:
             break
-    both, mine, yours = (
-        float(np.sum((a - a.mean(0)) * c)) for a, c in ((m, mean), (mean, mean - mean.mean(0)), (m, m - m.mean(0)))
+    alike = float(np.sum(moved * mean)) / max(
+        math.sqrt(np.sum(moved**2) * np.sum((mean - mean.mean(axis=0)) ** 2)), TINY
     )
-    return SourceClock(offset, drift, about, float(sigmas[0]), float(sigmas[1]), scale, both / math.sqrt(mine * yours))
+    return SourceClock(offset, drift, about, float(sigmas[0]), float(sigmas[1]), scale, alike)
 
 
 def _solved(jacobian: Array, rest: Array, weight: Array, lags: int) -> tuple[Array, Array]:
