@@ -195,11 +195,11 @@ def log_of(flight: Flight) -> Log:
     """
     if MOTION[0] not in flight:
         raise InputError(f'flight {flight.name}: has no readings: fly it with sensors.model = "simulated"')
-    clocks, streams = _Clocks(flight), {}
+    streams = {}
     for name in (n for n in flight if n.startswith("measured_")):
-        steps = clocks.of(name)
+        steps = sampled_steps(flight, name)
         rows = np.flatnonzero(np.diff(steps, prepend=steps[0] - 1))
-        streams[name] = Stream(steps[rows] * clocks.step, flight[name][rows])
+        streams[name] = Stream(steps[rows] * flight.mission["mission"]["step"], flight[name][rows])
     commands = flight[COMMANDS if COMMANDS in flight else "rotor_thrusts"]
     rotors = [q for q in flight.vehicle.quadrotors for _ in range(4)]
     k, most = np.array([q.thrust_constant for q in rotors]), np.array([q.max_thrust for q in rotors])
@@ -209,27 +209,19 @@ def log_of(flight: Flight) -> Log:
     return Log(streams, flight.name)
 
 
-class _Clocks:
-    """The steps at which the sensors of a flight sampled what stands in the rows of its record."""
+def sampled_steps(flight: Flight, name: str) -> np.ndarray:
+    """The steps (T,) at which the readings in the rows of a flight were sampled.
 
-    def __init__(self, flight: Flight) -> None:
-        self.step: float = flight.mission["mission"]["step"]
-        self._sensors: dict[str, Any] = flight.mission["sensors"]
-        self._rows = np.round(flight.time / self.step).astype(int)
+    Before the first sample of a device, it is one interval before that.
+    """
+    step, sensors = flight.mission["mission"]["step"], flight.mission["sensors"]
+    added = {f"measured_{sensor['name']}": sensor for sensor in sensors["additional"]}
+    device = sensors["motion"] if name in MOTION else added.get(name, sensors)
 
-    def of(self, name: str) -> np.ndarray:
-        """The step (T,) at which the reading in each row was sampled."""
-        added = {f"measured_{s['name']}": s for s in self._sensors["additional"]}
-        device = self._sensors["motion"] if name in MOTION else added.get(name, self._sensors)
-        known = self._rows - 1 - self._steps(device["delay"])
-        sampled = self._last(device, known)
-        joints = self._sensors["joints"]
-        return self._last(joints, sampled) if name in JOINTS and joints.get("interval") is not None else sampled
-
-    def _last(self, device: Mapping[str, Any], steps: np.ndarray) -> np.ndarray:
-        """The step of a device's last sample at some steps, or, before the first one, one interval before it."""
-        period, first = max(1, self._steps(device["interval"])), self._steps(device["first_sample"])
+    def last(clock: Mapping[str, Any], steps: np.ndarray) -> np.ndarray:
+        period, first = max(1, round(clock["interval"] / step)), round(clock["first_sample"] / step)
         return first + np.maximum((steps - first) // period, -1) * period
 
-    def _steps(self, time: float) -> int:
-        return round(time / self.step)
+    sampled = last(device, np.round(flight.time / step).astype(int) - 1 - round(device["delay"] / step))
+    joints = sensors["joints"]
+    return last(joints, sampled) if name in JOINTS and joints.get("interval") is not None else sampled

@@ -7,9 +7,12 @@ replaces theirs stream by stream.
 
 from __future__ import annotations
 
+import csv
 import math
 import os
-from collections.abc import Iterable, Mapping
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import reduce
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,21 +21,22 @@ import numpy as np
 from tandemlift.analysis.identification.clocks import synchronised
 from tandemlift.analysis.identification.log import MOTION, Log, Stream, log_of, stream_channel, without_repeats
 from tandemlift.apps.export.coordinate_frames import to_world
-from tandemlift.apps.export.log_tables import TIME, LogTables, bag_tables, csv_table, ulog_tables
-from tandemlift.apps.export.reading import BASE, read_bag
+from tandemlift.apps.export.messages import SECOND
+from tandemlift.apps.export.reading import BASE, read_bag, reading_bag, stamp_of
 from tandemlift.apps.export.topics import MISSION
-from tandemlift.core.errors import InputError, shown, unknown
+from tandemlift.core.errors import InputError, extra, shown, unknown
 from tandemlift.core.files import DATA, FLIGHT_FILE, toml_tables
-from tandemlift.core.types import GRAVITY, Array
+from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 
-DEGREE = math.pi / 180.0
-UNITS = {"deg": DEGREE, "deg/s": DEGREE, "rpm": math.pi / 30.0, "g": GRAVITY, "kgf": GRAVITY, "mm": 1e-3, "mm/s": 1e-3}
-UNITS |= {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+DEGREE, STANDARD_GRAVITY = math.pi / 180.0, 9.80665  # m/s² of the unit g, by definition
+UNITS = {"deg": DEGREE, "deg/s": DEGREE, "rpm": math.pi / 30.0, "g": STANDARD_GRAVITY, "kgf": STANDARD_GRAVITY}
+UNITS |= {"mm": 1e-3, "mm/s": 1e-3, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 UNITS |= dict.fromkeys(("1", "m", "m/s", "m/s²", "m/s^2", "rad", "rad/s", "N", "N m", "s"), 1.0)
 """Factors of units to those of streams."""
 
 Map = Mapping[str, Any]
+TIME = "time"  # the column of a bag's topic with the stamps of its messages [s], from the first one of all
 OF_ALL = ("time", "time_unit")  # keys that a map may give for all streams at once
 
 
@@ -190,3 +194,73 @@ def _in_world(place: str, stream: Stream, attitude: Stream | None) -> Stream:
     if attitude is None:
         raise InputError(f'{place}: frame = "body" needs {MOTION[2]}')
     return Stream(stream.time, to_world(attitude.at(stream.time), stream.values))
+
+
+# ---- The tables of files: a CSV file is one table; a topic of a bag or of a ULog is one
+
+
+class LogTables(NamedTuple):
+    """The tables of a file.
+
+    Attributes:
+        topics: their names; a CSV file has one, "".
+        columns: the names of a topic's columns; of messages, their outer fields.
+        column: a column (n,) of a topic by name, or a field of several numbers (n, k); KeyError if there is none.
+    """
+
+    topics: Sequence[str]
+    columns: Callable[[str], Iterable[str]]
+    column: Callable[[str, str], Array]
+
+
+def csv_table(path: Path) -> LogTables:
+    """A table in a file: a line of names, then numbers; an empty cell is none."""
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        lines = csv.reader(file)
+        names = [name.strip() for name in next(lines, [])]
+        rows = [_numbers(f"{path}: line {i}", names, cells) for i, cells in enumerate(lines, 2) if cells]
+    table = dict(zip(names, np.array(rows).reshape(len(rows), len(names)).T, strict=True))
+    return LogTables([""], lambda _: table, lambda _, name: table[name])
+
+
+def _numbers(place: str, names: list[str], cells: list[str]) -> list[float]:
+    if len(cells) != len(names):
+        raise InputError(f"{place} has {len(cells)} cells, the first line {len(names)}")
+    try:
+        return [float(cell) if cell.strip() else math.nan for cell in cells]
+    except ValueError as error:
+        raise InputError(f"{place}: {error}") from None
+
+
+def ulog_tables(path: Path) -> LogTables:
+    """The topics of a ULog, the log of PX4; of several instances of a topic, the first."""
+    with extra("identify", "a ULog"):
+        from pyulog import ULog
+    try:
+        with path.open("rb") as file:
+            tables = {topic.name: topic.data for topic in reversed(ULog(file).data_list)}
+    except OSError:
+        raise
+    except Exception as error:  # all errors that arbitrary content can cause in the reader
+        raise InputError(f"{path}: cannot be read as a ULog ({error})") from error
+    return LogTables(sorted(tables), tables.__getitem__, lambda topic, name: np.array(tables[topic][name], dtype=float))
+
+
+def bag_tables(path: Path, wanted: Iterable[str]) -> LogTables:
+    """The topics of a bag, with the messages of those that are wanted; a column is a field, as `pose.position.x`."""
+    found = defaultdict[str, list[tuple[int, Any]]](list)
+    with reading_bag(path) as bag:
+        for topic, at, message in bag.messages({*wanted}):
+            found[topic].append((stamp_of(message, at), message))
+    first = min((stamp for rows in found.values() for stamp, _ in rows), default=0)
+    messages = {topic: sorted(rows, key=lambda row: row[0]) for topic, rows in found.items()}
+
+    def column(topic: str, name: str) -> Array:
+        if name == TIME:
+            return np.array([(stamp - first) / SECOND for stamp, _ in messages[topic]])
+        try:
+            return np.array([reduce(getattr, name.split("."), m) for _, m in messages[topic]], dtype=float)
+        except (AttributeError, TypeError, ValueError):
+            raise KeyError(name) from None
+
+    return LogTables(bag.topics, lambda topic: (TIME, *vars(messages[topic][0][1])), column)
