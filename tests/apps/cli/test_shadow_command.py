@@ -43,10 +43,10 @@ def flown():
     return tl.fly(tl.load_mission("iris", FINE))
 
 
-@pytest.fixture
-def table(flown, tmp_path):
-    """The log of the flight as a table, whose motion capture has another clock, and its map."""
-    log, columns = log_of(flown), {}
+@pytest.fixture(scope="module")
+def table(flown, tmp_path_factory):
+    """The folder of the flight's log as a table, whose motion capture has another clock, and of its map."""
+    folder, log, columns = tmp_path_factory.mktemp("log"), log_of(flown), {}
     for letter, name in LETTERS.items():
         time, values = log[name]
         values = np.degrees(values) if letter == "w" else values
@@ -54,17 +54,17 @@ def table(flown, tmp_path):
     frame = pandas.DataFrame(columns)
     frame.insert(0, "t", frame.index)
     frame.insert(1, "t_motion", frame.index + LATE)
-    frame.to_csv(tmp_path / "flight.csv", index=False)
-    (tmp_path / "map.toml").write_text(MAP)
-    return tmp_path
+    frame.to_csv(folder / "flight.csv", index=False)
+    (folder / "map.toml").write_text(MAP)
+    return folder
 
 
 def call(*arguments):
     return CliRunner().invoke(cli, ["shadow", *map(str, arguments)])
 
 
-def test_a_table_on_two_clocks_is_shadowed_and_its_files_are_written(table, flown):
-    out = table / "out"
+def test_a_table_on_two_clocks_is_shadowed_and_its_files_are_written(table, tmp_path):
+    out = tmp_path / "out"
     options = ["--columns", table / "map.toml", "--mission", "iris", "--align", "--no-figures", "--out", out]
     result = call(table / "flight.csv", *options)
     assert result.exit_code == 0, result.output
