@@ -15,6 +15,7 @@ from tandemlift.core.files import __version__ as __version__
 
 if TYPE_CHECKING:
     from tandemlift.analysis.certification.mission_check import check
+    from tandemlift.analysis.identification.shadow import shadow
     from tandemlift.analysis.linearization.differentiable_step import jax_step
     from tandemlift.analysis.linearization.linear_model import LinearModel
     from tandemlift.analysis.linearization.linearize import linearize
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from tandemlift.analysis.studies.study import study
     from tandemlift.analysis.studies.table import Study, load_study
     from tandemlift.analysis.studies.tuning.tune import train, tune
+    from tandemlift.apps.export.logs import read_log
     from tandemlift.apps.export.registration import register_environments
     from tandemlift.codegen.mission_module import compile_mission
     from tandemlift.core.errors import FlightWarning, InputError
@@ -59,7 +61,9 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "load_mission": "missions",
     "load_study": "analysis.studies.table",
     "plot": "pictures.figures.registry",
+    "read_log": "apps.export.logs",
     "register_environments": "apps.export.registration",
+    "shadow": "analysis.identification.shadow",
     "study": "analysis.studies.study",
     "train": "analysis.studies.tuning.tune",
     "tune": "analysis.studies.tuning.tune",
@@ -88,7 +92,9 @@ __all__ = [
     "load_mission",
     "load_study",
     "plot",
+    "read_log",
     "register_environments",
+    "shadow",
     "study",
     "train",
     "tune",

@@ -50,7 +50,9 @@ def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
     elsewhere = ("live", "ros", "tune", "study", "feel", "paper", "linearize", "render")
     for _, *arguments in commands:
         if arguments[0] not in elsewhere:
-            result = CliRunner().invoke(cli, [*arguments, *(["--no-figures"] if arguments[0] == "run" else [])])
+            result = CliRunner().invoke(
+                cli, [*arguments, *(["--no-figures"] if arguments[0] in ("run", "shadow") else [])]
+            )
             assert result.exit_code == 0, result.output
 
 

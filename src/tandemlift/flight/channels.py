@@ -192,6 +192,13 @@ GROUPS: tuple[ChannelGroup, ...] = (
     ),
 )
 
+FLOWN = "flown_rotor_commands"
+LOGGED = {
+    "rotor_speed_commands": Channel("rad/s", "body z", "commanded speed of each rotor", 1, "rotor"),
+    FLOWN: Channel("N", "body z", "commanded thrust of each rotor in a log that is shadowed", 1, "rotor"),
+}
+"""Channels of logs and of their shadows (`analysis.identification`), which no flight has."""
+
 CHANNELS: dict[str, Channel] = {name: channel for group in GROUPS for name, channel in group.channels.items()}
 TIME = Channel("s", "", "time", 1)
 OTHER = Channel("", "", "not one of tandemlift's own")
@@ -208,5 +215,5 @@ def channel_of(name: str) -> Channel:
     """The description of the channel of that name; for an additional sensor, that of the sensor."""
     sensor = ADDITIONAL.get(name.removeprefix("measured_"))
     if name in CHANNELS or sensor is None:
-        return CHANNELS.get(name, TIME if name == "time" else OTHER)
+        return CHANNELS.get(name, LOGGED.get(name, TIME if name == "time" else OTHER))
     return Channel(sensor.unit, sensor.frame, f"reading of the sensor {sensor.name!r}: {sensor.meaning}", sensor.width)

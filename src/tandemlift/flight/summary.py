@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from tandemlift.core.types import Array
+from tandemlift.flight.channels import FLOWN
 from tandemlift.flight.record import Flight
 
 NOT_KNOWN = "   not known"
@@ -24,11 +26,22 @@ def summary_lines(flight: Flight) -> Iterator[str]:
         ("human work", *((NOT_KNOWN, "") if m["human_work_j"] is None else (_list([m["human_work_j"]], 2), "J"))),
     ]
     yield f"{flight.name}: {flight.outcome}; {m['steps']} steps, flown in {m['wall_s'] * 1e3:.1f} ms"
+    if FLOWN in flight:
+        commands = flight["rotor_commands" if "rotor_commands" in flight else "rotor_thrusts"]
+        if "push_estimate" in flight:
+            rows.append(
+                ("largest push felt", _list([float((flight["push_estimate"] ** 2).sum(axis=1).max() ** 0.5)], 2), "N")
+            )
+        rows.append(("commands beside the flown, RMS", _list([_rms(commands - flight[FLOWN])], 3), "N"))
     for label, value, unit in rows:
         if value:
             yield f"  {label:36}{value} {unit}".rstrip()
     for at, what in m["events"]:
         yield f"  {at:.2f} s: {what}"
+
+
+def _rms(values: Array) -> float:
+    return float((values**2).mean() ** 0.5)
 
 
 def _list(values: list[float | None] | None, digits: int, scale: float = 1.0) -> str:

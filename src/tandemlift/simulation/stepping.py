@@ -212,8 +212,11 @@ def fly_stepwise(
     progress: Progress | None = None,
     body: EngineBody | None = None,
     going: Callable[[], bool] = always,
+    lead: Callable[[Stepper, int], Array | None] | None = None,
 ) -> RawResult:
     """Fly a mission step by step; with the compiled body bit-identical to the compiled loop.
+
+    `lead` is called before each step, and returns the caller's inputs of an interactive plan.
 
     Raises:
         EngineLost: the engine took no step at all. Later, the result has the flight so far, and the reason.
@@ -227,7 +230,7 @@ def fly_stepwise(
         if stepper.lost:
             break
         try:
-            stepper.step(k, final=k == p.steps)
+            stepper.step(k, final=k == p.steps, external=lead(stepper, k) if lead else None)
         except EngineLost as error:
             if k == 0:
                 raise

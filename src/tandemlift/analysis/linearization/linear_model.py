@@ -107,6 +107,10 @@ class LinearModel:
             point=LinearizationPoint(x0[kept], u0, y0, x1[kept]),
         )
 
+    def lines(self, count: int = 15) -> Iterator[str]:
+        """The model in words, with that many modes."""
+        return model_lines(self, self.connected(), count)
+
     def to_control(self) -> Any:
         """The model as a `control.StateSpace` with names, of sample time `step`.
 

@@ -14,7 +14,8 @@ import click
 
 from tandemlift.apps.cli.completion import FLIGHTS_AND_MISSIONS, MISSIONS, names
 from tandemlift.apps.cli.console import echo, progress_bar
-from tandemlift.apps.cli.flying import controller_option, engine_option, flight_file, load, set_option
+from tandemlift.apps.cli.flying import controller_option, engine_option, load, set_option
+from tandemlift.apps.export.results import flight_file
 from tandemlift.core.errors import InputError
 
 if TYPE_CHECKING:

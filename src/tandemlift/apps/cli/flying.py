@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +12,7 @@ import click
 
 from tandemlift.apps.cli.completion import CONTROLLERS, names, settings
 from tandemlift.apps.cli.console import echo, progress_bar
-from tandemlift.core.errors import InputError
+from tandemlift.apps.export.results import FIGURES
 from tandemlift.core.files import FLIGHT_FILE, parse_setting
 from tandemlift.pictures.drawing.figure import STYLES, figure_style
 
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
     from tandemlift.missions import Mission
     from tandemlift.parts.controllers import Controller
 
-FIGURES = "figures"  # folder of the figures among results
 DRAWINGS = (".png", ".pdf", ".svg")  # endings of a figure on its own
 HTML = (".html", ".htm")
 FILES = ("mission.toml", FLIGHT_FILE, "metrics.json", "metrics.csv", "metrics.tex", "findings.json", "report.html")
@@ -127,30 +125,6 @@ def write_flight(flight: Flight, folder: Path, *, figures: bool, photographs: Se
         write_flight_files(flight, folder, figures=figures, photographs=photographs, progress=progress, replay=replay)
 
 
-def flight_file(given: str) -> tuple[Path, Path | None]:
-    """The folder of a flight's results and the file of the saved flight; the file is None if `given` is a mission."""
-    path = Path(given)
-    if path.is_dir() and (path / FLIGHT_FILE).exists():
-        return path, path / FLIGHT_FILE
-    if path.suffix == ".npz":
-        return path.parent, path
-    return Path("out") / path.stem, None
-
-
-def file_path(option: str, name: str, *endings: str) -> Path:
-    """The path of a file that an option or an argument names, which ends in one of these endings.
-
-    Raises:
-        InputError: it has none of the endings, or is a folder.
-    """
-    path = Path(name)
-    if path.suffix.lower() not in endings:
-        raise InputError(f"{option} {path}: must end in {' or '.join(endings)}")
-    if path.is_dir():
-        raise InputError(f"{option} {path}: is a folder, not a file")
-    return path
-
-
 # findings: a line each on standard error
 
 
@@ -184,52 +158,3 @@ def exit_if_amiss(flights: Mapping[str, Flight], *, strict: bool) -> None:
 def _coloured(text: str) -> str:
     """Text in bold yellow; plain where the output is no terminal (which click sees to) or NO_COLOR is set."""
     return text if os.environ.get("NO_COLOR") else click.style(text, fg="yellow", bold=True)
-
-
-@contextmanager
-def results_folder(out: str | None, default: Path, files: Sequence[str]) -> Iterator[Path]:
-    """Make the folder for the results before the flight, and remove it again if the flight fails.
-
-    Args:
-        out: the folder that the user named; None for the default.
-        default: the folder if none is named.
-        files: names of the files that will be written.
-
-    Raises:
-        InputError: the folder cannot be made or written to.
-    """
-    folder = default if out is None else Path(out)
-    made: list[Path] = []
-    try:
-        _make(folder, made)
-        _check_writable(folder, files)
-        yield folder
-    except BaseException:
-        for path in reversed(made):
-            with suppress(OSError):
-                path.rmdir()
-        raise
-
-
-def _make(folder: Path, made: list[Path]) -> None:
-    """Make a folder and its parents; `made` receives those that are new."""
-    try:
-        for path in reversed((folder, *folder.parents)):
-            if not path.is_dir():
-                path.mkdir()
-                made.append(path)
-    except (FileExistsError, NotADirectoryError):
-        raise InputError(f"--out {folder}: {path} is a file, not a folder") from None
-    except (OSError, ValueError) as error:
-        raise InputError(f"--out {folder}: cannot be made: {getattr(error, 'strerror', error)}") from None
-
-
-def _check_writable(folder: Path, files: Sequence[str]) -> None:
-    if not os.access(folder, os.W_OK | os.X_OK):
-        raise InputError(f"--out {folder}: the folder cannot be written to")
-    figures = folder / FIGURES
-    in_the_way = [path for path in (folder / name for name in files) if path.is_dir()]
-    if figures.exists() and not figures.is_dir():
-        in_the_way.append(figures)
-    if in_the_way:
-        raise InputError(f"--out {folder}: {in_the_way[0]} is in the way of a file or folder of that name")

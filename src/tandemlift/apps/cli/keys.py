@@ -11,7 +11,8 @@ import click
 
 from tandemlift.apps.cli.completion import SCRIPTS, keys, names
 from tandemlift.apps.cli.console import echo
-from tandemlift.apps.cli.flying import chosen_controller, file_path
+from tandemlift.apps.cli.flying import chosen_controller
+from tandemlift.apps.export.results import file_path
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.files import atomic_write
 

@@ -15,13 +15,12 @@ from tandemlift.apps.cli.flying import (
     DRAWINGS,
     FAILED,
     controller_option,
-    file_path,
     kept_style_option,
     load,
-    results_folder,
     set_option,
     style_option,
 )
+from tandemlift.apps.export.results import file_path, results_folder
 from tandemlift.core.errors import without_flight_warnings
 from tandemlift.core.files import write_file
 
@@ -63,16 +62,14 @@ def linearize(
       tandemlift linearize iris --at 9 --out iris.npz --figure iris.png
       tandemlift linearize hover --of body --inputs rotor_thrusts --outputs position,euler
     """
-    from tandemlift.analysis.linearization.linear_model import ENDINGS, model_lines
-    from tandemlift.analysis.linearization.linearize import linearize as linearized
+    import tandemlift as tl
 
-    for option, path, endings in (("--out", out, ENDINGS), ("--figure", figure, DRAWINGS)):
+    for option, path, endings in (("--out", out, (".npz", ".json")), ("--figure", figure, DRAWINGS)):
         if path is not None:
             file_path(option, path, *endings)
     names = [None if given is None else given.split(",") for given in (inputs, outputs)]
-    model = linearized(load(mission, settings, controller), at, of=of, inputs=names[0], outputs=names[1])
-    connected = model.connected()
-    for line in model_lines(model, connected, count):
+    model = tl.linearize(load(mission, settings, controller), at, of=of, inputs=names[0], outputs=names[1])
+    for line in model.lines(count):
         echo(line)
     if out:
         model.save(out)
@@ -80,7 +77,7 @@ def linearize(
     if figure:
         from tandemlift.pictures.report.study.certificate_figures import draw_linear_model
 
-        echo(f"figure: {draw_linear_model(connected, Path(figure))}")
+        echo(f"figure: {draw_linear_model(model.connected(), Path(figure))}")
 
 
 @click.command()

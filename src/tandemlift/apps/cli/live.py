@@ -14,16 +14,8 @@ import click
 
 from tandemlift.apps.cli.completion import FLIGHTS, MISSIONS
 from tandemlift.apps.cli.console import echo, exit_now, progress_bar
-from tandemlift.apps.cli.flying import (
-    FAILED,
-    HTML,
-    controller_option,
-    engine_option,
-    file_path,
-    flight_file,
-    load,
-    set_option,
-)
+from tandemlift.apps.cli.flying import FAILED, HTML, controller_option, engine_option, load, set_option
+from tandemlift.apps.export.results import file_path, flight_file
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.files import write_file
 

@@ -8,16 +8,16 @@ import warnings
 
 import click
 
-from tandemlift.apps.cli.compare import compare
 from tandemlift.apps.cli.console import compile_notices, exit_now, handle_interrupts
 from tandemlift.apps.cli.export import compile, export, render
+from tandemlift.apps.cli.identify import shadow
 from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, new, schema, template
 from tandemlift.apps.cli.linearize import certify, check, linearize
 from tandemlift.apps.cli.live import live, page, replay, score
 from tandemlift.apps.cli.report import paper, plot, report
 from tandemlift.apps.cli.ros import gazebo, ros
 from tandemlift.apps.cli.run import run
-from tandemlift.apps.cli.study import study
+from tandemlift.apps.cli.study import compare, study
 from tandemlift.apps.cli.tune import feel, train, tune
 from tandemlift.core.errors import FlightWarning, InputError, suggestion
 from tandemlift.core.files import __version__
@@ -32,6 +32,7 @@ GROUPS: dict[str, tuple[click.Command, ...]] = {
     "Write a mission": (new, template, explain, check, controllers, engines, schema, completion),
     "Look at a flight": (report, plot, render, replay),
     "Fly many, compare, analyse": (compare, score, study, tune, train, feel, linearize, certify, paper),
+    "Your vehicle": (shadow,),
     "Take it elsewhere": (gazebo, ros, page, export, compile),
 }
 

@@ -11,24 +11,18 @@ from tandemlift.apps.cli.completion import FLIGHTS
 from tandemlift.apps.cli.console import echo, progress_bar
 from tandemlift.apps.cli.flying import (
     DRAWINGS,
-    FIGURES,
     FILES,
     HTML,
     figures_option,
-    file_path,
-    flight_file,
     kept_style_option,
-    results_folder,
     style_option,
     write_flight,
 )
+from tandemlift.apps.export.results import FIGURES, file_path, load_flight, results_folder
 from tandemlift.core.errors import InputError
 
 if TYPE_CHECKING:
-    from tandemlift.flight.record import Flight
     from tandemlift.pictures.report.paper_report import PaperFlights
-
-BAGS = (".bag", ".mcap")
 
 
 @click.command()
@@ -74,7 +68,7 @@ def report(flight: str, out: str | None, no_figures: bool, style: str | None, me
         return
     if metrics:
         raise InputError(f"--for {metrics[0]}: {flight} is no study; the report of a flight shows all metrics")
-    loaded, default = _load(flight)
+    loaded, default = load_flight(flight)
     with results_folder(out, default, FILES) as folder:
         echo(repr(loaded).strip("<>"))
         write_flight(loaded, folder, figures=not no_figures)
@@ -120,35 +114,12 @@ def plot(figure: str, flights: tuple[str, ...], out: str | None) -> None:
     from tandemlift.pictures.drawing.style import save
 
     path = file_path("--out", out or f"out/{figure}.png", *DRAWINGS)
-    loaded = [_load(given) for given in flights]
+    loaded = [load_flight(given) for given in flights]
     names = [folder.resolve().name for _, folder in loaded]
     named = dict(zip(names if len(set(names)) == len(names) else flights, (f for f, _ in loaded), strict=True))
     drawn = tl.plot(named, figure)
     path.parent.mkdir(parents=True, exist_ok=True)
     echo(f"{figure}: {save(drawn, path)}")
-
-
-def _load(given: str) -> tuple[Flight, Path]:
-    """Load the flight; the flight, and the default folder of its report.
-
-    Raises:
-        InputError: there is no such flight.
-    """
-    from tandemlift.apps.export.reading import read_bag
-    from tandemlift.flight.record import Flight
-
-    path = Path(given)
-    if path.suffix.lower() in BAGS or (path / "metadata.yaml").exists():
-        if not path.exists():
-            raise InputError(f"{given}: there is no such file")
-        return read_bag(path), Path("out") / path.stem
-    folder, saved = flight_file(given)
-    if saved is None:
-        raise InputError(
-            f"{given}: must be flight.npz, its folder, a bag (.bag, .mcap, or the folder of a ROS 2 bag), or, for a "
-            "report, the folder of a study"
-        )
-    return Flight.load(saved), folder
 
 
 OUT = "out/paper.pdf"

@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
@@ -19,23 +18,14 @@ from tandemlift.apps.cli.flying import (
     exit_if_amiss,
     figures_option,
     load,
-    results_folder,
     set_option,
     strict_option,
     with_after_crash,
 )
 from tandemlift.apps.cli.live import DEFAULT, OUT
 from tandemlift.apps.cli.run import write_results
-from tandemlift.core.errors import InputError, without_flight_warnings
-
-if TYPE_CHECKING:
-    from tandemlift.apps.live.server import Session
-    from tandemlift.apps.ros.gazebo_flight import GazeboSession
-    from tandemlift.apps.ros.middleware import Middleware
-    from tandemlift.flight.record import Flight
-    from tandemlift.missions import Mission
-
-Photographs = list[tuple[str, bytes]]
+from tandemlift.apps.export.results import results_folder
+from tandemlift.core.errors import InputError
 
 
 @click.command()
@@ -81,7 +71,7 @@ def ros(
     """
     from tandemlift.apps.live.server import Session
     from tandemlift.apps.ros import ros1, ros2
-    from tandemlift.apps.ros.node import middleware_for, version_for
+    from tandemlift.apps.ros.node import fly_and_save, middleware_for, shut_down, version_for
     from tandemlift.apps.ros.sample_queue import steps_between_samples
     from tandemlift.engines.registry import engine_named
 
@@ -102,9 +92,9 @@ def ros(
         session.flight.optimise()
         if spoken == "2":
             echo(ros2.KILTED)
-        failures = _fly_and_save(session, middleware, rate, f"{mission} in ROS {spoken}", save, rviz=rviz)
+        failures = fly_and_save(session, middleware, rate, f"{mission} in ROS {spoken}", save, echo, rviz=rviz)
     finally:
-        gone = _shut_down(middleware)
+        gone = shut_down(middleware)
     for failure in (*failures, *gone):
         click.echo(f"{mission}: {failure}", err=True)
     if failures or gone:
@@ -118,45 +108,6 @@ def _split_arguments(words: tuple[str, ...]) -> tuple[str, list[str]]:
     if len(missions) > 1:
         raise InputError(f"{' '.join(missions)}: give one mission only")
     return missions[0], arguments
-
-
-def _fly_and_save(
-    session: Session, middleware: Middleware, rate: float, what: str, save: str | None, *, rviz: bool
-) -> list[str]:
-    """Fly until the flight ends, and save it whatever the reason; return the reason of a failure, if any."""
-    from tandemlift.apps.ros.node import STOPPED, fly_in_ros
-
-    def begun() -> None:
-        echo(f"{what}: topics below /tandemlift, pushes by /tandemlift/push; Ctrl-C ends it")
-        sys.stdout.flush()
-
-    try:
-        end = fly_in_ros(session, middleware, rate, begun, rviz=rviz)
-    except BaseException:
-        if session.flight.step > 1:
-            _save(session, save)
-        raise
-    if end == STOPPED:
-        echo(STOPPED)
-    _save(session, save)
-    ending = session.flight.ending
-    return [str(ending or end)] if ending or end == "failed" else []
-
-
-def _shut_down(middleware: Middleware) -> list[str]:
-    """Disconnect from ROS; return a message if it is gone."""
-    try:
-        middleware.shutdown()
-    except OSError as error:
-        return [str(error)]
-    return []
-
-
-def _save(session: Session, save: str | None) -> None:
-    if save:
-        with without_flight_warnings():  # the mission was checked when it was loaded
-            session.flight.snapshot().save(Path(save))
-        echo(f"saved: {save}; `tandemlift run {Path(save) / 'recorded.toml'}` flies it again")
 
 
 @click.command()
@@ -207,7 +158,7 @@ def gazebo(
         raise InputError(
             f"--by-hand flies in real time and takes no pictures: leave out {'--fast' if fast else '--pictures'}"
         )
-    from tandemlift.apps.ros.gazebo_flight import has_display
+    from tandemlift.apps.ros.gazebo_flight import fly_in_gazebo, has_display
     from tandemlift.engines.gazebo_server import root
 
     loaded = load(mission, with_after_crash(settings, after_crash))
@@ -217,28 +168,10 @@ def gazebo(
         if not (no_window or has_display()):
             click.echo("No window: DISPLAY is not set", err=True)
         window = has_display() and not no_window
-        flight, photographs = _fly_in_gazebo(
-            loaded, by_hand=by_hand, window=window, real_time=not fast, pictures=pictures
-        )
+        with progress_bar("Flying", "steps", shown=not by_hand) as progress:
+            flight, photographs = fly_in_gazebo(
+                loaded, echo, progress, by_hand=by_hand, window=window, real_time=not fast, pictures=pictures
+            )
         recording = None if by_hand else loaded.person.recording
         write_results(flight, folder, began, recording, figures=not no_figures, photographs=photographs)
     exit_if_amiss({flight.name: flight}, strict=strict)
-
-
-def _fly_in_gazebo(
-    mission: Mission, *, by_hand: bool, window: bool, real_time: bool, pictures: bool
-) -> tuple[Flight, Photographs]:
-    """Fly a mission to its end, or by hand until Ctrl-C; the flight, and its photographs, each with its title."""
-    from tandemlift.apps.ros.gazebo_flight import fly_by_hand, fly_to_end
-    from tandemlift.engines.gazebo_server import shell_command_for_user
-
-    def begun(gazebo: GazeboSession) -> None:
-        push = """gz topic -p /gazebo/default/tandemlift/push -m 'data: "force 2 0 0 point 0 0 0 duration 2"'"""
-        echo(f"{mission.mission.name} flies in Gazebo. To push it, run in another terminal:")
-        echo(f"  {shell_command_for_user(gazebo.master, push)}" + "\n  Ctrl-C ends it" * by_hand)
-        sys.stdout.flush()
-
-    if by_hand:
-        return fly_by_hand(mission, begun, window=window), []
-    with progress_bar("Flying", "steps") as progress:
-        return fly_to_end(mission, begun, progress, window=window, real_time=real_time, pictures=pictures)

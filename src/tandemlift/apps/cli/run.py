@@ -20,13 +20,13 @@ from tandemlift.apps.cli.flying import (
     figures_option,
     load,
     parse_setting,
-    results_folder,
     set_option,
     strict_option,
     style_option,
     with_after_crash,
     write_flight,
 )
+from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import write_file
 

@@ -19,10 +19,10 @@ from tandemlift.apps.cli.flying import (
     controller_option,
     load,
     parse_setting,
-    results_folder,
     set_option,
     style_option,
 )
+from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import without_flight_warnings
 
 if TYPE_CHECKING:

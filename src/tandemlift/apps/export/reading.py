@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import os
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Container, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -54,12 +55,7 @@ def read_bag(path: str | os.PathLike[str]) -> Flight:
         InputError: it cannot be read, a package is missing, or it does not hold our topics.
     """
     path = Path(path)
-    try:
-        said = _messages(path)
-    except InputError:
-        raise
-    except Exception as error:  # all errors that arbitrary content can cause in the reader
-        raise InputError(f"{path}: cannot be read as a bag ({error})") from error
+    said = _messages(path)
     if not said[BASE]:
         there = ", ".join(sorted(t for t in said if said[t])) or "none"
         raise InputError(f"{path}: has no {BASE}, whose messages are the samples; it has {there}")
@@ -95,13 +91,13 @@ def _mission(path: Path, said: Stamped) -> dict[str, Any]:
 def _messages(path: Path) -> dict[str, Stamped]:
     """The messages of all topics that are read, by topic; those without a stamp by their arrival."""
     found: dict[str, Stamped] = defaultdict(dict)
-    for topic, at, message in _opened(path):
-        header = getattr(message, "header", None)
-        stamp = header.stamp.sec * SECOND + header.stamp.nanosec if header else at
-        if topic == DIAGNOSTICS.name:
-            found[topic].setdefault(stamp, []).append(message)
-        else:
-            found[topic][stamp] = message
+    with reading_bag(path) as bag:
+        for topic, at, message in bag.messages({topic for topic in bag.topics if _is_read(topic)}):
+            stamp = stamp_of(message, at)
+            if topic == DIAGNOSTICS.name:
+                found[topic].setdefault(stamp, []).append(message)
+            else:
+                found[topic][stamp] = message
     return found
 
 
@@ -110,26 +106,51 @@ def _is_read(topic: str) -> bool:
     return ours or topic == DIAGNOSTICS.name
 
 
-def _opened(path: Path) -> Iterator[tuple[str, int, Any]]:
-    """Topic, time [ns] and message of everything that is read."""
+class Bag(NamedTuple):
+    """An open bag: its topics, and a reader of the messages of some topics: (topic, time [ns], message)."""
+
+    topics: list[str]
+    messages: Callable[[Container[str]], Iterator[tuple[str, int, Any]]]
+
+
+@contextmanager
+def reading_bag(path: Path) -> Iterator[Bag]:
+    """A context with an open bag.
+
+    Raises:
+        InputError: it cannot be read, or a package is missing.
+    """
     with extra("export", "a bag"):
         from rosbags import typesys
         from rosbags.highlevel import AnyReader
         from rosbags.rosbag2.storage_mcap import McapReader
-    store = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
-    if path.suffix.lower() == ".mcap":
-        reader = McapReader(path)
+    store, alone = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE), path.suffix.lower() == ".mcap"
+    reader: Any = McapReader(path) if alone else AnyReader([path], default_typestore=store)
+
+    def messages(topics: Container[str]) -> Iterator[tuple[str, int, Any]]:
+        for connection, at, data in reader.messages([c for c in reader.connections if c.topic in topics]):
+            yield (
+                connection.topic,
+                at,
+                (store.deserialize_cdr if alone else reader.deserialize)(data, connection.msgtype),
+            )
+
+    try:
         reader.open()
         try:
-            wanted = [c for c in reader.connections if _is_read(c.topic)]
-            for connection, at, data in reader.messages(wanted):
-                yield connection.topic, at, store.deserialize_cdr(data, connection.msgtype)
+            yield Bag(sorted({c.topic for c in reader.connections}), messages)
         finally:
             reader.close()
-        return
-    with AnyReader([path], default_typestore=store) as reader:
-        for connection, at, data in reader.messages([c for c in reader.connections if _is_read(c.topic)]):
-            yield connection.topic, at, reader.deserialize(data, connection.msgtype)
+    except (InputError, OSError):
+        raise
+    except Exception as error:  # all errors that arbitrary content can cause in the reader
+        raise InputError(f"{path}: cannot be read as a bag ({error})") from error
+
+
+def stamp_of(message: Any, at: int) -> int:
+    """The stamp of a message [ns]; for one without a header its arrival."""
+    header = getattr(message, "header", None)
+    return header.stamp.sec * SECOND + header.stamp.nanosec if header else at
 
 
 def _channels(said: dict[str, Stamped], stamps: Array, vehicle: Vehicle) -> dict[str, Array]:

@@ -7,6 +7,7 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
@@ -19,7 +20,14 @@ from tandemlift.apps.ros.gazebo_cameras import ViewRequest, views_from
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress
 from tandemlift.engines.gazebo import CHECKS, PORT, REAL_TIME, world_from
-from tandemlift.engines.gazebo_server import GazeboServer, free_port, root, shell_command, with_gazebo_environment
+from tandemlift.engines.gazebo_server import (
+    GazeboServer,
+    free_port,
+    root,
+    shell_command,
+    shell_command_for_user,
+    with_gazebo_environment,
+)
 from tandemlift.engines.models.sdf_elements import PICTURES, add_cameras
 from tandemlift.missions import Mission
 from tandemlift.simulation.fly import fly
@@ -224,3 +232,26 @@ def _stop_signals() -> Iterator[Callable[[], bool]]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+def fly_in_gazebo(
+    mission: Mission,
+    say: Callable[[str], None],
+    progress: Progress | None,
+    *,
+    by_hand: bool,
+    window: bool,
+    real_time: bool,
+    pictures: bool,
+) -> tuple[Flight, list[tuple[str, bytes]]]:
+    """Fly a mission to its end, or by hand until Ctrl-C; the flight, and its photographs, each with its title."""
+
+    def begun(gazebo: GazeboSession) -> None:
+        push = """gz topic -p /gazebo/default/tandemlift/push -m 'data: "force 2 0 0 point 0 0 0 duration 2"'"""
+        say(f"{mission.mission.name} flies in Gazebo. To push it, run in another terminal:")
+        say(f"  {shell_command_for_user(gazebo.master, push)}" + "\n  Ctrl-C ends it" * by_hand)
+        sys.stdout.flush()
+
+    if by_hand:
+        return fly_by_hand(mission, begun, window=window), []
+    return fly_to_end(mission, begun, progress, window=window, real_time=real_time, pictures=pictures)

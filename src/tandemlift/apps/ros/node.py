@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import signal
+import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
 from functools import partial
+from pathlib import Path
 
 from tandemlift import Flight
 from tandemlift.apps.export.recipes import WRENCH
@@ -20,7 +22,7 @@ from tandemlift.apps.ros.parameters import Parameters
 from tandemlift.apps.ros.pushes import REQUESTS, Pushes, RequestServices
 from tandemlift.apps.ros.sample_queue import Clock, SampleBatch, SampleQueue, as_flight, steps_between_samples
 from tandemlift.apps.ros.topics import LatchedTopics, MarkerTopics, SampleTopics
-from tandemlift.core.errors import InputError, install_command
+from tandemlift.core.errors import InputError, install_command, without_flight_warnings
 from tandemlift.engines.rospy import has_rospy
 from tandemlift.missions import tables_of
 
@@ -188,6 +190,51 @@ def fly_in_ros(session: Session, middleware: Middleware, rate: float, begun: Cal
         node.stop()
         if beside:
             beside.terminate()
+
+
+def fly_and_save(
+    session: Session,
+    middleware: Middleware,
+    rate: float,
+    what: str,
+    save: str | None,
+    say: Callable[[str], None],
+    *,
+    rviz: bool,
+) -> list[str]:
+    """Fly until the flight ends, and save it whatever the reason; return the reason of a failure, if any."""
+
+    def begun() -> None:
+        say(f"{what}: topics below /tandemlift, pushes by /tandemlift/push; Ctrl-C ends it")
+        sys.stdout.flush()
+
+    try:
+        end = fly_in_ros(session, middleware, rate, begun, rviz=rviz)
+    except BaseException:
+        if session.flight.step > 1:
+            _save(session, save, say)
+        raise
+    if end == STOPPED:
+        say(STOPPED)
+    _save(session, save, say)
+    ending = session.flight.ending
+    return [str(ending or end)] if ending or end == "failed" else []
+
+
+def shut_down(middleware: Middleware) -> list[str]:
+    """Disconnect from ROS; return a message if it is gone."""
+    try:
+        middleware.shutdown()
+    except OSError as error:
+        return [str(error)]
+    return []
+
+
+def _save(session: Session, save: str | None, say: Callable[[str], None]) -> None:
+    if save:
+        with without_flight_warnings():  # the mission was checked when it was loaded
+            session.flight.snapshot().save(Path(save))
+        say(f"saved: {save}; `tandemlift run {Path(save) / 'recorded.toml'}` flies it again")
 
 
 # ---- Which ROS it speaks

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
+from tandemlift.flight.channels import FLOWN
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.drawing.overlay import over_time
@@ -26,7 +27,7 @@ CAPTION = Caption(
     "Thrust and command of each rotor, and its limits; commands far beyond the limits are cut off. A rotor failure is "
     "marked, and lowers the upper limit to the thrust that is left. Near the floor a rotor can give more than its "
     "limit. Bottom: the fraction of the commanded wrench that the commands give within the limits; it is 0 while the "
-    "rotors are stopped.",
+    "rotors are stopped. In the shadow of a log, the command that was flown is in the thrust's place.",
     "A row of four panels over time for each quadrotor: thrust, command and limits of each rotor. Below, the fraction "
     "of the commanded thrust and moments that they give.",
 )
@@ -74,9 +75,14 @@ def _limits(ax: Axes, flight: Flight, most: float, fault: dict[str, Any] | None)
     )
 
 
+def _acting(flight: Flight) -> str:
+    """The channel of the thrusts; in the shadow of a log, of the commands that were flown."""
+    return FLOWN if FLOWN in flight else "rotor_thrusts"
+
+
 def _panel(ax: Axes, flight: Flight, column: int, most: float, fault: dict[str, Any] | None) -> None:
     """Fill the panel of one rotor: a column of its channels, and the most that it gives [N]."""
-    thrust = flight["rotor_thrusts"][:, column]
+    thrust = flight[_acting(flight)][:, column]
     line(ax, flight.time, flight["rotor_commands"][:, column], zorder=2, **COMMAND)
     line(ax, flight.time, thrust, zorder=3, **THRUST)
     _limits(ax, flight, most, fault)
@@ -94,8 +100,8 @@ def _fraction(ax: Axes, flight: Flight) -> None:
     time_axis(ax, flight)
 
 
-def _legend(figure: Figure, failing: bool) -> None:
-    looks, names = [THRUST, COMMAND, LIMIT], ["thrust", "commanded", "limits"]
+def _legend(figure: Figure, acting: str, failing: bool) -> None:
+    looks, names = [THRUST, COMMAND, LIMIT], ["flown" if acting == FLOWN else "thrust", "commanded", "limits"]
     if failing:
         looks, names = [*looks, FAILED], [*names, "rotor fails"]
     handles = [Line2D([], [], **look) for look in looks]
@@ -119,5 +125,5 @@ def draw(flight: Flight) -> Figure:
         if row == 1:
             ax.set_title(f"rotor {rotor}")
     _fraction(figure.add_subplot(grid[rows, :]), flight)
-    _legend(figure, any(faults.values()))
+    _legend(figure, _acting(flight), any(faults.values()))
     return figure

@@ -1,0 +1,227 @@
+"""The log of a vehicle: streams of measured numbers, each with a clock of its own.
+
+A stream has the name, the unit and the frame of the channel of a flight (`flight.channels`) that it measures.
+Commands come as thrusts, `rotor_commands`, or as speeds, `rotor_speed_commands`: the thrust map of the mission's
+rotors, thrust = k Ω², leads from one to the other.
+
+A stamp is the time at which the sensor sampled, or at which the command was given. Time 0 is the start of the mission.
+docs/how-to/log-a-vehicle.md is the contract for users.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.core.errors import InputError, unknown
+from tandemlift.core.types import Array
+from tandemlift.flight.channels import OTHER, Channel, channel_of
+from tandemlift.flight.record import Flight
+
+COMMANDS, SPEED_COMMANDS = "rotor_commands", "rotor_speed_commands"
+IMU = ("measured_specific_force", "measured_rates")
+JOINTS = ("measured_joint_force", "measured_joint_torque")
+MOTION = ("measured_position", "measured_velocity", "measured_attitude")
+STREAMS = (*IMU, *JOINTS, *MOTION, COMMANDS, SPEED_COMMANDS, "push_force")
+"""The streams that readers know; a log may have others, by names of channels."""
+
+SOON = 1e-6  # s: a stamp that much later than a time still counts as it
+PER = {"": 1, "quadrotor": 1, "rotor": 4}  # the number of columns of a stream is a multiple of its width times this
+
+
+def stream_channel(name: str) -> Channel:
+    """Unit, frame, meaning and width of the stream of that name.
+
+    Raises:
+        InputError: there is no such stream.
+    """
+    channel = channel_of(name)
+    if channel == OTHER:
+        raise unknown("stream", name, STREAMS)
+    return channel
+
+
+class Stream(NamedTuple):
+    """Samples on one clock: their times (n,) [s], strictly increasing, and values (n, width)."""
+
+    time: Array
+    values: Array
+
+    def at(self, times: Array) -> Array:
+        """The last sample at some times [s]; before the first one, that one."""
+        return self.values[np.maximum(np.searchsorted(self.time, times + SOON, side="right") - 1, 0)]
+
+
+def without_repeats(stream: Stream) -> Stream:
+    """A stream without the samples whose stamp is that of the sample before: of a stamp that comes twice, the first."""
+    new = np.diff(stream.time, prepend=-np.inf) != 0.0
+    return Stream(stream.time[new], stream.values[new])
+
+
+@dataclass(frozen=True, eq=False)
+class Log(Mapping[str, Stream]):
+    """The streams of a log by name, as arrays of float64.
+
+    Attributes:
+        streams: by name; at least one.
+        source: file or flight that it came from, for messages.
+        notes: what was found and changed since it was read, a line each.
+
+    Raises:
+        InputError: a stream is unknown or empty, has another width, a number that is not finite, or a stamp that is not
+            after the one before it. The message names stream and row.
+    """
+
+    streams: Mapping[str, Stream]
+    source: str = "log"
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not self.streams:
+            raise InputError(f"{self.source}: has no stream; known are {', '.join(STREAMS)}")
+        streams = {name: self._checked(name, *stream) for name, stream in self.streams.items()}
+        object.__setattr__(self, "streams", streams)
+
+    def _checked(self, name: str, time: Any, values: Any) -> Stream:
+        place, channel = f"{self.source}: stream {name}", stream_channel(name)
+        time, values = np.array(time, dtype=float), np.array(values, dtype=float)
+        values = values[:, None] if values.ndim == 1 else values
+        if time.ndim != 1 or values.ndim != 2 or len(time) != len(values) or not len(time):
+            raise InputError(f"{place}: times {time.shape}, values {values.shape}: must be (n,) and (n, width), n ≥ 1")
+        width, per = channel.width, PER[channel.per]
+        if values.shape[1] % (width * per) or (not channel.per and values.shape[1] != width):
+            every = f" for each {channel.per}" if channel.per else ""
+            raise InputError(f"{place}: has {values.shape[1]} columns: must have {width}{every}")
+        wrong = np.flatnonzero(~(np.isfinite(values).all(axis=1) & np.isfinite(time)))
+        if len(wrong):
+            row = int(wrong[0])
+            raise InputError(f"{place}: row {row} is {values[row]} at {time[row]} s: must be finite numbers")
+        back = np.flatnonzero(np.diff(time) <= 0.0)
+        if len(back):
+            row = int(back[0]) + 1
+            raise InputError(
+                f"{place}: row {row} is at {time[row]:.9g} s, the row before at {time[row - 1]:.9g} s: "
+                "times must increase"
+            )
+        return Stream(time, values)
+
+    def __getitem__(self, name: str) -> Stream:
+        if name not in self.streams:
+            raise KeyError(f"{self.source} has no stream {name!r}; it has {', '.join(self.streams)}")
+        return self.streams[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.streams)
+
+    def __len__(self) -> int:
+        return len(self.streams)
+
+    def __repr__(self) -> str:
+        rates = ", ".join(f"{name} {self.rate(name):.4g} Hz" for name in self)
+        return f"<Log {self.source}: {self.duration:.6g} s, {rates}>"
+
+    def require(self, *names: str) -> None:
+        """Refuse a log without these streams.
+
+        Raises:
+            InputError: one is missing; the message names it.
+        """
+        for name in names:
+            if name not in self.streams:
+                meaning = stream_channel(name).meaning
+                raise InputError(f"{self.source}: has no {name} ({meaning}); it has {', '.join(self.streams)}")
+
+    @property
+    def begin(self) -> float:
+        """The time [s] from which on all streams have samples."""
+        return max(float(time[0]) for time, _ in self.streams.values())
+
+    @property
+    def end(self) -> float:
+        """The time [s] until which all streams have samples."""
+        return min(float(time[-1]) for time, _ in self.streams.values())
+
+    @property
+    def duration(self) -> float:
+        """The length [s] of the span in which all streams have samples; 0 if there is none."""
+        return max(self.end - self.begin, 0.0)
+
+    def rate(self, name: str) -> float:
+        """Samples of a stream per second: one over the median time between two; 0 for a single sample."""
+        time = self[name].time
+        return float(1.0 / np.median(np.diff(time))) if len(time) > 1 else 0.0
+
+    def mapped(self, change: Callable[[str, Stream], Stream]) -> Log:
+        """The log with every stream changed."""
+        return replace(self, streams={name: change(name, stream) for name, stream in self.streams.items()})
+
+    def between(self, begin: float, end: float) -> Log:
+        """The samples from one time [s] to another, both included; the clock stays.
+
+        Raises:
+            InputError: a stream has no sample there.
+        """
+
+        def part(name: str, stream: Stream) -> Stream:
+            inside = (stream.time >= begin) & (stream.time <= end)
+            if not inside.any():
+                raise InputError(f"{self.source}: stream {name} has no sample from {begin:g} to {end:g} s")
+            return Stream(stream.time[inside], stream.values[inside])
+
+        return self.mapped(part)
+
+    def aligned(self, names: Collection[str], offset: float, drift: float = 0.0, about: float = 0.0) -> Log:
+        """The log with other stamps of some streams: t + offset + drift · (t − about) [s] for each stamp t."""
+
+        def moved(name: str, stream: Stream) -> Stream:
+            time = stream.time
+            return Stream(time + offset + drift * (time - about), stream.values) if name in names else stream
+
+        return self.mapped(moved)
+
+
+def log_of(flight: Flight) -> Log:
+    """The log that a vehicle would have written in a flight with sensors.
+
+    Readings have the times at which their sensor sampled; in the channels the pilot has them a step later, or more with
+    delays. The first reading is the one with which the pilot starts, stamped one interval before the first sample.
+    Thrusts that ideal rotors produce are their commands.
+
+    Raises:
+        InputError: the flight has no sensors.
+    """
+    if MOTION[0] not in flight:
+        raise InputError(f'flight {flight.name}: has no readings: fly it with sensors.model = "simulated"')
+    streams = {}
+    for name in (n for n in flight if n.startswith("measured_")):
+        steps = sampled_steps(flight, name)
+        rows = np.flatnonzero(np.diff(steps, prepend=steps[0] - 1))
+        streams[name] = Stream(steps[rows] * flight.mission["mission"]["step"], flight[name][rows])
+    commands = flight[COMMANDS if COMMANDS in flight else "rotor_thrusts"]
+    rotors = [q for q in flight.vehicle.quadrotors for _ in range(4)]
+    k, most = np.array([q.thrust_constant for q in rotors]), np.array([q.max_thrust for q in rotors])
+    streams[COMMANDS] = Stream(flight.time, commands)
+    streams[SPEED_COMMANDS] = Stream(flight.time, np.sqrt(np.clip(commands, 0.0, most) / k))
+    streams["push_force"] = Stream(flight.time, flight["push_force"])
+    return Log(streams, flight.name)
+
+
+def sampled_steps(flight: Flight, name: str) -> np.ndarray:
+    """The steps (T,) at which the readings in the rows of a flight were sampled.
+
+    Before the first sample of a device, it is one interval before that.
+    """
+    step, sensors = flight.mission["mission"]["step"], flight.mission["sensors"]
+    added = {f"measured_{sensor['name']}": sensor for sensor in sensors["additional"]}
+    device = sensors["motion"] if name in MOTION else added.get(name, sensors)
+
+    def last(clock: Mapping[str, Any], steps: np.ndarray) -> np.ndarray:
+        period, first = max(1, round(clock["interval"] / step)), round(clock["first_sample"] / step)
+        return first + np.maximum((steps - first) // period, -1) * period
+
+    sampled = last(device, np.round(flight.time / step).astype(int) - 1 - round(device["delay"] / step))
+    joints = sensors["joints"]
+    return last(joints, sampled) if name in JOINTS and joints.get("interval") is not None else sampled

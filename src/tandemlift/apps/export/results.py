@@ -1,0 +1,114 @@
+"""The files that commands read and write: flights by their paths, and the folder of results."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tandemlift.core.errors import InputError
+from tandemlift.core.files import FLIGHT_FILE
+
+if TYPE_CHECKING:
+    from tandemlift.flight.record import Flight
+
+FIGURES = "figures"  # folder of the figures among results
+BAGS = (".bag", ".mcap")
+
+
+def flight_file(given: str) -> tuple[Path, Path | None]:
+    """The folder of a flight's results and the file of the saved flight; the file is None if `given` is a mission."""
+    path = Path(given)
+    if path.is_dir() and (path / FLIGHT_FILE).exists():
+        return path, path / FLIGHT_FILE
+    if path.suffix == ".npz":
+        return path.parent, path
+    return Path("out") / path.stem, None
+
+
+def file_path(option: str, name: str, *endings: str) -> Path:
+    """The path of a file that an option or an argument names, which ends in one of these endings.
+
+    Raises:
+        InputError: it has none of the endings, or is a folder.
+    """
+    path = Path(name)
+    if path.suffix.lower() not in endings:
+        raise InputError(f"{option} {path}: must end in {' or '.join(endings)}")
+    if path.is_dir():
+        raise InputError(f"{option} {path}: is a folder, not a file")
+    return path
+
+
+def load_flight(given: str) -> tuple[Flight, Path]:
+    """A flight or a bag; the flight, and the default folder of its report.
+
+    Raises:
+        InputError: there is no such flight.
+    """
+    from tandemlift.apps.export.reading import read_bag
+    from tandemlift.flight.record import Flight
+
+    path = Path(given)
+    if path.suffix.lower() in BAGS or (path / "metadata.yaml").exists():
+        if not path.exists():
+            raise InputError(f"{given}: there is no such file")
+        return read_bag(path), Path("out") / path.stem
+    folder, saved = flight_file(given)
+    if saved is None:
+        raise InputError(
+            f"{given}: must be flight.npz, its folder, a bag (.bag, .mcap, or the folder of a ROS 2 bag), or, for a "
+            "report, the folder of a study"
+        )
+    return Flight.load(saved), folder
+
+
+@contextmanager
+def results_folder(out: str | None, default: Path, files: Sequence[str]) -> Iterator[Path]:
+    """Make the folder for the results before the flight, and remove it again if the flight fails.
+
+    Args:
+        out: the folder that the user named; None for the default.
+        default: the folder if none is named.
+        files: names of the files that will be written.
+
+    Raises:
+        InputError: the folder cannot be made or written to.
+    """
+    folder = default if out is None else Path(out)
+    made: list[Path] = []
+    try:
+        _make(folder, made)
+        _check_writable(folder, files)
+        yield folder
+    except BaseException:
+        for path in reversed(made):
+            with suppress(OSError):
+                path.rmdir()
+        raise
+
+
+def _make(folder: Path, made: list[Path]) -> None:
+    """Make a folder and its parents; `made` receives those that are new."""
+    try:
+        for path in reversed((folder, *folder.parents)):
+            if not path.is_dir():
+                path.mkdir()
+                made.append(path)
+    except (FileExistsError, NotADirectoryError):
+        raise InputError(f"--out {folder}: {path} is a file, not a folder") from None
+    except (OSError, ValueError) as error:
+        raise InputError(f"--out {folder}: cannot be made: {getattr(error, 'strerror', error)}") from None
+
+
+def _check_writable(folder: Path, files: Sequence[str]) -> None:
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise InputError(f"--out {folder}: the folder cannot be written to")
+    figures = folder / FIGURES
+    in_the_way = [path for path in (folder / name for name in files) if path.is_dir()]
+    if figures.exists() and not figures.is_dir():
+        in_the_way.append(figures)
+    if in_the_way:
+        raise InputError(f"--out {folder}: {in_the_way[0]} is in the way of a file or folder of that name")
