@@ -46,7 +46,7 @@ Z95 = 1.96
 SEEN = {"thrust": "mass, thrust constant, centre of mass; lag, delay", "yaw": "inertia about z over the yaw drag"}
 
 
-class Promise(NamedTuple):
+class PromisedInterval(NamedTuple):
     """The half width of the 95 % interval of a parameter, its unit ("1": relative), and the one that is aimed at."""
 
     parameter: str
@@ -67,7 +67,7 @@ class ExcitationDesign:
     """
 
     mission: Mission
-    promised: tuple[Promise, ...]
+    promised: tuple[PromisedInterval, ...]
     used: dict[str, tuple[float, float]]
     base: str
 
@@ -148,7 +148,7 @@ def excite(
         if all(value <= limit for value, limit in used.values()) and not flight.findings:
             information = np.einsum("ak,akij->ij", steady * (scale * amplitudes) ** 2, each)
             found = zip(PARAMETERS, Z95 * deviations(information), strict=True)
-            promised = tuple(Promise(p.name, float(width), p.unit, p.target) for p, width in found)
+            promised = tuple(PromisedInterval(p.name, float(width), p.unit, p.target) for p, width in found)
             known = mission.mission.name
             base = known if known in built_in() and load_mission(known) == mission else ""
             return ExcitationDesign(made, promised, used, base)

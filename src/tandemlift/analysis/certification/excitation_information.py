@@ -31,7 +31,7 @@ MOTION = ("position", "velocity", "euler", "rates")
 STEP = 1e-3  # of a difference: relative, or m
 
 
-class Parameter(NamedTuple):
+class VehicleParameter(NamedTuple):
     """A number of the vehicle that a flight identifies.
 
     Attributes:
@@ -50,16 +50,18 @@ class Parameter(NamedTuple):
 
 
 PARAMETERS = (
-    Parameter("mass", "1", 0.003, "mass_scale"),
-    Parameter("inertia about x", "1", 0.02, "inertia_scale", 0),
-    Parameter("inertia about y", "1", 0.02, "inertia_scale", 1),
-    Parameter("inertia about z over yaw drag", "1", 0.02, "inertia_scale", 2),  # about hover, nothing else has either
-    Parameter("centre of mass x", "m", 0.002, "center_of_mass_offset", 0),
-    Parameter("centre of mass y", "m", 0.002, "center_of_mass_offset", 1),
-    Parameter("centre of mass z", "m", 0.002, "center_of_mass_offset", 2),
-    Parameter("thrust constant", "1", 0.01),
-    Parameter("lag of rotors", "1", 0.05),
-    Parameter("delay of rotors", "s", 0.001),
+    VehicleParameter("mass", "1", 0.003, "mass_scale"),
+    VehicleParameter("inertia about x", "1", 0.02, "inertia_scale", 0),
+    VehicleParameter("inertia about y", "1", 0.02, "inertia_scale", 1),
+    VehicleParameter(
+        "inertia about z over yaw drag", "1", 0.02, "inertia_scale", 2
+    ),  # about hover, nothing else has either
+    VehicleParameter("centre of mass x", "m", 0.002, "center_of_mass_offset", 0),
+    VehicleParameter("centre of mass y", "m", 0.002, "center_of_mass_offset", 1),
+    VehicleParameter("centre of mass z", "m", 0.002, "center_of_mass_offset", 2),
+    VehicleParameter("thrust constant", "1", 0.01),
+    VehicleParameter("lag of rotors", "1", 0.05),
+    VehicleParameter("delay of rotors", "s", 0.001),
 )
 WEIGHED = 0.0005  # standard deviation of the mass, weighed beforehand to 0.1 %: else only ratios to it are known
 
@@ -132,7 +134,7 @@ def readings(motion: Responses, s: Frequencies, mission: Mission) -> Responses:
     return np.concatenate([rates, force, position, euler], axis=1)
 
 
-def deviating(mission: Mission, parameter: Parameter, by: float) -> Mission:
+def deviating(mission: Mission, parameter: VehicleParameter, by: float) -> Mission:
     """A mission whose real body has a parameter of `[plant]` that is larger by so much."""
     tables: Any = tables_of(mission)
     plant, key, axis = tables["plant"], parameter.key, parameter.axis
