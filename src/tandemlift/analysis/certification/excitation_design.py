@@ -101,16 +101,13 @@ class ExcitationDesign:
                 yield f"{axis}: {len(mine)} lines from {low:.2g} to {high:.2g} Hz: {about}"
 
 
-def excite(
-    mission: MissionLike, time: float = 60.0, *, room: Sequence[float] = (2.0, 2.0, 1.0), name: str | None = None
-) -> ExcitationDesign:
+def excite(mission: MissionLike, time: float = 60.0, *, room: Sequence[float] = (2.0, 2.0, 1.0)) -> ExcitationDesign:
     """The excitation of a mission's vehicle that tells most of its parameters, flown once to see that limits are kept.
 
     Args:
         mission: from `load_mission`, or its name or path; without its pushes, requests, changes, faults and person.
         time: of the excitation [s].
         room: size for the centre of mass along each world axis [m].
-        name: of the new mission; by default that of the old one and "-excited".
 
     Returns:
         The mission, the promised intervals, and what it used of its limits.
@@ -125,37 +122,38 @@ def excite(
         raise InputError(f"time = {time:g}: must be at least {shortest:g} s, {PERIODS:g} periods of {LOWEST:g} Hz")
     if len(room) != 3 or not all(math.isfinite(size) and size >= LEAST_ROOM for size in room):
         raise InputError(f"room = {list(room)}: must be three sizes of at least {LEAST_ROOM:g} m")
-    steady = time - 3.0 * RAMP
-    places = line_frequencies(steady)
-    hover = excited_hover(mission, places.ravel())
-    limits = limits_of(mission, room)
-    most = largest_amplitudes(hover, mission, limits).reshape(len(AXES), LINES)
-    each = np.array([hover.information.reshape(len(AXES), LINES, 4, *[len(PARAMETERS)] * 2)[i, :, i] for i in range(4)])
-    shares = best_shares(each * (steady * most**2)[..., None, None])
-    amplitudes = most * np.sqrt(shares)
-    amplitudes *= amplitudes > SLIGHT * amplitudes.max(axis=1, keepdims=True)
-    rows = [row for i, axis in enumerate(AXES) for row in axis_lines(axis, places[i], amplitudes[i])]
+    limits, tables = limits_of(mission, room), excited_tables(mission, time, room)
+    rows, information = best_lines(mission, time - 3.0 * RAMP, limits)
     slow = reference_lines(time, limits)
-    scale, tables = 1.0, excited_tables(mission, time, room, name)
-    for _ in range(TRIES):
-        tables["excitation"]["lines"] = [
-            row | {"amplitude": float(f"{scale * row['amplitude']:.3g}")} for row in rows
-        ] + slow
+    for scale in LOWER ** np.arange(TRIES):
+        lowered = [row | {"amplitude": float(f"{scale * row['amplitude']:.3g}")} for row in rows]
+        tables["excitation"]["lines"] = lowered + slow
         with without_flight_warnings():
             made = check(tables, tables["mission"]["name"], quiet=True)
             flight = fly(made)
         used = used_of(made, flight, limits)
-        if all(value <= limit for value, limit in used.values()) and not flight.findings:
-            information = np.einsum("ak,akij->ij", steady * (scale * amplitudes) ** 2, each)
-            found = zip(PARAMETERS, Z95 * deviations(information), strict=True)
+        beyond = [f"{key} {value:.3g} of {limit:.3g}" for key, (value, limit) in used.items() if value > limit]
+        beyond += [finding.kind for finding in flight.findings]
+        if not beyond:
+            found = zip(PARAMETERS, Z95 * deviations(scale**2 * information), strict=True)
             promised = tuple(PromisedInterval(p.name, float(width), p.unit, p.target) for p, width in found)
             known = mission.mission.name
             base = known if known in built_in() and load_mission(known) == mission else ""
             return ExcitationDesign(made, promised, used, base)
-        scale *= LOWER
-    beyond = [f"{key} {value:.3g} of {limit:.3g}" for key, (value, limit) in used.items() if value > limit]
-    beyond += [finding.kind for finding in flight.findings]
     raise InputError(f"{made.mission.name}: no excitation keeps the limits of its flight: {', '.join(beyond)}")
+
+
+def best_lines(mission: Mission, steady: float, limits: dict[str, float]) -> tuple[list[dict[str, Any]], Array]:
+    """(The lines of thrust, roll, pitch and yaw, their information (P × P) within a time [s])."""
+    places = line_frequencies(steady)
+    hover = excited_hover(mission, places.ravel())
+    most = largest_amplitudes(hover, mission, limits).reshape(places.shape)
+    axis = np.repeat(np.arange(len(AXES)), LINES)
+    each = steady * hover.information[np.arange(len(axis)), axis].reshape(*places.shape, *hover.information.shape[2:])
+    amplitudes = most * np.sqrt(best_shares(each * most[..., None, None] ** 2))
+    amplitudes *= amplitudes > SLIGHT * amplitudes.max(axis=1, keepdims=True)
+    rows = [row for name, f, A in zip(AXES, places, amplitudes, strict=True) for row in axis_lines(name, f, A)]
+    return rows, np.einsum("ak,akij->ij", amplitudes**2, each)
 
 
 def line_frequencies(steady: float) -> Array:
@@ -185,14 +183,8 @@ def largest_amplitudes(hover: ExcitedHover, mission: Mission, limits: dict[str, 
     rest = mission.hover.thrusts.ravel()
     left = np.minimum(rest, limits["rotor thrust"] - rest)
     rooms = np.array([limits[f"room along {axis}"] for axis in "xyz"])
-    taken = np.column_stack(
-        [
-            thrusts / left,
-            motion[:, 3:6] / limits["speed"],
-            motion[:, 6:8] / limits["tilt"],
-            2.0 * motion[:, :3] / rooms,
-        ]
-    )
+    place, velocity, tilts = motion[:, :3], motion[:, 3:6], motion[:, 6:8]
+    taken = np.hstack([thrusts / left, velocity / limits["speed"], tilts / limits["tilt"], 2.0 * place / rooms])
     return SHARE / (PEAK * taken.max(axis=1))
 
 
@@ -205,8 +197,7 @@ def best_shares(information: Array) -> Array:
     q = np.full(information.shape[:2], 1.0 / LINES)
     for _ in range(ROUNDS):
         inverse = np.linalg.inv(np.einsum("ak,akij->ij", q, scaled) + weighed)
-        gain = np.sqrt(np.einsum("akij,ji->ak", scaled, inverse @ inverse))
-        q *= gain
+        q *= np.sqrt(np.einsum("akij,ji->ak", scaled, inverse @ inverse))
         q /= q.sum(axis=1, keepdims=True)
     return (1.0 - EVEN) * q + EVEN / LINES
 
@@ -242,7 +233,7 @@ def reference_lines(time: float, limits: dict[str, float]) -> list[dict[str, Any
     return rows
 
 
-def excited_tables(mission: Mission, time: float, room: Sequence[float], name: str | None) -> dict[str, Any]:
+def excited_tables(mission: Mission, time: float, room: Sequence[float]) -> dict[str, Any]:
     """The tables of the mission: lift, tare, excitation, landing; nothing else happens."""
     t = {key: table for key, table in tables_of(mission).items() if key not in REMOVED} | {"pushes": []}
     p, e = mission.phases, mission.estimator
@@ -252,15 +243,10 @@ def excited_tables(mission: Mission, time: float, room: Sequence[float], name: s
         begin = max(begin, e.tare_start + e.tare_duration if e.tare == "at-time" and e.tare_start is not None else 0.0)
     begin = math.ceil(begin + SETTLES)
     lands = begin + time + SETTLES
-    t["mission"] |= {"name": name or f"{mission.mission.name}-excited", "duration": lands + p.land_duration + SETTLES}
+    t["mission"] |= {"name": f"{mission.mission.name}-excited", "duration": lands + p.land_duration + SETTLES}
     t["phases"] |= {"land_start": lands}
-    t["excitation"] = {
-        "model": "multisine",
-        "begin": float(begin),
-        "duration": float(time),
-        "ramp": RAMP,
-        "room": [float(x) for x in room],
-    }
+    when = {"begin": float(begin), "duration": float(time), "ramp": RAMP}
+    t["excitation"] = {"model": "multisine", **when, "room": [float(size) for size in room]}
     return t
 
 

@@ -53,9 +53,7 @@ PARAMETERS = (
     VehicleParameter("mass", "1", 0.003, "mass_scale"),
     VehicleParameter("inertia about x", "1", 0.02, "inertia_scale", 0),
     VehicleParameter("inertia about y", "1", 0.02, "inertia_scale", 1),
-    VehicleParameter(
-        "inertia about z over yaw drag", "1", 0.02, "inertia_scale", 2
-    ),  # about hover, nothing else has either
+    VehicleParameter("inertia about z over yaw drag", "1", 0.02, "inertia_scale", 2),  # only the ratio acts in hover
     VehicleParameter("centre of mass x", "m", 0.002, "center_of_mass_offset", 0),
     VehicleParameter("centre of mass y", "m", 0.002, "center_of_mass_offset", 1),
     VehicleParameter("centre of mass z", "m", 0.002, "center_of_mass_offset", 2),
@@ -150,9 +148,7 @@ def densities(mission: Mission) -> Array:
     """
     s, step = mission.sensors, mission.mission.step
     if mission.actuators.model != "rotors":
-        raise InputError(
-            f'actuators.model = "{mission.actuators.model}": must be "rotors", whose lag and thrust are identified'
-        )
+        raise InputError(f'actuators.model = "{mission.actuators.model}": must be "rotors", which are identified')
     if s.model != "simulated":
         raise InputError(f'sensors.model = "{s.model}": must be "simulated": their noise bounds what can be identified')
     inertial, seen = max(s.interval, step), max(s.motion.interval, step)
@@ -166,9 +162,7 @@ def densities(mission: Mission) -> Array:
     ):
         sigma = np.broadcast_to(np.asarray(noise, dtype=float), 3)
         if not (sigma > 0.0).all():
-            raise InputError(
-                f"sensors.{name} = {noise}: must be above 0: without noise, nothing bounds an identification"
-            )
+            raise InputError(f"sensors.{name} = {noise}: must be above 0: only noise bounds an identification")
         found.append(1.0 / (interval * sigma**2 * scale))
     return np.concatenate(found)
 
