@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from tandemlift.core.files import __version__ as __version__
 
 if TYPE_CHECKING:
+    from tandemlift.analysis.certification.excitation_design import excite
     from tandemlift.analysis.certification.mission_check import check
     from tandemlift.analysis.identification.shadow import shadow
     from tandemlift.analysis.linearization.differentiable_step import jax_step
@@ -52,6 +53,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "certify": "pictures.report.study.certificate_report",
     "check": "analysis.certification.mission_check",
     "compile_mission": "codegen.mission_module",
+    "excite": "analysis.certification.excitation_design",
     "feel": "pictures.report.study.feel_report",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
@@ -83,6 +85,7 @@ __all__ = [
     "certify",
     "check",
     "compile_mission",
+    "excite",
     "feel",
     "fly",
     "fly_many",

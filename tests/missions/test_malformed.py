@@ -128,7 +128,7 @@ def test_a_missing_file_a_folder_and_a_misspelt_name_are_told_apart(mine, tmp_pa
     (tmp_path / "folder.toml").mkdir()
     assert refusal("absent.toml") == "mission file absent.toml does not exist."
     assert "Did you mean 'paper'?" in refusal("papr.toml")
-    mine('')
+    mine("")
     assert "Did you mean 'mine'?" in refusal("mien.toml")
     (tmp_path / "flown").mkdir()
     (tmp_path / "flown" / "mission.toml").touch()

@@ -24,7 +24,7 @@ from tandemlift.parts.guidance import guidance
 from tandemlift.parts.interaction import policy
 from tandemlift.parts.mechanics import low_pass, parts, rotation
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench
-from tandemlift.parts.pilot import rotor_lead
+from tandemlift.parts.pilot import excitation, rotor_lead
 from tandemlift.parts.rotors import allocation
 from tandemlift.parts.rotors import decision as rotor_loss_decision
 from tandemlift.parts.rotors import detection as rotor_loss_detection
@@ -52,6 +52,7 @@ HEARD = guidance.PilotInput(STATE, V, V, 0.0, Absent())
 SLOPE = low_pass.LowPassState(V, V)
 BLOWN = wind_compensation.PayloadDragState(V, 0.0, SLOPE)
 
+SINES = excitation.Sines(*[each(4)(*[0.0] * 4)] * 3)
 LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "outer": (outer, (V, V)),
     "rates from Euler rates": (rotation.rates_from_euler_rates, (EULER, V)),
@@ -82,6 +83,18 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
             rotor_lead.RotorLead(LOW, 0.0, V),
             rotor_lead.RotorLeadState(low_pass.LowPassState(0.0, 0.0), SLOPE),
             Wrench(0.0, V),
+        ),
+    ),
+    "an excited wrench": (
+        excitation.excited,
+        (excitation.Excitation(0.0, 0.0, 0.0, 0.0, *[SINES] * 4, Absent()), Wrench(0.0, V), 0.0, 0.0),
+    ),
+    "the reference of an excitation": (
+        excitation.excited_lead,
+        (
+            excitation.Excitation(*[0.0] * 4, *[Absent()] * 4, excitation.ReferenceSines(SINES, Absent(), SINES)),
+            Absent(),
+            0.0,
         ),
     ),
     "a smooth attitude reference": (

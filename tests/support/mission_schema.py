@@ -32,6 +32,7 @@ EVERYTHING = {  # on top of mission iris: one entry of every list of tables, and
     "wind": {"model": "air", "gusts": [{"velocity": [1.0, 0.0, 0.0], "start": 15.0, "rise": 1.0}]},
     "pilot": {"guidance": "interactive"},
     "requests": [{"time": 60.0, "action": "land"}],
+    "excitation": {"lines": [{"axis": "yaw", "frequency": 0.5, "amplitude": 0.2}]},
     "sensors": {"additional": [{"name": "altimeter"}]},
     "sensor_faults": [{"sensor": "joints", "quadrotor": 1, "kind": "bias", "time": 60.0, "until": 61.0}],
     "walls": [{"start": [20.0, -3.0], "end": [20.0, 3.0]}],

@@ -15,8 +15,7 @@ from tandemlift.missions.flight_checks import worst_failures
 from tandemlift.missions.mission import Mission
 from tandemlift.missions.refusals import Problem, problems_in
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
-from tandemlift.parts.pilot.payload_bodies import with_bodies
-from tandemlift.parts.pilot.payload_mesh import with_mesh
+from tandemlift.parts.pilot.payload_shape import with_bodies, with_mesh
 
 MAX_PROBLEMS = 8  # reported at once
 

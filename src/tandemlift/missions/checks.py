@@ -29,6 +29,7 @@ from tandemlift.parts.interaction.policy import policy_checks
 from tandemlift.parts.interaction.requests import request_checks
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
+from tandemlift.parts.pilot.excitation import time_checks as excitation_time_checks
 from tandemlift.parts.pilot.push_checks import on_vehicle_checks
 from tandemlift.parts.pilot.schedule_checks import phase_checks, phase_warnings, wind_warnings
 from tandemlift.parts.pilot.vehicle_checks import vehicle_checks
@@ -73,6 +74,7 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from wall_checks(m.walls)
     yield from supervision.supervision_checks(m.supervision, guidance)
     yield from request_checks(m.requests, guidance)
+    yield from excitation_time_checks(m.excitation, m.phases, step, m.mission.duration)
     yield from estimator.hover_tare_checks(m.estimator, guidance)
     yield from gate_checks(m.admittance, guidance)
     yield from policy_checks(m.compliance.policy, m.admittance.mass, m.admittance.damping, guidance, step)

@@ -13,6 +13,7 @@ from tandemlift.missions.mission import Mission
 from tandemlift.missions.outcomes import promise_of
 from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.interaction.passage import passage_checks, way_checks
+from tandemlift.parts.pilot.excitation import excitation_checks
 from tandemlift.parts.pilot.loop_checks import loop_checks
 from tandemlift.parts.pilot.push_checks import point_checks, push_checks
 from tandemlift.parts.pilot.schedule_checks import (
@@ -173,6 +174,14 @@ CHECKS = (
         "`pushes.*.point`",
     ),
     FlightCheck(
+        "excitation",
+        "change of a rotor's thrust; tilt; way of the centre of mass, by the excitation without the controller",
+        "what the rotor has left in hover; the largest tilt that the controller or the guidance commands; the room",
+        "1, rad, m",
+        '`excitation.model = "multisine"`',
+        "`excitation.lines`, `excitation.room`",
+    ),
+    FlightCheck(
         "passage",
         "radius of a quadrotor's guard",
         "its distance from the nearest wall on the person's path, with the heading kept, rotated or trailing",
@@ -216,6 +225,7 @@ def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
             way_checks(m.person, m.corridor, m.initial, m.phases, schedule.landing_duration, end),
         ),
         "push checks": push_checks(() if joined else m.pushes, m.admittance.threshold, compliant_yaw=compliant_yaw),
+        "excitation checks": excitation_checks(m.excitation, hover, tilt_limit_of(controller) or m.compliance.max_tilt),
         "point checks": point_checks(m.pushes, hover.vehicle),
         "passage checks": passage_checks(m.person, m.corridor, m.all_walls, m.initial, hover.vehicle),
     }

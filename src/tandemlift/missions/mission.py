@@ -34,6 +34,7 @@ from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTable, VehicleTable
 from tandemlift.parts.mechanics.wind import WindTable
+from tandemlift.parts.pilot.excitation import ExcitationTable
 from tandemlift.parts.pilot.loop_checks import ControlLoop, push_feedback, reading_delays
 from tandemlift.parts.rotors.allocation import AllocationTable
 from tandemlift.parts.rotors.detection_table import DetectionTable
@@ -136,6 +137,7 @@ class Mission(Table):
     supervision: SupervisionTable = SupervisionTable()
     contact: ContactTable = ContactTable()
     requests: tuple[RequestTable, ...] = ()
+    excitation: ExcitationTable = ExcitationTable()
     detection: DetectionTable = DetectionTable()
     actuators: ActuatorsTable = ActuatorsTable()
     faults: tuple[FaultTable, ...] = ()

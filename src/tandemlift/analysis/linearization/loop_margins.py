@@ -33,7 +33,7 @@ LIFT, SETTLED = 4.0, 2.0  # s, of the calm flight's lift, and after it and after
 WAITS = (0.0, 20.0)  # s, in addition, for a vehicle that settles slowly
 REMOVED = (
     *("pushes", "requests", "changes", "faults", "sensor_faults", "walls"),
-    *("wind", "person", "corridor", "supervision", "detection"),
+    *("wind", "person", "corridor", "supervision", "detection", "excitation"),
 )
 NO_KINK = -1.0  # a distance: disables the search for kinks
 ON_CIRCLE = 1e-6  # beyond 1, of an eigenvalue that does not grow

@@ -43,12 +43,13 @@ class OperatingPoint(NamedTuple):
 def calm_time(mission: Mission) -> float:
     """The default time [s] of a flight that is tared: the end of the first calm after the lift.
 
-    This is before the first push, fault or landing and before a person begins; without any, it is the mission's end.
+    This is before the first push, fault, excitation or landing and before a person begins; else the mission's end.
     """
     phases, person, end = mission.phases, mission.person, mission.mission.duration
     ends = [push.time - SUPPORT * push.sigma for push in mission.pushes] + [fault.time for fault in mission.faults]
     ends += [] if phases.land_start is None else [phases.land_start]
     ends += [] if person.model == "none" else [person.start_time]
+    ends += [] if mission.excitation.model == "none" else [mission.excitation.begin]
     hovers = phases.lift_start + phases.lift_duration
     return max(min([end, *(calm for calm in ends if calm > hovers)]), 0.0)
 

@@ -156,7 +156,8 @@ def worst_mission(mission: Mission, values: Values, worst: Worst) -> str:
     name, whole = mission.mission.name, tables_of(mission)
     end = calm_mission(mission)[1] + FLOWN
     rest: dict[str, Any] = {"pushes": [], "requests": [], "changes": [], "person": {"model": "none"}}
-    rest |= {"detection": {"model": "none"}, "phases": {**whole["phases"], "land_start": 2.0 * end}}
+    rest |= {key: {"model": "none"} for key in ("detection", "excitation")}
+    rest |= {"phases": {**whole["phases"], "land_start": 2.0 * end}}
     rest["mission"] = {**whole["mission"], "name": f"{name}-worst", "duration": end}
     keys = uncertain_tables(whole, values) | rest
     with without_flight_warnings():

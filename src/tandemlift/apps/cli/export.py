@@ -20,10 +20,8 @@ from tandemlift.core.errors import InputError
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
-    from tandemlift.pictures.drawing.film import Shot
 
 CAMERAS = "follow, overview, front, side, top, or AZIMUTH,ELEVATION[,DISTANCE] in degrees and metres"
-PICTURE_OPTIONS, ANIMATION_OPTIONS = ("--time",), ("--from", "--to", "--fps", "--speed")
 
 
 @click.command()
@@ -162,32 +160,13 @@ def render(
     folder, saved = flight_file(flight_or_mission)
     path = Path(out) if out else folder / "picture.png"
     given = {"--time": time, "--from": start, "--to": end, "--fps": fps, "--speed": speed}
-    _check_options(path, [name for name, value in given.items() if value is not None])
+    film.check_options(path, [name for name, value in given.items() if value is not None])
     view = film.camera_of(camera)
     shot = film.Shot(time, start, end, fps or 20.0, speed, film.size_of(size), view)
     flight = Flight.load(saved) if saved else _fly(flight_or_mission, settings, engine)
-    _draw(flight, path, shot)
-
-
-def _check_options(path: Path, given: list[str]) -> None:
-    """Reject options that do not fit the kind of file, and kinds that cannot be drawn here, before any flight.
-
-    Raises:
-        InputError: an option does not fit the kind of file, the kind is unknown, or nothing here can draw it.
-    """
-    from tandemlift.pictures.drawing.studio import pyvista
-    from tandemlift.pictures.drawing.video import ffmpeg
-
-    kind = path.suffix.lower()
-    if kind not in (".png", ".gif", ".mp4"):
-        raise InputError(f"--out {path}: the name must end in .png (picture), .gif or .mp4 (animation)")
-    wrong = [name for name in given if name in (ANIMATION_OPTIONS if kind == ".png" else PICTURE_OPTIONS)]
-    if wrong:
-        other = "an animation, --out FILE.gif or FILE.mp4" if kind == ".png" else "a picture, --out FILE.png"
-        raise InputError(f"{', '.join(wrong)} {'are' if len(wrong) > 1 else 'is'} for {other}")
-    pyvista()
-    if kind == ".mp4":
-        ffmpeg()
+    with progress_bar("Drawing", "pictures", shown=path.suffix.lower() != ".png" and sys.stderr.isatty()) as progress:
+        film.render(flight, path, shot, progress)
+    echo(f"{flight.name}: {path}")
 
 
 def _fly(mission: str, settings: tuple[str, ...], engine: str) -> Flight:
@@ -198,14 +177,3 @@ def _fly(mission: str, settings: tuple[str, ...], engine: str) -> Flight:
     loaded = load(mission, settings)
     with progress_bar("Flying", "steps", shown=sys.stderr.isatty()) as progress:
         return fly(loaded, engine, progress=progress)
-
-
-def _draw(flight: Flight, path: Path, shot: Shot) -> None:
-    from tandemlift.pictures.drawing import film
-
-    if path.suffix.lower() == ".png":
-        film.render(flight, path, shot)
-    else:
-        with progress_bar("Drawing", "pictures", shown=sys.stderr.isatty()) as progress:
-            film.render(flight, path, shot, progress)
-    echo(f"{flight.name}: {path}")

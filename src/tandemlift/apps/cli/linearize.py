@@ -1,4 +1,4 @@
-"""`tandemlift linearize`, `check` and `certify`: linear models of a mission, its checks, and its certificate."""
+"""`tandemlift linearize`, `check`, `certify`, `excite`: what the linear model of a mission tells."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from tandemlift.apps.cli.flying import (
     style_option,
 )
 from tandemlift.apps.export.results import file_path, results_folder
-from tandemlift.core.errors import without_flight_warnings
+from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.files import write_file
 
 
@@ -165,3 +165,35 @@ def certify(
             echo(f"  {path.suffix[1:]}: {path}")
     if strict and found.missed:
         sys.exit(FAILED)
+
+
+@click.command()
+@click.argument("mission", shell_complete=MISSIONS)
+@click.option("--time", type=float, default=60.0, show_default=True, metavar="S", help="Duration of the excitation.")
+@click.option("--room", default="2x2x1", show_default=True, metavar="XxYxZ", help="Room of the centre of mass, in m.")
+@click.option("--out", metavar="FILE", help="Mission file that is written.  [default: NAME-excited.toml]")
+@set_option
+def excite(mission: str, time: float, room: str, out: str | None, settings: tuple[str, ...]) -> None:
+    """Design the flight of MISSION that tells most of its vehicle.
+
+    Sines move thrust, roll, pitch and yaw, within tilt, thrust, speed and room. The 95 % intervals that such a flight
+    promises are printed, and written as comments. It has been flown once, and kept its limits.
+
+    \b
+    Examples:
+      tandemlift excite iris --time 60 --room 2x2x1 --out excited.toml
+      tandemlift run excited.toml
+    """
+    import tandemlift as tl
+
+    try:
+        sizes = [float(size) for size in room.split("x")]
+    except ValueError:
+        raise InputError(f"--room {room}: must be three sizes in m, such as 2x2x1") from None
+    loaded = load(mission, settings)
+    path = file_path("--out", out or f"{loaded.mission.name}-excited.toml", ".toml")
+    design = tl.excite(loaded, time, room=sizes)
+    write_file(path, design.text())
+    for line in design.lines():
+        echo(line)
+    echo(f"mission: {path}")

@@ -12,7 +12,7 @@ from tandemlift.apps.cli.console import compile_notices, exit_now, handle_interr
 from tandemlift.apps.cli.export import compile, export, render
 from tandemlift.apps.cli.identify import shadow
 from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, new, schema, template
-from tandemlift.apps.cli.linearize import certify, check, linearize
+from tandemlift.apps.cli.linearize import certify, check, excite, linearize
 from tandemlift.apps.cli.live import live, page, replay, score
 from tandemlift.apps.cli.report import paper, plot, report
 from tandemlift.apps.cli.ros import gazebo, ros
@@ -32,7 +32,7 @@ GROUPS: dict[str, tuple[click.Command, ...]] = {
     "Write a mission": (new, template, explain, check, controllers, engines, schema, completion),
     "Look at a flight": (report, plot, render, replay),
     "Fly many, compare, analyse": (compare, score, study, tune, train, feel, linearize, certify, paper),
-    "Your vehicle": (shadow,),
+    "Your vehicle": (excite, shadow),
     "Take it elsewhere": (gazebo, ros, page, export, compile),
 }
 

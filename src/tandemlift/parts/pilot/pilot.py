@@ -1,8 +1,9 @@
 """The pilot: from a measurement to rotor thrusts, the same for every body that it flies.
 
-measured push → guidance (gate, admittance, phases) → reference → controller → wrench → lead → allocation → thrusts, and
-beside it the disturbance observer and the detection of rotor failures. The pilot is sampled every `mission.step`; its
-outputs are held until the next sample. `simulation.preparation.start_pilot` makes one from a mission.
+measured push → guidance (gate, admittance, phases) → reference → controller → wrench → lead → excitation → allocation →
+thrusts, and beside it the disturbance observer and the detection of rotor failures. The pilot is sampled every
+`mission.step`; its outputs are held until the next sample. `simulation.preparation.start_pilot` makes one from a
+mission.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from tandemlift.parts.guidance.guidance import Guidance, PilotInput, checked_inp
 from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
 from tandemlift.parts.interaction.admittance import AdmittanceState
+from tandemlift.parts.pilot.excitation import Excitation, excited, excited_lead
 from tandemlift.parts.pilot.rotor_lead import RotorLead, RotorLeadState, lead_step
 from tandemlift.parts.rotors.allocation import AllocationState, ConstrainedAllocation, Mixer, allocate
 from tandemlift.parts.rotors.detection import DetectionState, RotorLossDetection, detection_step, failed_rotors
@@ -49,6 +51,7 @@ class PilotParameters(NamedTuple):
     lead: RotorLead | Absent
     allocation: Mixer | ConstrainedAllocation
     detection: RotorLossDetection | Absent
+    excitation: Excitation | Absent
 
 
 class PilotMemory(NamedTuple):
@@ -97,6 +100,7 @@ def last_total_thrust(allocation: AllocationState) -> Number:
 @law
 def control_input(p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t: Number, dt: Number) -> ControlInput:
     """The input of the controller at time t [s]."""
+    pilot_input = pilot_input._replace(lead=excited_lead(p.excitation, pilot_input.lead, t))
     before, failed = last_known(p.observer, m.observer), failed_rotors(p.detection, m.detection, t)
     pilot_input = checked_input(p.guidance, m.guidance, pilot_input, last_total_thrust(m.allocation), failed)
     guidance, guidance_memory = guide(p.guidance, m.guidance, pilot_input, before, failed, t, dt)
@@ -119,12 +123,13 @@ def control_input(p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t
 
 @law
 def with_command(
-    p: PilotParameters, m: PilotMemory, given: ControlInput, command: Command, memory: object
+    p: PilotParameters, m: PilotMemory, given: ControlInput, command: Command, memory: object, t: Number
 ) -> tuple[Decision, PilotMemory]:
-    """(`Decision`, the new memory) once the controller has commanded; `memory` is the controller's."""
+    """(`Decision`, the new memory) once the controller has commanded at time t [s]; `memory` is the controller's."""
     led, lead = lead_step(p.lead, m.lead, command.wrench)
-    thrusts = running(given.guidance.running, allocate(p.allocation, led))
-    decision = Decision(given.guidance, given.disturbance, command._replace(wrench=led), thrusts)
+    wrench = excited(p.excitation, led, given.guidance.flying * given.guidance.learning, t)
+    thrusts = running(given.guidance.running, allocate(p.allocation, wrench))
+    decision = Decision(given.guidance, given.disturbance, command._replace(wrench=wrench), thrusts)
     return decision, m._replace(
         guidance=given.guidance_memory,
         observer=given.observer_memory,
@@ -144,7 +149,7 @@ def decide(
     """
     given = control_input(p, m, pilot_input, t, dt)
     command, memory = control(p.controller, m.controller, given.measured, given.guidance.reference)
-    return with_command(p, m, given, command, memory)
+    return with_command(p, m, given, command, memory, t)
 
 
 @law

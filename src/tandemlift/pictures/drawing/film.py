@@ -22,9 +22,10 @@ from tandemlift.engines.models.camera import camera_of as camera_of
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.ground import View
 from tandemlift.pictures.drawing.stage import FlightStage
-from tandemlift.pictures.drawing.studio import Studio
+from tandemlift.pictures.drawing.studio import Studio, pyvista
 from tandemlift.pictures.drawing.video import check_size, ffmpeg, write_mp4
 
+PICTURE_OPTIONS, ANIMATION_OPTIONS = ("--time",), ("--from", "--to", "--fps", "--speed")
 SIZES = {".png": (1280, 720), ".gif": (640, 360), ".mp4": (1280, 720)}  # pixels
 LONGEST = 20.0  # s, length of an animation: a longer flight is shown faster, unless a speed is given
 PALETTE = ((Image.Quantize.MEDIANCUT, 160), (Image.Quantize.MAXCOVERAGE, 90))  # for fine shades, and for rare colours
@@ -267,3 +268,21 @@ def size_of(text: str | None) -> tuple[int, int] | None:
         raise InputError(f"--size {text}: must be WxH in pixels, such as 1280x720")
     width, height = map(int, text.split("x"))
     return width, height
+
+
+def check_options(path: Path, given: list[str]) -> None:
+    """Reject options that do not fit the kind of file, and kinds that cannot be drawn here, before any flight.
+
+    Raises:
+        InputError: an option does not fit the kind of file, the kind is unknown, or nothing here can draw it.
+    """
+    kind = path.suffix.lower()
+    if kind not in (".png", ".gif", ".mp4"):
+        raise InputError(f"--out {path}: the name must end in .png (picture), .gif or .mp4 (animation)")
+    wrong = [name for name in given if name in (ANIMATION_OPTIONS if kind == ".png" else PICTURE_OPTIONS)]
+    if wrong:
+        other = "an animation, --out FILE.gif or FILE.mp4" if kind == ".png" else "a picture, --out FILE.png"
+        raise InputError(f"{', '.join(wrong)} {'are' if len(wrong) > 1 else 'is'} for {other}")
+    pyvista()
+    if kind == ".mp4":
+        ffmpeg()

@@ -38,6 +38,7 @@ from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.trajectories import PhasesTable, scheduled_phases
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.pilot.excitation import start_excitation
 from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters
 from tandemlift.parts.pilot.rotor_lead import start_lead
 from tandemlift.parts.rotors.allocation import mixer_of, start_allocation
@@ -74,7 +75,8 @@ def start_pilot(mission: Mission, vehicle: Vehicle) -> tuple[PilotParameters, Pi
     allocation, allocation_memory = start_allocation(mission.allocation, vehicle, known)
     detection, detection_memory = start_detection(mission.detection, vehicle, effect, step, initial, hovers=hovers)
     lead, led = start_lead(mission.allocation, vehicle.weight, step, hovers=hovers)
-    parameters = PilotParameters(guidance, observer, gains, lead, allocation, detection)
+    excitation = start_excitation(mission.excitation)
+    parameters = PilotParameters(guidance, observer, gains, lead, allocation, detection, excitation)
     return parameters, PilotMemory(guidance_memory, observer_memory, memory, led, allocation_memory, detection_memory)
 
 
@@ -82,9 +84,6 @@ def start_scheduled_guidance(table: AdmittanceTable, p: PhasesTable) -> tuple[Sc
     """Scheduled guidance before its first sample, and its memory."""
     guidance = ScheduledGuidance(gate_from(table), admittance_from(table), scheduled_phases(p), 0.0, running_from(p))
     return guidance, AdmittanceState(ZERO, ZERO, ZERO)
-
-
-NO_PUSH = LowPassState(ZERO, ZERO)
 
 
 def phase_settings(p: PhasesTable, c: ComplianceTable, requests: Sequence[RequestTable]) -> PhaseSettings:
@@ -128,8 +127,9 @@ def start_hand_guidance(
         supervision=supervision,
         contact=contact,
     )
+    no_push = LowPassState(ZERO, ZERO)
     memory = HandGuidanceState(
-        start_phases(at.z), start_compliance(at), filled, turned, NO_PUSH, AT_REST, supervising, touching
+        start_phases(at.z), start_compliance(at), filled, turned, no_push, AT_REST, supervising, touching
     )
     return guided, memory
 

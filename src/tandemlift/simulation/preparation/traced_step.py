@@ -157,7 +157,7 @@ class TracedStep:
         briefed = self.trace(control_input)(f.pilot, memory, pilot_input, t, dt)
         self.asked = [*self.numbers(briefed.measured), *self.numbers(briefed.guidance.reference)]
         command = self.input_of("answer", COMMAND)
-        decision, memory = self.trace(with_command)(f.pilot, memory, briefed, command, memory.controller)
+        decision, memory = self.trace(with_command)(f.pilot, memory, briefed, command, memory.controller, t)
         return PilotOutput(estimates, pilot_input.state.attitude, decision, memory, estimator)
 
     def _limit_thrusts(self, output: PilotOutput) -> PilotOutput:

@@ -1,0 +1,264 @@
+"""`tl.excite`: the flight from which a vehicle can be identified best, within tilt, thrust, speed and room.
+
+Thrust, roll, pitch and yaw get lines at frequencies of their own, whole numbers of periods within the excitation. With
+the share q of a line in the limits of its axis, the information is Σ q I, and q minimizes the sum of
+(deviation/target)² by the multiplicative algorithm, whose optimum is the global one. As the vehicle is not known yet,
+half of the shares are spread evenly over all lines. Phases keep the peaks low. Slow motions of the reference along x
+and y bring speed, for the drag of the air. Then the mission is flown, and lowered until it keeps its limits.
+
+Sources: Silvey, Titterington and Torsney, An algorithm for optimal designs on a finite design space, 1978; Schroeder,
+Synthesis of low-peak-factor signals, 1970.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.analysis.certification.excitation_information import (
+    AXES,
+    PARAMETERS,
+    WEIGHED,
+    ExcitedHover,
+    deviations,
+    excited_hover,
+)
+from tandemlift.core.errors import InputError, without_flight_warnings
+from tandemlift.core.types import GRAVITY, Array
+from tandemlift.missions import Mission, MissionLike, built_in, check, format_toml, load_mission, mission_of, tables_of
+from tandemlift.simulation.fly import Flight, fly
+
+LOWEST, HIGHEST, LINES = 0.2, 6.0, 10  # Hz; candidates of each axis
+RAMP, PERIODS, SETTLES = 2.0, 3.0, 2.0  # s; of the lowest line, at least; s before and after the excitation
+SHARE = 0.2  # of thrust, tilt, room and speed, for the peak of each axis
+SPEED = 1.0  # m/s, of the vehicle
+PEAK = 1.5  # times the root of the summed squares of amplitudes, until phases are chosen
+ROUNDS, TRIALS = 300, 300  # of the algorithm; of phases
+EVEN, SLIGHT = 0.5, 0.05  # of the shares, spread evenly; of an axis' largest amplitude, below which lines are left out
+LEAST_ROOM = 0.2  # m
+LOWER, TRIES = 0.8, 6  # factor of all amplitudes while a flight exceeds a limit; flights
+REMOVED = ("pushes", "requests", "changes", "faults", "sensor_faults", "person")
+Z95 = 1.96
+SEEN = {"thrust": "mass, thrust constant, centre of mass; lag, delay", "yaw": "inertia about z over the yaw drag"}
+
+
+class PromisedInterval(NamedTuple):
+    """The half width of the 95 % interval of a parameter, its unit ("1": relative), and the one that is aimed at."""
+
+    parameter: str
+    half_width: float
+    unit: str
+    target: float
+
+
+@dataclass(frozen=True)
+class ExcitationDesign:
+    """A mission that excites its vehicle, what it promises, and what it took of each limit when it was flown.
+
+    Attributes:
+        mission: the mission.
+        promised: for each parameter.
+        used: largest value and limit by name: tilt [rad], rotor thrust [N], speed [m/s], room along each axis [m].
+        base: name of the built-in mission that it extends, or "".
+    """
+
+    mission: Mission
+    promised: tuple[PromisedInterval, ...]
+    used: dict[str, tuple[float, float]]
+    base: str
+
+    def lines(self) -> Iterator[str]:
+        """The promised intervals and the limits, in words."""
+        e = self.mission.excitation
+        yield f"{self.mission.mission.name}: excited from {e.begin:g} s for {e.duration:g} s by {len(e.lines)} sines"
+        yield "95 % interval, with the mass weighed to 0.1 % and the noise of the mission's sensors, in calm air:"
+        for p in self.promised:
+            factor, unit = {"1": (100.0, "%"), "m": (1e3, "mm"), "s": (1e3, "ms")}[p.unit]
+            aim = f"(aim: {factor * p.target:g} {unit})"
+            yield f"  {p.parameter:<30} ± {factor * p.half_width:.2g} {unit}  {aim}"
+        for name, (value, limit) in self.used.items():
+            unit = {"tilt": "rad", "rotor thrust": "N", "speed": "m/s"}.get(name, "m")
+            yield f"  {name:<30} {value:.3g} of {limit:.3g} {unit}"
+
+    def text(self) -> str:
+        """The mission file, with what each axis excites and the promised intervals as comments."""
+        tables = tables_of(self.mission)
+        if self.base:
+            base = tables_of(load_mission(self.base))
+            tables = {"extends": self.base} | {k: v for k, v in tables.items() if v != base.get(k)}
+        return "".join(f"# {line}\n" for line in [*self.lines(), *self._axes()]) + "\n" + format_toml(tables)
+
+    def _axes(self) -> Iterator[str]:
+        for axis in (*AXES, "x", "y"):
+            mine = [line for line in self.mission.excitation.lines if line.axis == axis]
+            if mine:
+                about = SEEN.get(axis, "air drag" if axis in "xy" else f"inertia about {'xy'[axis == 'pitch']}")
+                low, high = min(line.frequency for line in mine), max(line.frequency for line in mine)
+                yield f"{axis}: {len(mine)} lines from {low:.2g} to {high:.2g} Hz: {about}"
+
+
+def excite(mission: MissionLike, time: float = 60.0, *, room: Sequence[float] = (2.0, 2.0, 1.0)) -> ExcitationDesign:
+    """The excitation of a mission's vehicle that tells most of its parameters, flown once to see that limits are kept.
+
+    Args:
+        mission: from `load_mission`, or its name or path; without its pushes, requests, changes, faults and person.
+        time: of the excitation [s].
+        room: size for the centre of mass along each world axis [m].
+
+    Returns:
+        The mission, the promised intervals, and what it used of its limits.
+
+    Raises:
+        InputError: the time or the room is too short, the mission has no real rotors or no noisy sensors, or its
+            excited flight fails.
+    """
+    mission = mission_of(mission)
+    shortest = 3.0 * RAMP + PERIODS / LOWEST
+    if not (math.isfinite(time) and time >= shortest):
+        raise InputError(f"time = {time:g}: must be at least {shortest:g} s, {PERIODS:g} periods of {LOWEST:g} Hz")
+    if len(room) != 3 or not all(math.isfinite(size) and size >= LEAST_ROOM for size in room):
+        raise InputError(f"room = {list(room)}: must be three sizes of at least {LEAST_ROOM:g} m")
+    limits, tables = limits_of(mission, room), excited_tables(mission, time, room)
+    rows, information = best_lines(mission, time - 3.0 * RAMP, limits)
+    slow = reference_lines(time, limits)
+    for scale in LOWER ** np.arange(TRIES):
+        lowered = [row | {"amplitude": float(f"{scale * row['amplitude']:.3g}")} for row in rows]
+        tables["excitation"]["lines"] = lowered + slow
+        with without_flight_warnings():
+            made = check(tables, tables["mission"]["name"], quiet=True)
+            flight = fly(made)
+        used = used_of(made, flight, limits)
+        beyond = [f"{key} {value:.3g} of {limit:.3g}" for key, (value, limit) in used.items() if value > limit]
+        beyond += [finding.kind for finding in flight.findings]
+        if not beyond:
+            found = zip(PARAMETERS, Z95 * deviations(scale**2 * information), strict=True)
+            promised = tuple(PromisedInterval(p.name, float(width), p.unit, p.target) for p, width in found)
+            known = mission.mission.name
+            base = known if known in built_in() and load_mission(known) == mission else ""
+            return ExcitationDesign(made, promised, used, base)
+    raise InputError(f"{made.mission.name}: no excitation keeps the limits of its flight: {', '.join(beyond)}")
+
+
+def best_lines(mission: Mission, steady: float, limits: dict[str, float]) -> tuple[list[dict[str, Any]], Array]:
+    """(The lines of thrust, roll, pitch and yaw, their information (P × P) within a time [s])."""
+    places = line_frequencies(steady)
+    hover = excited_hover(mission, places.ravel())
+    most = largest_amplitudes(hover, mission, limits).reshape(places.shape)
+    axis = np.repeat(np.arange(len(AXES)), LINES)
+    each = steady * hover.information[np.arange(len(axis)), axis].reshape(*places.shape, *hover.information.shape[2:])
+    amplitudes = most * np.sqrt(best_shares(each * most[..., None, None] ** 2))
+    amplitudes *= amplitudes > SLIGHT * amplitudes.max(axis=1, keepdims=True)
+    rows = [row for name, f, A in zip(AXES, places, amplitudes, strict=True) for row in axis_lines(name, f, A)]
+    return rows, np.einsum("ak,akij->ij", amplitudes**2, each)
+
+
+def line_frequencies(steady: float) -> Array:
+    """Frequencies (4 × LINES) [Hz]: whole numbers of periods within a time [s], each of one axis alone, interleaved."""
+    numbers = list[int]()
+    for wanted in np.geomspace(LOWEST, HIGHEST, len(AXES) * LINES) * steady:
+        numbers.append(max(round(wanted), numbers[-1] + 1 if numbers else 1))
+    return np.array(numbers).reshape(LINES, len(AXES)).T / steady
+
+
+def limits_of(mission: Mission, room: Sequence[float]) -> dict[str, float]:
+    """The limits of an excited flight: tilt [rad], rotor thrust [N], speed [m/s], room along each axis [m]."""
+    tilt = getattr(mission.controller, "max_tilt", None) or mission.compliance.max_tilt
+    strongest = min(q.max_thrust for q in mission.hover.vehicle.quadrotors)
+    return {"tilt": tilt, "rotor thrust": strongest, "speed": SPEED} | {
+        f"room along {axis}": float(size) for axis, size in zip("xyz", room, strict=True)
+    }
+
+
+def largest_amplitudes(hover: ExcitedHover, mission: Mission, limits: dict[str, float]) -> Array:
+    """The largest amplitudes of lines (4 · LINES) [N, N m] by their axis' share of each limit, also without control."""
+    axis = np.repeat(np.arange(len(AXES)), LINES)
+    at = np.arange(len(axis))
+    motion = np.maximum(np.abs(hover.motion[at, :, axis]), np.abs(hover.free[at, :, axis]))
+    mixing = mission.hover.vehicle.allocation(mission.allocation.weights)[:, axis].T
+    thrusts = np.maximum(np.abs(hover.thrusts[at, :, axis]), np.abs(mixing))
+    rest = mission.hover.thrusts.ravel()
+    left = np.minimum(rest, limits["rotor thrust"] - rest)
+    rooms = np.array([limits[f"room along {axis}"] for axis in "xyz"])
+    place, velocity, tilts = motion[:, :3], motion[:, 3:6], motion[:, 6:8]
+    taken = np.hstack([thrusts / left, velocity / limits["speed"], tilts / limits["tilt"], 2.0 * place / rooms])
+    return SHARE / (PEAK * taken.max(axis=1))
+
+
+def best_shares(information: Array) -> Array:
+    """The shares (4 × LINES), 1 in the sum of each axis, of lines whose full information is (4 × LINES × P × P)."""
+    targets = np.array([p.target for p in PARAMETERS])
+    scaled = information * np.outer(targets, targets)
+    weighed = np.zeros_like(scaled[0, 0])
+    weighed[0, 0] = (targets[0] / WEIGHED) ** 2
+    q = np.full(information.shape[:2], 1.0 / LINES)
+    for _ in range(ROUNDS):
+        inverse = np.linalg.inv(np.einsum("ak,akij->ij", q, scaled) + weighed)
+        q *= np.sqrt(np.einsum("akij,ji->ak", scaled, inverse @ inverse))
+        q /= q.sum(axis=1, keepdims=True)
+    return (1.0 - EVEN) * q + EVEN / LINES
+
+
+def axis_lines(axis: str, frequencies: Array, amplitudes: Array) -> list[dict[str, Any]]:
+    """Lines of an axis with phases of a low peak: those by Schroeder, or the best of some by chance."""
+    kept = amplitudes > 0.0
+    f, A = frequencies[kept], amplitudes[kept]
+    power = A**2 / (A**2).sum()
+    schroeder = -2.0 * math.pi * np.concatenate([[0.0], np.cumsum(np.cumsum(power))[:-1]])
+    chance = np.random.default_rng(0).uniform(0.0, 2.0 * math.pi, (TRIALS, len(f)))
+    t = np.arange(0.0, 1.0 / np.diff(f, prepend=0.0).min(), 1.0 / (12.0 * f.max()))
+    waves = np.exp(2j * math.pi * np.outer(f, t))
+    phases = np.vstack([schroeder, chance])
+    peaks = np.abs(((A * np.exp(1j * phases)) @ waves).imag).max(axis=1)
+    best = np.mod(phases[np.argmin(peaks)], 2.0 * math.pi)
+    return [
+        {"axis": axis, "frequency": round(float(x), 6), "amplitude": float(a), "phase": round(float(p), 3)}
+        for x, a, p in zip(f, A, best, strict=True)
+    ]
+
+
+def reference_lines(time: float, limits: dict[str, float]) -> list[dict[str, Any]]:
+    """A slow motion of the reference along x and y, at most half of room and speed, that falls where it began."""
+    rows = list[dict[str, Any]]()
+    for axis, wanted in (("x", 0.1), ("y", 0.14)):
+        f = max(round(wanted * (time - 1.5 * RAMP)), 1) / (time - 1.5 * RAMP)  # so that it is 0 amid the fall
+        omega = 2.0 * math.pi * f
+        reach = min(
+            limits[f"room along {axis}"] / 4.0, limits["speed"] / 2.0 / omega, 0.2 * limits["tilt"] * GRAVITY / omega**2
+        )
+        rows.append({"axis": axis, "frequency": round(f, 6), "amplitude": round(reach, 3), "phase": 0.0})
+    return rows
+
+
+def excited_tables(mission: Mission, time: float, room: Sequence[float]) -> dict[str, Any]:
+    """The tables of the mission: lift, tare, excitation, landing; nothing else happens."""
+    t = {key: table for key, table in tables_of(mission).items() if key not in REMOVED} | {"pushes": []}
+    p, e = mission.phases, mission.estimator
+    begin = p.lift_start + p.lift_duration
+    if mission.pilot.push != "truth":
+        begin += e.tare_duration if e.tare == "hover" else 0.0
+        begin = max(begin, e.tare_start + e.tare_duration if e.tare == "at-time" and e.tare_start is not None else 0.0)
+    begin = math.ceil(begin + SETTLES)
+    lands = begin + time + SETTLES
+    t["mission"] |= {"name": f"{mission.mission.name}-excited", "duration": lands + p.land_duration + SETTLES}
+    t["phases"] |= {"land_start": lands}
+    when = {"begin": float(begin), "duration": float(time), "ramp": RAMP}
+    t["excitation"] = {"model": "multisine", **when, "room": [float(size) for size in room]}
+    return t
+
+
+def used_of(mission: Mission, flight: Flight, limits: dict[str, float]) -> dict[str, tuple[float, float]]:
+    """The largest value during the excitation of each limit's quantity, and the limit."""
+    e = mission.excitation
+    within = (flight.time >= e.begin) & (flight.time <= e.begin + e.duration)
+    cosines = np.cos(flight["euler"][within, :2]).prod(axis=1)
+    values = [
+        float(np.arccos(cosines).max()),
+        float(flight["rotor_thrusts"][within].max()),
+        float(np.linalg.norm(flight["velocity"][within], axis=1).max()),
+        *np.ptp(flight["position"][within], axis=0).tolist(),
+    ]
+    return {name: (value, limits[name]) for name, value in zip(limits, values, strict=True)}

@@ -1,0 +1,149 @@
+"""The excitation that tells most of a vehicle: its promise against flights, its limits in two engines, bad input."""
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.analysis.certification import excitation_design
+from tandemlift.analysis.certification.excitation_design import (
+    LINES,
+    best_shares,
+    deviations,
+    excite,
+    limits_of,
+    used_of,
+)
+from tandemlift.analysis.certification.excitation_information import (
+    PARAMETERS,
+    WEIGHED,
+    body_response,
+    densities,
+    deviating,
+    readings,
+    rotor_response,
+)
+from tandemlift.analysis.linearization.loop_margins import calm_mission
+from tandemlift.missions import check, load_mission, mission_from_text, tables_of
+
+ROOM = (2.0, 1.5, 1.0)
+TRUTH = {"pilot.state": "truth", "pilot.push": "truth", "estimator.identify_mass": False}
+
+
+@pytest.fixture(scope="module")
+def design():
+    return excite("iris", 30.0, room=ROOM)
+
+
+def test_the_excited_flight_keeps_its_limits_in_both_engines(design):
+    pytest.importorskip("mujoco")
+    limits = limits_of(design.mission, ROOM)
+    for engine in ("compiled", "mujoco"):
+        flight = tl.fly(design.mission, engine=engine)
+        assert flight.outcome == "landed"
+        assert not flight.findings
+        for name, (value, limit) in used_of(design.mission, flight, limits).items():
+            assert value < limit, (engine, name)
+
+
+def test_the_file_is_the_mission_with_the_promise_as_comments(design):
+    text = design.text()
+    assert mission_from_text("excited.toml", text) == design.mission
+    for promise in design.promised:
+        assert f"# {promise.parameter}" in text.replace("#   ", "# ")
+
+
+def calm(tables):
+    """Tables of a mission whose sensors have no errors and whose reference rests."""
+    for part in tables["sensors"].values():
+        if isinstance(part, dict):
+            part |= {k: 0.0 for k in part if k.endswith(("noise", "bias", "drift", "misalignment", "resolution"))}
+    tables["mission"]["log_interval"] = 0.001
+    for q in tables["vehicle"]["quadrotors"]:
+        q["lag_up"] = q["lag_down"] = 0.5 * (q["lag_up"] + q["lag_down"])
+    tables["excitation"]["lines"] = [line for line in tables["excitation"]["lines"] if line["axis"] not in "xy"]
+    return tables
+
+
+def phasors(flight, frequencies, steady):
+    """Readings (F × 12) and commands (F × 8) of a flight at its lines, over whole periods of all of them."""
+    e = flight.mission["excitation"]
+    first = np.searchsorted(flight.time, e["begin"] + e["ramp"] - 1e-9)
+    within = slice(first, first + round(steady / 0.001))
+    t = flight.time[within]
+    names = ("measured_rates", "measured_specific_force", "measured_position", "euler", "rotor_commands")
+    values = np.column_stack([flight[name][within].reshape(len(t), -1) for name in names])
+    hann = 1.0 - np.cos(
+        2.0 * np.pi * np.arange(len(t)) / len(t)
+    )  # what is left of the start does not leak into the lines
+    found = (
+        2.0 / len(t) * np.exp(-2j * np.pi * np.outer(frequencies, t)) @ (hann[:, None] * (values - values.mean(axis=0)))
+    )
+    return found[:, :12], found[:, 12:]
+
+
+def test_the_promised_intervals_are_those_of_differences_of_flights(design):
+    """∂G/∂θ u = Δy − G Δu, from flights whose body, lag or delay is a little other: in closed loop, with no noise."""
+    m = design.mission
+    tables = calm(tables_of(m))
+    e = m.excitation
+    steady = e.duration - 3.0 * e.ramp
+    lines = [line for line in e.lines if line.axis not in "xy"]
+    f = np.array(sorted(line.frequency for line in lines))
+    hover, at = calm_mission(m, lag=m.hover.lag)
+    s = 2j * np.pi * f
+    G = readings(body_response(hover, at, f), s, hover) * rotor_response(m, s)[:, None, None]
+
+    def flown(parameter):
+        changed = tables_of(check(tables, "calm", quiet=True))
+        if parameter and parameter.key:
+            return tl.fly(deviating(check(changed, "calm", quiet=True), parameter, 1e-3))
+        if parameter and parameter.name == "lag of rotors":
+            for q in changed["vehicle"]["quadrotors"]:
+                q["lag_up"], q["lag_down"] = 1.01 * q["lag_up"], 1.01 * q["lag_down"]
+        if parameter and parameter.name == "delay of rotors":
+            changed["actuators"]["delay"] += 1e-3
+        return tl.fly(check(changed, "calm", quiet=True))
+
+    y, u = phasors(flown(None), f, steady)
+    slopes = []
+    for p in PARAMETERS:
+        if p.name == "thrust constant":
+            slopes.append((G @ u[:, :, None])[:, :, 0])
+            continue
+        dy, du = (a - b for a, b in zip(phasors(flown(p), f, steady), (y, u), strict=True))
+        slopes.append((dy - (G @ du[:, :, None])[:, :, 0]) / (1e-2 if p.name == "lag of rotors" else 1e-3))
+    information = 0.5 * steady * np.einsum("ifc,jfc,c->ij", np.conj(slopes), slopes, densities(m)).real
+    found = 1.96 * deviations(information)
+    assert np.array([p.half_width for p in design.promised]) == pytest.approx(found, rel=0.25)
+
+
+def test_the_shares_are_optimal_by_the_equivalence_theorem(monkeypatch):
+    """At the optimum no line of an axis gains more than the axis' mean: Kiefer and Wolfowitz, 1960."""
+    monkeypatch.setattr(excitation_design, "EVEN", 0.0)
+    monkeypatch.setattr(excitation_design, "ROUNDS", 20000)
+    targets = np.array([p.target for p in PARAMETERS])
+    roots = np.random.default_rng(3).normal(size=(4, LINES, 4, len(targets))) / targets
+    information = np.einsum("akmi,akmj->akij", roots, roots)
+    q = best_shares(information)
+    scaled = information * np.outer(targets, targets)
+    whole = np.einsum("ak,akij->ij", q, scaled)
+    whole[0, 0] += (targets[0] / WEIGHED) ** 2
+    inverse = np.linalg.inv(whole)
+    gain = np.einsum("akij,ji->ak", scaled, inverse @ inverse)
+    assert q.sum(axis=1) == pytest.approx(np.ones(4))
+    assert gain.max(axis=1) == pytest.approx((q * gain).sum(axis=1), rel=1e-2)
+
+
+@pytest.mark.parametrize(
+    ("mission", "keys", "how", "words"),
+    [
+        ("iris", {}, {"time": 20.0}, "time = 20: must be at least 21 s"),
+        ("iris", {}, {"room": (2.0, 0.1, 1.0)}, "room = .* at least 0.2 m"),
+        ("paper", {}, {}, "actuators.model"),
+        ("iris", {"sensors.model": "none", **TRUTH}, {}, 'sensors.model = "none"'),
+        ("iris", {"sensors.gyroscope.noise": 0.0}, {}, "sensors.gyroscope.noise = 0"),
+    ],
+)
+def test_what_cannot_be_excited_is_refused_by_name(mission, keys, how, words):
+    with pytest.raises(tl.InputError, match=words):
+        excite(load_mission(mission, keys), **how)
