@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import functools
 import re
 from collections.abc import Callable, Mapping, Sequence
@@ -10,12 +11,16 @@ from typing import Any, get_args
 
 import numpy as np
 
-from tandemlift.compiler.machine_code import machine, store
-from tandemlift.compiler.machine_code.iterated import ARGUMENTS, INPUTS, IteratedStep, Kind
+from tandemlift.compiler.machine_code import machine
+from tandemlift.compiler.machine_code.compiled_step import CompiledStep
+from tandemlift.compiler.machine_code.iterated import ARGUMENTS, INPUTS, WORDS, IteratedStep, Kind
+from tandemlift.compiler.tracer import Function, Graph, Module
 from tandemlift.core.errors import InputError, extra, shown
 from tandemlift.core.types import Array
 
 LOADED: dict[str, machine.Loaded] = {}  # handlers that XLA knows, by their names
+EXTENSION, ARGUMENTS_AT, RESULTS_AT = 1, 9, 14  # words to these in XLA's frame (`xla/ffi/api/c_api.h`)
+DATA, RANK, DIMENSIONS = 3, 4, 5  # words to these in a buffer
 
 
 class JaxStep:
@@ -40,7 +45,7 @@ class JaxStep:
         steps: int,
         kinks: Callable[[Array, Array, Array, float], list[Any]],
     ) -> None:
-        self._code, self._kinks, self._handlers = code, kinks, dict[tuple[Kind, bool], str]()
+        self._code, self._kinks, self._compiled = code, kinks, CompiledStep(code)
         self.state, self.parameters = start
         self.state_names, self.parameter_names = map(tuple, names)
         self.places, self.steps, self.actions = dict(places), steps, code.sizes["action"]
@@ -97,33 +102,62 @@ class JaxStep:
         given = self.parameters if parameters is None else parameters
         return state, given, np.zeros(self.actions) if action is None else action
 
-    def sizes(self, with_parameters: bool) -> dict[str, int]:
-        """The sizes of arguments and results by the names in `ARGUMENTS`."""
-        return self._code.sizes_of(self.steps, with_parameters)
+    def layout(self, kind: Kind, with_parameters: bool) -> list[tuple[int, int]]:
+        """How many numbers each argument and result has, and how many from step to step.
+
+        Derivatives take the states between the steps of a call: all but the last.
+        """
+        sizes, (arguments, results) = self._code.sizes_of(with_parameters), ARGUMENTS[kind]
+        found = [(sizes[of], 0) for of in (*arguments, *results)]
+        for place, of in enumerate((*arguments, *results)):
+            if of == "states":
+                between = place == 3 and kind != "advance"
+                found[place] = (self.steps - between) * sizes[of], sizes[of]
+        return found
 
     def handler(self, kind: Kind, with_parameters: bool) -> str:
-        """The name by which XLA calls a handler, which is compiled on first use."""
-        with_parameters = with_parameters and kind != "advance"
-        if (kind, with_parameters) not in self._handlers:
-            text = self._code.written(kind, self.steps, with_parameters, _version())
-            self._handlers[kind, with_parameters] = _registered(kind, text)
-        return self._handlers[kind, with_parameters]
+        """The name by which XLA calls the function of a kind, which is compiled on first use."""
+        key, call = self._compiled.function(kind, with_parameters)
+        name = f"tandemlift_{kind}_{self.steps}_{key}"
+        if name not in LOADED:
+            address = ctypes.cast(call, ctypes.c_void_p).value
+            text = _handler(address, self.layout(kind, with_parameters), len(ARGUMENTS[kind][0]), self.steps)
+            LOADED[name] = machine.Loaded(machine.compiled(text, machine.QUICK), ["handler"])
+            ffi = _jax().ffi
+            ffi.register_ffi_target(name, ffi.pycapsule(LOADED[name].addresses["handler"]), platform="cpu")
+        return name
 
 
-def _registered(kind: Kind, text: str) -> str:
-    """The name of a handler that XLA knows, compiled unless it is on disk."""
-    key = store.key_of_module(text, {})
-    name = f"tandemlift_{kind}_{key}"
-    if name not in LOADED:
-        entry = store.read(f"{key}-best")
-        if entry is None:
-            code = machine.compiled(machine.in_short_blocks(text), machine.BEST_OF_VECTORS)
-            entry = store.StoredCode({}, code)
-            store.write(f"{key}-best", entry)
-        LOADED[name] = machine.Loaded(entry.code, [kind])
-        ffi = _jax().ffi
-        ffi.register_ffi_target(name, ffi.pycapsule(LOADED[name].addresses[kind]), platform="cpu")
-    return name
+def _handler(address: int | None, layout: Sequence[tuple[int, int]], arguments: int, steps: int) -> str:
+    """The text of a handler, which XLA calls with a frame: it tells its version, or calls the function at an address.
+
+    The number of lanes is the product of the first array's leading dimensions.
+    """
+    major, minor = _version()
+    f = Function(Module(), Graph(), 1, "i64 @handler(ptr %frame) #0")
+    extension = f.load("%frame", EXTENSION, "ptr")
+    asked = f.op(f"icmp ne ptr {extension}, null")
+    with f.when(asked):
+        facts = f.load(extension, 3, "ptr")
+        f.store(str(major + (minor << 32)), facts, 3, "i64")  # two numbers of 32 bits
+        f.store("0", facts, 8, "i32")  # no traits
+    with f.when(f.op(f"xor i1 {asked}, true")):
+        words, count = f.own_memory(WORDS * len(layout)), f.own_memory(1)
+        given, made = (f.load("%frame", at, "ptr") for at in (ARGUMENTS_AT, RESULTS_AT))
+        buffers = [f.load(given, i, "ptr") for i in range(arguments)]
+        buffers += [f.load(made, i, "ptr") for i in range(len(layout) - arguments)]
+        for i, (buffer, (lane, step)) in enumerate(zip(buffers, layout, strict=True)):
+            f.store(f.load(buffer, DATA, "ptr"), words, WORDS * i, "ptr")
+            f.store(str(lane), words, WORDS * i + 1, "i64")
+            f.store(str(step), words, WORDS * i + 2, "i64")
+        f.store("1", count, 0, "i64")
+        dimensions = f.load(buffers[0], DIMENSIONS, "ptr")
+        with f.repeat(f.integer("sub", f.load(buffers[0], RANK, "i64"), 1)) as place:
+            f.store(f.integer("mul", f.load(count, 0, "i64"), f.load(dimensions, place, "i64")), count, 0, "i64")
+        lanes = f.load(count, 0, "i64")
+        f.do(f"call i64 inttoptr (i64 {address} to ptr)(ptr {words}, i64 0, i64 {lanes}, i64 {steps})")
+    f.end("i64 0")
+    return f.module.text
 
 
 def _jax() -> Any:
@@ -163,8 +197,8 @@ def _primitives() -> dict[Kind, Any]:
 
         @primitive.def_abstract_eval
         def shapes(*arrays: Any, step: JaxStep, with_parameters: bool) -> list[Any]:
-            sizes, lanes = step.sizes(with_parameters), arrays[0].shape[:-1]
-            return [jax.core.ShapedArray((*lanes, sizes[name]), arrays[0].dtype) for name in ARGUMENTS[kind][1]]
+            results = step.layout(kind, with_parameters)[len(arrays) :]
+            return [jax.core.ShapedArray((*arrays[0].shape[:-1], size), arrays[0].dtype) for size, _ in results]
 
         def lower(context: Any, *arrays: Any, step: JaxStep, with_parameters: bool) -> Any:
             return jax.ffi.ffi_lowering(step.handler(kind, with_parameters))(context, *arrays)
@@ -186,7 +220,7 @@ def _primitives() -> dict[Kind, Any]:
         with_parameters = type(moved[1]) is not ad.Zero
         given = [ad.instantiate_zeros(x) for x in moved]
         given[1] = given[1] if with_parameters else given[1][..., :0]
-        between = states[..., : step.sizes(True)["between"]]
+        between = states[..., : (step.steps - 1) * len(step.state)]
         return [states], made["tangent"].bind(*arrays, between, *given, step=step, with_parameters=with_parameters)
 
     def transposed(bars: Sequence[Any], *arrays: Any, step: JaxStep, with_parameters: bool) -> list[Any]:
