@@ -15,7 +15,7 @@ from tandemlift.core.files import __version__ as __version__
 
 if TYPE_CHECKING:
     from tandemlift.analysis.certification.mission_check import check
-    from tandemlift.analysis.linearization.differentiable_step import jax_step
+    from tandemlift.analysis.linearization.differentiable_step import jax_step, torch_step
     from tandemlift.analysis.linearization.linear_model import LinearModel
     from tandemlift.analysis.linearization.linearize import linearize
     from tandemlift.analysis.studies.execution.block import Block
@@ -61,6 +61,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "plot": "pictures.figures.registry",
     "register_environments": "apps.export.registration",
     "study": "analysis.studies.study",
+    "torch_step": "analysis.linearization.differentiable_step",
     "train": "analysis.studies.tuning.tune",
     "tune": "analysis.studies.tuning.tune",
 }
@@ -90,6 +91,7 @@ __all__ = [
     "plot",
     "register_environments",
     "study",
+    "torch_step",
     "train",
     "tune",
 ]

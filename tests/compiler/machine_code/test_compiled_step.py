@@ -21,8 +21,8 @@ WEIGHTS = np.random.default_rng(2).standard_normal((STEPS, 13))  # of the motion
 def start():
     """The compiled step of `hover`, and state and parameters at 6 s."""
     mission = tl.load_mission("hover")
-    made = ClosedStep(FlightPlan(mission, interactive=True), "push", ()).at(flown_to(mission, 6.0), 1)
-    return CompiledStep(made._code, threads=2), made.state, made.parameters
+    code, start, *_ = ClosedStep(FlightPlan(mission, interactive=True), "push", ()).at(flown_to(mission, 6.0))
+    return CompiledStep(code, threads=2), *start
 
 
 def test_each_lane_has_the_bits_of_a_simulation_with_an_action_for_each_step(start):

@@ -78,7 +78,7 @@ class CompiledStep:
         return moved
 
     def cotangent(
-        self, state: Any, parameters: Any, actions: Any, states: Any, bars: Any, *, by_parameters: bool = True
+        self, state: Any, parameters: Any, actions: Any, states: Any, bars: Any, by_parameters: bool = True
     ) -> tuple[Array, Array, Array]:
         """The cotangents of state, parameters and actions of each lane, from those of the states after each step.
 
@@ -115,21 +115,22 @@ class CompiledStep:
         for of in results:
             shape = (held if of == "action" else steps,) if of in OF_STEPS else ()
             arrays.append(np.empty((*lanes, *shape, sizes[of])))
-        count = math.prod(lanes)
-        words = [_words(x, lanes, count, of) for x, of in zip(arrays, (*arguments, *results), strict=True)]
-        self._run(kind, by_parameters, np.array([w[:3] for w in words], dtype=np.int64), count, steps)
+        count, words, own = math.prod(lanes), list[int](), list[Array]()  # the arrays live until the call is over
+        for array, of in zip(arrays, (*arguments, *results), strict=True):
+            own.append(_in_lanes(array, lanes, count, 2 if of in OF_STEPS else 1))
+            words += _words(own[-1], of in OF_STEPS)
+        self._run(kind, by_parameters, (ctypes.c_int64 * len(words))(*words), count, steps)
         return arrays[len(arguments) :]
 
-    def _run(self, kind: Kind, by_parameters: bool, words: Array, count: int, steps: int) -> None:
+    def _run(self, kind: Kind, by_parameters: bool, words: Any, count: int, steps: int) -> None:
         """Call a function; threads share the lanes if that pays."""
-        (_, call), address = self.function(kind, by_parameters), words.ctypes.data
-        pace = self._pace.get((kind, by_parameters), 0.0)
-        parts = max(1, min(self.threads, count, int(pace * count * steps / WORTH)))
-        began, cuts = time.perf_counter(), [count * i // parts for i in range(parts + 1)]
+        (_, call), pace = self.function(kind, by_parameters), self._pace.get((kind, by_parameters), 0.0)
+        parts, began = max(1, min(self.threads, count, int(pace * count * steps / WORTH))), time.perf_counter()
         if parts == 1:
-            call(address, 0, count, steps)
+            call(words, 0, count, steps)
         else:
-            list(self._pool.map(call, [address] * parts, cuts[:-1], cuts[1:], [steps] * parts))
+            cuts = [count * i // parts for i in range(parts + 1)]
+            list(self._pool.map(call, [words] * parts, cuts[:-1], cuts[1:], [steps] * parts))
         if count:
             self._pace[kind, by_parameters] = (time.perf_counter() - began) * parts / (count * steps)
 
@@ -161,14 +162,20 @@ def _checked(given: Any, of: str, steps: int, size: int) -> Array:
     return array
 
 
-def _words(array: Array, lanes: tuple[int, ...], count: int, of: str) -> tuple[int, int, int, Array]:
-    """Address, numbers from lane to lane and from step to step; and the array that has them, which may be a copy."""
-    own = array.shape[array.ndim - (2 if of in OF_STEPS else 1) :]
-    if array.shape[: -len(own)] != lanes:
+def _in_lanes(array: Array, lanes: tuple[int, ...], count: int, tail: int) -> Array:
+    """An array with one dimension of lanes before its last `tail` ones; a copy if it lies otherwise in memory."""
+    own = array.shape[array.ndim - tail :]
+    if array.shape[:-tail] != lanes:
         array = np.broadcast_to(array, (*lanes, *own))
     if len(lanes) != 1:
         array = array.reshape(count, *own)
-    if array.strides[-1] != NUMBER or not array.flags.aligned or any(by < 0 or by % NUMBER for by in array.strides):
-        array = np.ascontiguousarray(array)
-    steps = array.strides[1] // NUMBER if of in OF_STEPS and own[0] > 1 else 0
-    return array.__array_interface__["data"][0], array.strides[0] // NUMBER, steps, array
+    flags, by = array.flags, array.strides
+    in_order = flags.c_contiguous or (by[-1] == NUMBER and min(by) >= 0 and not any(x % NUMBER for x in by))
+    return array if in_order and flags.aligned else np.array(array)
+
+
+def _words(array: Array, of_steps: bool) -> tuple[int, int, int]:
+    """Address, numbers from lane to lane, and from step to step: 0 for an action that is held."""
+    lane, *others = array.strides
+    step = others[0] // NUMBER if of_steps and array.shape[1] > 1 else 0
+    return array.ctypes.data, lane // NUMBER, step

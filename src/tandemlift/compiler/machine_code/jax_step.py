@@ -5,109 +5,43 @@ from __future__ import annotations
 import ctypes
 import functools
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, get_args
 
-import numpy as np
-
 from tandemlift.compiler.machine_code import machine
-from tandemlift.compiler.machine_code.compiled_step import CompiledStep
-from tandemlift.compiler.machine_code.iterated import ARGUMENTS, INPUTS, WORDS, IteratedStep, Kind
+from tandemlift.compiler.machine_code.flight_step import FlightStep
+from tandemlift.compiler.machine_code.iterated import ARGUMENTS, INPUTS, WORDS, Kind
 from tandemlift.compiler.tracer import Function, Graph, Module
-from tandemlift.core.errors import InputError, extra, shown
-from tandemlift.core.types import Array
+from tandemlift.core.errors import InputError, extra
 
 LOADED: dict[str, machine.Loaded] = {}  # handlers that XLA knows, by their names
 EXTENSION, ARGUMENTS_AT, RESULTS_AT = 1, 9, 14  # words to these in XLA's frame (`xla/ffi/api/c_api.h`)
 DATA, RANK, DIMENSIONS = 3, 4, 5  # words to these in a buffer
 
 
-class JaxStep:
-    """A step of a flight as a function of JAX; see `tandemlift.jax_step`.
-
-    Attributes:
-        state: numbers at the start (n,).
-        parameters: of the mission (m,).
-        state_names: of the state's numbers, dotted.
-        parameter_names: of the parameters, dotted.
-        places: of parts of the state, by their names.
-        actions: number of actions.
-        steps: of a call.
-    """
-
-    def __init__(
-        self,
-        code: IteratedStep,
-        start: tuple[Array, Array],
-        names: tuple[Sequence[str], Sequence[str]],
-        places: Mapping[str, slice],
-        steps: int,
-        kinks: Callable[[Array, Array, Array, float], list[Any]],
-    ) -> None:
-        self._code, self._kinks, self._compiled = code, kinks, CompiledStep(code)
-        self.state, self.parameters = start
-        self.state_names, self.parameter_names = map(tuple, names)
-        self.places, self.steps, self.actions = dict(places), steps, code.sizes["action"]
-
-    def __call__(self, state: Any, parameters: Any = None, action: Any = None) -> Any:
-        """The state (n,) after a call's steps, during which the action is held.
-
-        Args:
-            state: at the start (n,).
-            parameters: of the mission (m,); by default `parameters`.
-            action: (actions,); by default 0.
-
-        Raises:
-            InputError: an argument has another shape, or JAX computes in single precision.
-        """
-        states = self.all(state, parameters, action)
-        return states[(self.steps - 1) * len(self.state) :]
+class JaxStep(FlightStep):
+    """A step of a flight as a function of JAX; see `tandemlift.jax_step`."""
 
     def all(self, state: Any, parameters: Any = None, action: Any = None) -> Any:
-        """The states after each step of a call, one after another (steps · n,); arguments as for a call."""
+        """The states after each step of a call (steps, n); arguments as for a call."""
         jax = _jax()
         if not jax.config.jax_enable_x64:
             raise InputError('JAX computes in single precision: first jax.config.update("jax_enable_x64", True)')
-        arrays = [jax.numpy.asarray(x, dtype=float) for x in self._with_defaults(state, parameters, action)]
+        arrays = [jax.numpy.asarray(x, dtype=float) for x in self.with_defaults(state, parameters, action)]
         for name, array in zip(INPUTS, arrays, strict=True):
-            if array.shape != (self._code.sizes[name],):
-                raise InputError(f"{name}: an array {array.shape}: must have the shape {(self._code.sizes[name],)}")
+            wanted = (self.compiled.code.sizes[name],)
+            if array.shape != wanted:
+                raise InputError(f"{name}: an array {array.shape}: must have the shape {wanted}")
         (states,) = _primitives()["advance"].bind(*arrays, step=self, with_parameters=True)
-        return states
-
-    def read(self, state: Any, name: str) -> Any:
-        """A part of the state: "position", "velocity", "attitude", "rates", or one of the chosen channels.
-
-        Raises:
-            InputError: the state has no such part.
-        """
-        if name not in self.places:
-            raise InputError(f"{shown(name)}: must be one of {', '.join(self.places)}; others by channels=(…)")
-        return state[..., self.places[name]]
-
-    def kinks(self, state: Any, parameters: Any = None, action: Any = None, tolerance: float = 1e-4) -> list[Any]:
-        """The kinks near a state, as `linearize` reports them: there the derivative holds on one side only.
-
-        Args:
-            state: at the start of a step (n,).
-            parameters: of the mission (m,); by default `parameters`.
-            action: (actions,); by default 0.
-            tolerance: the largest distance of a kink, in the unit of a state or input.
-        """
-        state, parameters, action = map(np.asarray, self._with_defaults(state, parameters, action))
-        return self._kinks(state, parameters, action, tolerance)
-
-    def _with_defaults(self, state: Any, parameters: Any, action: Any) -> tuple[Any, Any, Any]:
-        given = self.parameters if parameters is None else parameters
-        return state, given, np.zeros(self.actions) if action is None else action
+        return states.reshape(self.steps, -1)
 
     def layout(self, kind: Kind, with_parameters: bool) -> list[tuple[int, int]]:
         """How many numbers each argument and result has, and how many from step to step.
 
         Derivatives take the states between the steps of a call: all but the last.
         """
-        sizes, (arguments, results) = self._code.sizes_of(with_parameters), ARGUMENTS[kind]
+        sizes, (arguments, results) = self.compiled.code.sizes_of(with_parameters), ARGUMENTS[kind]
         found = [(sizes[of], 0) for of in (*arguments, *results)]
         for place, of in enumerate((*arguments, *results)):
             if of == "states":
@@ -117,7 +51,7 @@ class JaxStep:
 
     def handler(self, kind: Kind, with_parameters: bool) -> str:
         """The name by which XLA calls the function of a kind, which is compiled on first use."""
-        key, call = self._compiled.function(kind, with_parameters)
+        key, call = self.compiled.function(kind, with_parameters)
         name = f"tandemlift_{kind}_{self.steps}_{key}"
         if name not in LOADED:
             address = ctypes.cast(call, ctypes.c_void_p).value
