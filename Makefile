@@ -65,9 +65,9 @@ check: .venv/dev ## one room: its format, lint, types, and the tests beside it: 
 examples: .venv/dev  ## run the scripts of examples/, whose numbers are asserted; `make docs` runs the same code
 	$(BIN)/pytest -n auto -m examples tests/repository/test_tutorials.py
 
-test-learning: .venv/dev  ## environments by Stable-Baselines3, a policy that learns, gradients by JAX; installs them, and PyTorch, into .venv-learning
+test-learning: .venv/dev  ## environments by Stable-Baselines3, a policy that learns, gradients by JAX and PyTorch; installs them into .venv-learning
 	test -x .venv-learning/bin/python || $(BIN)/python -m venv .venv-learning
-	.venv-learning/bin/pip install --disable-pip-version-check --quiet -e '.[gymnasium,jax]' -r tools/dev.txt stable-baselines3
+	.venv-learning/bin/pip install --disable-pip-version-check --quiet -e '.[gymnasium,jax,torch]' -r tools/dev.txt stable-baselines3
 	.venv-learning/bin/pytest -p no:xdist -m learning tests/analysis
 
 test-pythons:    ## the fast tests under each installed Python from 3.11 to 3.13

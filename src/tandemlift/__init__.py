@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from tandemlift.analysis.certification.excitation_design import excite
     from tandemlift.analysis.certification.mission_check import check
     from tandemlift.analysis.identification.shadow import shadow
-    from tandemlift.analysis.linearization.differentiable_step import jax_step
+    from tandemlift.analysis.linearization.differentiable_step import jax_step, torch_step
     from tandemlift.analysis.linearization.linear_model import LinearModel
     from tandemlift.analysis.linearization.linearize import linearize
     from tandemlift.analysis.studies.execution.block import Block
@@ -67,6 +67,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "register_environments": "apps.export.registration",
     "shadow": "analysis.identification.shadow",
     "study": "analysis.studies.study",
+    "torch_step": "analysis.linearization.differentiable_step",
     "train": "analysis.studies.tuning.tune",
     "tune": "analysis.studies.tuning.tune",
 }
@@ -99,6 +100,7 @@ __all__ = [
     "register_environments",
     "shadow",
     "study",
+    "torch_step",
     "train",
     "tune",
 ]

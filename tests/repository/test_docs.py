@@ -34,6 +34,8 @@ def test_every_block_of_python_runs_and_prints_the_text_below_it(path, tmp_path,
     for name, content in FILE.findall(text):
         Path(name).write_text(content, "utf-8")
     for block, printed in PYTHON.findall(text):
+        if "import torch" in block:
+            continue  # `make test-learning` runs it
         capsys.readouterr()
         exec(compile(block, path.name, "exec"), {})
         assert not printed or capsys.readouterr().out == printed

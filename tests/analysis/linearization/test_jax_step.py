@@ -87,13 +87,13 @@ def test_cotangents_are_those_of_jax_over_the_same_laws(begin, jax):
     wanted, back = jax.vjp(lambda *x: of_step(step, *x), *map(jax.numpy.asarray, arguments))
     found, own_back = jax.vjp(step, *map(jax.numpy.asarray, arguments))
     assert np.abs(found[:size] - wanted).max() < 1e-12
-    moved = sorted(i for i in step._code.smooth["state"] if i < size)
+    moved = sorted(i for i in step.compiled.code.smooth["state"] if i < size)
     bars = np.zeros((2, size + 1))
     bars[:, moved] = np.random.default_rng(2).standard_normal((2, len(moved)))
     for bar in bars:
         own, reference = own_back(jax.numpy.asarray(bar)), back(jax.numpy.asarray(bar[:size]))
         for a, b, of in zip(own, reference, ("state", "parameter", "action"), strict=True):
-            kept = sorted(step._code.smooth[of] - {size})
+            kept = sorted(step.compiled.code.smooth[of] - {size})
             largest = np.abs(np.array(b)[kept]).max()
             assert np.abs(np.array(a)[kept] - np.array(b)[kept]).max() < 1e-10 * largest, of
 

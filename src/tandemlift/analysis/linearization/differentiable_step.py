@@ -1,4 +1,4 @@
-"""`tl.jax_step`: the closed step of a mission as a function of JAX, with its derivatives."""
+"""`tl.jax_step` and `tl.torch_step`: the closed step of a mission as a function, with its derivatives."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from tandemlift.analysis.linearization.variables import outputs_from
 from tandemlift.compiler.machine_code.differentiated import inlined
 from tandemlift.compiler.machine_code.iterated import IteratedStep, StepForm
 from tandemlift.compiler.machine_code.jax_step import JaxStep
+from tandemlift.compiler.machine_code.torch_step import TorchStep
 from tandemlift.compiler.tracer import Function, Place, Symbol, elementary
 from tandemlift.core.algebra import where
 from tandemlift.core.errors import InputError, unknown
@@ -34,19 +35,12 @@ MOTION = {"position": 3, "velocity": 3, "attitude": 4, "rates": 3}
 
 
 def jax_step(
-    mission: MissionLike,
-    *,
-    actions: str = "push",
-    steps: int = 1,
-    begin: float = 0.0,
-    channels: Sequence[str] = (),
+    mission: MissionLike, *, actions: str = "push", steps: int = 1, begin: float = 0.0, channels: Sequence[str] = ()
 ) -> JaxStep:
     """The closed step of a mission, pilot and body, as a function of JAX: next = step(state, parameters, action).
 
     It has the bits of `Simulation.step`, and exact derivatives, compiled too: it can be used in `jax.jit`, `grad`,
-    `jvp`, `vmap` and `lax.scan`, on the processor and in double precision. The state is all that a flight carries from
-    step to step, with the values in delay lines and the number of the step. Parameters are the numbers of vehicle,
-    pilot, sensors and pushes, as assembled from the mission.
+    `jvp`, `vmap` and `lax.scan`, on the processor and in double precision.
 
     Args:
         mission: from `load_mission`, or its name or path; the compiled engine flies it.
@@ -63,13 +57,32 @@ def jax_step(
         InputError: an argument is not allowed, JAX is not installed, the flight is lost before `begin`, or the mission
             has a part without a compiled derivative.
     """
+    return _step(JaxStep, mission, actions, steps, begin, channels)
+
+
+def torch_step(
+    mission: MissionLike, *, actions: str = "push", steps: int = 1, begin: float = 0.0, channels: Sequence[str] = ()
+) -> TorchStep:
+    """The closed step of a mission as a function of PyTorch: as `jax_step`, with its arguments, bits and derivatives.
+
+    Autograd, its forward mode, `torch.func` and `torch.compile` take it. States, parameters and actions may have
+    leading dimensions: the lanes of a call, which all processors share.
+
+    Raises:
+        InputError: as of `jax_step`, or PyTorch is not installed.
+    """
+    return _step(TorchStep, mission, actions, steps, begin, channels)
+
+
+def _step(kind: Any, mission: MissionLike, actions: str, steps: int, begin: float, channels: Sequence[str]) -> Any:
     if actions not in ACTIONS:
         raise unknown("actions", actions, ACTIONS)
     chosen = mission_of(mission)
     point = flown_to(chosen, begin)
     for refusal in _refusals(chosen):
         raise InputError(f"{refusal}: this has no compiled derivative")
-    return ClosedStep(FlightPlan(chosen, interactive=True), actions, channels).at(point, count_of("steps", steps))
+    step = ClosedStep(FlightPlan(chosen, interactive=True), actions, channels)
+    return kind(*step.at(point), count_of("steps", steps), step.kinks)
 
 
 def _refusals(mission: Any) -> Iterator[str]:
@@ -186,9 +199,7 @@ class ClosedStep:
 
         def begin(f: Function) -> None:
             if limits is not None:
-                parts: Any = {
-                    name: [made[s.node] for s in getattr(limits, name)] for name in ("problem", "plain", "search")
-                }
+                parts: Any = {of: [made[s.node] for s in getattr(limits, of)] for of in ("problem", "plain", "search")}
                 f.read |= dict.fromkeys(("solved", "found"), lambda i: Place("%work", len(limits.problem) + i))
                 write_limits(f, limits._replace(beyond=made[limits.beyond.node], **parts), 0)
 
@@ -198,12 +209,10 @@ class ClosedStep:
     def iterated(self) -> IteratedStep:
         """The step as machine code repeats it."""
         x, graph, first = self.graph.traced, self.graph, self.size
-        tests = graph.contact_tests
-        if tests:
-            air, otherwise = self._form(x.body_in_free_air, tests)
-            forms = [air, self._form(x.body_in_contact, ())[0]]
-        else:
-            forms, otherwise = [self._form(x.body_in_contact, ())[0]], []
+        forms, otherwise = [self._form(x.body_in_contact, ())[0]], list[Symbol]()
+        if graph.contact_tests:
+            air, otherwise = self._form(x.body_in_free_air, graph.contact_tests)
+            forms.insert(0, air)
         late = {one.number for one in self.delayed if one.under_way}
         moving = {*graph.choose(self.sampled, [], late).kept, *graph.constant}
         for one in self.delayed:
@@ -214,18 +223,17 @@ class ClosedStep:
         size = {"state": len(self.names), "parameter": self.keys + 2, "action": place.stop - place.start}
         size["work"] = len(limits.problem) + len(limits.search) if limits else 0
         smooth = {"parameter": range(self.keys), "action": range(size["action"]), "state": moving}
-        ended = leaf_offset(self.plan.model, "flight_state", "ended").at
         return IteratedStep(
             forms=forms,
             otherwise=otherwise,
             sizes=size,
             smooth={of: frozenset(numbers) for of, numbers in smooth.items()},
-            ended=ended,
+            ended=leaf_offset(self.plan.model, "flight_state", "ended").at,
             shared=lambda module: write_solver(module, limits.solver, 1) if limits else None,
         )
 
-    def at(self, point: OperatingPoint, steps: int) -> JaxStep:
-        """The step as a function of JAX, from a point of the flight."""
+    def at(self, point: OperatingPoint) -> tuple[Any, ...]:
+        """What a `FlightStep` is made of, from a point of the flight on: code, start, names and places."""
         p = self.plan
         lines = [x for values in values_under_way(self.delayed, point.ring, point.k) for x in values]
         state = np.zeros(len(self.names))
@@ -233,9 +241,10 @@ class ClosedStep:
         parameters = np.concatenate(
             [point.numbers[self.size :], p.tables.pushes.ravel(), p.tables.gusts.ravel(), np.ravel(p.seeds)]
         )
-        names = [*leaf_names(p.model)[self.size :], *_row_names("pushes", GAUSSIAN, p.tables.pushes)]
-        names += [*_row_names("gusts", GUST, p.tables.gusts), "seed.0", "seed.1"]
-        return JaxStep(self.iterated(), (state, parameters), (self.names, names), self.places, steps, self.kinks)
+        names = leaf_names(p.model)[self.size :]
+        for table, like, rows in (("pushes", GAUSSIAN, p.tables.pushes), ("gusts", GUST, p.tables.gusts)):
+            names += [f"{table}.{i}.{name}" for i in range(len(rows)) for name in leaf_names(like)]
+        return self.iterated(), (state, parameters), (self.names, [*names, "seed.0", "seed.1"]), self.places
 
     def kinks(self, state: Array, parameters: Array, action: Array, tolerance: float) -> list[Kink]:
         """The kinks near a state."""
@@ -252,7 +261,3 @@ class ClosedStep:
         numbers = np.concatenate([state[: self.size], parameters[: self.numbers - self.size]])
         recipe, _ = linearization_plan(OperatingPoint(p, k, numbers, ring, external.tolist()), "loop", None, None, 1)
         return kinks_near(recipe, differentiate(recipe), tolerance)
-
-
-def _row_names(table: str, like: Any, rows: Array) -> list[str]:
-    return [f"{table}.{i}.{name}" for i in range(len(rows)) for name in leaf_names(like)]

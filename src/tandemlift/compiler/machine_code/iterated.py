@@ -1,8 +1,9 @@
-"""A step from state to state, repeated with the same parameters and action, and its derivatives: handlers for XLA.
+"""A step from state to state, repeated with the same parameters, and its derivatives: functions over lanes of arrays.
 
-XLA calls a handler with a frame of pointers (`xla/ffi/api/c_api.h`, its foreign function interface). A handler repeats
-the step for each lane of its arrays: `advance` gives the states (steps, n) after each step; `tangent` and `cotangent`
-take all but the last of these beside the arguments, so that nothing else is kept from step to step.
+`advance` gives the states after each step; `tangent` and `cotangent` take these beside the arguments, so that nothing
+else is kept from step to step. Each is `i64 @kind(ptr arrays, i64 first, i64 end, i64 steps)` and does lanes `first` to
+`end` - 1. For each argument and result, in the order of `ARGUMENTS`, `arrays` has three 64-bit words: the address of
+its first number, and how many numbers lie from lane to lane and from step to step; 0 for what is common to them.
 
 A step may have two forms, of which conditions choose one. Its last number other than 0 in a place of the state means
 that no step is taken.
@@ -23,33 +24,13 @@ ARGUMENTS: dict[
     Kind, tuple[tuple[str, ...], tuple[str, ...]]
 ] = {  # of each kind: its arguments and its results, by the names of their sizes
     "advance": (("state", "parameter", "action"), ("states",)),
-    "tangent": (("state", "parameter", "action", "between", "state", "dparameter", "action"), ("states",)),
-    "cotangent": (("state", "parameter", "action", "between", "states"), ("state", "dparameter", "action")),
+    "tangent": (("state", "parameter", "action", "states", "state", "dparameter", "action"), ("states",)),
+    "cotangent": (("state", "parameter", "action", "states", "states"), ("state", "dparameter", "action")),
 }
 INPUTS = ("state", "parameter", "action")
-HANDLER = """define i64 @{name}(ptr %frame) #0 {{
-entry:
-  %e0 = getelementptr i8, ptr %frame, i64 8
-  %extension = load ptr, ptr %e0, align 8
-  %asked = icmp ne ptr %extension, null
-  br i1 %asked, label %about, label %run
-about:
-  %e1 = getelementptr i8, ptr %extension, i64 24
-  %facts = load ptr, ptr %e1, align 8
-  %e2 = getelementptr i8, ptr %facts, i64 24
-  store i32 {version[0]}, ptr %e2, align 4
-  %e3 = getelementptr i8, ptr %facts, i64 28
-  store i32 {version[1]}, ptr %e3, align 4
-  %e4 = getelementptr i8, ptr %facts, i64 32
-  store i32 0, ptr %e4, align 4
-  ret i64 0
-run:
-  call void @lanes_(ptr %frame)
-  ret i64 0
-}}"""
+OF_STEPS = frozenset({"action", "states"})  # arrays with numbers for each step; an action may be held
+WORDS = 3  # of an array in a call: address, numbers from lane to lane, numbers from step to step
 SELDOM, QUICKLY = "form1", "attributes #3 = { nounwind noinline optnone }"  # the form of few steps, the longer one
-FRAME = {"arguments": 72, "results": 112}  # bytes to the pointers of buffers in a frame
-DATA, RANK, DIMENSIONS = 24, 32, 40  # bytes to these in a buffer
 
 
 class StepForm(NamedTuple):
@@ -91,28 +72,26 @@ class IteratedStep:
     ended: int
     shared: Callable[[Module], None]
 
-    def written(self, kind: Kind, steps: int, with_parameters: bool, version: tuple[int, int]) -> str:
-        """The text of a module whose function of that name is a handler.
+    def written(self, kind: Kind, with_parameters: bool) -> str:
+        """The text of a module with the function of that name.
 
         Args:
-            kind: of the handler.
-            steps: how many times the step is repeated.
-            with_parameters: whether derivatives by parameters are formed; else the results have none for them.
-            version: of XLA's interface.
+            kind: of the function.
+            with_parameters: whether derivatives by parameters are formed; else its arrays of them are empty.
         """
         module = Module()
         self.shared(module)
         for number, form in enumerate(self.forms):
             self._write_form(module, kind, f"form{number}", form, with_parameters)
         self._write_choice(module, kind)
-        self._write_lanes(module, kind, steps, self.sizes_of(steps, with_parameters))
-        module.functions += [HANDLER.format(name=kind, version=version), QUICKLY]
+        self._write_lanes(module, kind, self.sizes_of(with_parameters))
+        module.functions.append(QUICKLY)
         return module.text
 
-    def sizes_of(self, steps: int, with_parameters: bool) -> dict[str, int]:
-        """The sizes of arguments and results by the names in `ARGUMENTS`, and those of `sizes`."""
+    def sizes_of(self, with_parameters: bool) -> dict[str, int]:
+        """The sizes of arguments and results, of a step, by the names in `ARGUMENTS`, and those of `sizes`."""
         n, m = self.sizes["state"], self.sizes["parameter"] if with_parameters else 0
-        return {**self.sizes, "states": steps * n, "between": (steps - 1) * n, "dparameter": m}
+        return {**self.sizes, "states": n, "dparameter": m}
 
     def _write_form(self, module: Module, kind: Kind, name: str, form: StepForm, with_parameters: bool) -> None:
         """The function of one step; a cotangent is added to that of parameters and action."""
@@ -179,55 +158,54 @@ class IteratedStep:
         f.do(f"call void @form0({names})")
         f.end()
 
-    def _write_lanes(self, module: Module, kind: Kind, steps: int, sizes: Mapping[str, int]) -> None:
-        """`lanes_`: all steps of all lanes; their number is the product of the first array's leading dimensions."""
-        f = Function(module, self.forms[0].graph, 1, "internal void @lanes_(ptr %frame) #1")
-        pointers = dict[str, str]()
-        for group, letter, own in zip(FRAME, "ar", ARGUMENTS[kind], strict=True):
-            listed = f.load(f.at("%frame", FRAME[group], "i8"), 0, "ptr")
-            buffers = [f.load(listed, i, "ptr") for i in range(len(own))]
-            pointers |= {f"{letter}{i}": f.load(f.at(b, DATA, "i8"), 0, "ptr") for i, b in enumerate(buffers)}
-            if letter == "a":
-                first = buffers[0]
-        count = f.own_memory(1)
-        f.store("1", count, 0, "i64")
-        dimensions = f.load(f.at(first, DIMENSIONS, "i8"), 0, "ptr")
-        with f.repeat(f.integer("sub", f.load(f.at(first, RANK, "i8"), 0, "i64"), 1)) as i:
-            f.store(f.integer("mul", f.load(count, 0, "i64"), f.load(dimensions, i, "i64")), count, 0, "i64")
-        work = f.own_memory(max(self.sizes["work"], 1))
-        carried = f.own_memory(self.sizes["state"])
-        with f.repeat(f.load(count, 0, "i64")) as lane:
-            at = {
-                name: f.at(pointer, f.integer("mul", lane, sizes[ARGUMENTS[kind][name[0] == "r"][int(name[1])]]))
-                for name, pointer in pointers.items()
+    def _write_lanes(self, module: Module, kind: Kind, sizes: Mapping[str, int]) -> None:
+        """The function of that kind: all steps of some lanes."""
+        f = Function(module, self.forms[0].graph, 1, f"i64 @{kind}(ptr %arrays, i64 %first, i64 %end, i64 %steps) #0")
+        words = {
+            name[1:]: [f.load("%arrays", WORDS * i + j, word) for j, word in enumerate(("ptr", "i64", "i64"))]
+            for i, name in enumerate(_names(kind)[:-1])
+        }
+        work, carried = f.own_memory(max(self.sizes["work"], 1)), f.own_memory(self.sizes["state"])
+        with f.repeat("%end", "%first") as lane:
+            arrays = {
+                name: (f.at(first, f.integer("mul", lane, by)), step) for name, (first, by, step) in words.items()
             }
-            if kind == "cotangent":
-                for name, of in zip(("r0", "r1", "r2"), ARGUMENTS[kind][1], strict=True):
-                    with f.repeat(sizes[of]) as i:
-                        f.store(f.zero, at[name], i)
-            self._write_steps(f, kind, steps, {**at, "work": work}, carried)
-        f.end()
+            with f.repeat("%steps") as number:
+                k = f.integer("sub", f.integer("sub", "%steps", 1), number) if kind == "cotangent" else number
+                self._write_step(f, kind, arrays, k, {"work": work, "carried": carried}, sizes)
+        f.end("i64 0")
 
-    def _write_steps(self, f: Function, kind: Kind, steps: int, at: dict[str, str], carried: str) -> None:
-        """All steps of a lane, whose arrays are `at` these places; backward for cotangents."""
-        n = self.sizes["state"]
-        with f.repeat(steps) as number:
-            k = f.integer("sub", steps - 1, number) if kind == "cotangent" else number
-            here = f.integer("mul", k, n)
-            is_first = f.op(f"icmp eq i64 {k}, 0")
-            before = f.integer("sub", here, n)
-            states = at["r0"] if kind == "advance" else at["a3"]
-            own = at | {"a0": f.op(f"select i1 {is_first}, ptr {at['a0']}, ptr {f.at(states, before)}")}
-            if kind == "cotangent":
-                with f.repeat(n) as i:
-                    more = f.load(at["a4"], f.integer("add", here, i))
-                    f.store(f.op(f"fadd double {f.load(at['r0'], i)}, {more}"), carried, i)
-                own["a4"] = carried
-            else:
-                own["r0"] = f.at(at["r0"], here)
-            if kind == "tangent":
-                own["a4"] = f.op(f"select i1 {is_first}, ptr {at['a4']}, ptr {f.at(at['r0'], before)}")
-            f.do(f"call void @step_({', '.join(f'ptr {own[name[1:]]}' for name in _names(kind))})")
+    def _write_step(
+        self,
+        f: Function,
+        kind: Kind,
+        arrays: Mapping[str, tuple[str, str]],
+        k: str,
+        memory: Mapping[str, str],
+        sizes: Mapping[str, int],
+    ) -> None:
+        """Step k of a lane; cotangents are formed backward, and their results begin at 0."""
+
+        def at(name: str, k: str) -> str:
+            first, apart = arrays[name]
+            return f.at(first, f.integer("mul", k, apart))
+
+        is_first, before = f.op(f"icmp eq i64 {k}, 0"), f.integer("sub", k, 1)
+        own = {name: at(name, k) for name in arrays} | {"work": memory["work"]}
+        after = at("r0" if kind == "advance" else "a3", before)
+        own["a0"] = f.op(f"select i1 {is_first}, ptr {own['a0']}, ptr {after}")
+        if kind == "tangent":
+            own["a4"] = f.op(f"select i1 {is_first}, ptr {own['a4']}, ptr {at('r0', before)}")
+        elif kind == "cotangent":
+            is_last = f.op(f"icmp eq i64 {f.integer('add', k, 1)}, %steps")
+            for name, of in zip(("r0", "r1", "r2"), ARGUMENTS[kind][1], strict=True):
+                moves = f.op(f"icmp ne i64 {arrays[name][1]}, 0")
+                with f.when(f.op(f"or i1 {is_last}, {moves}")), f.repeat(sizes[of]) as i:
+                    f.store(f.zero, own[name], i)
+            with f.repeat(sizes["state"]) as i:
+                f.store(f.op(f"fadd double {f.load(own['r0'], i)}, {f.load(own['a4'], i)}"), memory["carried"], i)
+            own["a4"] = memory["carried"]
+        f.do(f"call void @step_({', '.join(f'ptr {own[name[1:]]}' for name in _names(kind))})")
 
 
 def _names(kind: Kind) -> list[str]:

@@ -2,128 +2,96 @@
 
 from __future__ import annotations
 
+import ctypes
 import functools
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, get_args
 
-import numpy as np
-
-from tandemlift.compiler.machine_code import machine, store
-from tandemlift.compiler.machine_code.iterated import ARGUMENTS, INPUTS, IteratedStep, Kind
-from tandemlift.core.errors import InputError, extra, shown
-from tandemlift.core.types import Array
+from tandemlift.compiler.machine_code import machine
+from tandemlift.compiler.machine_code.flight_step import FlightStep
+from tandemlift.compiler.machine_code.iterated import ARGUMENTS, INPUTS, WORDS, Kind
+from tandemlift.compiler.tracer import Function, Graph, Module
+from tandemlift.core.errors import InputError, extra
 
 LOADED: dict[str, machine.Loaded] = {}  # handlers that XLA knows, by their names
+EXTENSION, ARGUMENTS_AT, RESULTS_AT = 1, 9, 14  # words to these in XLA's frame (`xla/ffi/api/c_api.h`)
+DATA, RANK, DIMENSIONS = 3, 4, 5  # words to these in a buffer
 
 
-class JaxStep:
-    """A step of a flight as a function of JAX; see `tandemlift.jax_step`.
-
-    Attributes:
-        state: numbers at the start (n,).
-        parameters: of the mission (m,).
-        state_names: of the state's numbers, dotted.
-        parameter_names: of the parameters, dotted.
-        places: of parts of the state, by their names.
-        actions: number of actions.
-        steps: of a call.
-    """
-
-    def __init__(
-        self,
-        code: IteratedStep,
-        start: tuple[Array, Array],
-        names: tuple[Sequence[str], Sequence[str]],
-        places: Mapping[str, slice],
-        steps: int,
-        kinks: Callable[[Array, Array, Array, float], list[Any]],
-    ) -> None:
-        self._code, self._kinks, self._handlers = code, kinks, dict[tuple[Kind, bool], str]()
-        self.state, self.parameters = start
-        self.state_names, self.parameter_names = map(tuple, names)
-        self.places, self.steps, self.actions = dict(places), steps, code.sizes["action"]
-
-    def __call__(self, state: Any, parameters: Any = None, action: Any = None) -> Any:
-        """The state (n,) after a call's steps, during which the action is held.
-
-        Args:
-            state: at the start (n,).
-            parameters: of the mission (m,); by default `parameters`.
-            action: (actions,); by default 0.
-
-        Raises:
-            InputError: an argument has another shape, or JAX computes in single precision.
-        """
-        states = self.all(state, parameters, action)
-        return states[(self.steps - 1) * len(self.state) :]
+class JaxStep(FlightStep):
+    """A step of a flight as a function of JAX; see `tandemlift.jax_step`."""
 
     def all(self, state: Any, parameters: Any = None, action: Any = None) -> Any:
-        """The states after each step of a call, one after another (steps · n,); arguments as for a call."""
+        """The states after each step of a call (steps, n); arguments as for a call."""
         jax = _jax()
         if not jax.config.jax_enable_x64:
             raise InputError('JAX computes in single precision: first jax.config.update("jax_enable_x64", True)')
-        arrays = [jax.numpy.asarray(x, dtype=float) for x in self._with_defaults(state, parameters, action)]
+        arrays = [jax.numpy.asarray(x, dtype=float) for x in self.with_defaults(state, parameters, action)]
         for name, array in zip(INPUTS, arrays, strict=True):
-            if array.shape != (self._code.sizes[name],):
-                raise InputError(f"{name}: an array {array.shape}: must have the shape {(self._code.sizes[name],)}")
+            wanted = (self.compiled.code.sizes[name],)
+            if array.shape != wanted:
+                raise InputError(f"{name}: an array {array.shape}: must have the shape {wanted}")
         (states,) = _primitives()["advance"].bind(*arrays, step=self, with_parameters=True)
-        return states
+        return states.reshape(self.steps, -1)
 
-    def read(self, state: Any, name: str) -> Any:
-        """A part of the state: "position", "velocity", "attitude", "rates", or one of the chosen channels.
+    def layout(self, kind: Kind, with_parameters: bool) -> list[tuple[int, int]]:
+        """How many numbers each argument and result has, and how many from step to step.
 
-        Raises:
-            InputError: the state has no such part.
+        Derivatives take the states between the steps of a call: all but the last.
         """
-        if name not in self.places:
-            raise InputError(f"{shown(name)}: must be one of {', '.join(self.places)}; others by channels=(…)")
-        return state[..., self.places[name]]
-
-    def kinks(self, state: Any, parameters: Any = None, action: Any = None, tolerance: float = 1e-4) -> list[Any]:
-        """The kinks near a state, as `linearize` reports them: there the derivative holds on one side only.
-
-        Args:
-            state: at the start of a step (n,).
-            parameters: of the mission (m,); by default `parameters`.
-            action: (actions,); by default 0.
-            tolerance: the largest distance of a kink, in the unit of a state or input.
-        """
-        state, parameters, action = map(np.asarray, self._with_defaults(state, parameters, action))
-        return self._kinks(state, parameters, action, tolerance)
-
-    def _with_defaults(self, state: Any, parameters: Any, action: Any) -> tuple[Any, Any, Any]:
-        given = self.parameters if parameters is None else parameters
-        return state, given, np.zeros(self.actions) if action is None else action
-
-    def sizes(self, with_parameters: bool) -> dict[str, int]:
-        """The sizes of arguments and results by the names in `ARGUMENTS`."""
-        return self._code.sizes_of(self.steps, with_parameters)
+        sizes, (arguments, results) = self.compiled.code.sizes_of(with_parameters), ARGUMENTS[kind]
+        found = [(sizes[of], 0) for of in (*arguments, *results)]
+        for place, of in enumerate((*arguments, *results)):
+            if of == "states":
+                between = place == 3 and kind != "advance"
+                found[place] = (self.steps - between) * sizes[of], sizes[of]
+        return found
 
     def handler(self, kind: Kind, with_parameters: bool) -> str:
-        """The name by which XLA calls a handler, which is compiled on first use."""
-        with_parameters = with_parameters and kind != "advance"
-        if (kind, with_parameters) not in self._handlers:
-            text = self._code.written(kind, self.steps, with_parameters, _version())
-            self._handlers[kind, with_parameters] = _registered(kind, text)
-        return self._handlers[kind, with_parameters]
+        """The name by which XLA calls the function of a kind, which is compiled on first use."""
+        key, call = self.compiled.function(kind, with_parameters)
+        name = f"tandemlift_{kind}_{self.steps}_{key}"
+        if name not in LOADED:
+            address = ctypes.cast(call, ctypes.c_void_p).value
+            text = _handler(address, self.layout(kind, with_parameters), len(ARGUMENTS[kind][0]), self.steps)
+            LOADED[name] = machine.Loaded(machine.compiled(text, machine.QUICK), ["handler"])
+            ffi = _jax().ffi
+            ffi.register_ffi_target(name, ffi.pycapsule(LOADED[name].addresses["handler"]), platform="cpu")
+        return name
 
 
-def _registered(kind: Kind, text: str) -> str:
-    """The name of a handler that XLA knows, compiled unless it is on disk."""
-    key = store.key_of_module(text, {})
-    name = f"tandemlift_{kind}_{key}"
-    if name not in LOADED:
-        entry = store.read(f"{key}-best")
-        if entry is None:
-            code = machine.compiled(machine.in_short_blocks(text), machine.BEST_OF_VECTORS)
-            entry = store.StoredCode({}, code)
-            store.write(f"{key}-best", entry)
-        LOADED[name] = machine.Loaded(entry.code, [kind])
-        ffi = _jax().ffi
-        ffi.register_ffi_target(name, ffi.pycapsule(LOADED[name].addresses[kind]), platform="cpu")
-    return name
+def _handler(address: int | None, layout: Sequence[tuple[int, int]], arguments: int, steps: int) -> str:
+    """The text of a handler, which XLA calls with a frame: it tells its version, or calls the function at an address.
+
+    The number of lanes is the product of the first array's leading dimensions.
+    """
+    major, minor = _version()
+    f = Function(Module(), Graph(), 1, "i64 @handler(ptr %frame) #0")
+    extension = f.load("%frame", EXTENSION, "ptr")
+    asked = f.op(f"icmp ne ptr {extension}, null")
+    with f.when(asked):
+        facts = f.load(extension, 3, "ptr")
+        f.store(str(major + (minor << 32)), facts, 3, "i64")  # two numbers of 32 bits
+        f.store("0", facts, 8, "i32")  # no traits
+    with f.when(f.op(f"xor i1 {asked}, true")):
+        words, count = f.own_memory(WORDS * len(layout)), f.own_memory(1)
+        given, made = (f.load("%frame", at, "ptr") for at in (ARGUMENTS_AT, RESULTS_AT))
+        buffers = [f.load(given, i, "ptr") for i in range(arguments)]
+        buffers += [f.load(made, i, "ptr") for i in range(len(layout) - arguments)]
+        for i, (buffer, (lane, step)) in enumerate(zip(buffers, layout, strict=True)):
+            f.store(f.load(buffer, DATA, "ptr"), words, WORDS * i, "ptr")
+            f.store(str(lane), words, WORDS * i + 1, "i64")
+            f.store(str(step), words, WORDS * i + 2, "i64")
+        f.store("1", count, 0, "i64")
+        dimensions = f.load(buffers[0], DIMENSIONS, "ptr")
+        with f.repeat(f.integer("sub", f.load(buffers[0], RANK, "i64"), 1)) as place:
+            f.store(f.integer("mul", f.load(count, 0, "i64"), f.load(dimensions, place, "i64")), count, 0, "i64")
+        lanes = f.load(count, 0, "i64")
+        f.do(f"call i64 inttoptr (i64 {address} to ptr)(ptr {words}, i64 0, i64 {lanes}, i64 {steps})")
+    f.end("i64 0")
+    return f.module.text
 
 
 def _jax() -> Any:
@@ -163,8 +131,8 @@ def _primitives() -> dict[Kind, Any]:
 
         @primitive.def_abstract_eval
         def shapes(*arrays: Any, step: JaxStep, with_parameters: bool) -> list[Any]:
-            sizes, lanes = step.sizes(with_parameters), arrays[0].shape[:-1]
-            return [jax.core.ShapedArray((*lanes, sizes[name]), arrays[0].dtype) for name in ARGUMENTS[kind][1]]
+            results = step.layout(kind, with_parameters)[len(arrays) :]
+            return [jax.core.ShapedArray((*arrays[0].shape[:-1], size), arrays[0].dtype) for size, _ in results]
 
         def lower(context: Any, *arrays: Any, step: JaxStep, with_parameters: bool) -> Any:
             return jax.ffi.ffi_lowering(step.handler(kind, with_parameters))(context, *arrays)
@@ -186,7 +154,7 @@ def _primitives() -> dict[Kind, Any]:
         with_parameters = type(moved[1]) is not ad.Zero
         given = [ad.instantiate_zeros(x) for x in moved]
         given[1] = given[1] if with_parameters else given[1][..., :0]
-        between = states[..., : step.sizes(True)["between"]]
+        between = states[..., : (step.steps - 1) * len(step.state)]
         return [states], made["tangent"].bind(*arrays, between, *given, step=step, with_parameters=with_parameters)
 
     def transposed(bars: Sequence[Any], *arrays: Any, step: JaxStep, with_parameters: bool) -> list[Any]:
