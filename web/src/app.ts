@@ -120,7 +120,7 @@ export class App implements FlightListener, ShellPage {
     if (!this.picture) return;
     const { center, reach, scene } = this.picture;
     if (view !== "board") {
-      this.camera.look(view, center, reach);
+      this.camera.look(view, center, reach, scene.corridor !== null);
       return;
     }
     this.seat = (this.seat + 1) % scene.vehicle.quadrotors.length;

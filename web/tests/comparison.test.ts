@@ -41,19 +41,44 @@ test("a frame has a ghost only if the numbers of one follow", () => {
   assert.deepEqual(frame(1, 2, 3, 4, 1, 5, 6, 7).ghost?.vector("position"), [5, 6, 7]);
 });
 
-test("columns change places with the flight and its ghost, and an earlier ghost is forgotten", () => {
+const ghost = (begun: number, swaps: number, mission = "a") => ({ mission, controller: "c", parameters: [], begun, swaps });
+
+/** A history of three samples: one before a ghost began, of which the next two have both. */
+function compared(): History {
   const history = new History(SCENE);
-  const column = (name: string): number[] => [...history.column(name)];
-  const ghost = (swaps: number) => ({ mission: "a", parameters: [], swaps });
-  history.ghost(undefined, ghost(0));
   history.add(frame(0, 1, 0, 0));
+  assert.ok(history.continue({ ...SCENE, ghost: ghost(1, 0) }));
   history.add(frame(0.1, 2, 0, 0, 0.1, 8, 0, 0));
+  history.add(frame(0.2, 3, 0, 0, 0.2, 9, 0, 0));
   history.show([0, 1]);
-  assert.deepEqual([column("position0"), column(`${GHOST}position0`)], [[1, 2], [NaN, 8]]);
-  history.ghost(ghost(0), ghost(1));
-  assert.deepEqual([column("position0"), column(`${GHOST}position0`)], [[NaN, 8], [1, 2]]);
-  history.ghost(ghost(1), ghost(1));
-  assert.deepEqual(column("position0"), [NaN, 8]);
-  history.ghost(undefined, ghost(0));
-  assert.deepEqual(column(`${GHOST}position0`), [NaN, NaN]);
+  return history;
+}
+const columns = (history: History): number[][] => ["", GHOST].map((whose) => [...history.column(`${whose}position0`)]);
+
+test("a ghost has flown as the flight did until it began; after a swap and an end both are whole", () => {
+  const history = compared();
+  assert.deepEqual(columns(history), [[1, 2, 3], [1, 8, 9]]);
+  assert.ok(history.continue({ ...SCENE, ghost: ghost(1, 1) }));
+  assert.deepEqual(columns(history), [[1, 8, 9], [1, 2, 3]]);
+  assert.ok(history.continue(SCENE)); // it ends
+  history.add(frame(0.3, 10, 0, 0));
+  history.show([0, 1]);
+  assert.deepEqual(columns(history)[0], [1, 8, 9, 10]);
+});
+
+test("another ghost takes the place of the one before, from the flight's beginning", () => {
+  const history = compared();
+  assert.ok(history.continue({ ...SCENE, ghost: ghost(2, 0) }));
+  assert.deepEqual(columns(history), [[1, 2, 3], [1, 2, 3]]);
+});
+
+test("of two missions the history goes on over a swap and an end; a mission that is opened begins its own", () => {
+  const history = new History(SCENE);
+  assert.ok(history.continue({ ...SCENE, ghost: ghost(1, 0, "b") }));
+  history.add(frame(0, 1, 0, 0, 0, 5, 0, 0));
+  assert.ok(history.continue({ ...SCENE, mission: "b", ghost: ghost(1, 1) }));
+  assert.ok(history.continue({ ...SCENE, mission: "b" }));
+  history.show([0, 1]);
+  assert.deepEqual(columns(history)[0], [5]);
+  assert.ok(!history.continue(SCENE));
 });

@@ -14,3 +14,10 @@ test("gestures come before keys, and those of fingers name no mouse", () => {
     }
   }
 });
+
+test("of fingers no key and no gamepad is named", () => {
+  for (const replay of [false, true]) {
+    const words = helpLines(replay, true).flat().join(" ");
+    assert.doesNotMatch(words, /gamepad|arrow|W A S D|Ctrl|\b[A-Z] \u00b7|\bkey/i);
+  }
+});

@@ -92,7 +92,7 @@ OTHER_REASONS = (
     RefusalReason("turning", "the vehicle is not at rest ({value} rad/s, limit {limit} rad/s)", "Wait until it rests."),
     RefusalReason("unknown_sensor", "a sensor has failed", REPAIR),
     RefusalReason("recovering", "the last fault is over for {value} s only, of {limit} s", "Ask again a moment later."),
-    RefusalReason("fault", "the pilot reacts to a fault: {alarm}", "Let go, and wait until the fault is over."),
+    RefusalReason("fault", "there is a fault ({alarm})", "Let go, and wait until it is over."),
     RefusalReason("limited", "the vehicle {alarm}", "Push less, and wait until it can follow again."),
     RefusalReason("beam_touches", "the beam touches a wall", LEAVE_WALL),
     RefusalReason("guard_touches", "the guard of quadrotor {value} touches a wall", LEAVE_WALL),

@@ -17,7 +17,7 @@ from pydantic.fields import FieldInfo
 from tandemlift.core.errors import shown, written
 from tandemlift.core.keys import KeyDescription, description_of
 from tandemlift.missions.mission import Mission
-from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
+from tandemlift.parts.controllers import CONTROLLERS, CascadeTable, ControllerTable
 
 Model = type[BaseModel]
 WORDS: dict[object, str] = {float: "a number", int: "a whole number", bool: "true or false", str: "text in quotes"}
@@ -96,6 +96,11 @@ class Key(NamedTuple):
         return f"{words}; {self.facts.rule}" if self.facts.rule else words
 
     @property
+    def bounds(self) -> dict[str, float]:
+        """The bounds of its number, or of each of its numbers, as `bounds` gives them."""
+        return bounds(innermost(self.field.annotation) or self.field.metadata)
+
+    @property
     def default(self) -> object:
         """The default as plain numbers, one for all axes if they are equal; None if there is no default."""
         return None if self.field.is_required() else compact(self.field, self.field.default)
@@ -155,6 +160,17 @@ def sections() -> Iterator[Section]:
 def is_of_the_package(controller: str) -> bool:
     """Whether a section's controller, if it has one, is built in and not from a user's file."""
     return not controller or CONTROLLERS[controller].start.__module__.startswith("tandemlift.")
+
+
+def own_numbers(controller: str) -> Iterator[Key]:
+    """The keys of a user's controller that are a number or a few, without those that all controllers share."""
+    if controller not in CONTROLLERS or is_of_the_package(controller):
+        return
+    for one in _keys("controller", CONTROLLERS[controller].settings):
+        parts = get_args(kind) if get_origin(kind := plain(one.field.annotation)) is tuple else (kind,)
+        shared = one.name.removeprefix("controller.") in CascadeTable.model_fields
+        if not shared and all(plain(part) is float for part in parts):
+            yield one
 
 
 def _controllers() -> Iterator[Section]:

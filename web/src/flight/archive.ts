@@ -4,8 +4,11 @@ import { strToU8, zipSync } from "fflate";
 
 const FIRST_DAY = new Date(1980, 0, 1); // the same files give the same archive
 
-/** An archive of files by their names, without compression. */
-export function zip(files: Record<string, Uint8Array>): Uint8Array<ArrayBuffer> {
+/** Files by their names. */
+export type Files = Record<string, Uint8Array>;
+
+/** An archive of files, without compression. */
+export function zip(files: Files): Uint8Array<ArrayBuffer> {
   return zipSync(files, { level: 0, mtime: FIRST_DAY });
 }
 

@@ -93,7 +93,8 @@ export class FlownMission {
 
   /** The files of a flight that flies again. */
   saved(name: string): Uint8Array<ArrayBuffer> {
-    return recordedFlight(name, this.flight, this.manifest.page, this.start.tables, this.parameters.changes);
+    const { flight, manifest, start, parameters, run } = this;
+    return recordedFlight(name, flight, manifest.page, start.tables, parameters.changes, run?.score ?? null);
   }
 
   private begin(start: MissionNumbers): void {

@@ -121,7 +121,7 @@ export interface PageManifest {
   texts: PageTexts;
   rules: Record<string, Record<string, FieldRule>>;
   save_name: string; // a regular expression
-  files: { mission: string; hand: string };
+  files: { mission: string; hand: string; score: string };
 }
 
 export interface FlightManifest {

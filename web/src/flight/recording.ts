@@ -3,8 +3,9 @@
 import { strToU8 } from "fflate";
 import { stringify } from "smol-toml";
 
-import { npy, npyOfText, zip } from "./archive.ts";
+import { type Files, npy, npyOfText, zip } from "./archive.ts";
 import type { Flight } from "./flight.ts";
+import type { StatusScore } from "../wire/messages.generated.ts";
 import type { PageManifest, Tables } from "./manifest.ts";
 import { Refusal } from "./refusal.ts";
 
@@ -18,13 +19,14 @@ export interface RecordedChange extends Tables {
 
 const LAST = "last_sample.npy"; // the last sample as it was in the page: flown again, it is the same
 
-/** An archive with mission, hand and last sample; it ends at the beginning of the flight's last step. */
+/** An archive with mission, hand, last sample, and the score if it has one; it ends at the beginning of the flight's last step. */
 export function recordedFlight(
   name: string,
   flight: Flight,
   page: PageManifest,
   start: Tables,
   changes: readonly RecordedChange[],
+  score: StatusScore | null,
 ): Uint8Array<ArrayBuffer> {
   if (flight.step < 2) throw new Refusal(page.texts.empty);
   const steps = flight.lost ? flight.step : flight.step - 1;
@@ -38,7 +40,14 @@ export function recordedFlight(
     "engine.npy": npyOfText(page.engine),
   });
   const text = strToU8(missionText(name, steps, page, start, changes));
-  return zip({ [page.files.mission]: text, [page.files.hand]: hand, [LAST]: npy(flight.sample, "<f8") });
+  const files = { [page.files.mission]: text, [page.files.hand]: hand, [LAST]: npy(flight.sample, "<f8") };
+  return zip({ ...files, ...(score && scoreFile(score, page.files.score)) });
+}
+
+/** The score of a run that is ranked, as `tandemlift score` reads it; no file of one that is not. */
+function scoreFile({ finished, refused, time, touches, effort, jerk, score }: StatusScore, name: string): Files {
+  if (!finished || refused) return {};
+  return { [name]: strToU8(JSON.stringify({ time, touches, effort, jerk, score }, null, 1)) };
 }
 
 function missionText(

@@ -34,6 +34,7 @@ export interface SavedFile {
 export class Session {
   readonly pacer: Pacer;
   private ghost: FlownMission | null = null;
+  private begun = 0; // ghosts
   private swaps = 0;
   private hand!: HandControl;
   private failed = false;
@@ -68,9 +69,10 @@ export class Session {
   }
 
   get scene(): FlownScene {
-    const { own, ghost, swaps } = this;
-    const along = ghost && { mission: ghost.scene.mission, parameters: ghost.parameters.parameters, swaps };
-    return { ...own.scene, ...(along && { ghost: along }) };
+    const { own, ghost, begun, swaps } = this;
+    if (!ghost) return own.scene;
+    const { mission, controller, parameters } = ghost.scene;
+    return { ...own.scene, ghost: { mission, controller, parameters, begun, swaps } };
   }
 
   /** The latest frame, and that of the ghost after it. */
@@ -146,7 +148,7 @@ export class Session {
   /** Keeps the flight as it is as the ghost, changes places with the ghost, or lets it go. */
   compare(what: Exclude<Comparing, "fly">): void {
     const { own, ghost } = this;
-    if (what === "keep") this.ghost = own.twin();
+    if (what === "keep") this.begin(own.twin());
     if (what === "end") this.ghost = null;
     if (what === "swap" && ghost) {
       this.hand.open();
@@ -164,8 +166,13 @@ export class Session {
     const reason = (what: string): string => `${ghost.scene.mission}: has ${what} than ${this.own.scene.mission}`;
     if (!same(vehicle, this.own.scene.vehicle)) throw new Refusal(reason("another vehicle"));
     if (step !== this.own.scene.step) throw new Refusal(reason("longer or shorter steps"));
-    this.ghost = ghost;
+    this.begin(ghost);
     this.reset();
+  }
+
+  private begin(ghost: FlownMission): void {
+    this.ghost = ghost;
+    this.begun += 1;
   }
 
   private handlersOf(): Handlers {

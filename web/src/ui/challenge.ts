@@ -11,7 +11,7 @@ import { keep, kept, keptData } from "./storage.ts";
 const KEPT_AS = "tandemlift.challenge";
 const EVERY = 0.1; // s between the poses that are kept of a run
 const PARTS = { time: "s", touches: "", effort: "N s", jerk: "", score: "s" } as const;
-const RULE = "Fly from your first push to the end of the corridor. The lowest score wins: seconds, 5 a touch, 1 for 5 N s, 1 a unit of jerk.";
+const RULE = "Fly from your first push to the end of the corridor. The lowest score wins: seconds, 5 a touch, 1 for 5 N s, 1 a unit of jerk. The hand moves level.";
 const POSE = 7; // numbers of a pose
 
 interface Run {
@@ -25,6 +25,7 @@ export class Challenge {
   private readonly parts = new Map<keyof typeof PARTS, HTMLElement>();
   private readonly note = el("p", {}, RULE);
   private readonly actions: HTMLElement;
+  private readonly handIn: HTMLElement;
   private on = kept(KEPT_AS) === "on";
   private scene: FlightScene | null = null;
   private score: StatusScore | null = null;
@@ -37,6 +38,7 @@ export class Challenge {
   constructor(
     save: (name: string) => void,
     again: () => void,
+    private readonly challenged: (on: boolean) => void,
   ) {
     this.button = button("flag", "Challenge", "Score a flight through the corridor", () => {
       this.show(!this.on);
@@ -47,8 +49,8 @@ export class Challenge {
       this.parts.set(name, value);
       return el("div", { class: name }, el("dt", {}, name), value);
     });
-    const hand = button("save", "Save to hand in", "", () => save(timedName(`${this.scene!.mission}-${this.score!.score.toFixed(1)}s`)), "go");
-    this.actions = el("div", { hidden: true }, hand, button("reset", "Try again", "", again));
+    this.handIn = button("save", "Save to hand in", "", () => save(timedName(`${this.scene!.mission}-${this.score!.score.toFixed(1)}s`)), "go");
+    this.actions = el("div", { hidden: true }, this.handIn, button("reset", "New run", "Begin the flight again", again));
     this.element.append(el("div", { class: "strip" }, el("dl", {}, ...cells), this.note, this.actions));
   }
 
@@ -72,23 +74,25 @@ export class Challenge {
     if (time < this.time - 1e-4) this.restart();
     this.time = time;
     if (Number.isNaN(this.start) && frame.vector("push").some((part) => part !== 0)) this.start = time;
-    if (this.score?.finished || !(time >= this.start + (EVERY * this.poses.length) / POSE)) return;
+    if (this.score?.finished || this.score?.refused || !(time >= this.start + (EVERY * this.poses.length) / POSE)) return;
     this.poses.push(...[...frame.vector("position"), ...frame.attitude].map((value) => Math.round(1e3 * value) / 1e3));
   }
 
-  status({ score }: StatusMessage): void {
+  status(status: StatusMessage): void {
+    const score = this.score?.refused ? this.score : status.score; // what is not ranked stands still
     const ended = score?.finished && !this.score?.finished;
     this.score = score ?? null;
     if (score) this.start = score.start;
     if (ended) this.end(score);
-    this.actions.hidden = !score?.finished || score.refused !== "";
+    this.actions.hidden = !score?.finished && !score?.refused;
+    this.handIn.hidden = !score?.finished || score.refused !== "";
   }
 
   /** With each picture: the clock; what was measured changes with the status. */
   tick(): void {
     if (this.element.hidden) return;
     const { score } = this;
-    const running = score?.finished ? score.time : this.time - this.start;
+    const running = score?.finished || score?.refused ? score.time : this.time - this.start;
     for (const [name, value] of this.parts) {
       const number = name === "time" ? running : score?.[name];
       const text = number === undefined || Number.isNaN(number) ? "\u2013" : number.toFixed(name === "touches" ? 0 : 1);
@@ -119,7 +123,7 @@ export class Challenge {
 
   private remark(): string {
     const { score, best } = this;
-    if (score?.refused) return `Not ranked: ${score.refused}. Reset, and try again.`;
+    if (score?.refused) return `Not ranked: ${score.refused}.`;
     const changed = [...this.altered].filter(([, on]) => on).map(([key]) => key);
     const settings = changed.length ? ` Changed settings count only if they are free: ${changed.join(", ")}.` : "";
     if (score?.finished) return score.score <= (best?.score ?? Infinity) ? `Your best run.${settings}` : `Your best: ${best!.score.toFixed(1)} s.${settings}`;
@@ -141,5 +145,6 @@ export class Challenge {
     this.on = on;
     this.button.setAttribute("aria-pressed", String(on));
     this.element.hidden = !on || !this.scene?.corridor;
+    this.challenged(!this.element.hidden);
   }
 }

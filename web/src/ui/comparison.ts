@@ -43,10 +43,11 @@ export class Comparison {
   }
 
   /** Says what differs; `scene`: with the settings as they are now. */
-  show({ mission, parameters, ghost }: FlownScene): void {
+  show({ mission, controller, parameters, ghost }: FlownScene): void {
     this.element.hidden = !ghost;
     if (!ghost) return;
-    const other = ghost.mission === mission ? "" : `Ghost: ${ghost.mission}, now: ${mission}. `;
+    const name = (one: { mission: string; controller: string }): string => `${one.mission} (${one.controller})`;
+    const other = ghost.mission === mission ? "" : `Ghost: ${name(ghost)}, now: ${name({ mission, controller })}. `;
     this.text.textContent = other + differences(ghost.parameters, parameters) || SAME;
   }
 }

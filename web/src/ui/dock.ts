@@ -126,7 +126,9 @@ export class Dock {
 
   private request(what: "lift" | "land", title: string, kind?: string): HTMLButtonElement {
     const ask = (): void => this.ask(what);
-    return button(what, what === "lift" ? "Lift" : "Land", title, ask, kind);
+    const one = button(what, what === "lift" ? "Lift" : "Land", title, ask, kind);
+    this.note.listen(one, what);
+    return one;
   }
 
   private speedChoice(): HTMLSelectElement {
@@ -144,7 +146,7 @@ export class Dock {
   }
 }
 
-/** A button of a request that would be refused is pale and says why; it can be pressed all the same. */
+/** A button of a request that would be refused is pale and described by the reason; it can be pressed all the same. */
 function mark(element: HTMLButtonElement, reason: string, title: string): void {
   element.classList.toggle("refused", reason !== "");
   if (element.title !== (reason || title)) element.title = reason || title;

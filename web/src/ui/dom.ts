@@ -59,6 +59,11 @@ export function choice<T extends string>(
   return el("div", { class: "choice", role: "group", "aria-label": name }, ...buttons);
 }
 
+/** Shows another value of a `choice` as the chosen one, by its place. */
+export function showChosen(group: HTMLElement, place: number): void {
+  [...group.children].forEach((one, i) => one.setAttribute("aria-pressed", String(i === place)));
+}
+
 export function toggle(text: string, on: boolean, act: (on: boolean) => void): HTMLElement {
   const input = el("input", { type: "checkbox", checked: on });
   input.addEventListener("change", () => act(input.checked));

@@ -5,19 +5,28 @@ import { choice, el } from "./dom.ts";
 
 const MIN_FORCE = 0.1; // N
 
+const PLANES = { facing: "facing me", level: "level" };
+
 /** The force of the keys, which the mission's hand limits. */
 export interface LimitedForce {
   limit(newtons: number): void;
 }
 
-export function handRows(options: HandOptions, maxForce: number): { rows: HTMLElement[]; force: LimitedForce } {
+/** The rows, the force of the keys, and the choice of a plane. */
+export interface HandRows {
+  rows: HTMLElement[];
+  force: LimitedForce;
+  planes: HTMLElement;
+}
+
+export function handRows(options: HandOptions, maxForce: number): HandRows {
   const { input, force } = forceInput(options);
   force.limit(maxForce);
   const pull = choice("Where the hand pulls", { point: "at the point", centre: "centre of mass" }, options.at, (at) => {
     options.at = at;
   });
-  const planes = choice("Plane of the hand", { facing: "facing me", level: "level" }, options.plane, (plane) => {
-    options.plane = plane;
+  const planes = choice("Plane of the hand", PLANES, options.plane, (plane) => {
+    [options.plane, options.planeChosen] = [plane, true];
   });
   const ways = { view: "as seen", world: "world axes" };
   const directions = choice("Directions of the keys", ways, options.directions, (value) => {
@@ -29,7 +38,7 @@ export function handRows(options: HandOptions, maxForce: number): { rows: HTMLEl
     row("Key force", el("label", { class: "newtons", for: "key-force" }, input, "N")),
     row("Keys push", directions),
   ];
-  return { rows, force };
+  return { rows, force, planes };
 }
 
 function forceInput(options: HandOptions): { input: HTMLInputElement; force: LimitedForce } {

@@ -22,6 +22,7 @@ const FINGERS_PLOTS: Line = [
   "Plots: tap \u00b7 two fingers \u00b7 double tap",
   "values there \u00b7 zoom in time \u00b7 the last 20 s again",
 ];
+const FINGERS_REWIND: Line = ["Rewind, below the picture", "fly again to the chosen moment, and try again from there"];
 const KEYS: Line[] = [
   ["Arrows or W A S D", "push level; the force is set under Settings \u2192 hand"],
   ["E, Q or Page Up, Page Down", "push up, down"],
@@ -41,16 +42,19 @@ const LEGEND: [string, string, string][] = [
   ["hand", "violet hoop", "the admittance's threshold: a push whose arrow does not pass it moves nothing"],
   ["hand", "violet box and spring", "the hand; inside the box a pull is below the threshold and moves nothing"],
   ["thrust", "green to red arrows", "thrust of each rotor; red is near its maximum"],
+  ["front", "thrusts: front", "rotors ahead of the middle of their quadrotor, left or right: towards +x, a shade for each"],
+  ["rear", "thrusts: rear", "rotors behind the middle of their quadrotor"],
   ["path", "blue shape and line", "the reference, where the vehicle is off it; the path flown"],
   ["wind", "light blue arrow", "the wind"],
 ];
 
-/** What a person can do, gestures first: of fingers where they are what the page is used with, else of a mouse. */
+/** What a person can do, gestures first: of fingers where they are what the page is used with, else of a mouse; keys. */
 export function helpLines(replay: boolean, touch: boolean): Line[] {
   const pull = touch ? FINGERS : MOUSE;
   const look = touch ? [FINGERS_VIEW, FINGERS_PLOTS] : [MOUSE_VIEW, MOUSE_PLOTS];
-  const own = replay ? [...look, ...REPLAY_KEYS] : [...pull, ...look, ...KEYS];
-  return [...own, VIEW_KEYS, LECTURE_KEY];
+  const own = replay ? look : [...pull, ...look];
+  if (touch) return replay ? own : [...own, FINGERS_REWIND];
+  return [...own, ...(replay ? REPLAY_KEYS : KEYS), VIEW_KEYS, LECTURE_KEY];
 }
 
 export function helpDialog(replay: boolean): HTMLDialogElement {

@@ -1,7 +1,7 @@
 // The flight so far, in columns for the plots.
 
 import type { Frame } from "../wire/frames.ts";
-import type { FlightScene, FrameFieldName } from "../wire/messages.generated.ts";
+import type { FrameFieldName } from "../wire/messages.generated.ts";
 import type { FlownScene } from "../wire/source.ts";
 import type { Stretch } from "./time_window.ts";
 
@@ -15,7 +15,7 @@ export class History {
   private length = 0;
   private shown: Stretch = [0, 0]; // of indices
 
-  constructor(private readonly scene: FlightScene) {
+  constructor(private scene: FlownScene) {
     const vectors = ["push", "pilot_push", "position", "reference", "disturbance"];
     const rotors = scene.vehicle.quadrotors.flatMap((q) => q.rotors).length;
     const names = [
@@ -28,19 +28,17 @@ export class History {
     }
   }
 
-  /** Whether frames of a scene continue this flight. */
-  continues(scene: FlightScene): boolean {
-    return scene.mission === this.scene.mission && String(scene.fields) === String(this.scene.fields);
-  }
-
-  /** A ghost begins, or has changed places with the flight. */
-  ghost(before: FlownScene["ghost"], now: FlownScene["ghost"]): void {
-    const swapped = before && now && before.swaps !== now.swaps;
-    for (const [name, column] of [...this.columns].filter(([one]) => one.startsWith(GHOST))) {
-      const own = name.slice(GHOST.length);
-      if (swapped) this.columns.set(name, this.columns.get(own)!).set(own, column);
-      else if (!before) column.fill(NaN);
-    }
+  /** Takes a scene whose frames continue this flight, or one that its ghost flew until now; else false. */
+  continue(scene: FlownScene): boolean {
+    const { ghost: before } = this.scene;
+    const begins = scene.ghost?.begun !== before?.begun;
+    const swapped = !begins && scene.ghost?.swaps !== before?.swaps;
+    const known = swapped || scene.mission === this.scene.mission;
+    if (!known || String(scene.fields) !== String(this.scene.fields)) return false;
+    this.scene = scene;
+    if (scene.ghost && begins) this.copyGhost();
+    if (swapped) this.swapGhost();
+    return true;
   }
 
   /** First and last time [s]. */
@@ -70,6 +68,24 @@ export class History {
 
   column(name: string): Float64Array {
     return this.columns.get(name)!.subarray(...this.shown);
+  }
+
+  /** A ghost begins, which has flown as the flight has. */
+  private copyGhost(): void {
+    for (const name of this.ghosts()) this.columns.set(name, this.columns.get(name.slice(GHOST.length))!.slice());
+  }
+
+  private swapGhost(): void {
+    for (const name of this.ghosts()) {
+      const own = name.slice(GHOST.length);
+      const column = this.columns.get(name)!;
+      this.columns.set(name, this.columns.get(own)!).set(own, column);
+    }
+  }
+
+  /** The names of a ghost's columns. */
+  private ghosts(): string[] {
+    return [...this.columns.keys()].filter((name) => name.startsWith(GHOST));
   }
 
   /** The first sample that is not before a time. */

@@ -53,7 +53,7 @@ export class Laboratory {
       this.window.follow();
       this.choose(null);
     });
-    const again = button("rewind", "Try again", REWIND, () => this.rewind());
+    const again = button("rewind", "Rewind", REWIND, () => this.rewind());
     if (!page.replay) byId("time").replaceChildren(this.clock, this.timeline.element, this.back, again);
   }
 
@@ -65,8 +65,7 @@ export class Laboratory {
   /** Plots of what was flown: of the whole of a replay, else what frames show from now on. */
   show(scene: FlownScene): void {
     const { replay, graphics } = this.page;
-    if (!this.history?.continues(scene)) [this.history, this.marks] = [new History(scene), new Marks()];
-    this.history.ghost(this.scene?.ghost, scene.ghost);
+    if (!this.history?.continue(scene)) [this.history, this.marks] = [new History(scene), new Marks()];
     this.scene = scene;
     if (replay) for (const frame of replay.frames()) this.keep(frame);
     this.marks.findings(scene.replay?.findings ?? []);

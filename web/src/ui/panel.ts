@@ -9,7 +9,7 @@ import {
   type ParameterValue,
   type SceneParameter,
 } from "../wire/messages.generated.ts";
-import { choice, el, icon } from "./dom.ts";
+import { choice, el, icon, showChosen } from "./dom.ts";
 import { handRows, type LimitedForce, row } from "./hand_rows.ts";
 import { ParameterEditor } from "./parameter_editor.ts";
 import { RotorMap } from "./rotor_map.ts";
@@ -30,6 +30,7 @@ export class Panel {
   private rotors: RotorMap | null = null;
   private open: Record<string, boolean> = {};
   private force: LimitedForce | null = null;
+  private planes: HTMLElement | null = null;
   private initial: { mission: string; values: Map<string, ParameterValue> } = { mission: "", values: new Map() };
 
   constructor(
@@ -60,6 +61,14 @@ export class Panel {
       this.group("picture", this.picture(), !live),
       ...this.page.extra,
     );
+  }
+
+  /** A challenge is flown, or no longer: the hand moves in the plane for it, unless the person has chosen one. */
+  challenged(on: boolean): void {
+    const { hand } = this.page;
+    if (hand.planeChosen) return;
+    hand.plane = on ? "level" : "facing";
+    if (this.planes) showChosen(this.planes, on ? 1 : 0);
   }
 
   showThrusts(values: Float32Array): void {
@@ -98,8 +107,8 @@ export class Panel {
   }
 
   private hand(scene: FlightScene): HTMLElement[] {
-    const { rows, force } = handRows(this.page.hand, scene.spring.max_force);
-    this.force = force;
+    const { rows, force, planes } = handRows(this.page.hand, scene.spring.max_force);
+    [this.force, this.planes] = [force, planes];
     return rows;
   }
 

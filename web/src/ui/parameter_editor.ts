@@ -1,8 +1,8 @@
 // One parameter in the panel: sliders and numbers per axis, a choice, or a switch; a button restores its value.
 
-import type { PageMessage, ParameterValue, SceneParameter } from "../wire/messages.generated.ts";
+import { type PageMessage, type ParameterValue, type SceneParameter, THRESHOLD } from "../wire/messages.generated.ts";
 import { same } from "../wire/parameters.ts";
-import { el, icon } from "./dom.ts";
+import { el, icon, toggle } from "./dom.ts";
 import { SliderScale, formatNumber } from "./numbers.ts";
 
 const AXES: Partial<Record<number, string[]>> = {
@@ -10,6 +10,10 @@ const AXES: Partial<Record<number, string[]>> = {
   4: ["x", "y", "z", "yaw"],
   6: ["x", "y", "z", "roll", "pitch", "yaw"],
 };
+
+const LOCKED: readonly string[] = ["admittance.mass", "admittance.damping", THRESHOLD]; // may be the same on x, y, z
+
+const ALIKE = new Set<string>(); // of them, those that a person wants so; a reset keeps it
 
 const ANSWER_WITHIN = 2000; // ms
 
@@ -37,7 +41,8 @@ export class ParameterEditor {
     const back = el("button", { type: "button", class: "back", title: "Restore the mission's value" }, icon("back"));
     back.addEventListener("click", () => send({ type: "restore", key: parameter.key }));
     const unit = el("small", {}, parameter.unit ?? "");
-    const name = el("div", { class: "name", title: parameter.key }, el("span", {}, parameter.label), unit, back);
+    const name = el("div", { class: "name", title: parameter.key }, el("span", {}, parameter.label), unit);
+    name.append(...(LOCKED.includes(parameter.key) ? [this.lock()] : []), back);
     this.fields = this.makeFields();
     const body = el("div", { class: "fields" }, ...this.fields.map(({ row }) => row));
     this.element = el("div", { class: "parameter", "data-key": parameter.key }, name, body, this.reason);
@@ -76,6 +81,17 @@ export class ParameterEditor {
     const parts = [value].flat() as number[];
     const names = AXES[parts.length] ?? parts.map((_, i) => String(i + 1));
     return parts.map((_, i) => this.number(i, parts.length > 1 ? names[i] : ""));
+  }
+
+  /** A switch that keeps x, y and z the same, from that of x on. */
+  private lock(): HTMLElement {
+    const { key } = this.parameter;
+    return toggle("x = y = z", ALIKE.has(key), (on) => {
+      if (on) ALIKE.add(key);
+      else ALIKE.delete(key);
+      const [x, ...others] = [this.value].flat() as number[];
+      if (on && others.slice(0, 2).some((one) => one !== x)) this.enter(0, x);
+    });
   }
 
   private select(choices: string[]): Field {
@@ -119,7 +135,9 @@ export class ParameterEditor {
 
   private enter(i: number, value: number): void {
     const now = this.asked ?? this.value;
-    this.asked = Array.isArray(now) ? (now as number[]).map((v, k) => (k === i ? value : v)) : value;
+    const alike = ALIKE.has(this.parameter.key) && i < 3; // the fourth number is of the yaw
+    const takes = (k: number): boolean => k === i || (alike && k < 3);
+    this.asked = Array.isArray(now) ? (now as number[]).map((v, k) => (takes(k) ? value : v)) : value;
     this.askedAt = performance.now();
     this.set(this.asked);
   }

@@ -13,6 +13,7 @@ export interface Curve {
   name: string; // in the list of values
   color: ColorName;
   label?: string; // in the legend
+  about?: string; // of a label that needs more words
   dash?: number[];
   width?: number;
   alpha?: number;
@@ -106,7 +107,7 @@ export function key(curve: Curve, text: string): HTMLElement {
   const mark = el(named ? "i" : "b", { class: curve.dash ? "dashed" : curve.name ? "" : "flight" }, named ? "" : text);
   mark.style.color = `var(${curve.color})`;
   if (curve.alpha) Object.assign(mark.style, { borderTopWidth: `${curve.width}px`, opacity: curve.alpha });
-  return el("span", {}, mark, named ? text : "");
+  return el("span", { title: curve.about }, mark, named ? text : "");
 }
 
 function options(look: PlotOptions): uPlot.Options {

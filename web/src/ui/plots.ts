@@ -128,8 +128,8 @@ export class Plots {
     };
     const labelled = curves.map((c, i) => ({
       ...c,
-      ...(i === 0 && { label: "front" }),
-      ...(i === 1 && { label: "rear" }),
+      ...(i === 0 && { label: "front", about: "Rotors ahead of the middle of their quadrotor, left or right" }),
+      ...(i === 1 && { label: "rear", about: "Rotors behind the middle of their quadrotor, left or right" }),
     }));
     const look = { title: "Thrusts", unit: "N", curves: labelled, least: 4, fromZero: true, under, rows: 4 };
     return this.plot(look, (of) => curves.map((_, i) => of(`thrusts${i}`)));

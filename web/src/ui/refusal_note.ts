@@ -1,6 +1,6 @@
-// Above the buttons: why those are grey that would be refused; set off once a person has asked all the same.
+// Above the buttons: why one would be refused, while a person points at it, and after it was pressed all the same.
 
-import type { StatusMessage } from "../wire/messages.generated.ts";
+import type { StatusRefusals } from "../wire/messages.generated.ts";
 import { el } from "./dom.ts";
 
 const SHOWN_FOR = 10_000; // ms after a request, at most
@@ -10,21 +10,33 @@ type Request = "lift" | "land";
 export class RefusalNote {
   private readonly text = el("p", { id: "refusal", hidden: true });
   readonly element = el("div", { class: "refusal-row" }, this.text);
+  private refusals: Record<Request, string> = { lift: "", land: "" };
+  private pointed: Request | null = null;
   private asked: Request = "lift";
   private until = 0; // ms
-  private dismissed = "";
 
   constructor() {
     this.text.addEventListener("click", () => {
-      this.dismissed = this.text.textContent;
-      this.show("", false);
       this.until = 0;
+      this.show("", false);
     });
+  }
+
+  /** Says why a request would be refused while a mouse, or the focus of keys, is at its button. */
+  listen(element: HTMLElement, what: Request): void {
+    const point = (at: boolean): void => {
+      this.pointed = at ? what : null;
+      this.update();
+    };
+    // a finger that has tapped would stay there: its press says the reason
+    element.addEventListener("pointerenter", ({ pointerType }) => point(pointerType === "mouse"));
+    element.addEventListener("focus", () => point(element.matches(":focus-visible")));
+    for (const name of ["pointerleave", "blur"]) element.addEventListener(name, () => point(false));
   }
 
   /** A person has asked; a refusal may follow. */
   ask(what: Request): void {
-    [this.asked, this.until, this.dismissed] = [what, 0, ""];
+    [this.asked, this.until] = [what, 0];
     this.show("", false);
   }
 
@@ -33,26 +45,23 @@ export class RefusalNote {
     this.show(reason, true);
   }
 
-  /** Shows the reasons as they are now; one that keeps a vehicle on the ground as if a person had asked. */
-  status({ refusals, phase }: StatusMessage): void {
-    const asked = performance.now() < this.until ? refusals[this.asked] : "";
-    const reason = asked || (phase === "idle" ? refusals.lift : "");
-    this.show(reason || greyFor(refusals.lift, refusals.land), reason !== "");
+  /** Takes the reasons as they are now. */
+  status({ refusals }: { refusals: Pick<StatusRefusals, Request> }): void {
+    this.refusals = refusals;
+    this.update();
+  }
+
+  private update(): void {
+    const asked = performance.now() < this.until ? this.refusals[this.asked] : "";
+    this.show(asked || (this.pointed ? this.refusals[this.pointed] : ""), asked !== "");
   }
 
   private show(text: string, asked: boolean): void {
     const { classList } = this.text;
     if (this.text.textContent !== text) this.text.textContent = text;
-    this.text.hidden = text === "" || text === this.dismissed;
+    this.text.hidden = text === "";
     if (classList.contains("asked") === asked) return;
     classList.toggle("asked", asked);
     this.text.role = asked ? "alert" : null;
   }
-}
-
-/** Why buttons are grey: a reason that both have, once. */
-export function greyFor(lift: string, land: string): string {
-  const reason = (sentence: string): string => sentence.slice(sentence.indexOf(":"));
-  if (reason(lift) === reason(land)) return lift;
-  return [lift, land].filter((sentence) => sentence !== "").join(" ");
 }

@@ -37,7 +37,7 @@ import { VideoRecorder } from "./video_recorder.ts";
 const TEXT_EVERY = 200; // ms
 const VIEWS: Record<View, string> = { behind: "behind", side: "side", above: "above", board: "on board" };
 const NARROW = 900; // pixels: below it the panel starts closed
-const LOW = 380; // pixels of height: below it the plots start closed
+const LOW = 450; // pixels of height: below it the plots start closed
 
 /** What the shell needs of the page. */
 export interface ShellPage {
@@ -96,7 +96,7 @@ export class Shell {
       choose: () => this.missions.choose(),
       tell: (title, reason) => this.question.tell(title, reason),
     });
-    this.bar = new StatusBar(page.replay !== null);
+    this.bar = new StatusBar(page.replay !== null, page.companions !== undefined);
     this.undo = new Undo(page.send.bind(page));
     this.comparison = new Comparison(page.compare);
     this.panel = new Panel(byId("panel"), page, this.undo.element);
@@ -109,7 +109,7 @@ export class Shell {
     this.senses = new SensesOfFlight(page.shown);
     this.show = new ShowMenu(page.shown, (on) => (page.camera.following = on));
     this.makeViews();
-    this.challenge = new Challenge((name) => this.saving.open(name), () => page.send({ type: "reset" }));
+    this.challenge = new Challenge((name) => this.saving.open(name), () => page.send({ type: "reset" }), (on) => this.panel.challenged(on));
     if (!page.replay) this.makeDock();
     this.ended = new EndedCard(() => page.send({ type: "reset" }));
     window.addEventListener("keydown", this.key);

@@ -12,8 +12,10 @@ export class StatusBar {
   private readonly values = new Map<string, HTMLElement>();
   private readonly badge = byId("mode");
 
-  constructor(replay: boolean) {
-    const live = replay ? ["time"] : ["time", "speed", "latency", "held by", "viewers", "recorded"];
+  /** `alone`: no other page can watch or hold this flight. */
+  constructor(replay: boolean, alone: boolean) {
+    const shared = alone ? [] : ["held by", "viewers"];
+    const live = replay ? ["time"] : ["time", "speed", "latency", ...shared, "recorded"];
     const meters = [...live, "pictures"].map((name) => {
       const value = el("dd", {}, "\u2013");
       this.values.set(name, value);
@@ -22,8 +24,9 @@ export class StatusBar {
     byId("meters").replaceChildren(...meters);
   }
 
-  scene({ mission, engine, version }: FlightScene): void {
+  scene({ mission, controller, engine, version }: FlightScene): void {
     byId("mission").textContent = mission;
+    byId("controller").textContent = controller;
     byId("mission").title = `engine ${engine}, version ${version}`;
     document.title = `${mission} \u00b7 tandemlift`;
   }

@@ -13,6 +13,7 @@ const PLACES: Record<Exclude<View, "board">, [number, number, number]> = {
   side: [0.2, -3.1, 0.75],
   above: [-0.02, 0, 4],
 };
+const FAR = 2.4; // times as high, above a corridor
 const SLACK = 0.16; // of the distance: while a hand pulls, the camera stands still up to this offset
 const BANDWIDTH = 6; // 1/s, of following
 const ANGLE = 42; // deg, of the picture's height; on board wider
@@ -38,13 +39,14 @@ export class ChaseCamera {
     this.orbit.zoomSpeed = 0.8;
   }
 
-  /** Places the camera for a vehicle of a reach [m]. */
-  look(view: Exclude<View, "board">, vehicle: Vector3, reach: number): void {
+  /** Places the camera for a vehicle of a reach [m]; `far`: above, to see where a corridor leads. */
+  look(view: Exclude<View, "board">, vehicle: Vector3, reach: number, far = false): void {
     this.leave();
     this.vehicle.copy(vehicle);
     this.fitted = this.fit;
     this.orbit.target.copy(vehicle);
-    this.camera.position.copy(vehicle).addScaledVector(new Vector3(...PLACES[view]), reach * this.fitted);
+    const distance = reach * this.fitted * (far && view === "above" ? FAR : 1);
+    this.camera.position.copy(vehicle).addScaledVector(new Vector3(...PLACES[view]), distance);
     this.orbit.update();
   }
 

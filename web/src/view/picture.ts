@@ -12,7 +12,7 @@ import { Label } from "./labels.ts";
 import { Mark } from "./mark.ts";
 import { palette } from "./palette.ts";
 import { Person } from "./person.ts";
-import { PushMark, thresholdAlong } from "./push.ts";
+import { PushMark, pushText } from "./push.ts";
 import { FlatShadow } from "./shadow.ts";
 import type { Stage } from "./stage.ts";
 import { Plumb, Trails } from "./trail.ts";
@@ -186,13 +186,6 @@ export class Picture {
     if (this.stiffness <= 0) return null;
     return new Vector3(...this.threshold).divideScalar(this.stiffness).clampScalar(0.003, 2);
   }
-}
-
-/** Its strength, and the threshold that it does not reach. */
-function pushText(push: Vector, threshold: Vector): string {
-  const [strength, limit] = [size(push), thresholdAlong(push, threshold)];
-  const value = strength.toFixed(strength < 1 ? 2 : 1);
-  return strength > limit ? `${value} N` : `${value} of ${limit.toFixed(limit < 1 ? 2 : 1)} N`;
 }
 
 function reachOf(scene: FlightScene): number {

@@ -20,6 +20,16 @@ export function thresholdAlong(push: Vector, threshold: Vector): number {
   return size(push) * Math.min(...shares);
 }
 
+/** A push in words; below the threshold, its part along the axis that is nearest to its threshold, and that threshold. */
+export function pushText(push: Vector, threshold: Vector): string {
+  const digits = (value: number): string => value.toFixed(value < 1 ? 2 : 1);
+  const shares = push.map((part, i) => Math.abs(part) / threshold[i]);
+  const most = Math.max(...shares);
+  if (most > 1) return `${digits(size(push))} N`;
+  const axis = shares.indexOf(most);
+  return `${digits(Math.abs(push[axis]))} of ${digits(threshold[axis])} N along ${"xyz"[axis]}`;
+}
+
 /** A part of a ring whose triangles follow one another along it, so that the first of them are a shorter part. */
 function growingRing(): TorusGeometry {
   const shape = new TorusGeometry(RADIUS, THICK, SIDES, PIECES, MOST);

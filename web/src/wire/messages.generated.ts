@@ -64,7 +64,7 @@ export const LIMITS = {
 /** A part of the vehicle as drawn. */
 export interface SceneShape {
   kind: "box" | "sphere" | "cylinder" | "hull";
-  size: readonly number[]; // edges of a box, radius of a sphere or cylinder and its length, corners of triangles, m
+  size: readonly number[]; // edges of a box; radius of a sphere, and length of a cylinder; triangles' corners, m
   position: Vector; // of its centre; m, body axes
   axes: readonly number[]; // columns of its rotation to body axes (9); a cylinder lies along its z
   color: string; // #rrggbb
@@ -178,6 +178,7 @@ export interface SceneReplay {
 /** Everything about a flight that does not change from frame to frame. */
 export interface FlightScene {
   mission: string; // name of the mission
+  controller: string; // its name
   engine: string; // where the body is simulated
   version: string; // of tandemlift
   step: number; // of the simulation; s

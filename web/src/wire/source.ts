@@ -14,9 +14,18 @@ import type {
 export type Comparing = "keep" | "fly" | "swap" | "end";
 export type Compare = (what: Comparing, mission?: string) => void;
 
+/** The ghost of a scene: what it flies, and the numbers of ghosts begun and of changes of places so far. */
+export interface SceneGhost {
+  mission: string;
+  controller: string;
+  parameters: SceneParameter[];
+  begun: number;
+  swaps: number;
+}
+
 /** A scene in which a ghost may fly along under the same hand. */
 export interface FlownScene extends FlightScene {
-  ghost?: { mission: string; parameters: SceneParameter[]; swaps: number }; // `swaps`: how often it has changed places
+  ghost?: SceneGhost;
 }
 
 /** A status with how the ghost has ended; empty while it flies. */

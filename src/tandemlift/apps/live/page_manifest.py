@@ -167,7 +167,7 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
         "texts": _texts(plan, rule),
         "rules": message_rules(),
         "save_name": name_rule()[0],
-        "files": {"mission": MISSION, "hand": HAND},
+        "files": {"mission": MISSION, "hand": HAND, "score": challenge.SCORE_FILE},
     }
 
 

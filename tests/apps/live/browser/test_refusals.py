@@ -16,16 +16,22 @@ def told(page, place):
     return page.text_content(place) if page.is_visible(place) else ""
 
 
-def test_a_lift_in_the_air_is_refused_beside_its_button_until_it_is_pressed_away(page, live):
-    until(lambda: "the vehicle is in the air already" in told(page, "#refusal"), "why the button is grey")
-    page.get_by_role("button", name="Lift").click()
+def test_a_lift_in_the_air_says_why_it_is_refused_where_one_points_at_it_and_when_it_is_pressed(page, live):
+    lift = page.get_by_role("button", name="Lift")
+    until(lambda: "the vehicle is in the air already" in lift.get_attribute("title"), "a reason for whoever asks")
+    assert not page.is_visible("#refusal")
+    lift.hover()
+    until(lambda: "the vehicle is in the air already" in told(page, "#refusal:not(.asked)"), "the reason")
+    page.hover("#views")
+    until(lambda: not page.is_visible("#refusal"), "no reason")
+    lift.click()
     until(lambda: "the vehicle is in the air already" in told(page, "#refusal.asked"), "a reason")
     button, note = page.locator("#dock button.refused").first.bounding_box(), page.locator("#refusal").bounding_box()
     assert note["y"] + note["height"] <= button["y"]
     assert button["y"] - note["y"] < 120.0
     assert page.text_content("#notices") == ""
     page.click("#refusal")
-    assert not page.is_visible("#refusal")
+    until(lambda: not page.is_visible("#refusal"), "no reason")
 
 
 def test_a_push_that_is_not_followed_says_so_at_the_hand(page, live):

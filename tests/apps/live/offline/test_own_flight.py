@@ -19,7 +19,7 @@ from tandemlift.apps.live import page_modules, pages
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.page_manifest import page_manifest
 from tandemlift.apps.live.page_modules import packed_mission, page_mission
-from tandemlift.apps.live.session.challenge import score_of
+from tandemlift.apps.live.session.challenge import score_of, write_score
 from tandemlift.core.files import DATA
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation.traced_assembly import trace_assembly
@@ -295,6 +295,8 @@ def test_a_flight_through_a_corridor_has_the_score_of_its_saved_file(tmp_path):
     flight = OwnFlight(packed_mission(page_mission("hover", GUIDED | corridor), "a corridor"))
     flight.fly(6.0)
     assert "score" not in flight.status()
+    flight.saved(tmp_path / "early")
+    assert not (tmp_path / "early" / "score.json").exists()
     for force, seconds in (([1.0, 1.4, 0.0], 3.0), ([-0.5, -1.0, 0.0], 1.5), ([2.0, 0.0, 0.0], 4.0)):
         flight.say("force", force=force, point=[0.0, 0.0, 0.0])
         flight.fly(seconds)
@@ -307,3 +309,6 @@ def test_a_flight_through_a_corridor_has_the_score_of_its_saved_file(tmp_path):
     assert shown["touches"] == score.touches > 0
     got = [shown["time"], shown["effort"], shown["jerk"], shown["score"]]
     np.testing.assert_allclose(got, [score.time, score.effort, score.jerk, score.total], rtol=1e-9)
+    write_score(tl.fly(tl.load_mission(tmp_path / "recorded.toml")), tmp_path / "again")
+    handed_in, again = (json.loads((tmp_path / at / "score.json").read_text()) for at in (".", "again"))
+    assert handed_in == pytest.approx(again, rel=1e-9)  # the same keys, too

@@ -69,11 +69,17 @@ def test_an_own_mission_with_an_own_controller_flies_from_the_file_that_the_comm
     page = opened(browser, (tmp_path / "mine.html").as_uri())
     assert page.locator("#missions option").all_inner_texts() == ["mine"]
     until(lambda: seconds_flown(page) > 4.0, "a flight at its height")
+    assert page.inner_text("#controller") == "my-pd"
+    bandwidth = panel(page, "controller.bandwidth").locator("input[type=number]").first
+    bandwidth.fill("3")
+    bandwidth.press("Enter")
     pull_and_push(page)
     save(page, tmp_path)
     assert page.wrong == []
     page.close()
-    assert tl.load_mission(tmp_path / "recorded.toml").controller.name == "my-pd"
+    recorded = tl.load_mission(tmp_path / "recorded.toml")
+    assert recorded.controller.name == "my-pd"
+    assert [(change.key, change.value[0]) for change in recorded.changes] == [("controller.bandwidth", 3.0)]
     assert_flown_again_to_the_last_bit(tmp_path)
 
 

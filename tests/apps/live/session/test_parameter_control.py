@@ -51,6 +51,33 @@ def test_a_control_may_be_set_to_what_the_mission_says_though_it_is_beyond_its_b
     assert xi["max"] > BY_KEY["controller.gains.xi"].high
 
 
+OWN = """
+import tandemlift.parts.controllers as tc
+from tandemlift.core.keys import Fraction, Positive3, key
+
+class Settings(tc.CascadeTable):
+    bandwidth: Positive3 = key(2.0, "rad/s", "of the position loop")
+    share: Fraction = key(0.5, None, "of something")
+    shift: float = key(0.0, "m", "of something")
+    words: str = key("a", None, "no number")
+
+@tc.register("own-numbers", Settings)
+def start(settings, vehicle, step):
+    return tc.controller_model(settings, vehicle, step), tc.LEVEL
+"""
+
+
+def test_the_numbers_of_a_users_controller_are_settings_within_its_bounds_and_ten_times_their_value(tmp_path):
+    (tmp_path / "own.py").write_text(OWN)
+    tables = tables_of(tl.load_mission("hover", controller=str(tmp_path / "own.py")))
+    own = [one for one in parameters_of(tables, tables) if one["group"] == "controller" and "min" in one]
+    assert [(one["key"], one["unit"], one["min"], one["max"]) for one in own] == [
+        ("controller.bandwidth", "rad/s", 0.2, 20.0),
+        ("controller.share", "", 0.05, 1.0),
+        ("controller.shift", "m", -10.0, 10.0),
+    ]
+
+
 def test_a_rotor_that_cannot_fail_is_not_killed(session):
     with pytest.raises(tl.InputError, match="rotor = 3: the rotors of this mission cannot fail"):
         say(session, "kill", rotor=3)

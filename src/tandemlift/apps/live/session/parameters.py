@@ -37,6 +37,7 @@ from tandemlift.apps.live.session.server_messages import (
 from tandemlift.core.errors import InputError, shown
 from tandemlift.missions import Mission, built_in, tables_of
 from tandemlift.missions.changes import MISSING, Tables, place_of, value_at
+from tandemlift.missions.keys import own_numbers
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
@@ -75,6 +76,7 @@ TUNABLE = (
     TunableParameter("sensors.motion.position_noise", "position noise", "world", "m", 0.0, 0.05),
 )
 BY_KEY = {p.key: p for p in TUNABLE}
+FACTOR = 10.0  # by which a number of a user's controller may be changed
 CONTROLLER, GATE = "controller.name", "admittance.gate"
 LABELS = {CONTROLLER: "controller", GATE: "gate"}
 CHOICES = tuple(LABELS)
@@ -93,6 +95,19 @@ def value_of(tables: Tables, key: str) -> Any:
     return "hard" if key == GATE and value is MISSING else value
 
 
+def tunables_of(first: Tables) -> dict[str, TunableParameter]:
+    """The parameters by their keys; with the numbers of the first mission's controller, if it is a user's own."""
+    table, own = first["controller"], dict[str, TunableParameter]()
+    for key in own_numbers(table["name"]):
+        name = key.name.removeprefix("controller.")
+        numbers = table[name] if isinstance(table[name], list) else [table[name]]
+        high, least = FACTOR * (max(map(abs, numbers)) or 1.0), min(numbers)
+        low, unit = least / FACTOR if least > 0.0 else -high, key.facts.unit or ""
+        low, high = max(low, key.bounds.get("ge", low)), min(high, key.bounds.get("le", high))
+        own[key.name] = TunableParameter(key.name, name.replace("_", " "), "controller", unit, low, high)
+    return BY_KEY | own
+
+
 def bounds_of(parameter: TunableParameter, first: Tables) -> tuple[float, float]:
     """The bounds of a parameter, widened to hold the first mission's own value."""
     value = value_of(first, parameter.key)
@@ -102,7 +117,7 @@ def bounds_of(parameter: TunableParameter, first: Tables) -> tuple[float, float]
 
 def parameters_of(tables: Tables, first: Tables) -> Iterator[SceneParameter]:
     """The parameters of a mission as a scene has them; `first`: tables of the mission that they can be restored to."""
-    for p in TUNABLE:
+    for p in tunables_of(first).values():
         value = value_of(tables, p.key)
         if value is not MISSING and _is_tunable(tables, p.key):
             low, high = bounds_of(p, first)
@@ -121,6 +136,7 @@ def scene_at(scene: FlightScene, now: Mission, first: Mission) -> FlightScene:
     hand = now.person
     return {
         **scene,
+        "controller": now.controller.name,
         "threshold": list(now.admittance.threshold),
         "spring": SceneSpring(stiffness=hand.stiffness, damping=hand.damping, max_force=hand.max_force),
         "parameters": list(parameters_of(tables_of(now), tables_of(first))),
@@ -172,7 +188,7 @@ class ParameterControl:
     def restore(self, flight: RecordedFlight, key: str | None) -> list[Answer]:
         """Set a parameter, or all, back to the first mission; return messages, refusals among them."""
         answers: list[Answer] = []
-        for one in [*CHOICES, *BY_KEY] if key is None else [key]:
+        for one in [*CHOICES, *tunables_of(self.first)] if key is None else [key]:
             try:
                 answers += self._restore(flight, one)
             except InputError as error:
@@ -211,9 +227,9 @@ class ParameterControl:
         """Refuse an unknown key, or a value out of bounds."""
         if key in CHOICES:
             return
-        if key not in BY_KEY:
-            raise InputError(UNKNOWN.format(key=key, known=", ".join([*CHOICES, *BY_KEY])))
-        low, high = bounds_of(BY_KEY[key], self.first)
+        if key not in (known := tunables_of(self.first)):
+            raise InputError(UNKNOWN.format(key=key, known=", ".join([*CHOICES, *known])))
+        low, high = bounds_of(known[key], self.first)
         for number in value if isinstance(value, list) else [value]:
             if isinstance(number, bool) or not isinstance(number, (int, float)):
                 raise InputError(NO_NUMBER.format(key=key, value=shown(value)))

@@ -76,6 +76,7 @@ def scene_of_tables(tables: Mapping[str, Any], vehicle: Vehicle, engine: str, fl
     """The scene of a mission given as nested tables; `floor` [m] is the height of the floor, or of the level drawn."""
     return FlightScene(
         mission=tables["mission"]["name"],
+        controller=tables["controller"]["name"],
         engine=engine,
         version=__version__,
         step=tables["mission"]["step"],

@@ -42,9 +42,7 @@ class SceneShape(TypedDict):
     """A part of the vehicle as drawn."""
 
     kind: Literal["box", "sphere", "cylinder", "hull"]
-    size: Annotated[
-        list[float], "edges of a box, radius of a sphere or cylinder and its length, corners of triangles, m"
-    ]
+    size: Annotated[list[float], "edges of a box; radius of a sphere, and length of a cylinder; triangles' corners, m"]
     position: Annotated[BodyPosition, "of its centre"]
     axes: Annotated[list[float], "columns of its rotation to body axes (9); a cylinder lies along its z"]
     color: Annotated[str, "#rrggbb"]
@@ -172,6 +170,7 @@ class FlightScene(TypedDict):
     """Everything about a flight that does not change from frame to frame."""
 
     mission: Annotated[str, "name of the mission"]
+    controller: Annotated[str, "its name"]
     engine: Annotated[str, "where the body is simulated"]
     version: Annotated[str, "of tandemlift"]
     step: Annotated[Seconds, "of the simulation"]
