@@ -31,7 +31,15 @@ import numpy as np
 import tandemlift as tl
 from tandemlift.analysis.certification.changed_models import linear_limit
 from tandemlift.analysis.certification.felt_admittance import felt_admittance, stiffness_limit
-from tandemlift.analysis.certification.flown import LimitTrial, flown_limit, frequency_of, trial_of
+from tandemlift.analysis.certification.flown import (
+    LOST,
+    OSCILLATES,
+    REFUSED,
+    LimitTrial,
+    flown_limit,
+    frequency_of,
+    trial_of,
+)
 from tandemlift.analysis.certification.linear import CHANGED, loop_as_flown, rotor_limits
 from tandemlift.analysis.certification.parameters import ARM
 from tandemlift.analysis.linearization.claims import FlownLimit
@@ -52,6 +60,7 @@ COLUMNS = (
     *("mission", "base", "engine", "parameter", "bound", "predicted", "flown", "ratio"),
     *("predicted_rad_s", "flown_rad_s", "ended", "seconds"),
 )
+UNSTABLE = (OSCILLATES, LOST)  # ends of a flight at a limit
 CLOSE, SAFE = 0.1, 0.8  # of the predicted limit
 BRACKET, WIDTH = 1.1, 0.02  # factor between flights of an engine that are flown one by one; of the last bracket
 
@@ -134,7 +143,7 @@ def _changed_predictions(mission: Mission, names: tuple[str, ...]) -> Iterator[P
                 nearest = min(nearest, near, key=lambda x: abs(math.log(x)))
         if nearest < math.inf:
             found = linear_limit(mission, name, growing=nearest > 1.0, near=nearest)
-            if 0.0 < found.value < math.inf:
+            if 0.0 < found.value < (lifted if name == "mass" else math.inf):
                 yield Prediction(name, "largest" if nearest > 1.0 else "least", found.value, found.frequency)
 
 
@@ -147,7 +156,7 @@ def flown_one_by_one(trial: LimitTrial, predicted: float, engine: str) -> FlownL
         try:
             flight = tl.fly(trial.mission(value), engine)
         except tl.InputError:
-            ends[value] = math.nan, "refused"
+            ends[value] = math.nan, REFUSED
             return False
         ended = trial.ended(flight)
         ends[value] = (frequency_of(flight) if ended else math.nan), ended
@@ -173,7 +182,7 @@ def rows_of(number: int, seed: int, chosen: tuple[str, ...], engine: str) -> lis
     warnings.simplefilter("ignore", tl.FlightWarning)
     began, drawn, rows = time.process_time(), random_mission(number, seed), list[dict[str, Any]]()
     if drawn is None:
-        return [{"mission": number, "engine": engine, "ended": "refused"}]
+        return [{"mission": number, "engine": engine, "ended": REFUSED}]
     base, mission = drawn
     try:
         expected = list(predictions(mission, chosen))
@@ -199,7 +208,7 @@ def table(rows: list[dict[str, str]]) -> str:
     kinds = [(engine, name) for engine in ("compiled", "mujoco") for name in PARAMETERS]
     for engine, name in [*kinds, ("compiled", "all"), ("mujoco", "all")]:
         mine = [r for r in rows if r["engine"] == engine and r["parameter"] and name in (r["parameter"], "all")]
-        mine = [r for r in mine if r["ended"] == "oscillation"]
+        mine = [r for r in mine if r["ended"] in UNSTABLE]
         if mine:
             ratio = np.array([float(r["ratio"]) ** (-1.0 if r["bound"] == "least" else 1.0) for r in mine])
             close = np.mean(np.abs(ratio - 1.0) <= CLOSE)
@@ -207,7 +216,7 @@ def table(rows: list[dict[str, str]]) -> str:
             lines.append(
                 f"| {engine} | {name} | {len(mine)} | {100 * close:.1f} % | {numbers} | {np.sum(ratio < SAFE)} |"
             )
-    others = [r["ended"] or "no limit up to 1.6 of the predicted one" for r in rows if r["ended"] != "oscillation"]
+    others = [r["ended"] or "no limit up to 1.6 of the predicted one" for r in rows if r["ended"] not in UNSTABLE]
     counts = ", ".join(f"{kind} {others.count(kind)}" for kind in sorted(set(others))) or "none"
     return "\n".join([*lines, "", f"{len({r['mission'] for r in rows})} missions. Other ends: {counts}."])
 

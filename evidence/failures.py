@@ -17,6 +17,7 @@ from tandemlift.analysis.studies.design.settings import REFUSED
 from tandemlift.analysis.studies.execution.random_flights import probability_bound
 from tandemlift.core.phases import FAILURES
 
+SHOWN = 20  # rows of a finding
 COLUMNS = ["row", "outcome", "reason", "finding_kinds"]
 
 
@@ -34,8 +35,13 @@ def main() -> None:
         print(f"row {row['row']}: {row['outcome']}: {row['reason']}")
     bound = probability_bound(len(failed), len(rows))
     print(f"{len(failed)} of {len(rows)} flights failed: a probability of at most {bound:.3g}, with 95 % confidence")
-    findings = Counter(kind for row in rows for kind in filter(None, (row["finding_kinds"] or "").split(",")))
-    print(f"outcomes: {dict(Counter(row['outcome'] for row in rows))}; findings: {dict(findings)}")
+    print(f"outcomes: {dict(Counter(row['outcome'] for row in rows))}")
+    with_finding: dict[str, list[int]] = {}
+    for row in rows:
+        for kind in filter(None, (row["finding_kinds"] or "").split(",")):
+            with_finding.setdefault(kind, []).append(row["row"])
+    for kind, numbers in with_finding.items():
+        print(f"finding {kind}: {len(numbers)} flights, rows {', '.join(map(str, numbers[:SHOWN]))}")
 
 
 if __name__ == "__main__":

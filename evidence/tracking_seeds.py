@@ -14,11 +14,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from tandemlift.analysis.studies.execution.many import fly_each
 from validation.rows import errors, rms, triple
 from validation.scenarios import CLEAN, IN_THE_AIR, SLOW, WINDY, Changes
 from validation.tracking import ASIDE, HEAVIER, admittance_error
 
+from tandemlift.analysis.studies.execution.flying import fly_each
 from tandemlift.flight.record import Flight
 from tandemlift.missions import load_mission
 

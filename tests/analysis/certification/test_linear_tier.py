@@ -10,10 +10,12 @@ import numpy as np
 import pytest
 from listings import PLAIN
 
+from tandemlift.analysis.certification.changed_models import linear_limit
 from tandemlift.analysis.certification.disk_margins import DiskMargin, disk_margin, disk_sizes
-from tandemlift.analysis.certification.flown import flown_limit, trial_of
+from tandemlift.analysis.certification.flown import LimitTrial, flown_limit, trial_of
 from tandemlift.analysis.certification.linear import linear_tier, loop_as_flown, nearest_to_oscillation
 from tandemlift.analysis.linearization.loop_margins import single_loop
+from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
 from tandemlift.parts.controllers.user_controller import load_controller
 
@@ -92,6 +94,25 @@ def test_flights_of_iris_begin_to_oscillate_at_the_predicted_limit_and_frequency
     assert flown.ended == "oscillation"
     assert flown.above == pytest.approx(claim.limit, rel=0.1)
     assert flown.frequency == pytest.approx(claim.frequency, rel=0.1)
+
+
+@pytest.mark.parametrize("factor", [0.9, 1.08], ids=["beyond it", "before it"])
+def test_a_search_that_begins_near_a_limit_finds_the_same(factor):
+    limit = value("least inertia", "roll")
+    near = linear_limit(load_mission("iris"), "roll inertia", growing=False, near=factor * limit)
+    assert near.value == pytest.approx(limit, rel=0.01)
+
+
+def test_flights_do_not_look_for_a_limit_on_the_other_side_of_the_nominal_value():
+    tried = []
+
+    def refused(value):
+        tried.append(value)
+        raise InputError("never flown")
+
+    assert flown_limit(LimitTrial(refused, lambda flight: "", 1.0), 0.8).above == pytest.approx(1.0)
+    assert max(tried) <= 1.0
+    assert min(tried) == pytest.approx(0.5)
 
 
 def test_the_heaviest_vehicle_is_that_which_its_rotors_lift():
