@@ -23,7 +23,6 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.files import __version__, atomic_write
 from tandemlift.core.keys import description_of
 from tandemlift.core.types import flat, leaves
-from tandemlift.flight.channels import channel_of
 from tandemlift.missions import Mission, MissionLike, mission_of, tables_of
 from tandemlift.missions.schema import schema_of
 from tandemlift.simulation.caller_values import portable_mission
@@ -32,7 +31,7 @@ from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation.assemble import assemble
 from tandemlift.simulation.preparation.memory import POINTERS, WORDS
 from tandemlift.simulation.preparation.traced_assembly import TracedAssembly, trace_assembly
-from tandemlift.simulation.results import channels_of
+from tandemlift.simulation.results import channel_places
 
 BOUNDS = ("minimum", "exclusiveMinimum", "maximum", "exclusiveMaximum")
 FUNCTIONS = ("prepare", "fly", "ramp")
@@ -214,24 +213,13 @@ def manifest_of(plan: FlightPlan, traced: TracedAssembly, about: dict[str, Any])
         "dt": plan.dt,
         "hand": [hand.start, hand.stop - hand.start],
         "functions": about["functions"],
-        "channels": _channels(plan),
+        "channels": channel_places(plan.sample),
     }
 
 
 def number(value: float) -> float | str:
     """A number for JSON, which has no infinity."""
     return float(value) if np.isfinite(value) else str(float(value))
-
-
-def _channels(plan: FlightPlan) -> list[dict[str, Any]]:
-    row = np.arange(leaves(plan.sample), dtype=np.float64)[None, :]
-    channels = []
-    for name, columns in channels_of(plan.sample, row):
-        channel = channel_of(name)
-        places = columns.ravel().astype(int).tolist()
-        facts = {"unit": channel.unit, "frame": channel.frame, "meaning": channel.meaning}
-        channels.append({"name": name, "columns": places, **facts})
-    return channels
 
 
 def number_facts(mission: Mission, key: str) -> dict[str, Any]:

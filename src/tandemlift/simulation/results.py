@@ -16,7 +16,7 @@ from tandemlift.core.phases import CONTACT as PHASE_CONTACT
 from tandemlift.core.phases import FAILURES, IDLE, PHASE_NAMES
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import Absent, Vec3, dot
-from tandemlift.flight.channels import DERIVED
+from tandemlift.flight.channels import DERIVED, channel_of
 from tandemlift.flight.record import Ending, Flight
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
@@ -172,6 +172,16 @@ def channels_of(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
         else:
             yield from channels_of(part, columns)
         at += leaves(part)
+
+
+def channel_places(like: Any) -> list[dict[str, Any]]:
+    """Of every channel of samples laid out like `like`: name, places of its numbers, unit, frame and meaning."""
+    row, found = np.arange(leaves(like), dtype=np.float64)[None, :], []
+    for name, columns in channels_of(like, row):
+        channel, places = channel_of(name), columns.ravel().astype(int).tolist()
+        facts = {"unit": channel.unit, "frame": channel.frame, "meaning": channel.meaning}
+        found.append({"name": name, "columns": places, **facts})
+    return found
 
 
 class SampleChannels:

@@ -20,10 +20,9 @@ from tandemlift.analysis.studies.comparison_scores import (
     largest_differences,
     speed,
 )
-from tandemlift.analysis.studies.execution.flying import fly_each
+from tandemlift.analysis.studies.execution.flying import engine_summary, fly_each
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress
-from tandemlift.engines.registry import ENGINES
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
 from tandemlift.missions.loading import MissionTemplate
@@ -52,8 +51,8 @@ class Entry(NamedTuple):
     @property
     def summary(self) -> str:
         """The description in a sentence; "" for a controller that is not registered, such as a user's file."""
-        known = CONTROLLERS.get(self.name) or ENGINES.get(self.name)
-        return known.summary if known else ""
+        known = CONTROLLERS.get(self.name)
+        return known.summary if known else engine_summary(self.name)
 
 
 @dataclass(frozen=True)
