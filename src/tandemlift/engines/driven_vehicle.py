@@ -1,0 +1,187 @@
+"""The vehicle driven by logged commands: rotors, body and perfect sensors, without pilot, contact and wind.
+
+The rotors do not depend on the body, so they are simulated first, over a whole log; the body then moves under the
+squares of their speeds. Both are the laws of the compiled engine, as functions of the numbers of a vehicle.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.core.arrays import inverse
+from tandemlift.core.law import law
+from tandemlift.core.types import Array, Number, PerQuadrotor, PerRotor
+from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, apply, cross, each, mat3, set_of, spread, vec3
+from tandemlift.engines.compiled import advance
+from tandemlift.engines.compiled_contact import CompiledPlant
+from tandemlift.engines.models.links import parts_layout_from
+from tandemlift.engines.models.scene import Scene, floor_from
+from tandemlift.parts.mechanics.push import CentralPush, PushSamples
+from tandemlift.parts.mechanics.rigid_body import RigidBody, State
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import VehicleTable
+from tandemlift.parts.rotors.allocation import mixer_of
+from tandemlift.parts.rotors.ground_effect import GroundEffect, ground_effect_ratio
+from tandemlift.parts.rotors.rotor_lag import Lag, lag, lag_step
+from tandemlift.parts.rotors.rotors import ground_effect_from
+
+NO_PUSH = CentralPush(ZERO)
+AT_REST = State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
+
+
+class VehicleNumbers(NamedTuple):
+    """The numbers of a vehicle that its motion and its joints depend on, by the names of their keys; SI units.
+
+    Those of quadrotors are sets. `inertia` of the payload: moments, `products`: Jxy, Jxz, Jyz.
+    """
+
+    mass: Number
+    center_of_mass: Vec3
+    inertia: Vec3
+    products: Vec3
+    masses: PerQuadrotor
+    inertias: Vec3
+    thrust_constants: PerQuadrotor
+    torques_per_thrust: PerQuadrotor
+    drag_force: Vec3
+    drag_moment: Vec3
+
+
+class DrivenBody(NamedTuple):
+    """A vehicle in the form that a step needs.
+
+    The body, k of each rotor [N/(rad/s)²], their ground effect, the point that the motion measurement follows, from the
+    centre of mass [m, body axes], the time step [s].
+    """
+
+    plant: CompiledPlant
+    constants: PerRotor
+    surface: GroundEffect | Absent
+    point: Vec3
+    step: Number
+
+
+class DrivenReadings(NamedTuple):
+    """The readings of perfect sensors at the start of a step, in units and frames of the channels `measured_…`."""
+
+    position: Vec3
+    velocity: Vec3
+    attitude: Quat
+    rates: Vec3
+    specific_force: Vec3
+    joint_force: Vec3
+    joint_torque: Vec3
+
+
+class RotorModel(NamedTuple):
+    """A rotor: its time constants up and down [s]; its speed [rad/s] is the state."""
+
+    speed: Number
+    up: Number
+    down: Number
+
+
+def vehicle_numbers(table: VehicleTable) -> VehicleNumbers:
+    """The numbers of a table."""
+    payload, quadrotors = table.payload, table.quadrotors
+    cls = each(len(quadrotors))
+    return VehicleNumbers(
+        mass=payload.mass,
+        center_of_mass=vec3(payload.center_of_mass),
+        inertia=vec3(payload.moments),
+        products=vec3(payload.products),
+        masses=cls(*[q.mass for q in quadrotors]),
+        inertias=spread([q.inertia for q in quadrotors]),
+        thrust_constants=cls(*[q.thrust_constant for q in quadrotors]),
+        torques_per_thrust=cls(*[q.torque_per_thrust for q in quadrotors]),
+        drag_force=vec3(table.drag.force),
+        drag_moment=vec3(table.drag.moment),
+    )
+
+
+def with_vehicle_numbers(table: VehicleTable, n: VehicleNumbers) -> VehicleTable:
+    """A table with other numbers, which are not checked and may be symbols."""
+    payload = table.payload.model_copy(
+        update={
+            "mass": n.mass,
+            "center_of_mass": tuple(n.center_of_mass),
+            "inertia": tuple(n.inertia),
+            "products": tuple(n.products),
+        }
+    )
+    own = zip(n.masses, zip(*n.inertias, strict=True), n.thrust_constants, n.torques_per_thrust, strict=True)
+    names = ("mass", "inertia", "thrust_constant", "torque_per_thrust")
+    quadrotors = [
+        q.model_copy(update=dict(zip(names, values, strict=True)))
+        for q, values in zip(table.quadrotors, own, strict=True)
+    ]
+    drag = table.drag.model_copy(update={"force": tuple(n.drag_force), "moment": tuple(n.drag_moment)})
+    return table.model_copy(update={"payload": payload, "quadrotors": tuple(quadrotors), "drag": drag})
+
+
+def effect_floor(scene: Scene) -> float | None:
+    """The height z [m] of a floor with ground effect; None without."""
+    floor = floor_from(scene, Vehicle.from_settings(scene.vehicle))
+    return None if isinstance(floor, Absent) or not scene.ground.effect else float(floor.height)
+
+
+def driven_body(table: VehicleTable, floor: float | None, n: VehicleNumbers, point: Vec3, step: Number) -> DrivenBody:
+    """The vehicle of a table with other numbers, over a floor with ground effect at z = `floor` [m], if not None."""
+    vehicle = Vehicle.from_settings(with_vehicle_numbers(table, n))
+    J = vehicle.inertia
+    body = RigidBody(
+        inverse_mass=1.0 / vehicle.mass,
+        inertia=mat3(J),
+        inverse_inertia=mat3(inverse(J)),
+        drag_force=n.drag_force,
+        drag_moment=n.drag_moment,
+        force=ZERO,
+        moment=ZERO,
+    )
+    plant = CompiledPlant(mixer_of(vehicle), body, parts_layout_from(vehicle), Absent(), Absent())
+    surface = Absent() if floor is None else ground_effect_from(vehicle, floor)
+    return DrivenBody(plant, set_of([k for k in n.thrust_constants for _ in range(4)]), surface, point, step)
+
+
+@law
+def driven_step(b: DrivenBody, s: State, squares: PerRotor) -> tuple[State, DrivenReadings]:
+    """(The state after a step, readings at its start) under the mean squares of the rotors' speeds [rad²/s²]."""
+    hand = PushSamples(NO_PUSH, NO_PUSH, NO_PUSH)
+    thrusts = squares * b.constants * ground_effect_ratio(b.surface, s)
+    moved = advance(b.plant, s, Absent(), Absent(), thrusts, Absent(), hand, b.step)
+    R, felt = rotation_from_quaternion(s.attitude), moved.readings
+    return moved.state, DrivenReadings(
+        position=s.position + apply(R, b.point),
+        velocity=s.velocity + apply(R, cross(s.rates, b.point)),
+        attitude=s.attitude,
+        rates=s.rates,
+        specific_force=felt.specific_force,
+        joint_force=felt.joint_force,
+        joint_torque=felt.joint_torque,
+    )
+
+
+@law
+def rotor_step(step: Number, r: RotorModel, command: Number) -> tuple[RotorModel, Number]:
+    """(The rotor after a step, the mean square of its speed [rad²/s²]) under a commanded speed [rad/s]."""
+    one = each(1)
+    up, down = _lag_over(step, r.up), _lag_over(step, r.down)
+    square, speed = lag_step(up, down, one(r.speed), one(command))
+    return RotorModel(speed[0], r.up, r.down), square[0]
+
+
+def _lag_over(step: Number, time_constant: Number) -> Lag:
+    return lag([time_constant], step)
+
+
+def whole_vehicle(table: VehicleTable, n: VehicleNumbers) -> dict[str, tuple[Array, str]]:
+    """Mass, centre of mass from the payload's origin and inertia about it of the whole, with their units."""
+    vehicle = Vehicle.from_settings(with_vehicle_numbers(table, n))
+    return {
+        "mass": (np.array([vehicle.mass]), "kg"),
+        "center_of_mass": (vehicle.center_of_mass, "m"),
+        "inertia": (np.diag(vehicle.inertia), "kg m²"),
+    }
