@@ -16,6 +16,7 @@ from tandemlift.core.files import __version__ as __version__
 if TYPE_CHECKING:
     from tandemlift.analysis.certification.excitation_design import excite
     from tandemlift.analysis.certification.mission_check import check
+    from tandemlift.analysis.identification.identify import identify
     from tandemlift.analysis.identification.shadow import shadow
     from tandemlift.analysis.linearization.differentiable_step import jax_step, torch_step
     from tandemlift.analysis.linearization.linear_model import LinearModel
@@ -57,6 +58,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "feel": "pictures.report.study.feel_report",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
+    "identify": "analysis.identification.identify",
     "jax_step": "analysis.linearization.differentiable_step",
     "linearize": "analysis.linearization.linearize",
     "load_controller": "parts.controllers.user_controller",
@@ -90,6 +92,7 @@ __all__ = [
     "feel",
     "fly",
     "fly_many",
+    "identify",
     "jax_step",
     "linearize",
     "load_controller",

@@ -1,4 +1,4 @@
-"""`tandemlift shadow`: a log of a vehicle through the pilot of a mission."""
+"""`tandemlift identify` and `shadow`: logs of a vehicle, for its numbers, and through the pilot of a mission."""
 
 from __future__ import annotations
 
@@ -14,12 +14,14 @@ from tandemlift.apps.cli.flying import (
     FILES,
     exit_if_amiss,
     figures_option,
+    kept_style_option,
     load,
     set_option,
     strict_option,
 )
 from tandemlift.apps.cli.run import write_results
 from tandemlift.apps.export.results import results_folder
+from tandemlift.core.errors import InputError
 
 columns_option = click.option(
     "--columns", metavar="FILE", help="Map of streams to columns or topics, a .toml file; a .csv needs one."
@@ -77,3 +79,73 @@ def shadow(
             flight = tl.shadow(taken, loaded, progress=progress)
         write_results(flight, folder, began, None, figures=not no_figures)
     exit_if_amiss({flight.name: flight}, strict=strict)
+
+
+@click.command()
+@click.argument("logs", nargs=-1, required=True, shell_complete=FLIGHTS)
+@click.option("--mission", required=True, shell_complete=MISSIONS, help="Mission of about such a vehicle.")
+@columns_option
+@align_option
+@set_option
+@click.option("--weighed", multiple=True, metavar="KEY=KG", help="A mass from a scale. Can be repeated.")
+@click.option("--parameters", metavar="A,B,…", help="Keys to estimate.  [default: all that can be]")
+@click.option("--window", type=float, default=1.0, show_default=True, metavar="S", help="Length of a window.")
+@click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-identification]")
+@kept_style_option
+def identify(
+    logs: tuple[str, ...],
+    mission: str,
+    columns: str | None,
+    align: bool,
+    settings: tuple[str, ...],
+    weighed: tuple[str, ...],
+    parameters: str | None,
+    window: float,
+    out: str | None,
+    style: str | None,
+) -> None:
+    """Identify a vehicle from LOGS of its flights.
+
+    Masses, centre of mass, inertias, thrust and yaw drag of the rotors, their lags and delay, drag: each with an
+    interval of 95 %. What the flight did not excite keeps its prior, and is named. Weigh one part: without joint
+    sensors, commands and IMU tell only the ratios of masses to thrust constants. LOGS are files as `shadow` takes them.
+
+    \b
+    Examples:
+      tandemlift identify out/excited --mission iris --weighed vehicle.payload.mass=0.5
+      tandemlift identify one.ulg two.ulg --mission start.toml --align --out out/mine
+
+    \b
+    Files in the results folder (other files there are left alone):
+      vehicle.toml          the mission with the identified vehicle; intervals as comments
+      identification.json   all numbers
+      identification.html   fits, residuals, correlations, prediction of what was held back
+    """
+    import tandemlift as tl
+    from tandemlift.pictures.report.identification_report import write_identification
+
+    start, masses = load(mission, settings), dict(map(_weighed, weighed))
+    read = [tl.read_log(path, columns, align=align) for path in logs]
+    for note in (note for log in read for note in log.notes):
+        echo(note)
+    keys = parameters.split(",") if parameters else None
+    with results_folder(out, Path("out") / f"{start.mission.name}-identification", ()) as folder:
+        with progress_bar("Identifying", "steps", shown=sys.stderr.isatty()) as progress:
+            found = tl.identify(read, start, parameters=keys, weighed=masses, window=window, progress=progress)
+        for line in found.lines():
+            echo(line)
+        for path in [*found.save(folder), write_identification(found.as_dict(), folder)]:
+            echo(f"  {path.suffix[1:]}: {path}")
+
+
+def _weighed(text: str) -> tuple[str, float]:
+    """The key and the mass of an option.
+
+    Raises:
+        InputError: it is not KEY=KG.
+    """
+    key, _, value = text.partition("=")
+    try:
+        return key, float(value)
+    except ValueError:
+        raise InputError(f"--weighed {text}: must be KEY=KG, such as vehicle.payload.mass=0.5") from None

@@ -10,7 +10,7 @@ import click
 
 from tandemlift.apps.cli.console import compile_notices, exit_now, handle_interrupts
 from tandemlift.apps.cli.export import compile, export, render
-from tandemlift.apps.cli.identify import shadow
+from tandemlift.apps.cli.identify import identify, shadow
 from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, new, schema, template
 from tandemlift.apps.cli.linearize import certify, check, excite, linearize
 from tandemlift.apps.cli.live import live, page, replay, score
@@ -32,7 +32,7 @@ GROUPS: dict[str, tuple[click.Command, ...]] = {
     "Write a mission": (new, template, explain, check, controllers, engines, schema, completion),
     "Look at a flight": (report, plot, render, replay),
     "Fly many, compare, analyse": (compare, score, study, tune, train, feel, linearize, certify, paper),
-    "Your vehicle": (excite, shadow),
+    "Your vehicle": (excite, identify, shadow),
     "Take it elsewhere": (gazebo, ros, page, export, compile),
 }
 

@@ -1,0 +1,92 @@
+"""The search: Gauss-Newton steps over the windows of logs, with noise levels and weights that follow the residuals.
+
+A window that no vehicle explains, as under a push, is left out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from tandemlift.analysis.identification.equations import CAREFUL, PLAIN, ROBUST, Equations, Linearisation, Normal
+from tandemlift.analysis.identification.prediction import moved_starts
+from tandemlift.core.types import Array, Progress
+
+PLAIN_STEPS, MOST_STEPS = 3, 14
+NEAR, ENOUGH = 20.0, 0.25  # standard deviations: a step below the first is near the end, below the second is it
+UNEXPLAINED = 0.15  # of the mean square of a stream's residuals in the median window, as much more, is no vehicle's
+CHANCE = 5.0  # standard deviations of such a mean square that chance may add
+
+
+class Search(Linearisation):
+    """The search for a vehicle's numbers."""
+
+    def run(self, progress: Progress | None = None, *, follow: bool = True) -> tuple[list[Equations], Normal]:
+        """Search to the end; the equations there.
+
+        At first only the beginning of each window counts, because a wrong vehicle soon tumbles, by plain least squares
+        with the noise that the samples' second differences show. Then large residuals count less. Near the end,
+        unexplained windows are left out and the residuals' own noise counts.
+
+        Args:
+            progress: called with (steps done, steps in all).
+            follow: whether windows may be left out and noise levels change.
+        """
+        chosen = MOST_STEPS  # the step before which windows were left out
+        for number in range(MOST_STEPS):
+            robust = PLAIN if number < PLAIN_STEPS else CAREFUL if number > chosen else ROBUST
+            equations, normal = self.linearised(robust)
+            covariance = np.linalg.inv(normal.information)
+            step = covariance @ normal.side
+            self._move(step, normal)
+            self.steps = number + 1
+            size = np.abs(step / np.sqrt(np.diag(covariance)))[: len(self.unknowns) + self.priors.count].max(
+                initial=0.0
+            )
+            if progress:
+                progress(number + 1, MOST_STEPS)
+            if number > chosen + 1 and size < ENOUGH:
+                break
+            if number > chosen and follow:
+                self._follow_noise(equations)
+            elif chosen == MOST_STEPS and number >= PLAIN_STEPS and (size < NEAR or number == MOST_STEPS // 2):
+                chosen = number
+                if follow:
+                    self._leave_out(equations)
+        if progress:
+            progress(MOST_STEPS, MOST_STEPS)
+        return self.linearised(CAREFUL)
+
+    def _move(self, step: Array, normal: Normal) -> None:
+        P, K = len(self.unknowns), self.priors.count
+        e = self.estimate
+        e.q = e.q + np.clip(step[:P], -1.0, 1.0)
+        e.fixed = e.fixed + step[P : P + K]
+        e.biases = e.biases + step[P + K :].reshape(e.biases.shape)
+        for part, (offset, matrix) in zip(self.parts, normal.back, strict=True):
+            own = step[self.places(part)]
+            part.starts = moved_starts(part.starts, offset - (matrix @ own[..., None])[..., 0])
+
+    def _follow_noise(self, equations: list[Equations]) -> None:
+        for name in self.estimate.noise:
+            own = [eq.spread[name] for eq in equations if name in eq.spread]
+            self.estimate.noise[name] = max(float(np.median(own)), 1e-12)
+
+    def _leave_out(self, equations: list[Equations]) -> None:
+        """Leave out the windows that no vehicle explains and those beside them, but never more than half of a log."""
+        for part, own in zip(self.parts, equations, strict=True):
+            worst = np.zeros(len(part.starts))
+            for name, size in own.misfit.items():
+                count = part.windows.samples[name].values.size / len(size)
+                allowed = max(UNEXPLAINED, CHANCE * np.sqrt(2.0 / max(count, 1.0)))
+                worst = np.maximum(worst, (size / np.median(size) - 1.0) / allowed)
+            out = worst > max(1.0, float(np.median(worst)))
+            near = np.abs(part.windows.first[:, None] - part.windows.first[out]) <= part.windows.length
+            kept = ~near.any(axis=1)
+            if kept.all() or kept.sum() < 0.5 * len(kept):
+                continue
+            self.left_out += int((~kept).sum())
+            part.starts, part.groups = part.starts[kept], part.groups[kept]
+            predictor = part.predictor
+            part.predictor = replace(predictor, windows=predictor.windows.chosen(kept))

@@ -1,0 +1,173 @@
+"""`Identification`: a vehicle from its logs, with intervals; as a mission file, as JSON and in lines."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.core.errors import InputError
+from tandemlift.core.files import write_file
+from tandemlift.core.types import Array
+from tandemlift.missions import Mission, changed, format_toml, tables_of
+
+MISSION, JSON = "vehicle.toml", "identification.json"
+NORMAL = 1.959963984540054  # of 95 % of a normal distribution
+WHOLE = "whole vehicle"
+
+
+class Row(NamedTuple):
+    """An identified number.
+
+    Attributes:
+        key: mission key, or the name of a quantity of the whole vehicle.
+        value: the estimate.
+        low: lower end of its interval of 95 %.
+        high: upper end.
+        unit: of these.
+        start: the mission's value.
+        excited: whether the data narrowed the prior to less than half.
+        efficiency: variance by the Cramér-Rao bound over that of the interval.
+    """
+
+    key: str
+    value: float
+    low: float
+    high: float
+    unit: str
+    start: float
+    excited: bool
+    efficiency: float
+
+    @property
+    def half(self) -> float:
+        """Half the interval."""
+        return 0.5 * (self.high - self.low)
+
+
+@dataclass(frozen=True)
+class Identification:
+    """A vehicle identified from its logs.
+
+    Attributes:
+        mission: the mission with the identified vehicle.
+        rows: the estimates by mission key.
+        whole: mass, centre of mass and inertia of the whole vehicle.
+        remarks: what the data could not tell, in sentences.
+        details: what the page shows beside these: `identification.json` has it.
+    """
+
+    mission: Mission
+    rows: tuple[Row, ...]
+    whole: tuple[Row, ...]
+    remarks: tuple[str, ...]
+    details: Mapping[str, Any]
+
+    def __getitem__(self, key: str) -> Row:
+        for row in (*self.rows, *self.whole):
+            if row.key == key:
+                return row
+        raise KeyError(f"{key} was not identified; {', '.join(row.key for row in (*self.rows, *self.whole))} were")
+
+    def __repr__(self) -> str:
+        return f"<Identification of {self.mission.mission.name}: {len(self.rows)} numbers, {len(self.remarks)} remarks>"
+
+    def lines(self) -> Iterator[str]:
+        """In words: estimates, then remarks."""
+        rows = (*self.rows, *self.whole)
+        wide = max(len(row.key) for row in rows)
+        for row in rows:
+            mark = "" if row.excited else "  not excited: kept by its prior"
+            yield f"{row.key:{wide}}  {row.value:>12.6g} ± {row.half:<9.2g} {row.unit:12} was {row.start:.6g}{mark}"
+        yield from self.remarks
+
+    def as_dict(self) -> dict[str, Any]:
+        """All of it as plain values, for JSON."""
+        return {
+            "mission": self.mission.mission.name,
+            "parameters": [row._asdict() for row in self.rows],
+            "whole_vehicle": [row._asdict() for row in self.whole],
+            "remarks": list(self.remarks),
+            **self.details,
+        }
+
+    def save(self, folder: Path) -> list[Path]:
+        """Write `vehicle.toml` and `identification.json` into a folder, which is made."""
+        folder.mkdir(parents=True, exist_ok=True)
+        write_file(folder / MISSION, self.toml())
+        write_file(folder / JSON, json.dumps(self.as_dict(), indent=1, ensure_ascii=False, allow_nan=False))
+        return [folder / MISSION, folder / JSON]
+
+    def toml(self) -> str:
+        """The mission as TOML; each identified key has its interval as a comment."""
+        comments = dict[str, list[str]]()
+        for row in self.rows:
+            key = re.sub(r"\.[xyz]$", "", row.key)
+            how = f"± {row.half:.2g}" if row.excited else "not excited: prior"
+            comments.setdefault(key, []).append(how)
+        return _commented(format_toml(tables_of(self.mission)), comments)
+
+
+def _commented(text: str, comments: Mapping[str, list[str]]) -> str:
+    """TOML text with comments behind the lines of keys; `*` stands for each quadrotor."""
+    lines, table, count = list[str](), "", dict[str, int]()
+    for line in text.splitlines():
+        head = re.match(r"\[\[?([\w.]+)\]\]?$", line)
+        if head:
+            table = head[1]
+            if line.startswith("[["):
+                count[table] = count.get(table, -1) + 1
+                table = f"{table}.{count[table]}"
+        key, _, value = line.partition(" = ")
+        full = f"{table}.{key}"
+        own = comments.get(full) or comments.get(re.sub(r"quadrotors\.\d+", "quadrotors.*", full))
+        lines.append(f"{line}  # {', '.join(own)}" if own and value else line)
+    return "# Identified from logs; behind each identified key: half its interval of 95 %.\n" + "\n".join(lines) + "\n"
+
+
+def with_values(mission: Mission, values: Mapping[str, list[float]]) -> tuple[Mission, list[str]]:
+    """The mission with identified values by key, and the keys whose values no mission may have."""
+    failed = list[str]()
+    for key, own in values.items():
+        value: object = own if len(own) > 1 else own[0]
+        try:
+            mission = changed(mission, key, value)
+        except InputError as error:
+            failed.append(f"{key} = {value} is left as it was: {error}")
+    return mission, failed
+
+
+def rows_of(
+    keys: Mapping[str, tuple[Array, Array, str, Array]], covariance: Array, bound: Array, prior: Array
+) -> Iterator[Row]:
+    """Rows by the delta method.
+
+    Args:
+        keys: of each key its values (n,), their derivatives by the coordinates (n, P), unit, values in the mission.
+        covariance: of the coordinates (P, P).
+        bound: the same by the Cramér-Rao bound.
+        prior: the same by the priors.
+    """
+    for key, (values, J, unit, start) in keys.items():
+        for i, value in enumerate(values):
+            own, least, wide = (float(J[i] @ C @ J[i]) for C in (covariance, bound, prior))
+            name = f"{key}.{'xyz'[i]}" if len(values) > 1 else key
+            half = NORMAL * np.sqrt(own)
+            low, high = (
+                value * np.exp(s * half / value) if value > 3.0 * half else value + s * half for s in (-1.0, 1.0)
+            )
+            yield Row(
+                name,
+                float(value),
+                float(low),
+                float(high),
+                unit,
+                float(start[i]),
+                bool(own < 0.25 * wide),
+                float(least / own) if own > 0.0 else 1.0,
+            )

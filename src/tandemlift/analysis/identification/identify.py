@@ -1,0 +1,266 @@
+"""`tl.identify`: the numbers of a vehicle from its logs, by output error over windows."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from tandemlift.analysis.identification.fit import Search
+from tandemlift.analysis.identification.identification import Identification, Row, rows_of, with_values
+from tandemlift.analysis.identification.judgement import (
+    Covariance,
+    Whiteness,
+    alike_pairs,
+    correlations_of,
+    covariance_of,
+    data_information,
+    misfit_by_window,
+    scale_is_known,
+    whiteness,
+)
+from tandemlift.analysis.identification.log import Log, log_of
+from tandemlift.analysis.identification.prediction import Predictor
+from tandemlift.analysis.identification.sensor_errors import sensor_priors
+from tandemlift.analysis.identification.windows import FEWEST, LENGTH, Windows, windows_of
+from tandemlift.core.errors import InputError, without_flight_warnings
+from tandemlift.core.progress import progress_or_own
+from tandemlift.core.types import Array, Progress, flat
+from tandemlift.engines.driven_vehicle import whole_vehicle
+from tandemlift.engines.vehicle_unknowns import AXES, DEFAULT, Unknowns, unknowns_of
+from tandemlift.flight.record import Flight
+from tandemlift.missions import Mission, MissionLike, mission_of
+
+MOST_PAIRS = 4  # that are named
+HELD_BACK = 0.15  # of the windows
+SHOWN = 100  # blocks of the example
+
+
+def identify(
+    logs: Log | Flight | Iterable[Log | Flight],
+    mission: MissionLike,
+    *,
+    parameters: Sequence[str] | None = None,
+    weighed: Mapping[str, float] | None = None,
+    window: float = LENGTH,
+    held_back: float = HELD_BACK,
+    progress: Progress | None = None,
+) -> Identification:
+    """Identify a vehicle from logs of its flights.
+
+    Body, rotors and sensors of the mission are driven by the logged commands, in windows whose starts are unknown, too.
+    No pilot is simulated. Noise levels follow from the residuals; pushes and contacts are left out.
+
+    Args:
+        logs: one or several, from `read_log`, or flights with sensors.
+        mission: of about such a vehicle: from `load_mission`, or its name or path.
+        parameters: keys to estimate, of `engines.vehicle_unknowns.KINDS`; all by default.
+        weighed: masses [kg] from a scale, right within 0.1 %, by key. Without joint sensors of known scale, or such a
+            mass, only ratios of masses to thrust constants can be told.
+        window: length of a window [s].
+        held_back: part of the windows, the last ones, that is not used but predicted.
+        progress: called with (steps done, steps in all).
+
+    Returns:
+        The estimates with intervals of 95 %, and what the logs could not tell.
+
+    Raises:
+        InputError: a log lacks a stream, is too short, or cannot be of such a vehicle; or a key
+            cannot be estimated.
+    """
+    began, mission = time.perf_counter(), mission_of(mission)
+    given = [logs] if isinstance(logs, (Log, Flight)) else list(logs)
+    if not given:
+        raise InputError("logs: must be one or more")
+    if not (0.2 <= window <= 10.0 and 0.0 <= held_back <= 0.5):
+        raise InputError(f"window = {window:g} s, held_back = {held_back:g}: must be 0.2 to 10 s, and 0 to 0.5")
+    cut = [windows_of(log_of(one) if isinstance(one, Flight) else one, mission, window) for one in given]
+    unknowns = unknowns_of(
+        mission.vehicle, mission.actuators.delay, DEFAULT if parameters is None else parameters, weighed
+    )
+    parts = [_split(w, held_back) for w in cut]
+    priors = sensor_priors(mission, frozenset(name for w in cut for name in w.samples))
+    search = Search([Predictor(fitted, unknowns, mission) for fitted, _ in parts], unknowns, priors)
+    with progress_or_own(f"{mission.mission.name}, identified", progress, "steps") as shown:
+        equations, normal = search.run(shown)
+    rows = [one.rows for one in equations]
+    streams = {name: np.concatenate([r[name] for r in rows if name in r]) for name in search.estimate.noise}
+    white = {name: whiteness(r) for name, r in streams.items()}
+    covariance = covariance_of(normal, {name: w.factor for name, w in white.items()}, len(unknowns))
+    information = data_information(normal, len(unknowns))
+    held = _held_back(search, [last for _, last in parts if last is not None], mission)
+    found, whole, identified, remarks = _results(search, covariance, mission)
+    correlations = correlations_of(
+        _with_derivatives(lambda x: _values(unknowns, x), search.estimate.q), covariance.covariance
+    )
+    remarks += _remarks(unknowns, correlations, information, white, found, search)
+    details = _details(search, correlations, covariance, white, misfit_by_window(search, rows), held)
+    details |= {"example": _example(search), "seconds": time.perf_counter() - began}
+    return Identification(identified, tuple(found), tuple(whole), tuple(remarks), details)
+
+
+def _split(w: Windows, held_back: float) -> tuple[Windows, Windows | None]:
+    """(The windows that are used, those that are held back)."""
+    count = len(w.first)
+    last = min(round(held_back * count), count - FEWEST)
+    if last <= 0:
+        return w, None
+    used = np.arange(count) < count - last
+    return w.chosen(used), w.chosen(~used)
+
+
+def _values(unknowns: Unknowns, q: Array) -> dict[str, tuple[Array, str]]:
+    """The values of every key, with their unit."""
+    n, found = unknowns.numbers(q), dict[str, tuple[Array, str]]()
+    every = {**n.vehicle._asdict(), **n._asdict()}
+    for u in unknowns.unknowns:
+        value = every[u.kind.field]
+        table = np.array(flat(value) if hasattr(value, "_fields") else value, float).reshape(u.kind.axes or 1, -1)
+        found[u.key] = table[:, u.quadrotors[0] if u.quadrotors else 0], u.kind.unit
+    return found
+
+
+def _with_derivatives(function: Any, q: Array) -> dict[str, tuple[Array, Array, str, Array]]:
+    """Values of a function of coordinates by key: values, derivatives, unit, values at 0."""
+    here, start, columns = function(q), function(np.zeros_like(q)), dict[str, list[Array]]()
+    for i in range(len(q)):
+        h = np.zeros_like(q)
+        h[i] = 1e-5
+        ahead, behind = function(q + h), function(q - h)
+        for key in here:
+            columns.setdefault(key, []).append((ahead[key][0] - behind[key][0]) / 2e-5)
+    return {
+        key: (value, np.array(columns[key]).T.reshape(len(value), -1), unit, start[key][0])
+        for key, (value, unit) in here.items()
+    }
+
+
+def _results(
+    search: Search, covariance: Covariance, mission: Mission
+) -> tuple[list[Row], list[Row], Mission, list[str]]:
+    """(Rows of keys, rows of the whole vehicle, the identified mission, what it could not take)."""
+    unknowns, q = search.unknowns, search.estimate.q
+    matrices = covariance.covariance, covariance.bound, np.diag(unknowns.unweighed**2)
+
+    def whole(x: Array) -> dict[str, tuple[Array, str]]:
+        return whole_vehicle(mission.vehicle, unknowns.numbers(x).vehicle)
+
+    found = list(rows_of(_with_derivatives(lambda x: _values(unknowns, x), q), *matrices))
+    changes = dict[str, list[float]]()
+    for key, (values, _) in _values(unknowns, q).items():
+        kept = np.maximum(values, 0.0) if "drag" in key or "delay" in key else values
+        for i in range(len(mission.vehicle.quadrotors)):
+            changes[key.replace("*", str(i))] = [float(f"{x:.7g}") for x in kept]
+    with without_flight_warnings():
+        identified, failed = with_values(mission, changes)
+    return found, list(rows_of(_with_derivatives(whole, q), *matrices)), identified, failed
+
+
+def _remarks(
+    unknowns: Unknowns,
+    correlations: Array,
+    information: Array,
+    white: Mapping[str, Whiteness],
+    found: Sequence[Row],
+    search: Search,
+) -> list[str]:
+    """What the data could not tell, in sentences."""
+    said, still = list[str](), [row.key for row in found if not row.excited]
+    if not scale_is_known(unknowns, search.estimate.q, information):
+        said.append(
+            "The masses and the thrust constants cannot be told apart: only their ratios are known. Weigh one part "
+            "(--weighed vehicle.payload.mass=…), or log joint sensors of known scale."
+        )
+    if still:
+        said.append(f"The flight did not excite {', '.join(still)}: they keep their prior.")
+    pairs = alike_pairs([row.key for row in found], correlations)
+    for one, other, correlation in pairs[:MOST_PAIRS]:
+        said.append(f"{one} and {other} can hardly be told apart: their errors correlate by {correlation:.3f}.")
+    if len(pairs) > MOST_PAIRS:
+        said.append(f"So do {len(pairs) - MOST_PAIRS} other pairs: see `correlation` in identification.json.")
+    for name, w in white.items():
+        if not w.white:
+            worst = max(w.autocorrelation, key=abs)
+            said.append(
+                f"Residuals of {name} are not white: autocorrelation up to {worst:.3f}, {w.bound:.3f} is allowed. "
+                f"Intervals count it by a factor of {w.factor:.2f} in variance."
+            )
+    if search.left_out:
+        said.append(f"{search.left_out} windows are left out: a push, a contact or a fault, which no vehicle explains.")
+    return said
+
+
+def _held_back(search: Search, windows: list[Windows], mission: Mission) -> dict[str, Any]:
+    """How far the identified vehicle predicts windows that were not used, by stream: RMS over the noise."""
+    if not windows:
+        return {}
+    at = search.unknowns.numbers(search.estimate.q)
+    fixed = Unknowns(at, ())
+    again = Search([Predictor(w, fixed, mission) for w in windows], fixed, search.priors, search.estimate.fixed)
+    again.estimate.noise = dict(search.estimate.noise)
+    equations, _ = again.run(None, follow=False)
+    by_window = misfit_by_window(again, [one.rows for one in equations])
+    ratios = {name: float(np.sqrt(np.nanmean(np.square([size for _, size in own])))) for name, own in by_window.items()}
+    return {"ratio": ratios, "windows": by_window}
+
+
+def _details(
+    search: Search,
+    correlations: Array,
+    covariance: Covariance,
+    white: Mapping[str, Whiteness],
+    misfit: Mapping[str, Any],
+    held: Mapping[str, Any],
+) -> dict[str, Any]:
+    e = search.estimate
+    return {
+        "logs": [part.windows.source for part in search.parts],
+        "windows": {"used": sum(len(p.windows.first) for p in search.parts), "left_out": search.left_out},
+        "steps": search.steps,
+        "noise": dict(e.noise),
+        "whiteness": {name: {**w._asdict(), "white": w.white} for name, w in white.items()},
+        "misfit": dict(misfit),
+        "held_back": dict(held),
+        "correlation": correlations.round(4).tolist(),
+        "efficiency": float(np.median(covariance.efficiency)),
+        "motion_point": e.point.tolist(),
+        "joint_turns": e.turns.tolist(),
+        "biases": {name: e.biases[:, place].mean(axis=0).tolist() for name, place in search.priors.places.items()},
+    }
+
+
+def _example(search: Search) -> dict[str, Any]:
+    """Measured and predicted readings in the last window that was used."""
+    part = search.parts[0]
+    w, n = part.windows, search.unknowns.numbers(search.estimate.q)
+    predicted = part.predictor.predicted(part.starts, n, part.predictor.squares(n, False)[0], search.estimate.point)
+    last, shown = len(w.first) - 1, dict[str, Any]()
+    for name in ("measured_specific_force", "measured_rates", "measured_joint_force", "measured_position"):
+        if name in w.samples:
+            s = w.samples[name]
+            own = s.window == last
+            thin = max(1, int(own.sum()) // SHOWN)
+            place = search.priors.places.get(name)
+            bias = search.estimate.biases[part.groups[last], place] if place else 0.0
+            step = s.step[own][::thin]
+            shown[name] = {
+                "time": (w.times()[last] + step * w.step).tolist(),
+                "measured": s.values[own][::thin].tolist(),
+                "predicted": (predicted[name][last, step] + bias).tolist(),
+            }
+    return shown
+
+
+def reference_rows(mission: MissionLike) -> dict[str, float]:
+    """The numbers of a mission by the keys of `Identification` rows, to compare estimates with."""
+    mission = mission_of(mission)
+    unknowns = unknowns_of(mission.vehicle, mission.actuators.delay)
+    at = np.zeros(len(unknowns))
+    every = _values(unknowns, at) | whole_vehicle(mission.vehicle, unknowns.start.vehicle)
+    return {
+        f"{key}.{AXES[i]}" if len(values) > 1 else key: float(x)
+        for key, (values, _) in every.items()
+        for i, x in enumerate(values)
+    }

@@ -1,0 +1,133 @@
+"""What the data say of an estimate: intervals, what was not excited, what cannot be told apart, whiteness, prediction.
+
+The covariance is H⁻¹ (Σ λ_c H_c + Λ) H⁻¹: H the information of the data and of the priors Λ, H_c that of one stream,
+λ_c ≥ 1 the factor by which the autocorrelation of its residuals raises the variance of a mean (Newey and West,
+Econometrica 55, 1987, with the lags of Geyer, Statistical Science 7, 1992). Without it, H⁻¹ is the Cramér-Rao bound of
+estimates with these priors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.analysis.identification.equations import Normal
+from tandemlift.analysis.identification.fit import Search
+from tandemlift.core.types import Array
+from tandemlift.engines.vehicle_unknowns import Unknowns
+
+LAGS = 20  # blocks
+NOT_EXCITED = 0.5  # of the prior's standard deviation
+ALIKE = 0.95  # of the correlation of two coordinates
+SCALED = ("kg", "kg m²", "N/(rad/s)²")  # units with the scale of force
+
+
+class Whiteness(NamedTuple):
+    """Of the residuals of a stream: autocorrelation over lags of blocks, its bound for white noise, the factor λ."""
+
+    autocorrelation: tuple[float, ...]
+    bound: float
+    factor: float
+
+    @property
+    def white(self) -> bool:
+        """Whether no autocorrelation is beyond the bound."""
+        return max(map(abs, self.autocorrelation)) <= self.bound
+
+
+class Covariance(NamedTuple):
+    """Of the coordinates (P, P): with autocorrelation, and the Cramér-Rao bound."""
+
+    covariance: Array
+    bound: Array
+
+    @property
+    def efficiency(self) -> Array:
+        """The bound's variance over that of the intervals (P,)."""
+        ratio: Array = np.diag(self.bound) / np.diag(self.covariance)
+        return ratio
+
+
+def whiteness(rows: Array) -> Whiteness:
+    """The whiteness of residuals in blocks (windows, blocks, width); NaN without a sample.
+
+    The start of a window takes up to three numbers from the residuals of an axis, which makes white residuals correlate
+    by up to −3 over the number of blocks; the bound, at 99 %, has that much beside the spread.
+    """
+    here = np.isfinite(rows)
+    r = np.where(here, rows - np.nanmean(rows), 0.0)
+    variance = max(np.sum(r * r) / max(here.sum(), 1), 1e-300)
+    lags = range(1, min(LAGS, rows.shape[1] - 1) + 1)
+    pairs = [max((here[:, k:] & here[:, :-k]).sum(), 1) for k in lags]
+    found = [float(np.sum(r[:, k:] * r[:, :-k]) / n / variance) for k, n in zip(lags, pairs, strict=True)]
+    factor = 1.0
+    for one, two in zip(found[::2], found[1::2], strict=False):
+        if one + two <= 0.0:
+            break
+        factor += 2.0 * (one + two)
+    bound = 2.58 / np.sqrt(max(here.sum(), 1)) + 3.0 / rows.shape[1]
+    return Whiteness(tuple(found), float(bound), factor)
+
+
+def covariance_of(normal: Normal, factors: Mapping[str, float], count: int) -> Covariance:
+    """The covariance of the first `count` unknowns, by the factors of the streams."""
+    bound = np.asarray(np.linalg.inv(normal.information), dtype=float)
+    middle: Array = normal.prior + np.sum([factors[name] * one for name, one in normal.noises.items()], axis=0)
+    whole: Array = bound @ middle @ bound
+    return Covariance(whole[:count, :count], bound[:count, :count])
+
+
+def data_information(normal: Normal, count: int) -> Array:
+    """The information (count, count) of the data on the vehicle's coordinates, other unknowns being free."""
+    known = normal.information.copy()
+    known[:count, :count] -= normal.prior[:count, :count]
+    rest = slice(count, None)
+    cross = known[:count, rest]
+    reduced: Array = known[:count, :count] - cross @ np.linalg.solve(known[rest, rest], cross.T)
+    return reduced
+
+
+def scale_is_known(unknowns: Unknowns, q: Array, information: Array) -> bool:
+    """Whether data or a weighed mass fix the scale of force, along which all masses and thrust constants grow alike.
+
+    Args:
+        unknowns: of the vehicle.
+        q: the estimate (P,).
+        information: of the data on it (P, P).
+    """
+    kinds = [u.kind for u in unknowns.unknowns]
+    along = np.array([float(u.positive and k.unit in SCALED) for u, k in zip(unknowns.unknowns, kinds, strict=True)])
+    drag = np.array([u.start + x if "drag" in u.key else 0.0 for u, x in zip(unknowns.unknowns, q, strict=True)])
+    direction, sd = along + drag, float(np.min(unknowns.sd[along > 0.0], initial=1.0))
+    return bool(direction @ information @ direction * sd**2 > 1.0 or sd < 0.01)
+
+
+def correlations_of(keys: Mapping[str, tuple[Array, Array, str, Array]], covariance: Array) -> Array:
+    """The correlations of the errors of keys, whose second item is their derivative by the coordinates."""
+    J = np.concatenate([own[1] for own in keys.values()])
+    C = J @ covariance @ J.T
+    sd = np.sqrt(np.maximum(np.diag(C), 1e-300))
+    return np.asarray(C / np.outer(sd, sd))
+
+
+def alike_pairs(names: Sequence[str], correlations: Array) -> list[tuple[str, str, float]]:
+    """Pairs whose errors correlate by more than `ALIKE`, the strongest first."""
+    pairs = [
+        (names[i], names[j], float(correlations[i, j]))
+        for i in range(len(names))
+        for j in range(i)
+        if abs(correlations[i, j]) > ALIKE
+    ]
+    return sorted(pairs, key=lambda pair: -abs(pair[2]))
+
+
+def misfit_by_window(search: Search, rows: list[dict[str, Array]]) -> dict[str, list[list[float]]]:
+    """The root mean square of whitened residuals of every window, with its time [s], by stream."""
+    found = dict[str, list[list[float]]]()
+    for part, own in zip(search.parts, rows, strict=True):
+        for name, r in own.items():
+            sizes = np.sqrt(np.nanmean(r * r, axis=(1, 2)))
+            found.setdefault(name, []).extend(zip(part.windows.times().tolist(), sizes.tolist(), strict=True))  # type: ignore[arg-type]
+    return found

@@ -1,0 +1,213 @@
+"""A log as windows of flight on one grid of time: commands, samples in blocks, and what was left out.
+
+The body diverges in open loop, so each window has a start of its own. The grid has the steps of the accelerometer's
+clock, at most 2 ms. A sample between two steps is predicted by a straight line between their predictions.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.analysis.identification.checks import check_log
+from tandemlift.analysis.identification.log import COMMANDS, JOINTS, SPEED_COMMANDS, Log, Stream
+from tandemlift.core.errors import InputError
+from tandemlift.core.types import GRAVITY, Array
+from tandemlift.missions import Mission
+
+Places = NDArray[np.intp]
+Truths = NDArray[np.bool_]
+
+LONGEST_STEP = 0.002  # s
+BLOCK = 0.010  # s, over which samples are averaged for derivatives
+LENGTH = 1.0  # s of a window
+LONGEST_DELAY = 0.1  # s that a command may be late
+SETTLING = 0.3  # s from the first command until the rotors' speeds are known
+SPIKE = 15.0  # times the usual distance of a sample from the middle of its neighbours
+CLEAR = 6.0  # radii of a rotor above where it stood: no contact, and a ground effect that its theory gives
+FEWEST = 8  # windows
+
+WIDTHS = {
+    "measured_specific_force": 3,
+    "measured_rates": 3,
+    "measured_position": 3,
+    "measured_velocity": 3,
+    "measured_attitude": 4,
+}
+NEEDED = ("measured_specific_force", "measured_rates", "measured_position", "measured_attitude")
+
+
+class Samples(NamedTuple):
+    """The samples of a stream in windows: window, step in it, fraction of a step beyond, values (n, width)."""
+
+    window: Places
+    step: Places
+    beyond: Array
+    values: Array
+
+    def of(self, windows: Truths) -> Samples:
+        """Those of some windows (a truth each), which are numbered anew."""
+        kept = windows[self.window]
+        number = np.cumsum(windows) - 1
+        return Samples(number[self.window[kept]], self.step[kept], self.beyond[kept], self.values[kept])
+
+
+@dataclass(frozen=True)
+class Windows:
+    """The windows of one log.
+
+    Attributes:
+        source: of the log.
+        step: of the grid [s].
+        begin: of the grid [s].
+        count: steps of the whole grid.
+        first: step at which each window begins (W,).
+        length: steps of a window, a whole number of blocks.
+        block: steps of a block.
+        commands: times (n,) [s] and commanded speeds (n, rotors) [rad/s].
+        samples: by stream.
+    """
+
+    source: str
+    step: float
+    begin: float
+    count: int
+    first: Places
+    length: int
+    block: int
+    commands: Stream
+    samples: dict[str, Samples]
+
+    def times(self) -> Array:
+        """The time [s] at which each window begins."""
+        return np.asarray(self.begin + self.first * self.step, dtype=float)
+
+    def commands_at(self, delay: float) -> tuple[Array, Array]:
+        """(Mean command in every step of the grid (count, rotors), its derivative by the delay)."""
+        time, speeds = self.commands
+        integral = np.concatenate([np.zeros((1, speeds.shape[1])), np.cumsum(speeds[:-1] * np.diff(time)[:, None], 0)])
+        edges = self.begin + np.arange(self.count + 1) * self.step - delay
+        place = np.clip(np.searchsorted(time, edges + 1e-9, side="right") - 1, 0, len(time) - 1)
+        held = speeds[place]
+        total = integral[place] + held * (edges - time[place])[:, None]
+        return np.diff(total, axis=0) / self.step, -np.diff(held, axis=0) / self.step
+
+    def shortened(self, part: float) -> Windows:
+        """The first part of every window."""
+        length = max(4, round(part * self.length / self.block)) * self.block
+        samples = {}
+        for name, s in self.samples.items():
+            here = s.step < length
+            samples[name] = Samples(s.window[here], s.step[here], s.beyond[here], s.values[here])
+        return replace(self, length=length, samples=samples)
+
+    def chosen(self, windows: Truths) -> Windows:
+        """Some of the windows, by a truth for each."""
+        samples = {name: s.of(windows) for name, s in self.samples.items()}
+        return replace(self, first=self.first[windows], samples=samples)
+
+
+def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> Windows:
+    """Cut a log into windows in flight.
+
+    Args:
+        log: with IMU, motion measurement and commands.
+        mission: of about such a vehicle.
+        length: of a window [s].
+
+    Raises:
+        InputError: a stream is missing, has another number of rotors or joints, or no flight is left.
+    """
+    commands = _speeds(log, mission)
+    log.require(*NEEDED)
+    _check_joints(log, mission)
+    check_log(log)
+    imu = log["measured_specific_force"].time
+    interval = float(np.median(np.diff(imu))) if len(imu) > 1 else LONGEST_STEP
+    step = interval / np.ceil(interval / LONGEST_STEP - 1e-9)
+    begin = max(float(commands.time[0]), float(imu[0]))
+    begin = float(imu[np.searchsorted(imu, begin - 1e-9)])
+    count = int((min(float(commands.time[-1]), log.end) - begin) / step)
+    block = max(1, round(BLOCK / step))
+    steps = round(length / (step * block)) * block
+    lead = int(np.ceil((SETTLING + LONGEST_DELAY) / step))
+    firsts = np.arange(lead, count - steps - 2 * block, steps)
+    if len(firsts) < FEWEST:
+        raise InputError(
+            f"{log.source}: commands and sensors overlap for {max(count, 0) * step:.3g} s; {FEWEST} windows "
+            f"of {length:g} s are needed, after {SETTLING + LONGEST_DELAY:g} s for delay and lag of the rotors"
+        )
+    cut = Windows(log.source, step, begin, count, firsts, steps, block, commands, {})
+    samples = {name: _samples(cut, log[name]) for name in (*WIDTHS, *JOINTS) if name in log}
+    cut = replace(cut, samples=samples)
+    flying = _in_flight(cut, log, mission)
+    if flying.sum() < FEWEST:
+        raise InputError(f"{log.source}: flies clear of the floor in {flying.sum()} windows; {FEWEST} are needed")
+    return cut.chosen(flying)
+
+
+def _speeds(log: Log, mission: Mission) -> Stream:
+    """The commanded speeds [rad/s]; of thrusts, by the mission's thrust constants."""
+    if SPEED_COMMANDS not in log and COMMANDS not in log:
+        raise InputError(f"{log.source}: has neither {SPEED_COMMANDS} nor {COMMANDS}; it has {', '.join(log)}")
+    name = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
+    rotors = [q for q in mission.vehicle.quadrotors for _ in range(4)]
+    time, values = log[name]
+    if values.shape[1] != len(rotors):
+        raise InputError(
+            f"{log.source}: {name} has {values.shape[1]} rotors, but the vehicle of mission {mission.mission.name} "
+            f"has {len(rotors)}: it cannot be this vehicle"
+        )
+    if name == COMMANDS:
+        values = np.sqrt(np.maximum(values, 0.0) / [q.thrust_constant for q in rotors])
+    return Stream(time, np.clip(values, 0.0, [q.max_speed for q in rotors]))
+
+
+def _check_joints(log: Log, mission: Mission) -> None:
+    """Refuse another number of joints."""
+    joints = len(mission.vehicle.quadrotors)
+    for name in JOINTS:
+        if name in log and log[name].values.shape[1] != 3 * joints:
+            raise InputError(
+                f"{log.source}: {name} has {log[name].values.shape[1]} columns, but mission {mission.mission.name} has "
+                f"{joints} quadrotors: {3 * joints} are needed"
+            )
+
+
+def _samples(cut: Windows, stream: Stream) -> Samples:
+    """The samples of a stream that are in windows."""
+    stream = _without_spikes(stream)
+    exact = (stream.time - cut.begin) / cut.step
+    step = np.floor(exact + 1e-3).astype(np.intp)
+    beyond = np.where(np.abs(exact - step) < 2e-3, 0.0, exact - step)
+    window = np.searchsorted(cut.first, step, side="right") - 1
+    local = step - cut.first[np.maximum(window, 0)]
+    inside = (window >= 0) & (local < cut.length)
+    return Samples(window[inside], local[inside], beyond[inside], stream.values[inside])
+
+
+def _without_spikes(stream: Stream) -> Stream:
+    """The samples that are not far off the middle of their neighbours, measured by the median of all."""
+    off = np.zeros_like(stream.values)
+    off[1:-1] = np.abs(stream.values[1:-1] - 0.5 * (stream.values[:-2] + stream.values[2:]))
+    usual = np.median(off, axis=0)
+    kept = np.all((off <= SPIKE * usual) | (usual == 0.0), axis=1)
+    return Stream(stream.time[kept], stream.values[kept])
+
+
+def _in_flight(cut: Windows, log: Log, mission: Mission) -> Truths:
+    """Whether each window flies: its rotors carry most of the weight, and it is clear of the floor."""
+    quadrotors = mission.vehicle.quadrotors
+    mass = mission.vehicle.payload.mass + sum(q.mass for q in quadrotors)
+    constants = np.array([q.thrust_constant for q in quadrotors for _ in range(4)])
+    time, position = log["measured_position"]
+    thrust = np.array([np.interp(time, cut.commands.time, column) for column in cut.commands.values.T]).T ** 2
+    resting = thrust @ constants < 0.5 * mass * GRAVITY
+    radius = max(q.rotor_radius for q in quadrotors)
+    lowest = position[resting, 2].min() + CLEAR * radius if resting.any() else -np.inf
+    flies = ~resting & (position[:, 2] > lowest)
+    grid = cut.begin + (cut.first[:, None] + np.arange(0, cut.length, cut.block)) * cut.step
+    return np.interp(grid, time, flies.astype(float)).min(axis=1) > 0.5

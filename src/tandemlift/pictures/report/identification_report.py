@@ -1,0 +1,180 @@
+"""The page of an identification: estimates with intervals, residuals, correlations, and what was predicted."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tandemlift.core.files import versions
+from tandemlift.pictures.drawing.figure import Caption
+from tandemlift.pictures.drawing.style import BLUE, GREY, INK, look, page_figure, styled
+from tandemlift.pictures.report.page import DASH, html, html_figures, html_row, html_table, number, write_page
+
+PAGE = "identification.html"
+CAPTIONS = {
+    "estimates": Caption(
+        "Estimates over the values of the mission",
+        "Change of each number from the mission's value, with its interval of 95 %. Hollow: not excited by the flight. "
+        "Numbers that are 0 in the mission are left out.",
+        "A row for each identified number with its relative change and interval.",
+    ),
+    "misfit": Caption(
+        "Residuals over time",
+        "Root mean square of the residuals of each window over the noise. Crosses: windows that were held back.",
+        "Points near 1 for each stream over the time of the log.",
+    ),
+    "example": Caption(
+        "A window",
+        "Measured (points) and predicted (lines) readings in the last window that was used.",
+        "Panels of measured and predicted readings over a second.",
+    ),
+    "autocorrelation": Caption(
+        "Autocorrelation of residuals",
+        "Of block means; grey: the largest bound for white noise.",
+        "Curves of the autocorrelation over the lag for each stream.",
+    ),
+    "correlation": Caption(
+        "Correlation of the errors of estimates",
+        "Blue: errors of opposite sign; red: of the same sign. Rows in the order of the table.",
+        "A square map of correlations between minus one and one.",
+    ),
+}
+
+
+def write_identification(found: Mapping[str, Any], folder: Path) -> Path:
+    """Write the page of an identification, as `identification.json` has it, into a folder that is there."""
+    drawn = {
+        "estimates": draw_estimates(found["parameters"]),
+        "misfit": draw_misfit(found["misfit"], found["held_back"].get("windows", {})),
+        "example": draw_example(found["example"]),
+        "autocorrelation": draw_autocorrelation(found["whiteness"]),
+        "correlation": draw_correlation(found["correlation"]),
+    }
+    used, left_out = found["windows"]["used"], found["windows"]["left_out"]
+    return write_page(
+        folder / PAGE,
+        "identification",
+        name=found["mission"],
+        about=f"From {', '.join(found['logs'])}: {used} windows, {left_out} left out, {found['steps']} steps.",
+        verdict="",
+        remarks=found["remarks"],
+        parameters=html(_table(found["parameters"])),
+        whole=html(_table(found["whole_vehicle"])),
+        residuals=html(_residuals(found)),
+        figures=html(html_figures(drawn, CAPTIONS)),
+        versions=f"Identified with {', '.join(f'{name} {version}' for name, version in versions('compiled').items())}.",
+    )
+
+
+def _table(rows: Sequence[Mapping[str, Any]]) -> str:
+    titles = ("", "Estimate", "95 % from", "to", "Unit", "Mission", "Efficiency", "Excited")
+    lines = [
+        html_row(
+            f"<code>{escape(r['key'])}</code>",
+            *[number(r[name]) for name in ("value", "low", "high")],
+            escape(r["unit"]),
+            number(r["start"]),
+            number(round(r["efficiency"], 2)),
+            "yes" if r["excited"] else "<strong>no</strong>",
+        )
+        for r in rows
+    ]
+    return html_table(titles, lines, "compared")
+
+
+def _residuals(found: Mapping[str, Any]) -> str:
+    titles = ("Stream", "Noise", "Autocorrelation up to", "Bound", "White", "Factor of variance", "Prediction")
+    ratio, lines = found["held_back"].get("ratio", {}), []
+    for name, w in found["whiteness"].items():
+        predicted = number(ratio[name]) if name in ratio else DASH
+        largest = max(map(abs, w["autocorrelation"]))
+        cells = [number(found["noise"][name]), number(largest), number(w["bound"])]
+        cells += ["yes" if w["white"] else "<strong>no</strong>", number(w["factor"]), predicted]
+        lines.append(html_row(f"<code>{escape(name)}</code>", *cells))
+    return html_table(titles, lines, "compared")
+
+
+@styled
+def draw_estimates(rows: Sequence[Mapping[str, Any]]) -> Figure:
+    """Draw the relative change of each number, with its interval."""
+    shown = [r for r in rows if r["start"]]
+    figure = page_figure(0.5 + 0.17 * len(shown))
+    axes = figure.add_subplot()
+    for place, r in enumerate(reversed(shown)):
+        low, value, high = (100.0 * (r[name] / r["start"] - 1.0) for name in ("low", "value", "high"))
+        axes.plot([low, high], [place, place], color=BLUE, lw=1.6)
+        axes.plot(value, place, "o", color=INK, ms=3.0, mfc=INK if r["excited"] else "none")
+    axes.set_yticks(range(len(shown)), [r["key"] for r in reversed(shown)])
+    axes.axvline(0.0, color=GREY, lw=0.8)
+    axes.set_xlim(-100.0, 100.0)
+    axes.set_xlabel("change from the mission (%)")
+    return figure
+
+
+@styled
+def draw_misfit(used: Mapping[str, Any], held: Mapping[str, Any]) -> Figure:
+    """Draw the residuals of every window over the noise."""
+    figure = page_figure(2.4)
+    axes = figure.add_subplot()
+    for place, (name, points) in enumerate(used.items()):
+        style = look(place, ls="none", ms=3.0)
+        axes.plot(*np.transpose(points), marker=".", label=name.removeprefix("measured_").replace("_", " "), **style)
+        if name in held:
+            axes.plot(*np.transpose(held[name]), marker="x", **style)
+    axes.set_ylim(bottom=0.0)
+    axes.set_xlabel("time (s)")
+    axes.set_ylabel("residuals over noise (1)")
+    figure.legend(loc="outside upper center", ncols=4)
+    return figure
+
+
+@styled
+def draw_example(panels: Mapping[str, Any]) -> Figure:
+    """Draw measured and predicted readings of a window."""
+    figure = page_figure(1.4 * len(panels))
+    every = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+    for axes, (name, panel) in zip(every, panels.items(), strict=True):
+        measured, predicted = np.array(panel["measured"]), np.array(panel["predicted"])
+        middle = predicted.mean(axis=0)
+        for place in range(min(measured.shape[1], 3)):
+            axes.plot(panel["time"], measured[:, place] - middle[place], **look(place, ls="none", marker=".", ms=2.0))
+            axes.plot(panel["time"], predicted[:, place] - middle[place], label="xyz"[place], **look(place))
+        axes.set_ylabel(name.removeprefix("measured_").replace("_", "\n"))
+    every[0].legend(ncols=3)
+    every[-1].set_xlabel("time (s)")
+    return figure
+
+
+@styled
+def draw_autocorrelation(white: Mapping[str, Any]) -> Figure:
+    """Draw the autocorrelation of the residuals of each stream."""
+    figure = page_figure(2.2)
+    axes = figure.add_subplot()
+    bound = max(w["bound"] for w in white.values())
+    for place, (name, w) in enumerate(white.items()):
+        lags = range(1, len(w["autocorrelation"]) + 1)
+        axes.plot(lags, w["autocorrelation"], label=name.removeprefix("measured_").replace("_", " "), **look(place))
+    for side in (-bound, bound):
+        axes.axhline(side, color=GREY, lw=0.8)
+    axes.set_xlabel("lag (blocks)")
+    axes.set_ylabel("autocorrelation (1)")
+    figure.legend(loc="outside upper center", ncols=4)
+    return figure
+
+
+@styled
+def draw_correlation(matrix: Sequence[Sequence[float]]) -> Figure:
+    """Draw the correlations of the errors of estimates as a map."""
+    figure = page_figure(4.2)
+    axes: Axes = figure.add_subplot()
+    image = axes.imshow(matrix, cmap="RdBu_r", vmin=-1.0, vmax=1.0, interpolation="nearest")
+    figure.colorbar(image, ax=axes, label="correlation (1)")
+    axes.set_xticks([])
+    axes.set_yticks([])
+    return figure

@@ -1,0 +1,228 @@
+"""Vehicles that MuJoCo flew, identified from their logs; against scipy.optimize on a plain model; bad input."""
+
+import json
+
+import numpy as np
+import pytest
+from plain_vehicle import PlainVehicle, fitted, squares
+
+import tandemlift as tl
+from tandemlift.analysis.identification.identify import reference_rows
+from tandemlift.analysis.identification.log import Log, Stream, log_of
+from tandemlift.analysis.identification.prediction import Predictor
+from tandemlift.analysis.identification.windows import windows_of
+from tandemlift.core.errors import InputError
+from tandemlift.engines.vehicle_unknowns import driven_numbers, unknowns_of
+from tandemlift.missions import load_mission
+
+pytest.importorskip("mujoco")
+START = "iris"
+TRUTH = {
+    "vehicle.payload.mass": 0.55,
+    "vehicle.payload.center_of_mass": [0.01, -0.06, 0.01],
+    "vehicle.quadrotors.0.mass": 1.62,
+    "vehicle.quadrotors.1.mass": 1.41,
+    "actuators.delay": 0.012,
+}
+for place in (0, 1):
+    TRUTH |= {
+        f"vehicle.quadrotors.{place}.{name}": value
+        for name, value in {
+            "inertia": [0.032, 0.027, 0.05],
+            "thrust_constant": 6.4e-6,
+            "torque_per_thrust": 0.053,
+            "lag_up": 0.0145,
+            "lag_down": 0.022,
+        }.items()
+    }
+BEGIN, END, PUSH = 9.0, 30.0, 20.0  # s, of the excitation; of a push
+EXCITED = (("thrust", 1.5), ("roll", 1.0), ("pitch", 0.1), ("yaw", 0.3))
+FLOWN = {
+    "mission.duration": END,
+    "mission.seed": 4,
+    "mission.log_interval": 0.001,
+    "phases.lift_start": 0.5,
+    "phases.lift_duration": 3.0,
+    "phases.height": 1.5,
+    "phases.land_start": 100.0,
+    "estimator.tare_start": 4.0,
+    "excitation.model": "multisine",
+    "excitation.begin": BEGIN,
+    "excitation.duration": END - BEGIN,
+    "excitation.lines": [
+        {"axis": axis, "frequency": f * (1.0 + 0.03 * i), "amplitude": size, "phase": 0.7 * k * k}
+        for i, (axis, size) in enumerate(EXCITED)
+        for k, f in enumerate((0.3, 0.5, 0.8, 1.3, 2.1, 3.4, 5.5, 8.0))
+        if axis != "pitch" or f > 0.6
+    ],
+    "pushes": [{"force": [1.5, 0.0, 0.0], "time": PUSH, "sigma": 0.3}],
+}
+WEIGHED = {"vehicle.payload.mass": TRUTH["vehicle.payload.mass"]}
+SILENT = {"progress": lambda done, of: None}
+pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning")
+
+
+def blind(log):
+    """The log without what only a simulation knows."""
+    return Log({n: s for n, s in log.items() if n not in ("push_force", "rotor_commands")}, "blind")
+
+
+@pytest.fixture(scope="module")
+def flight():
+    return tl.fly(load_mission(START, TRUTH | FLOWN), engine="mujoco")
+
+
+@pytest.fixture(scope="module")
+def log(flight):
+    return blind(log_of(flight))
+
+
+@pytest.fixture(scope="module")
+def found(log):
+    return tl.identify(log, START, weighed=WEIGHED, **SILENT)
+
+
+def test_the_driven_vehicle_moves_as_mujoco_moved_it(flight, log):
+    true = load_mission(START, TRUTH)
+    quiet = windows_of(log.between(BEGIN, PUSH - 3.0), true, 0.5)
+    predictor = Predictor(quiet, unknowns_of(true.vehicle, true.actuators.delay), true)
+    rows = np.round(quiet.times() / 0.001).astype(int)
+    starts = np.concatenate([flight[n][rows] for n in ("position", "velocity", "attitude", "rates")], axis=1)
+    n = driven_numbers(true.vehicle, true.actuators.delay)
+    seen = predictor.predicted(starts, n, predictor.squares(n, False)[0], np.zeros(3))
+    every = rows[:, None] + np.arange(quiet.length)
+    for name, within in (("position", 2e-5), ("velocity", 5e-5), ("rates", 5e-5), ("joint_force", 5e-4)):
+        assert seen[f"measured_{name}"][:, : quiet.length] == pytest.approx(flight[name][every], abs=within)
+
+
+def test_derivatives_are_central_differences_of_predictions(log):
+    start = load_mission(START)
+    w = windows_of(log.between(BEGIN, PUSH - 3.0), start, 0.5)
+    unknowns = unknowns_of(start.vehicle, start.actuators.delay)
+    predictor, point = Predictor(w, unknowns, start), np.array([0.01, 0.02, -0.01])
+    starts, q = predictor.starts(), 0.02 * np.cos(np.arange(len(unknowns))) * np.minimum(unknowns.sd, 0.3)
+    n = unknowns.numbers(q)
+    derivatives = predictor.derivatives(starts, q, n, *predictor.squares(n, True), point)
+    for i, u in enumerate(unknowns.unknowns):
+        h = 1e-3 * u.sd * np.eye(len(q))[i]
+        ends = []
+        for x in (q + h, q - h):
+            m = unknowns.numbers(x)
+            p = predictor.predicted(starts, m, predictor.squares(m, False)[0], point)
+            ends.append(p["measured_velocity"][:, :: w.block][:, :-1])
+        J = derivatives.streams["measured_velocity"][:, 12 + i, :-1]
+        expected = (ends[0] - ends[1]) / (2.0 * h[i])
+        assert J[:, : expected.shape[1]] == pytest.approx(expected, abs=0.02 * np.abs(expected).max() + 1e-9), u.name
+
+
+def test_estimates_are_near_the_truth_and_within_their_intervals(found):
+    truth = reference_rows(load_mission(START, TRUTH))
+    rows = [row for row in (*found.rows, *found.whole) if row.excited]
+    off = {row.key: abs(row.value - truth[row.key]) / (row.half / 1.96) for row in rows}
+    assert max(off.values()) < 4.0, max(off.items(), key=lambda item: item[1])
+    assert np.mean([size < 1.96 for size in off.values()]) > 0.8
+    assert found["mass"].value == pytest.approx(truth["mass"], rel=0.003)
+    for axis in "xyz":
+        assert found[f"inertia.{axis}"].value == pytest.approx(truth[f"inertia.{axis}"], rel=0.02)
+        assert found[f"center_of_mass.{axis}"].value == pytest.approx(truth[f"center_of_mass.{axis}"], abs=0.002)
+    assert found["actuators.delay"].value == pytest.approx(0.012, abs=0.0002)
+    assert found["vehicle.quadrotors.*.lag_up"].value == pytest.approx(0.0145, rel=0.05)
+
+
+def test_a_push_is_left_out_and_what_was_held_back_is_predicted(found):
+    assert 1 <= found.details["windows"]["left_out"] <= 6
+    assert any("left out" in text for text in found.remarks)
+    assert all(0.8 < ratio < 1.5 for ratio in found.details["held_back"]["ratio"].values())
+    assert 0.5 < found.details["efficiency"] <= 1.0
+
+
+def test_the_identified_mission_is_written_with_its_intervals(found, tmp_path):
+    mission, data = found.save(tmp_path)
+    loaded = load_mission(mission)
+    assert loaded.vehicle.quadrotors[1].mass == pytest.approx(found["vehicle.quadrotors.1.mass"].value, rel=1e-6)
+    assert loaded.actuators.delay == pytest.approx(found["actuators.delay"].value, rel=1e-6)
+    line = next(text for text in mission.read_text("utf-8").splitlines() if text.startswith("thrust_constant"))
+    assert f"± {found['vehicle.quadrotors.0.thrust_constant'].half:.2g}" in line
+    assert json.loads(data.read_text("utf-8"))["whole_vehicle"][0]["key"] == "mass"
+
+
+def test_the_page_shows_each_estimate(found, tmp_path):
+    from tandemlift.pictures.report.identification_report import write_identification
+
+    text = write_identification(found.as_dict(), tmp_path).read_text("utf-8")
+    assert all(row.key in text for row in (*found.rows, *found.whole))
+
+
+def test_outliers_and_gaps_change_little(log, found):
+    chance, bad = np.random.default_rng(3), {}
+    for name, (time, values) in log.items():
+        kept = chance.random(len(time)) > 0.05
+        values = values.copy()
+        if name.startswith("measured") and "attitude" not in name:
+            hit = chance.random(len(time)) < 0.01
+            values[hit] += 20.0 * values.std(axis=0)
+        bad[name] = Stream(time[kept], values[kept]) if name.startswith("measured") else Stream(time, values)
+    again = tl.identify(Log(bad, "bad"), START, weighed=WEIGHED, **SILENT)
+    for row in (*found.rows, *found.whole):
+        assert abs(again[row.key].value - row.value) < 1.5 * row.half, row.key
+
+
+def test_the_estimate_is_that_of_scipy_on_a_plain_model(log):
+    known = {key: value for key, value in TRUTH.items() if "thrust" not in key}
+    start = load_mission(START, known | {"vehicle.drag.force": 0.0, "vehicle.drag.moment": 0.0, "ground.effect": False})
+    part = Log({n: s for n, s in log.items() if "joint" not in n}, "part").between(11.0, 14.8)
+    keys = ["vehicle.quadrotors.*.thrust_constant", "vehicle.quadrotors.*.torque_per_thrust"]
+    ours = tl.identify(part, start, parameters=keys, window=0.4, held_back=0.0, **SILENT)
+    w = windows_of(part, start, 0.4)
+    q = start.vehicle.quadrotors
+    steps = np.arange(w.count)
+    every = squares(*w.commands, w.begin + steps * w.step, w.step, start.actuators.delay, q[0].lag_up, q[0].lag_down)
+    cut = every[w.first[:, None] + np.arange(w.length)]
+    data = {}
+    for name, s in w.samples.items():
+        data[name] = s.step[s.window == 0], s.values.reshape(len(w.first), -1, s.values.shape[1])
+    starts = Predictor(w, unknowns_of(start.vehicle, start.actuators.delay), start).starts()
+    nominal = [q[0].thrust_constant, q[1].thrust_constant, q[0].torque_per_thrust]
+    priors = [0.3] * 3 + [0.1] * 3 + [0.02] * 3 + [0.03] * 3
+    plain = PlainVehicle(tl.Vehicle.from_settings(start.vehicle), w.step)
+    logs, sd = fitted(plain, cut, data, starts, np.array(nominal), ours.details["noise"], priors)
+    for i, row in enumerate(ours.rows):
+        assert np.log(row.value / row.start) == pytest.approx(logs[i], abs=0.3 * sd[i]), row.key
+        assert row.half * np.sqrt(row.efficiency) == pytest.approx(1.96 * sd[i] * row.value, rel=0.15), row.key
+
+
+def test_a_calm_hover_excites_no_drag_and_says_so(log):
+    calm = tl.identify(log.between(4.5, BEGIN), START, weighed=WEIGHED, window=0.4, **SILENT)
+    drag = calm["vehicle.drag.force.z"]
+    assert not drag.excited
+    assert drag.low < drag.start < drag.high
+    assert drag.key in next(text for text in calm.remarks if "did not excite" in text)
+
+
+def test_without_joints_and_scale_masses_and_thrust_constants_are_a_pair(log):
+    part = Log({n: s for n, s in log.items() if "joint" not in n}, "part").between(BEGIN, PUSH - 3.0)
+    alone = tl.identify(part, START, window=0.8, **SILENT)
+    assert any("cannot be told apart" in text and "thrust constants" in text for text in alone.remarks)
+    ratio = alone["mass"].value / alone["vehicle.quadrotors.0.thrust_constant"].value
+    truth = reference_rows(load_mission(START, TRUTH))
+    assert ratio == pytest.approx(truth["mass"] / truth["vehicle.quadrotors.0.thrust_constant"], rel=0.01)
+
+
+def test_bad_input_is_named(log):
+    without = Log({n: s for n, s in log.items() if n != "measured_rates"}, "half")
+    for given, options, text in (
+        (without, {}, "half: has no measured_rates"),
+        (log.between(5.0, 7.0), {}, "windows"),
+        (log, {"parameters": ["vehicle.payload.weight"]}, "vehicle.payload.weight"),
+        (log, {"weighed": {"vehicle.payload.length": 2.0}}, "vehicle.payload.length"),
+        (log, {"window": 0.01}, "window"),
+        ([], {}, "logs"),
+    ):
+        with pytest.raises(InputError, match=text):
+            tl.identify(given, START, **SILENT, **options)
+    with pytest.raises(InputError, match="has 8 rotors, but the vehicle of mission four has 16"):
+        tl.identify(log, "four", **SILENT)
+    still = dict(log.items())
+    still["measured_rates"] = Stream(log["measured_rates"].time, 0.0 * log["measured_rates"].values)
+    with pytest.raises(InputError, match="measured_rates: column 0 is constant"):
+        tl.identify(Log(still, "dead"), START, **SILENT)
