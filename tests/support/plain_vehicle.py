@@ -74,6 +74,42 @@ def turned(q, turn):
     return np.roll(own.as_quat(), 1, -1).reshape(q.shape)
 
 
+def misfit(plain, squares_, data, starts, nominal, noise, z, own):
+    """Whitened residuals (…, W, n) at shared unknowns z (…, S) and moves of the starts `own` (…, 12 W)."""
+    W, shared = len(starts), z.shape[-1]
+    q, moves = z[..., :shared], own.reshape(*own.shape[:-1], W, 12)
+    x = np.broadcast_to(starts, (*moves.shape[:-1], 13)).copy()
+    x[..., :6] += moves[..., :6]
+    x[..., 10:] += moves[..., 9:]
+    x[..., 6:10] = turned(x[..., 6:10], moves[..., 6:9])
+    constants = np.repeat(np.exp(q[..., :2]) * nominal[:2], 4, axis=-1)[..., None, :]
+    yaw = (np.exp(q[..., 2]) * nominal[2])[..., None]
+    y = plain.readings(x, squares_, constants, yaw)
+    bias = q[..., None, None, 3:]
+    R = 0.0 * y[..., 6:10] + y[..., 6:10]
+    lever = _rotated(R, bias[..., 6:9] + 0.0 * y[..., :3])
+    swept = _rotated(R, np.cross(y[..., 10:13], bias[..., 6:9]))
+    every = {
+        "measured_specific_force": y[..., 13:] + bias[..., :3],
+        "measured_rates": y[..., 10:13] + bias[..., 3:6],
+        "measured_position": y[..., :3] + lever,
+        "measured_velocity": y[..., 3:6] + swept,
+    }
+    parts = []
+    for name, (steps, values) in data.items():
+        if name == "measured_attitude":
+            here = R[..., steps, :]
+            seen = np.broadcast_to(values, here.shape)
+            r = 2.0 * (
+                here[..., :1] * seen[..., 1:] - seen[..., :1] * here[..., 1:] - np.cross(here[..., 1:], seen[..., 1:])
+            )
+            r = r * np.sign(np.sum(here * seen, -1, keepdims=True))
+        else:
+            r = values - every[name][..., steps, :]
+        parts.append((r / noise[name]).reshape(*r.shape[:-3], W, -1))
+    return np.concatenate(parts, -1)
+
+
 def fitted(plain, squares_, data, starts, nominal, noise, priors):
     """The unknowns (log constants of two quadrotors, log yaw per thrust, biases, point) and their standard deviations.
 
@@ -86,45 +122,10 @@ def fitted(plain, squares_, data, starts, nominal, noise, priors):
         noise: standard deviations by stream.
         priors: standard deviations of the twelve shared unknowns.
     """
-    W, shared = len(starts), len(priors)
-
-    def misfit(z, own):
-        q, moves = z[..., :shared], own.reshape(*own.shape[:-1], W, 12)
-        x = np.broadcast_to(starts, (*moves.shape[:-1], 13)).copy()
-        x[..., :6] += moves[..., :6]
-        x[..., 10:] += moves[..., 9:]
-        x[..., 6:10] = turned(x[..., 6:10], moves[..., 6:9])
-        constants = np.repeat(np.exp(q[..., :2]) * nominal[:2], 4, axis=-1)[..., None, :]
-        yaw = (np.exp(q[..., 2]) * nominal[2])[..., None]
-        y = plain.readings(x, squares_, constants, yaw)
-        bias = q[..., None, None, 3:]
-        R = 0.0 * y[..., 6:10] + y[..., 6:10]
-        lever = _rotated(R, bias[..., 6:9] + 0.0 * y[..., :3])
-        swept = _rotated(R, np.cross(y[..., 10:13], bias[..., 6:9]))
-        every = {
-            "measured_specific_force": y[..., 13:] + bias[..., :3],
-            "measured_rates": y[..., 10:13] + bias[..., 3:6],
-            "measured_position": y[..., :3] + lever,
-            "measured_velocity": y[..., 3:6] + swept,
-        }
-        parts = []
-        for name, (steps, values) in data.items():
-            if name == "measured_attitude":
-                here = R[..., steps, :]
-                seen = np.broadcast_to(values, here.shape)
-                r = 2.0 * (
-                    here[..., :1] * seen[..., 1:]
-                    - seen[..., :1] * here[..., 1:]
-                    - np.cross(here[..., 1:], seen[..., 1:])
-                )
-                r = r * np.sign(np.sum(here * seen, -1, keepdims=True))
-            else:
-                r = values - every[name][..., steps, :]
-            parts.append((r / noise[name]).reshape(*r.shape[:-3], W, -1))
-        return np.concatenate(parts, -1)
+    W, shared, given = len(starts), len(priors), (plain, squares_, data, starts, nominal, noise)
 
     def residuals(v):
-        return np.concatenate([misfit(v[:shared], v[shared:]).ravel(), v[:shared] / priors])
+        return np.concatenate([misfit(*given, v[:shared], v[shared:]).ravel(), v[:shared] / priors])
 
     def jacobian(v):
         h, n = 1e-6, shared + 12
@@ -133,7 +134,7 @@ def fitted(plain, squares_, data, starts, nominal, noise, priors):
         z[range(shared), range(shared)] += h
         for i in range(12):
             own[shared + i, :, i] += h
-        r = misfit(z, own.reshape(n + 1, -1))
+        r = misfit(*given, z, own.reshape(n + 1, -1))
         D = (r[:-1] - r[-1]) / h
         J = np.zeros((W, D.shape[-1], shared + 12 * W))
         J[..., :shared] = np.moveaxis(D[:shared], 0, -1)

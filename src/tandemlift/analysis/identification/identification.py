@@ -66,7 +66,7 @@ class Identification:
     rows: tuple[Row, ...]
     whole: tuple[Row, ...]
     remarks: tuple[str, ...]
-    details: Mapping[str, Any]
+    details: dict[str, Any]
 
     def __getitem__(self, key: str) -> Row:
         for row in (*self.rows, *self.whole):

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift.analysis.identification.equations import Equations, Normal
 from tandemlift.analysis.identification.fit import Search
 from tandemlift.analysis.identification.identification import Identification, Row, rows_of, with_values
 from tandemlift.analysis.identification.judgement import (
@@ -85,19 +86,27 @@ def identify(
     search = Search([Predictor(fitted, unknowns, mission) for fitted, _ in parts], unknowns, priors)
     with progress_or_own(f"{mission.mission.name}, identified", progress, "steps") as shown:
         equations, normal = search.run(shown)
-    rows = [one.rows for one in equations]
+    found = _judged(search, equations, normal, [last for _, last in parts if last is not None], mission)
+    found.details["seconds"] = time.perf_counter() - began
+    return found
+
+
+def _judged(
+    search: Search, equations: list[Equations], normal: Normal, held_back: list[Windows], mission: Mission
+) -> Identification:
+    """The estimate of a search, with what the data say of it."""
+    unknowns, rows = search.unknowns, [one.rows for one in equations]
     streams = {name: np.concatenate([r[name] for r in rows if name in r]) for name in search.estimate.noise}
     white = {name: whiteness(r) for name, r in streams.items()}
     covariance = covariance_of(normal, {name: w.factor for name, w in white.items()}, len(unknowns))
     information = data_information(normal, len(unknowns))
-    held = _held_back(search, [last for _, last in parts if last is not None], mission)
     found, whole, identified, remarks = _results(search, covariance, mission)
-    correlations = correlations_of(
-        _with_derivatives(lambda x: _values(unknowns, x), search.estimate.q), covariance.covariance
-    )
+    keys = _with_derivatives(lambda x: _values(unknowns, x), search.estimate.q)
+    correlations = correlations_of(keys, covariance.covariance)
     remarks += _remarks(unknowns, correlations, information, white, found, search)
+    held = _held_back(search, held_back, mission)
     details = _details(search, correlations, covariance, white, misfit_by_window(search, rows), held)
-    details |= {"example": _example(search), "seconds": time.perf_counter() - began}
+    details |= {"example": _example(search)}
     return Identification(identified, tuple(found), tuple(whole), tuple(remarks), details)
 
 
