@@ -186,10 +186,10 @@ def _changed(moments: Array, products: Array, change: Array) -> tuple[Array, Arr
     size = np.maximum(np.diag(S), THIN * np.trace(S) / 3.0)
     np.fill_diagonal(S, size)
     L = np.linalg.cholesky(S)
-    for i, x in enumerate(change[:3]):
-        L[i] *= math.exp(0.5 * x)
     for (i, j), x in zip(PAIRS, change[3:], strict=True):
         L[i, j] -= x * math.sqrt(size[i])
+    for i, x in enumerate(change[:3]):
+        L[i] *= math.exp(0.5 * x)
     S = L @ L.T
     return np.trace(S) - np.diag(S), np.array([-S[i, j] for i, j in PAIRS])
 
