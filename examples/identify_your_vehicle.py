@@ -34,7 +34,6 @@ rows = [row for row in found.rows if row.start and row.excited]
 for place, row in enumerate(reversed(rows)):
     axes.plot([100 * (x / row.start - 1) for x in (row.low, row.high)], [place, place], "C0", lw=3)
 axes.set(xlabel="change from the start mission [%]", xlim=(-40, 40))
-axes.set_yticks(
-    range(len(rows)), [row.key.removeprefix("vehicle.") for row in reversed(rows)], fontsize=6
-)
+names = [row.key.removeprefix("vehicle.") for row in reversed(rows)]
+axes.set_yticks(range(len(rows)), names, fontsize=6)
 figure.savefig("identify_your_vehicle.png", dpi=150)

@@ -76,7 +76,7 @@ class DrivenReadings(NamedTuple):
     joint_torque: Vec3
 
 
-class RotorModel(NamedTuple):
+class DrivenRotor(NamedTuple):
     """A rotor: its time constants up and down [s]; its speed [rad/s] is the state."""
 
     speed: Number
@@ -165,12 +165,12 @@ def driven_step(b: DrivenBody, s: State, squares: PerRotor) -> tuple[State, Driv
 
 
 @law
-def rotor_step(step: Number, r: RotorModel, command: Number) -> tuple[RotorModel, Number]:
+def rotor_step(step: Number, r: DrivenRotor, command: Number) -> tuple[DrivenRotor, Number]:
     """(The rotor after a step, the mean square of its speed [rad²/s²]) under a commanded speed [rad/s]."""
     one = each(1)
     up, down = _lag_over(step, r.up), _lag_over(step, r.down)
     square, speed = lag_step(up, down, one(r.speed), one(command))
-    return RotorModel(speed[0], r.up, r.down), square[0]
+    return DrivenRotor(speed[0], r.up, r.down), square[0]
 
 
 def _lag_over(step: Number, time_constant: Number) -> Lag:

@@ -191,7 +191,7 @@ def _changed(moments: Array, products: Array, change: Array) -> tuple[Array, Arr
     for i, x in enumerate(change[:3]):
         L[i] *= math.exp(0.5 * x)
     S = L @ L.T
-    return np.trace(S) - np.diag(S), np.array([-S[i, j] for i, j in PAIRS])
+    return np.trace(S) - np.diag(S), np.array([0.0 - S[i, j] for i, j in PAIRS])
 
 
 def driven_numbers(table: VehicleTable, delay: float) -> DrivenNumbers:

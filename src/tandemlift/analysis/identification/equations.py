@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.analysis.identification.log import JOINTS
-from tandemlift.analysis.identification.prediction import STARTS, Derivatives, Predictor
+from tandemlift.analysis.identification.prediction import STARTS, PredictedDerivatives, Predictor
 from tandemlift.analysis.identification.sensor_errors import (
     SensorPriors,
     by_turns,
@@ -21,7 +21,7 @@ from tandemlift.analysis.identification.sensor_errors import (
     residuals,
     robust_sd,
 )
-from tandemlift.analysis.identification.windows import Places, Samples, Windows
+from tandemlift.analysis.identification.windows import FlightWindows, Places, Samples
 from tandemlift.core.types import Array
 from tandemlift.engines.vehicle_unknowns import Unknowns
 
@@ -35,7 +35,7 @@ FORCES = ("measured_specific_force", "measured_joint_force", "measured_joint_tor
 
 
 @dataclass
-class Part:
+class LogInSearch:
     """A log in the search.
 
     Attributes:
@@ -51,7 +51,7 @@ class Part:
     spans: tuple[int, Array]
 
     @property
-    def windows(self) -> Windows:
+    def windows(self) -> FlightWindows:
         """Of the log."""
         return self.predictor.windows
 
@@ -101,7 +101,7 @@ class Equations(NamedTuple):
     spread: dict[str, float]
 
 
-class Normal(NamedTuple):
+class NormalEquations(NamedTuple):
     """The reduced equations of all logs, over (coordinates and fixed errors, biases of all groups).
 
     Attributes:
@@ -136,13 +136,13 @@ class Linearisation:
         self.unknowns, self.priors = unknowns, priors
         self._fixed = np.zeros(priors.count) if fixed is None else fixed
         self._sd = priors.sd * (1.0 if fixed is None else 1e-6)
-        self.parts, groups = list[Part](), 0
+        self.parts, groups = list[LogInSearch](), 0
         for predictor in predictors:
             w = predictor.windows
             span = max(GROUP, (w.times()[-1] - w.times()[0]) / MOST_GROUPS)
             _, own = np.unique(((w.times() - w.times()[0]) / span).astype(int), return_inverse=True)
             middle = np.bincount(own, w.times()) / np.bincount(own)
-            self.parts.append(Part(predictor, predictor.starts(), own + groups, (groups, middle)))
+            self.parts.append(LogInSearch(predictor, predictor.starts(), own + groups, (groups, middle)))
             groups += int(own.max()) + 1
         self.estimate = Estimate(np.zeros(len(unknowns)), self._fixed, np.zeros((groups, len(priors.bias))))
         self.estimate.noise = self._first_noise()
@@ -155,12 +155,12 @@ class Linearisation:
                 found.setdefault(name, []).append(noise_of(s.values, name))
         return {name: max(float(np.median(values)), 1e-12) for name, values in found.items()}
 
-    def linearised(self, robust: int) -> tuple[list[Equations], Normal]:
+    def linearised(self, robust: int) -> tuple[list[Equations], NormalEquations]:
         """The equations about the present estimate; of plain least squares, those of the windows' beginnings."""
         equations = [self._equations(part, robust) for part in self.parts]
         return equations, self._reduced(equations)
 
-    def _equations(self, part: Part, robust: int) -> Equations:
+    def _equations(self, part: LogInSearch, robust: int) -> Equations:
         e, n, predictor = self.estimate, self.unknowns.numbers(self.estimate.q), part.predictor
         if robust == PLAIN:
             predictor = replace(predictor, windows=part.windows.shortened(BEGINNING))
@@ -189,7 +189,7 @@ class Linearisation:
             found.rows[name] = np.where(count > 0.0, rows, np.nan)
         return found
 
-    def _columns(self, d: Derivatives, name: str, place: slice, late: Array) -> Array:
+    def _columns(self, d: PredictedDerivatives, name: str, place: slice, late: Array) -> Array:
         """Derivatives (W, C, blocks, width) over start, biases, vehicle, fixed errors."""
         J, base, B, K = d.streams[name], d.base[name][:, :-1], len(self.priors.bias), self.priors.count
         moved = J.shape[1] - STARTS  # coordinates of the vehicle, and the point
@@ -207,7 +207,7 @@ class Linearisation:
             full[:, STARTS + B + moved :] = by_turns(base)
         return full
 
-    def _reduced(self, equations: list[Equations]) -> Normal:
+    def _reduced(self, equations: list[Equations]) -> NormalEquations:
         P, K, B = len(self.unknowns), self.priors.count, len(self.priors.bias)
         groups = len(self.estimate.biases)
         size = P + K + B * groups
@@ -234,9 +234,9 @@ class Linearisation:
                     into[np.ix_(place, place)] += one
         for one in noises.values():
             total += one
-        return Normal(total + prior, prior, side, noises, np.concatenate(scores), back)
+        return NormalEquations(total + prior, prior, side, noises, np.concatenate(scores), back)
 
-    def places(self, part: Part) -> Places:
+    def places(self, part: LogInSearch) -> Places:
         """The places of (biases of its group, coordinates, fixed errors) of each window among all unknowns."""
         P, K, B = len(self.unknowns), self.priors.count, len(self.priors.bias)
         biases = P + K + B * part.groups[:, None] + np.arange(B)
@@ -262,7 +262,7 @@ class Linearisation:
         return Q, -Q @ x
 
 
-def _block_means(w: Windows, s: Samples, r: Array, weight: Array) -> tuple[Array, Array, Array]:
+def _block_means(w: FlightWindows, s: Samples, r: Array, weight: Array) -> tuple[Array, Array, Array]:
     """(Weighted means, sums of weights (W, blocks, width), mean place in the block (W, blocks)) of residuals."""
     blocks, width = w.length // w.block, r.shape[1]
     at = s.window * blocks + s.step // w.block

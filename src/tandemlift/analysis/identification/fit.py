@@ -9,7 +9,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from tandemlift.analysis.identification.equations import CAREFUL, PLAIN, ROBUST, Equations, Linearisation, Normal
+from tandemlift.analysis.identification.equations import (
+    CAREFUL,
+    PLAIN,
+    ROBUST,
+    Equations,
+    Linearisation,
+    NormalEquations,
+)
 from tandemlift.analysis.identification.prediction import moved_starts
 from tandemlift.core.types import Array, Progress
 
@@ -19,10 +26,10 @@ UNEXPLAINED = 0.15  # of the mean square of a stream's residuals in the median w
 CHANCE = 5.0  # standard deviations of such a mean square that chance may add
 
 
-class Search(Linearisation):
+class VehicleSearch(Linearisation):
     """The search for a vehicle's numbers."""
 
-    def run(self, progress: Progress | None = None, *, follow: bool = True) -> tuple[list[Equations], Normal]:
+    def run(self, progress: Progress | None = None, *, follow: bool = True) -> tuple[list[Equations], NormalEquations]:
         """Search to the end; the equations there.
 
         At first only the beginning of each window counts, because a wrong vehicle soon tumbles, by plain least squares
@@ -58,7 +65,7 @@ class Search(Linearisation):
             progress(MOST_STEPS, MOST_STEPS)
         return self.linearised(CAREFUL)
 
-    def _move(self, step: Array, normal: Normal) -> None:
+    def _move(self, step: Array, normal: NormalEquations) -> None:
         P, K = len(self.unknowns), self.priors.count
         e = self.estimate
         e.q = e.q + np.clip(step[:P], -1.0, 1.0)

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.analysis.identification.equations import Equations, Normal
-from tandemlift.analysis.identification.fit import Search
+from tandemlift.analysis.identification.equations import Equations, NormalEquations
+from tandemlift.analysis.identification.fit import VehicleSearch
 from tandemlift.analysis.identification.identification import Identification, Row, rows_of, with_values
 from tandemlift.analysis.identification.judgement import (
     Covariance,
@@ -25,7 +25,7 @@ from tandemlift.analysis.identification.judgement import (
 from tandemlift.analysis.identification.log import Log, log_of
 from tandemlift.analysis.identification.prediction import Predictor
 from tandemlift.analysis.identification.sensor_errors import sensor_priors
-from tandemlift.analysis.identification.windows import FEWEST, LENGTH, Windows, windows_of
+from tandemlift.analysis.identification.windows import FEWEST, LENGTH, FlightWindows, windows_of
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Array, Progress, flat
@@ -83,7 +83,7 @@ def identify(
     )
     parts = [_split(w, held_back) for w in cut]
     priors = sensor_priors(mission, frozenset(name for w in cut for name in w.samples))
-    search = Search([Predictor(fitted, unknowns, mission) for fitted, _ in parts], unknowns, priors)
+    search = VehicleSearch([Predictor(fitted, unknowns, mission) for fitted, _ in parts], unknowns, priors)
     with progress_or_own(f"{mission.mission.name}, identified", progress, "steps") as shown:
         equations, normal = search.run(shown)
     found = _judged(search, equations, normal, [last for _, last in parts if last is not None], mission)
@@ -92,7 +92,11 @@ def identify(
 
 
 def _judged(
-    search: Search, equations: list[Equations], normal: Normal, held_back: list[Windows], mission: Mission
+    search: VehicleSearch,
+    equations: list[Equations],
+    normal: NormalEquations,
+    held_back: list[FlightWindows],
+    mission: Mission,
 ) -> Identification:
     """The estimate of a search, with what the data say of it."""
     unknowns, rows = search.unknowns, [one.rows for one in equations]
@@ -110,7 +114,7 @@ def _judged(
     return Identification(identified, tuple(found), tuple(whole), tuple(remarks), details)
 
 
-def _split(w: Windows, held_back: float) -> tuple[Windows, Windows | None]:
+def _split(w: FlightWindows, held_back: float) -> tuple[FlightWindows, FlightWindows | None]:
     """(The windows that are used, those that are held back)."""
     count = len(w.first)
     last = min(round(held_back * count), count - FEWEST)
@@ -147,7 +151,7 @@ def _with_derivatives(function: Any, q: Array) -> dict[str, tuple[Array, Array, 
 
 
 def _results(
-    search: Search, covariance: Covariance, mission: Mission
+    search: VehicleSearch, covariance: Covariance, mission: Mission
 ) -> tuple[list[Row], list[Row], Mission, list[str]]:
     """(Rows of keys, rows of the whole vehicle, the identified mission, what it could not take)."""
     unknowns, q = search.unknowns, search.estimate.q
@@ -173,7 +177,7 @@ def _remarks(
     information: Array,
     white: Mapping[str, Whiteness],
     found: Sequence[Row],
-    search: Search,
+    search: VehicleSearch,
 ) -> list[str]:
     """What the data could not tell, in sentences."""
     said, still = list[str](), [row.key for row in found if not row.excited]
@@ -201,13 +205,13 @@ def _remarks(
     return said
 
 
-def _held_back(search: Search, windows: list[Windows], mission: Mission) -> dict[str, Any]:
+def _held_back(search: VehicleSearch, windows: list[FlightWindows], mission: Mission) -> dict[str, Any]:
     """How far the identified vehicle predicts windows that were not used, by stream: RMS over the noise."""
     if not windows:
         return {}
     at = search.unknowns.numbers(search.estimate.q)
     fixed = Unknowns(at, ())
-    again = Search([Predictor(w, fixed, mission) for w in windows], fixed, search.priors, search.estimate.fixed)
+    again = VehicleSearch([Predictor(w, fixed, mission) for w in windows], fixed, search.priors, search.estimate.fixed)
     again.estimate.noise = dict(search.estimate.noise)
     equations, _ = again.run(None, follow=False)
     by_window = misfit_by_window(again, [one.rows for one in equations])
@@ -216,7 +220,7 @@ def _held_back(search: Search, windows: list[Windows], mission: Mission) -> dict
 
 
 def _details(
-    search: Search,
+    search: VehicleSearch,
     correlations: Array,
     covariance: Covariance,
     white: Mapping[str, Whiteness],
@@ -240,7 +244,7 @@ def _details(
     }
 
 
-def _example(search: Search) -> dict[str, Any]:
+def _example(search: VehicleSearch) -> dict[str, Any]:
     """Measured and predicted readings in the last window that was used."""
     part = search.parts[0]
     w, n = part.windows, search.unknowns.numbers(search.estimate.q)

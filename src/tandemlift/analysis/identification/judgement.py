@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.identification.equations import Normal
-from tandemlift.analysis.identification.fit import Search
+from tandemlift.analysis.identification.equations import NormalEquations
+from tandemlift.analysis.identification.fit import VehicleSearch
 from tandemlift.core.types import Array
 from tandemlift.engines.vehicle_unknowns import Unknowns
 
@@ -71,7 +71,7 @@ def whiteness(rows: Array) -> Whiteness:
     return Whiteness(tuple(found), float(bound), factor)
 
 
-def covariance_of(normal: Normal, factors: Mapping[str, float], count: int) -> Covariance:
+def covariance_of(normal: NormalEquations, factors: Mapping[str, float], count: int) -> Covariance:
     """The covariance of the first `count` unknowns, by the factors of the streams."""
     bound = np.asarray(np.linalg.inv(normal.information), dtype=float)
     middle: Array = normal.prior + np.sum([factors[name] * one for name, one in normal.noises.items()], axis=0)
@@ -79,7 +79,7 @@ def covariance_of(normal: Normal, factors: Mapping[str, float], count: int) -> C
     return Covariance(whole[:count, :count], bound[:count, :count])
 
 
-def data_information(normal: Normal, count: int) -> Array:
+def data_information(normal: NormalEquations, count: int) -> Array:
     """The information (count, count) of the data on the vehicle's coordinates, other unknowns being free."""
     known = normal.information.copy()
     known[:count, :count] -= normal.prior[:count, :count]
@@ -123,7 +123,7 @@ def alike_pairs(names: Sequence[str], correlations: Array) -> list[tuple[str, st
     return sorted(pairs, key=lambda pair: -abs(pair[2]))
 
 
-def misfit_by_window(search: Search, rows: list[dict[str, Array]]) -> dict[str, list[list[float]]]:
+def misfit_by_window(search: VehicleSearch, rows: list[dict[str, Array]]) -> dict[str, list[list[float]]]:
     """The root mean square of whitened residuals of every window, with its time [s], by stream."""
     found = dict[str, list[list[float]]]()
     for part, own in zip(search.parts, rows, strict=True):

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.analysis.identification.log import JOINTS
-from tandemlift.analysis.identification.windows import Places, Windows
+from tandemlift.analysis.identification.windows import FlightWindows, Places
 from tandemlift.compiler.machine_code.series import Series
 from tandemlift.core.caching import LastUsed
 from tandemlift.core.types import Array, flat
@@ -20,7 +20,7 @@ from tandemlift.core.vector import ZERO, Vec3, each
 from tandemlift.engines.driven_vehicle import (
     AT_REST,
     DrivenBody,
-    RotorModel,
+    DrivenRotor,
     VehicleNumbers,
     driven_body,
     driven_step,
@@ -61,7 +61,7 @@ class Models(NamedTuple):
     body_tangents: Series
 
 
-class Derivatives(NamedTuple):
+class PredictedDerivatives(NamedTuple):
     """Of predictions in blocks, with the predictions; of the attitude, turns about body axes.
 
     Attributes:
@@ -83,7 +83,7 @@ class Predictor:
         mission: that the search starts from.
     """
 
-    windows: Windows
+    windows: FlightWindows
     unknowns: Unknowns
     mission: Mission
 
@@ -153,7 +153,7 @@ class Predictor:
 
     def derivatives(
         self, starts: Array, q: Array, n: DrivenNumbers, squares: Array, moved: list[Array], point: Array
-    ) -> Derivatives:
+    ) -> PredictedDerivatives:
         """Predictions in blocks with their derivatives.
 
         Directions: the start of the window, the coordinates of the vehicle, the point of the motion measurement.
@@ -183,7 +183,7 @@ class Predictor:
                     streams[name] = np.empty((len(starts), directions, *part.shape[1:]))
                 streams[name][:, i] = part
         turn = quaternion_product(conjugate(base["measured_attitude"])[:, None], streams["measured_attitude"])
-        return Derivatives(base, streams | {"measured_attitude": 2.0 * turn[..., 1:]})
+        return PredictedDerivatives(base, streams | {"measured_attitude": 2.0 * turn[..., 1:]})
 
     def _parameters(self, n: DrivenNumbers, point: Array, step: float) -> Array:
         return np.array([*flat(n.vehicle), *point, step])
@@ -209,7 +209,7 @@ def _compiled(mission: Mission, start: DrivenNumbers) -> Models:
         return driven_body(table, floor, p.vehicle, p.point, p.step)
 
     of_body = body, driven_step, StepNumbers(start.vehicle, ZERO, 0.0), AT_REST, squares
-    of_rotor = (lambda step: step), rotor_step, 0.0, RotorModel(0.0, 0.0, 0.0), 0.0
+    of_rotor = (lambda step: step), rotor_step, 0.0, DrivenRotor(0.0, 0.0, 0.0), 0.0
     made = [Series(*own, differentiated=d) for own in (of_rotor, of_body) for d in (False, True)]
     return Models(*made)
 
@@ -247,13 +247,13 @@ def _in_blocks(rows: Array, block: int) -> Array:
     return rows.reshape(len(rows), -1, block, rows.shape[-1]).mean(axis=2)
 
 
-def _begin_of(w: Windows, name: str) -> Array:
+def _begin_of(w: FlightWindows, name: str) -> Array:
     """The mean of the first samples of each window."""
     s = w.samples[name]
     return np.array([s.values[s.window == i][:1].mean(axis=0) for i in range(len(w.first))])
 
 
-def _slope_of(w: Windows, name: str) -> Array:
+def _slope_of(w: FlightWindows, name: str) -> Array:
     """The slope of the first tenth of a second of each window."""
     s, found = w.samples[name], []
     for i in range(len(w.first)):

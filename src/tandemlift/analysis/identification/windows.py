@@ -56,7 +56,7 @@ class Samples(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Windows:
+class FlightWindows:
     """The windows of one log.
 
     Attributes:
@@ -95,7 +95,7 @@ class Windows:
         total = integral[place] + held * (edges - time[place])[:, None]
         return np.diff(total, axis=0) / self.step, -np.diff(held, axis=0) / self.step
 
-    def shortened(self, part: float) -> Windows:
+    def shortened(self, part: float) -> FlightWindows:
         """The first part of every window."""
         length = max(4, round(part * self.length / self.block)) * self.block
         samples = {}
@@ -104,13 +104,13 @@ class Windows:
             samples[name] = Samples(s.window[here], s.step[here], s.beyond[here], s.values[here])
         return replace(self, length=length, samples=samples)
 
-    def chosen(self, windows: Truths) -> Windows:
+    def chosen(self, windows: Truths) -> FlightWindows:
         """Some of the windows, by a truth for each."""
         samples = {name: s.of(windows) for name, s in self.samples.items()}
         return replace(self, first=self.first[windows], samples=samples)
 
 
-def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> Windows:
+def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWindows:
     """Cut a log into windows in flight.
 
     Args:
@@ -140,7 +140,7 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> Windows:
             f"{log.source}: commands and sensors overlap for {max(count, 0) * step:.3g} s; {FEWEST} windows "
             f"of {length:g} s are needed, after {SETTLING + LONGEST_DELAY:g} s for delay and lag of the rotors"
         )
-    cut = Windows(log.source, step, begin, count, firsts, steps, block, commands, {})
+    cut = FlightWindows(log.source, step, begin, count, firsts, steps, block, commands, {})
     samples = {name: _samples(cut, log[name]) for name in (*WIDTHS, *JOINTS) if name in log}
     cut = replace(cut, samples=samples)
     flying = _in_flight(cut, log, mission)
@@ -177,7 +177,7 @@ def _check_joints(log: Log, mission: Mission) -> None:
             )
 
 
-def _samples(cut: Windows, stream: Stream) -> Samples:
+def _samples(cut: FlightWindows, stream: Stream) -> Samples:
     """The samples of a stream that are in windows."""
     stream = _without_spikes(stream)
     exact = (stream.time - cut.begin) / cut.step
@@ -198,7 +198,7 @@ def _without_spikes(stream: Stream) -> Stream:
     return Stream(stream.time[kept], stream.values[kept])
 
 
-def _in_flight(cut: Windows, log: Log, mission: Mission) -> Truths:
+def _in_flight(cut: FlightWindows, log: Log, mission: Mission) -> Truths:
     """Whether each window flies: its rotors carry most of the weight, and it is clear of the floor."""
     quadrotors = mission.vehicle.quadrotors
     mass = mission.vehicle.payload.mass + sum(q.mass for q in quadrotors)
