@@ -20,20 +20,14 @@ from tandemlift.missions import Mission
 from tandemlift.parts.contact.clearance import Clearance, clearance
 from tandemlift.parts.contact.feet import start_foot_grip
 from tandemlift.parts.contact.touches import start_touches
+from tandemlift.parts.estimation.estimate_errors import NO_ERRORS
 from tandemlift.parts.interaction.person import PersonState
 from tandemlift.parts.interaction.person_table import PersonTable, Walk, path_legs_from, start_person, waypoints_from
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.wind import start_wind, wind_noise_of
 from tandemlift.parts.rotors.rotors import ActuatorsTable, start_rotors
-from tandemlift.parts.sensors.readings import (
-    Readings,
-    SensorNoise,
-    Sensors,
-    SensorState,
-    by_name,
-    readings_of,
-)
+from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState, by_name, readings_of
 from tandemlift.parts.sensors.sensor_faults import sensor_faults_from
 from tandemlift.parts.sensors.sensors_table import SensorsTable, first_samples
 from tandemlift.parts.sensors.start_sensors import sensors_from, start_sensing
@@ -101,9 +95,11 @@ def delay_lines_from(names: Sequence[str], delays: NDArray[np.int64]) -> DelayLi
     return DelayLines(imu, motion, command, view, by_name(tuple(names))(*more))
 
 
-def start_metrics(far: Clearance | Absent, person: PersonState | Absent) -> RunningMetrics:
+def start_metrics(mission: Mission, far: Clearance | Absent, person: PersonState | Absent) -> RunningMetrics:
     """The running metrics before the first step; `far`: the clearance before the first search for walls."""
-    return EMPTY._replace(clearance=far, effort=person if isinstance(person, Absent) else NO_EFFORT)
+    counted = mission.estimator.error_metrics and mission.sensors.model != "none"
+    effort, errors = person if isinstance(person, Absent) else NO_EFFORT, NO_ERRORS if counted else Absent()
+    return EMPTY._replace(clearance=far, effort=effort, estimate=errors)
 
 
 class StartedPerception(NamedTuple):
@@ -135,7 +131,8 @@ def start_perception(
         estimators, known = with_watchdogs(watchdog, mission.sensors, step, estimators, known, readings)
     if mission.sensor_faults:
         names = [s.name for s in mission.sensors.additional]
-        faults = sensor_faults_from(mission.sensor_faults, vehicle.count, names, step)
+        joints = vehicle.count if mission.sensors.joints.model != "none" else 0
+        faults = sensor_faults_from(mission.sensor_faults, joints, names, step)
         devices, sensing = with_faults(faults, devices, sensing)
     return StartedPerception(
         devices=devices, sensing=sensing, noise=noise, readings=readings, estimators=estimators, known=known
@@ -178,7 +175,7 @@ def assemble(mission: Mission) -> AssembledFlight:
         rotors=spinning,
         readings=senses.readings,
         person=memory_of_person,
-        metrics=start_metrics(_clearance(plant.walls, near, plant.frame, state), memory_of_person),
+        metrics=start_metrics(mission, _clearance(plant.walls, near, plant.frame, state), memory_of_person),
         impulse=Absent() if isinstance(limits.strike, Absent) else 0.0,
         crash=start_crash(limits, state),
         ended=FLIES,
