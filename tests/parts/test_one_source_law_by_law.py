@@ -20,7 +20,7 @@ from tandemlift.core.vector import (
 )
 from tandemlift.parts.controllers import attitude_reference, equations_of_motion, sliding_surface
 from tandemlift.parts.estimation import wind_compensation
-from tandemlift.parts.estimation.wrench import extended_kalman, hybrid, kalman, momentum, nonlinear_disturbance
+from tandemlift.parts.estimation.wrench import delay, extended_kalman, hybrid, kalman, momentum, nonlinear_disturbance
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
 from tandemlift.parts.guidance import guidance
 from tandemlift.parts.interaction import policy
@@ -100,6 +100,7 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
         policy.policy_damping,
         (policy.Policy(each(14)(*[0.0] * 14), each(6)(*[0.0] * 6), 0.0, V), low_pass.LowPassState(V, V), V, 0.0),
     ),
+    "pure delay": (delay.delayed, (delay.Delay(*[0.0] * 6), delay.DelayState(V, V), V)),
     "momentum": (observe, (momentum.MomentumObserver(VEHICLE, V, V), momentum.MomentumState(V, V, 0.0), OBSERVED)),
     "hybrid": (observe, (hybrid.HybridObserver(VEHICLE, V, V), hybrid.HybridState(V, V, 0.0), OBSERVED)),
     "disturbance": (

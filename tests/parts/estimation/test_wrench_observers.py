@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.linalg import solve_continuous_are, solve_discrete_are
+from scipy.signal import TransferFunction, step
 from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.parts.estimation.wrench.delay import DelayState, delay_of, delayed
 from tandemlift.parts.estimation.wrench.kalman import natural_frequency, steady_gain, turning_gains
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
 from tandemlift.parts.estimation.wrench.start_observer import SampleNoise, start_wrench_observer
@@ -132,8 +134,10 @@ def test_poles_and_covariance_of_the_moment_are_those_of_the_kalman_bucy_filter(
     frequency = natural_frequency(q, noise, T)
     wanted = np.linalg.eigvals(A - P @ C.T @ C / r)
     rates, turning = turning_gains(frequency, T)
-    step = (np.eye(2) - np.array([[rates], [turning]]) @ C) @ np.array([[1.0, T], [0.0, 1.0]])
-    assert np.sort_complex(np.log(np.linalg.eigvals(step)) / T) == pytest.approx(np.sort_complex(wanted), rel=1e-6)
+    transition = (np.eye(2) - np.array([[rates], [turning]]) @ C) @ np.array([[1.0, T], [0.0, 1.0]])
+    assert np.sort_complex(np.log(np.linalg.eigvals(transition)) / T) == pytest.approx(
+        np.sort_complex(wanted), rel=1e-6
+    )
 
 
 def test_the_extended_filter_is_that_of_filterpy_for_samples_at_random_times():
@@ -170,3 +174,22 @@ def test_the_extended_filter_is_that_of_filterpy_for_samples_at_random_times():
         for f in filters:
             f.predict()
     assert filters[0].x[2, 0] * MASS == pytest.approx(0.3 * MASS, abs=0.5)
+
+
+def test_the_delay_of_the_thrusts_is_an_all_pass_of_that_delay():
+    """Against a delayed sine, in steps, by amplitude and phase; and SciPy's response of the Padé approximant."""
+    T = 0.0105
+    k, frequency, memory, found = delay_of(T, H), 60.0, DelayState(0.0, 0.0), []
+    for i in range(3000):
+        y, memory = delayed(k, memory, math.sin(frequency * (i + 0.5) * H))
+        found.append(y)
+    t = H * np.arange(1, 3001)
+    fit = np.linalg.lstsq(np.stack([np.sin(frequency * t), np.cos(frequency * t)], 1)[1000:], found[1000:])[0]
+    assert np.hypot(*fit) == pytest.approx(1.0, abs=0.02)
+    assert -math.atan2(fit[1], fit[0]) / frequency == pytest.approx(T, abs=2e-4)
+    memory, rising = DelayState(0.0, 0.0), []
+    for _ in range(60):
+        y, memory = delayed(k, memory, 1.0)
+        rising.append(y)
+    pade = TransferFunction([T * T / 12.0, -T / 2.0, 1.0], [T * T / 12.0, T / 2.0, 1.0])
+    assert rising == pytest.approx(step(pade, T=H * np.arange(61))[1][1:], abs=1e-9)

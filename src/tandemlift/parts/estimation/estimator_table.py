@@ -10,7 +10,7 @@ from tandemlift.core.keys import Bandwidth, NonNegative, Positive, Scale, Table,
 from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable, bandwidth_checks
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
-from tandemlift.parts.sensors.sensors_table import SensorsTable
+from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale, steps_of
 
 
 class EstimatorTable(Table):
@@ -130,12 +130,12 @@ def tare_checks(e: EstimatorTable, sampling: float, step: float) -> Iterator[Che
 
 
 def wrench_checks(
-    e: EstimatorTable, s: SensorsTable, actuators: str, method: str, beside: Mapping[str, str], step: float
+    e: EstimatorTable, s: SensorsTable, actuators: str, method: str, beside: Mapping[str, str], mass: float, step: float
 ) -> Iterator[CheckResult]:
     """Refusals of an observer without what it needs, and of joint sensors that are asked for and not there.
 
     `actuators`: `actuators.model`; `method`: `allocation.method`; `beside`: the choices of
-    other keys that use joint sensors or the same residual as an observer; `step` [s].
+    other keys that use joint sensors or the same residual as an observer; `mass` of the vehicle [kg]; `step` [s].
     """
     used = {"estimator.wind_compensation": e.wind_compensation, **beside}
     used = {name: choice for name, choice in used.items() if choice != "none"}
@@ -156,7 +156,9 @@ def wrench_checks(
         )
     for name, choice in used.items():
         yield refused(f'{given} where {name} is "{choice}", which reads joints or a lost rotor in the same motion')
-    yield from bandwidth_checks(e.wrench, e.wrench_observer, step * max(1, round(s.interval / step)))
+    interval = step * steps_of(s.interval, step)
+    noise = mass * s.accelerometer.noise * noise_scale(s, interval)
+    yield from bandwidth_checks(e.wrench, e.wrench_observer, noise, interval)
 
 
 def hover_tare_checks(e: EstimatorTable, guidance: str) -> Iterator[CheckResult]:

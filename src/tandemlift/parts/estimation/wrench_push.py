@@ -20,7 +20,7 @@ import numpy as np
 from tandemlift.core.algebra import where
 from tandemlift.core.arrays import inverse
 from tandemlift.core.law import choice, law
-from tandemlift.core.types import Number, PerRotor, number
+from tandemlift.core.types import GRAVITY, Number, PerRotor, number
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, each, vec3
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.estimation.navigation import NavigationState, Navigator, navigate
@@ -35,12 +35,13 @@ from tandemlift.parts.estimation.push_estimate import (
     start_push,
 )
 from tandemlift.parts.estimation.wind_compensation import payload_drag_from
+from tandemlift.parts.estimation.wrench.delay import Delay, DelayState, delay_of, delayed
 from tandemlift.parts.estimation.wrench.estimated_push import PushEstimate
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
 from tandemlift.parts.estimation.wrench.start_observer import SampleNoise, start_wrench_observer
 from tandemlift.parts.estimation.wrench.tare import SideForces, TareSums, summed, tare_fields, tare_of
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
-from tandemlift.parts.mechanics.rigid_body import State, Wrench, inertia_value
+from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench, inertia_value
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import wrench
@@ -52,10 +53,10 @@ from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale
 
 
 class ThrustModel(NamedTuple):
-    """The pilot's model of the rotors; a low-pass in place of the delay of commands and IMU; ground effect."""
+    """The pilot's model of the rotors; the delay of commands and IMU; ground effect."""
 
     rotors: RotorModel
-    late: LowPass
+    late: Delay
     surface: GroundEffect | Absent
 
 
@@ -63,15 +64,16 @@ class ThrustState(NamedTuple):
     """Memory: speeds of the rotors as modelled [rad/s], a set; their wrench, delayed."""
 
     speeds: PerRotor
-    thrust: LowPassState[Number]
-    moment: LowPassState[Vec3]
+    thrust: DelayState[Number]
+    moment: DelayState[Vec3]
 
 
 class WrenchPush(NamedTuple):
     """An observer, the model of the thrusts, and the nominal vehicle, body axes.
 
     `payload`: its centre of mass from the system's [m]; `imu`: the system's centre of mass from the accelerometer [m].
-    `mass` of the payload [kg]. The others are those of a `PushEstimator`.
+    `mass` of the payload [kg]; `low_pass` of the specific force that accelerates an excess of it. The others are those
+    of a `PushEstimator`.
     """
 
     observer: Any
@@ -79,6 +81,7 @@ class WrenchPush(NamedTuple):
     payload: Vec3
     imu: OffCenter
     mass: Number
+    low_pass: LowPass
     reach: Number
     per_interval: Number
     least: Number
@@ -89,12 +92,13 @@ class WrenchPush(NamedTuple):
 
 
 class WrenchPushState(NamedTuple):
-    """Memory: of the observer and the thrusts; rates [rad/s], angular acceleration [rad/s²]; sums of the tare."""
+    """Memory: of the observer and the thrusts; rates [rad/s], angular acceleration [rad/s²], specific force; tare."""
 
     observer: Any
     thrust: ThrustState
     rates: Vec3
     angular: Vec3
+    specific_force: LowPassState[Vec3]
     sums: TareSums
 
 
@@ -146,8 +150,9 @@ def modelled_rotors(k: ThrustModel, m: ThrustState, commands: PerRotor, state: S
     r = k.rotors
     squares, speeds = lag_step(r.up, r.down, m.speeds, speed_at(commands, r.per_constant))
     made = wrench(r.effect, squares * r.constant * ground_effect_ratio(k.surface, state))
-    thrust, moment = low_pass_step(k.late, m.thrust, made.thrust), low_pass_step(k.late, m.moment, made.moment)
-    return Wrench(thrust.value, moment.value), ThrustState(speeds, thrust, moment)
+    thrust, thrusts = delayed(k.late, m.thrust, made.thrust)
+    moment, moments = delayed(k.late, m.moment, made.moment)
+    return Wrench(thrust, moment), ThrustState(speeds, thrusts, moments)
 
 
 @law
@@ -158,8 +163,10 @@ def observed_push(
     imu, motion = x.readings.imu, x.readings.motion
     angular = where(imu.fresh > 0.0, (imu.rates - m.rates) * k.per_interval, m.angular)
     rotors, thrust = modelled_rotors(k.thrust, m.thrust, x.commands, state)
-    a = at_center(k.imu, imu.specific_force, imu.rates, angular)
-    seen = Observation(a, state, rotors, motion.position, motion.velocity, motion.attitude, motion.fresh, x.dt)
+    smooth = low_pass_step(k.low_pass, m.specific_force, imu.specific_force)
+    a = smooth.value  # of the excess mass, about as late as the observed force
+    at = at_center(k.imu, imu.specific_force, imu.rates, angular)
+    seen = Observation(at, state, rotors, motion.position, motion.velocity, motion.attitude, motion.fresh, x.dt)
     found, observer = observe(k.observer, m.observer, seen)
     R = rotation_from_quaternion(state.attitude)
     force = apply_transposed(R, found.force)
@@ -169,7 +176,9 @@ def observed_push(
     tare = tare_of(k.mass, k.identify, sums, armed)
     push = (force + a * (tare.mass - k.mass) - tare.force) * x.airborne
     moment = (found.moment - tare.moment) * x.airborne - cross(k.payload, push)
-    return concluded(k, R, push, moment, tare.mass, armed), WrenchPushState(observer, thrust, imu.rates, angular, sums)
+    return concluded(k, R, push, moment, tare.mass, armed), WrenchPushState(
+        observer, thrust, imu.rates, angular, smooth, sums
+    )
 
 
 @law
@@ -219,19 +228,20 @@ def start_wrench_push(
     payload = vehicle.payload
     push = WrenchPush(
         observer=observer,
-        thrust=ThrustModel(rotors, low_pass(2.0 / (late + interval), interval), surface),
+        thrust=ThrustModel(rotors, delay_of(late + 0.5 * interval, interval), surface),
         payload=vec3(vehicle.payload_center),
         imu=OffCenter(vec3(vehicle.center_of_mass)),
         mass=number(payload.mass),
+        low_pass=low_pass(e.push_bandwidth, interval),
         reach=math.inf if payload.span is None else 0.5 * payload.span,
         per_interval=1.0 / interval,
         least=e.min_force**2,
         **tare_fields(0.0 if e.tare == "hover" else e.tare_start, e.tare_duration, e.identify_mass, interval),
         off_center=off_center_at(payload.center_of_mass),
     )
-    still = ThrustState(speeds, LowPassState(0.0, 0.0), LowPassState(ZERO, ZERO))
+    still = ThrustState(speeds, DelayState(0.0, 0.0), DelayState(ZERO, ZERO))
     sums = TareSums(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, SideForces(each(1)(0.0), each(1)(0.0)))
-    return push, WrenchPushState(memory, still, ZERO, ZERO, sums)
+    return push, WrenchPushState(memory, still, ZERO, ZERO, LowPassState(UP * GRAVITY, ZERO), sums)
 
 
 def start_push_estimator(
