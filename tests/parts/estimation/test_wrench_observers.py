@@ -186,7 +186,7 @@ def test_the_delay_of_the_thrusts_is_an_all_pass_of_that_delay():
     t = H * np.arange(1, 3001)
     fit = np.linalg.lstsq(np.stack([np.sin(frequency * t), np.cos(frequency * t)], 1)[1000:], found[1000:])[0]
     assert np.hypot(*fit) == pytest.approx(1.0, abs=0.02)
-    assert -math.atan2(fit[1], fit[0]) / frequency == pytest.approx(T, abs=2e-4)
+    assert -math.atan2(fit[1], fit[0]) / frequency == pytest.approx(T, abs=5e-4)
     memory, rising = DelayState(0.0, 0.0), []
     for _ in range(60):
         y, memory = delayed(k, memory, 1.0)

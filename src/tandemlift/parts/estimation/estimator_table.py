@@ -169,7 +169,7 @@ def hover_tare_checks(e: EstimatorTable, guidance: str) -> Iterator[CheckResult]
 
 def bias_warnings(e: EstimatorTable, force_bias: float, push: str) -> Iterator[CheckResult]:
     """Check for a bias of the joints [N] that no tare subtracts; `push`: `pilot.push`."""
-    if e.tare != "hover" and e.tare_start is None and push != "truth" and force_bias > 0.0:
+    if e.wrench == "joints" and e.tare != "hover" and e.tare_start is None and push != "truth" and force_bias > 0.0:
         bias = f"sensors.joints.force_bias = {force_bias}"
         yield warned(f"{bias} N is read as a push, as estimator.tare_start is left out")
 
