@@ -114,9 +114,12 @@ class StartedPerception(NamedTuple):
 
 
 def start_perception(
-    mission: Mission, vehicle: Vehicle, state: State, chance: np.random.Generator, at_rest: Callable[[], Any]
+    mission: Mission, vehicle: Vehicle, state: State, chance: Any, at_rest: Callable[[], Any], floor: float | None
 ) -> StartedPerception:
-    """Sensors and estimators before the first step; `at_rest` gives the perfect readings at the start."""
+    """Sensors and estimators before the first step; `at_rest` gives the perfect readings at the start.
+
+    `floor`: height z [m] of a floor with ground effect, or None.
+    """
     step = mission.mission.step
     devices, noise = sensors_from(mission.sensors, vehicle.count, step, chance)
     sensing: Any = Absent()
@@ -125,7 +128,7 @@ def start_perception(
         waits = first_samples(mission.sensors, step)
         sensing = start_sensing(devices, state, at_rest(), state.attitude, waits)
         readings = readings_of(sensing)
-    estimators, known = start_estimators(mission, vehicle, state, readings)
+    estimators, known = start_estimators(mission, vehicle, state, readings, floor)
     if mission.supervision.model != "none":
         watchdog = mission.supervision.watchdog
         estimators, known = with_watchdogs(watchdog, mission.sensors, step, estimators, known, readings)
@@ -157,7 +160,7 @@ def assemble(mission: Mission) -> AssembledFlight:
     wind, wind_state = start_wind(mission.wind, vehicle, step, chance)
     near, hand = near_walls_from(plant.walls), push_kind(mission.pushes, mission.person)
     at_rest = lambda: readings_at_rest(plant, state, grip, near, thrusts, hand)  # noqa: E731
-    senses = start_perception(mission, vehicle, state, chance, at_rest)
+    senses = start_perception(mission, vehicle, state, chance, at_rest, over)
     waypoints = waypoints_from(mission.person, mission.corridor)
     walk = Walk(waypoints, state, mission.initial.euler[2], mission.phases.height)
     person, memory_of_person, tremor_noise = start_person(mission.person, vehicle, step, walk)

@@ -8,7 +8,6 @@ from tandemlift.core.algebra import minimum
 from tandemlift.core.types import NEVER
 from tandemlift.core.vector import ZERO, Absent, Vec3, each, vec3
 from tandemlift.missions import Mission
-from tandemlift.parts.contact.standing import standing_on
 from tandemlift.parts.controllers import controller
 from tandemlift.parts.estimation.contact_table import start_contact_detection
 from tandemlift.parts.estimation.disturbance_observer import start_observer
@@ -131,17 +130,18 @@ def start_hand_guidance(
 
 
 def start_estimators(
-    mission: Mission, vehicle: Vehicle, state: State, readings: Readings | Absent
+    mission: Mission, vehicle: Vehicle, state: State, readings: Readings | Absent, floor: float | None
 ) -> tuple[Estimators | Absent, EstimatorState | Absent]:
-    """The estimators of a mission and their memory at t = 0, for the nominal vehicle; or `Absent`."""
+    """The estimators of a mission and their memory at t = 0, for the nominal vehicle; or `Absent`.
+
+    `floor`: height z [m] of a floor with ground effect, or None.
+    """
     if isinstance(readings, Absent):
         return Absent(), Absent()
     e, s, period = mission.estimator, mission.sensors, steps_of(mission.sensors.interval, mission.mission.step)
     step = mission.mission.step
     interval, sampling = step * period, Sampling(step * period) if period > 1 else Absent()
-    late, floor = mission.observer.rotor_delay + s.delay, None
-    if mission.ground.effect:
-        floor = standing_on(mission.ground, mission.vehicle, 1.0, step, mission.initial).floor.height
+    late = mission.observer.rotor_delay + s.delay
     push, pushed = start_push_estimator(e, s, vehicle, readings.imu, interval, late, floor)
     stopped = each(vehicle.rotor_count)(*[0.0] * vehicle.rotor_count)
     observer = navigator_from(e, s, vehicle, step)
