@@ -17,8 +17,9 @@ OF_BAGS = {"samples"}
 
 @pytest.fixture(scope="module")
 def names():
-    """The metrics of all built-in missions."""
-    return {name for mission in built_in() for name in metric_names(FlightPlan(tl.load_mission(mission)))}
+    """The metrics of all built-in missions, and those that count the errors of the estimated push."""
+    missions = [*map(tl.load_mission, built_in()), tl.load_mission("iris", {"estimator.error_metrics": True})]
+    return {name for mission in missions for name in metric_names(FlightPlan(mission))}
 
 
 def test_every_metric_of_every_mission_is_described_and_nothing_else_is(names):

@@ -20,6 +20,8 @@ from tandemlift.core.vector import (
 )
 from tandemlift.parts.controllers import attitude_reference, equations_of_motion, sliding_surface
 from tandemlift.parts.estimation import wind_compensation
+from tandemlift.parts.estimation.wrench import delay, extended_kalman, hybrid, kalman, momentum, nonlinear_disturbance
+from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
 from tandemlift.parts.guidance import guidance
 from tandemlift.parts.interaction import policy
 from tandemlift.parts.mechanics import low_pass, parts, rotation
@@ -51,6 +53,8 @@ WATCHING = rotor_loss_detection.DetectionState(
 HEARD = guidance.PilotInput(STATE, V, V, 0.0, Absent())
 SLOPE = low_pass.LowPassState(V, V)
 BLOWN = wind_compensation.PayloadDragState(V, 0.0, SLOPE)
+VEHICLE, OBSERVED = NominalBody(0.0, V, V), Observation(V, STATE, Wrench(0.0, V), V, V, Q, 0.0, 0.0)
+SPREAD = extended_kalman.Covariance(*[V] * 6)
 
 SINES = excitation.Sines(*[each(4)(*[0.0] * 4)] * 3)
 LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
@@ -109,8 +113,28 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
         policy.policy_damping,
         (policy.Policy(each(14)(*[0.0] * 14), each(6)(*[0.0] * 6), 0.0, V), low_pass.LowPassState(V, V), V, 0.0),
     ),
+    "pure delay": (delay.delayed, (delay.Delay(*[0.0] * 6), delay.DelayState(V, V), V)),
+    "momentum": (observe, (momentum.MomentumObserver(VEHICLE, V, V), momentum.MomentumState(V, V, 0.0), OBSERVED)),
+    "hybrid": (observe, (hybrid.HybridObserver(VEHICLE, V, V), hybrid.HybridState(V, V, 0.0), OBSERVED)),
+    "disturbance": (
+        observe,
+        (
+            nonlinear_disturbance.NonlinearObserver(VEHICLE, V, V, V, V),
+            nonlinear_disturbance.AuxiliaryState(V, V, 0.0),
+            OBSERVED,
+        ),
+    ),
+    "kalman": (observe, (kalman.KalmanObserver(VEHICLE, V, V, V), kalman.KalmanState(V, V, V, 0.0), OBSERVED)),
+    "extended kalman": (
+        observe,
+        (
+            extended_kalman.ExtendedKalmanFilter(VEHICLE, V, V, 0.0, 0.0, 0.0, 0.0),
+            extended_kalman.FilterState(V, V, Q, V, V, V, SPREAD, SPREAD, 0.0),
+            OBSERVED,
+        ),
+    ),
 }
-POSITIVE = {"surface rate", "watching for a lost rotor"}
+POSITIVE = {"extended kalman", "surface rate", "watching for a lost rotor"}
 BATCH = 12
 EACH = pytest.mark.parametrize("name", LAWS)
 

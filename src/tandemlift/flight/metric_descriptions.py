@@ -111,6 +111,16 @@ METRIC_GROUPS: tuple[MetricGroup, ...] = (
             ),
         },
     ),
+    MetricGroup(
+        "With `estimator.error_metrics`, over the steps in which the push is usable",
+        {
+            "push_force_rmse_n": Metric("N", "root mean square of the error of the estimated push", AXES),
+            "push_moment_rmse_n_m": Metric(
+                "N m", "root mean square of the error of its moment about the payload's centre of mass", ANGLES
+            ),
+            "push_delay_s": Metric("s", "delay of the estimated push that best explains its error (least squares)"),
+        },
+    ),
     MetricGroup("Of a bag", {"samples": Metric("1", "number of samples, from which the metrics are formed")}),
 )
 METRICS: dict[str, Metric] = {name: metric for group in METRIC_GROUPS for name, metric in group.metrics.items()}

@@ -5,7 +5,10 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.core.vector import ZERO, Quat, Vec3, each, vec3
-from tandemlift.parts.estimation.confirmed_part import (
+from tandemlift.parts.estimation.navigation import NavigationState, Navigator, innovation
+from tandemlift.parts.estimation.push_confirmation import outside_load, rotor_model, withheld
+from tandemlift.parts.estimation.push_estimate import PushEstimate
+from tandemlift.parts.estimation.wrench.confirmed_part import (
     GUST_TIME,
     RELEARN_TIME,
     Zero,
@@ -13,10 +16,7 @@ from tandemlift.parts.estimation.confirmed_part import (
     given_up_slowly,
     square_change,
 )
-from tandemlift.parts.estimation.navigation import NavigationState, Navigator, innovation
-from tandemlift.parts.estimation.push_confirmation import outside_load, rotor_model, withheld
-from tandemlift.parts.estimation.push_estimate import PushEstimate
-from tandemlift.parts.estimation.tare import SideForces, TareSums, summed, tare_of
+from tandemlift.parts.estimation.wrench.tare import SideForces, TareSums, summed, tare_of
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle

@@ -41,7 +41,7 @@ from tandemlift.parts.estimation.contact_map import (
     guards_matched,
 )
 from tandemlift.parts.estimation.push_estimate import PushEstimator
-from tandemlift.parts.estimation.tare import SideForces
+from tandemlift.parts.estimation.wrench.tare import SideForces
 from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.wall_geometry import Wall

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tandemlift.core.vector import Absent, Vec3, each, vec3
+from tandemlift.parts.estimation.estimate_errors import NO_ERRORS, PushErrors, error_metrics, with_errors
 from tandemlift.parts.guidance.guidance import ThrustFraction
 from tandemlift.parts.rotors.rotors import Rotors
 from tandemlift.simulation.loop.running_metrics import (
@@ -110,9 +111,9 @@ def errors(running=1.0):
         thrusts=each(2)(1.0, 0.0), guidance=SimpleNamespace(running=ThrustFraction(running), channels=Absent())
     )
     plant = SimpleNamespace(walls=Absent(), frame=None)
-    state = SimpleNamespace(near=Absent(), state=None, person=Absent())
+    state = SimpleNamespace(near=Absent(), state=None, person=Absent(), metrics=EMPTY)
     model = SimpleNamespace(rotors=ROTORS, plant=plant, flight_state=state)
-    return contribution_of(model, SimpleNamespace(decision=decision), SAMPLE, Absent())
+    return contribution_of(model, SimpleNamespace(decision=decision, estimates=Absent()), SAMPLE, Absent())
 
 
 def test_errors_are_the_reference_less_what_is_and_power_is_force_times_speed():
@@ -128,3 +129,18 @@ def test_errors_are_the_reference_less_what_is_and_power_is_force_times_speed():
 def test_rotors_that_stand_still_are_not_saturated():
     assert (errors(1.0).saturated, errors(0.0).saturated) == (1.0, 0.0)
     assert [at_limit(f, 5.0) for f in (-1.0, 0.0, 1e-9, 4.9, 5.0, 6.0)] == [1.0, 1.0, 0.0, 0.0, 1.0, 1.0]
+
+
+def test_errors_of_an_estimate_give_its_delay_and_its_noise():
+    """A late estimate of a smooth push, with an offset of the moment: least squares find the delay."""
+    step, delay, t = 1e-3, 0.02, 1e-3 * np.arange(4000)
+    true, found = (3.0 * np.exp(-(((t - late) - 2.0) ** 2) / 0.72) for late in (0.0, delay))
+    sums = NO_ERRORS
+    for k in range(len(t)):
+        off = Vec3(found[k] - true[k], 0.0, 0.0)
+        sums = with_errors(sums, PushErrors(1.0, off, Vec3(0.0, 0.1, 0.0), Vec3(true[k], 0.0, 0.0)))
+    metrics = error_metrics(sums, Absent(), step)
+    assert metrics["push_delay_s"] == pytest.approx(delay, rel=0.02)
+    assert metrics["push_force_rmse_n"] == pytest.approx([np.sqrt(np.mean((found - true) ** 2)), 0.0, 0.0])
+    assert metrics["push_moment_rmse_n_m"] == pytest.approx([0.0, 0.1, 0.0])
+    assert error_metrics(Absent(), Absent(), step) == {}

@@ -41,7 +41,7 @@ def feel_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
         for limits in zip(axes, by_hand.max_speed, by_hand.max_acceleration, strict=False):
             yield from limit_checks(*limits)
     yield from sensing_checks(s, m.pilot, e, schedule, wind)
-    if s.model != "none" and m.pilot.push != "truth":
+    if s.model != "none" and m.pilot.push != "truth" and e.wrench == "joints":
         noise = noise_of(s, vehicle, push_bandwidths(m.pilot, e, by_hand), m.mission.step)
         tared = (e.tare_start or 0.0) + e.tare_duration
         lasting = min(max(m.mission.duration - tared, 0.0), m.compliance.bias_time_constant)

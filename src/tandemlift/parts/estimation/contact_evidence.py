@@ -31,7 +31,7 @@ from tandemlift.core.types import N, Number, PerQuadrotor
 from tandemlift.core.vector import Vec3, total
 from tandemlift.parts.estimation.contact_map import BeamMatch, GuardMatch, TouchGeometry
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, external_forces
-from tandemlift.parts.estimation.tare import SideForces
+from tandemlift.parts.estimation.wrench.tare import SideForces
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.sensors.readings import ImuReading
 

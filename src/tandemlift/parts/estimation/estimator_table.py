@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Literal
 
 from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.keys import Bandwidth, NonNegative, Positive, Scale, Table, key
+from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable, bandwidth_checks
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
+from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale, steps_of
 
 
 class EstimatorTable(Table):
@@ -18,6 +20,23 @@ class EstimatorTable(Table):
     it. During the tare, in hover, it is assumed to be zero; the joints' readings are then their bias.
     """
 
+    wrench: Literal["joints", "momentum", "hybrid", "disturbance-observer", "kalman", "extended-kalman"] = key(
+        "joints",
+        None,
+        "source of the push: force sensors, or an observer of the external wrench, which includes wind and model error",
+        choices={
+            "joints": "force sensors at the joints, and the accelerometer",
+            "momentum": "momentum, of velocity and rates (De Luca)",
+            "hybrid": "force by the acceleration, moment by the momentum (Tomić)",
+            "disturbance-observer": "nonlinear disturbance observer (Mohammadi, Yüksel), here equal to 'momentum'",
+            "kalman": "steady-state Kalman filter of accelerometer and gyroscope",
+            "extended-kalman": "error-state extended Kalman filter of motion capture and gyroscope",
+        },
+    )
+    wrench_observer: WrenchTable = WrenchTable()
+    error_metrics: bool = key(
+        False, None, "true adds errors and delay of the estimated push against the true one to the metrics"
+    )
     push_bandwidth: Bandwidth = key(
         36.0,
         "rad/s",
@@ -110,6 +129,38 @@ def tare_checks(e: EstimatorTable, sampling: float, step: float) -> Iterator[Che
         )
 
 
+def wrench_checks(
+    e: EstimatorTable, s: SensorsTable, actuators: str, method: str, beside: Mapping[str, str], mass: float, step: float
+) -> Iterator[CheckResult]:
+    """Refusals of an observer without what it needs, and of joint sensors that are asked for and not there.
+
+    `actuators`: `actuators.model`; `method`: `allocation.method`; `beside`: the choices of
+    other keys that use joint sensors or the same residual as an observer; `mass` of the vehicle [kg]; `step` [s].
+    """
+    used = {"estimator.wind_compensation": e.wind_compensation, **beside}
+    used = {name: choice for name, choice in used.items() if choice != "none"}
+    if e.wrench == "joints":
+        if s.model == "simulated" and s.joints.model == "none":
+            yield refused(
+                'sensors.joints.model = "none": must be "simulated" where estimator.wrench is "joints"; or choose an '
+                'observer, such as estimator.wrench = "kalman"'
+            )
+        return
+    given = f'estimator.wrench = "{e.wrench}": must be "joints"'
+    if s.model == "none":
+        yield refused(f'{given} unless sensors.model is "simulated": it needs imu and motion measurement')
+    if actuators != "rotors" or method != "constrained":
+        yield refused(
+            f'{given} unless actuators.model is "rotors" and allocation.method is "constrained", which give it the '
+            "thrusts of the rotors"
+        )
+    for name, choice in used.items():
+        yield refused(f'{given} where {name} is "{choice}", which reads joints or a lost rotor in the same motion')
+    interval = step * steps_of(s.interval, step)
+    noise = mass * s.accelerometer.noise * noise_scale(s, interval)
+    yield from bandwidth_checks(e.wrench, e.wrench_observer, noise, interval)
+
+
 def hover_tare_checks(e: EstimatorTable, guidance: str) -> Iterator[CheckResult]:
     """Check for a tare in hover, which only interactive guidance detects; `guidance`: `pilot.guidance`."""
     if e.tare == "hover" and guidance != "interactive":
@@ -118,7 +169,7 @@ def hover_tare_checks(e: EstimatorTable, guidance: str) -> Iterator[CheckResult]
 
 def bias_warnings(e: EstimatorTable, force_bias: float, push: str) -> Iterator[CheckResult]:
     """Check for a bias of the joints [N] that no tare subtracts; `push`: `pilot.push`."""
-    if e.tare != "hover" and e.tare_start is None and push != "truth" and force_bias > 0.0:
+    if e.wrench == "joints" and e.tare != "hover" and e.tare_start is None and push != "truth" and force_bias > 0.0:
         bias = f"sensors.joints.force_bias = {force_bias}"
         yield warned(f"{bias} N is read as a push, as estimator.tare_start is left out")
 

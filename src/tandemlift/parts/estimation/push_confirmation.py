@@ -18,10 +18,10 @@ from tandemlift.core.arrays import array
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, each, vec3
-from tandemlift.parts.estimation.confirmed_part import Zero, compared
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState
 from tandemlift.parts.estimation.wind_compensation import subtracted_wind
+from tandemlift.parts.estimation.wrench.confirmed_part import Zero, compared
 from tandemlift.parts.mechanics.loads import scaled, sum_over_set, translated
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import UP, apply_inertia, gyroscopic, inertia_value
@@ -224,7 +224,7 @@ def start_confirmation(
         limited: whether the allocation knows the limits of the rotors, and so their thrusts.
     """
     x, y, z = threshold
-    if e.confirmation == "none":
+    if e.confirmation == "none" or e.wrench != "joints":
         return Absent(), Absent()
     side = minimum(x, y) * TOLERANCE  # body axes rotate with the heading
     heavier = vehicle.payload.mass / (vehicle.mass - vehicle.payload.mass)

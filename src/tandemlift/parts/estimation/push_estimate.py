@@ -6,8 +6,8 @@ a person on its right side) leave for the person F = m_L a − Σ f_i and M = J_
 Wind on the payload counts as a push. ω̇ is the difference of consecutive samples.
 
 In hover, over a window, the means of F and M are taken as the sensors' bias, after the payload's mass if it is
-identified (`parts.estimation.tare`); the place of an excess mass is not observable in hover (`inertial_force`). Wind on
-the payload may be subtracted (`parts.mechanics.wind`).
+identified (`parts.estimation.wrench.tare`); the place of an excess mass is not observable in hover (`inertial_force`).
+Wind on the payload may be subtracted (`parts.mechanics.wind`).
 
 The external force on quadrotor i is f_i + m_i s_i, with s_i its specific force. Thrust is only in z, so x and y are
 wind or sensor error; where they differ between quadrotors, the push is not trusted. Errors in z, of torques, and errors
@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -32,13 +32,14 @@ from tandemlift.core.law import law
 from tandemlift.core.types import Number, NumberSet, PerQuadrotor, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, cross, each, spread, total, vec3
 from tandemlift.parts.estimation.off_center import OffCenter, about_center, from_origin
-from tandemlift.parts.estimation.tare import TINY, SideForces, TareSums, summed, tare_fields, tare_of
 from tandemlift.parts.estimation.wind_compensation import (
     PayloadDrag,
     PayloadDragState,
     start_payload_drag,
     wind_on_payload,
 )
+from tandemlift.parts.estimation.wrench.estimated_push import PushEstimate as PushEstimate
+from tandemlift.parts.estimation.wrench.tare import TINY, SideForces, TareSums, summed, tare_fields, tare_of
 from tandemlift.parts.mechanics.loads import add_to_each, sum_over_set
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import Inertia, apply_inertia, gyroscopic, inertia_value
@@ -92,29 +93,20 @@ class PushEstimatorState(NamedTuple):
     wind: PayloadDragState | Absent
 
 
-class PushEstimate(NamedTuple):
-    """The push as estimated.
+class OnBeam(Protocol):
+    """Where a force may act: `reach` [m], `least` [N²] and `off_center` as of a `PushEstimator`."""
 
-    `measured` [N, world axes] and `measured_moment` [N·m, body axes, about the payload's centre of mass]: the last
-    sample less the tare; `force` and `moment`, likewise: low-passed, zero until the tare is over; `point` [m]: where on
-    body y the force acts, 0 if it is too small; `payload_mass` [kg]; `disagreement` [N]: the horizontal force by which
-    one joint sensor alone would have to be wrong; `trusted` is 1 while that is below its limit, `armed` once the tare
-    is over, else 0; `usable`: `force` where trusted, else zero. `withheld` [N, world axes]: what is not confirmed
-    of the push (`push_confirmation`), and is not in the fields above; `refuted`: 1 while the motion refutes it, else 0.
-    """
+    @property
+    def reach(self) -> Number:
+        """Half the beam's length."""
 
-    measured: Vec3
-    measured_moment: Vec3
-    force: Vec3
-    moment: Vec3
-    point: Number
-    payload_mass: Number
-    disagreement: Number
-    trusted: Number
-    armed: Number
-    usable: Vec3
-    withheld: Vec3 = ZERO
-    refuted: Number = 0.0
+    @property
+    def least(self) -> Number:
+        """Square of the least force."""
+
+    @property
+    def off_center(self) -> OffCenter | Absent:
+        """Of the payload."""
 
 
 @law
@@ -153,7 +145,7 @@ def less_mean(k: PushEstimator, outside: SideForces[PerQuadrotor]) -> SideForces
 
 
 @law
-def point_of_application(k: PushEstimator, force: Vec3, moment: Vec3) -> Number:
+def point_of_application(k: OnBeam, force: Vec3, moment: Vec3) -> Number:
     """The place on the beam's axis, body y [m], of a force with this moment about the centre of mass (body axes)."""
     square = force.x * force.x + force.z * force.z
     y = (moment.x * force.z - moment.z * force.x) / maximum(square, k.least)

@@ -38,7 +38,8 @@ def sensing_checks(
     if wind.blows:
         yield from wind_checks(schedule, estimator, wind)
     bandwidths = push_bandwidths(pilot, estimator, schedule.compliance)
-    yield noise_check(noise_of(sensors, wind.vehicle, bandwidths, wind.step), min(schedule.admittance.threshold))
+    if estimator.wrench == "joints":
+        yield noise_check(noise_of(sensors, wind.vehicle, bandwidths, wind.step), min(schedule.admittance.threshold))
     slowest = None
     if pilot.state == "estimate":
         slowest = 1.0 / max(estimator.position_bandwidth, estimator.attitude_bandwidth)
@@ -131,7 +132,7 @@ def noise_check(noise: float, threshold: float) -> CheckResult:
 def sampling_checks(s: SensorsTable, push: float, estimate: float | None) -> Iterator[CheckResult]:
     """Compare sampling intervals plus delays with the largest for a push, and for an estimate [s]."""
     served = [("sensors", s.interval, s.delay, push, "pushes are detected too late, or missed")]
-    if s.joints.interval is not None:
+    if s.joints.interval is not None and s.joints.model != "none":
         served.append(("sensors.joints", s.joints.interval, s.delay, push, "pushes are detected too late, or missed"))
     if estimate is not None:
         served.append(("sensors.motion", s.motion.interval, s.motion.delay, estimate, "the estimate drifts and jumps"))

@@ -54,7 +54,13 @@ class AttitudeLimits(NamedTuple):
     frozen_samples: Number
 
 
-SensorLimits: TypeAlias = VectorLimits | JointLimits | AttitudeLimits
+class NoLimits(NamedTuple):
+    """For joints without sensors, which never fail; `frozen_samples`: more than there are."""
+
+    frozen_samples: Number
+
+
+SensorLimits: TypeAlias = VectorLimits | JointLimits | AttitudeLimits | NoLimits
 
 
 class SensorHealth(NamedTuple):
@@ -148,7 +154,7 @@ def out_of_range_of_sets(v: Vec3, largest: Number) -> Number:
     return any_of_sets(Vec3(out_of_range(v.x, largest), out_of_range(v.y, largest), out_of_range(v.z, largest)))
 
 
-@choice
+@choice(instead={NoLimits: SampleChecks(0.0, 0.0, 0.0)})
 def check_sample(limits: SensorLimits, sample: tuple[Vec3 | Quat, ...], last: tuple[Vec3 | Quat, ...]) -> SampleChecks:
     """The `SampleChecks` of a sample; it and the one before it are tuples of the sensor's quantities."""
 

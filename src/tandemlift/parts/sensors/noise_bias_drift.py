@@ -8,7 +8,8 @@ process, its walk begun σ/w samples earlier (J. F. Muth, J. Am. Stat. Assoc. 55
 Error terms: IEEE Std 952, annex C.
 
 The type of a model picks its law: `SensorModel` for a vector or one on every quadrotor, `ScalarSensorModel` for a
-number, `WhiteNoise` and `AttitudeNoise` for readings without other errors, `NoError` for copied ones.
+number, `WhiteNoise` and `AttitudeNoise` for readings without other errors, `NoError` for copied ones, `NoSensor` for
+quantities without a sensor.
 """
 
 from __future__ import annotations
@@ -91,6 +92,10 @@ class NoError(NamedTuple):
     """A quantity that is sampled without errors."""
 
 
+class NoSensor(NamedTuple):
+    """A quantity that is not measured: its reading is `Absent`."""
+
+
 @elementwise
 def displayed(x: Number, limit: Number, step: Number, per_step: Number) -> Number:
     """x held within ±limit, then rounded to whole steps, half to even; not rounded if step is 0."""
@@ -101,8 +106,8 @@ def displayed(x: Number, limit: Number, step: Number, per_step: Number) -> Numbe
 
 
 STAIRCASES.append(displayed.scalar)
-ChannelModel: TypeAlias = SensorModel | ScalarSensorModel | WhiteNoise | AttitudeNoise | NoError
-Sample: TypeAlias = Number | Vec3 | Quat
+ChannelModel: TypeAlias = SensorModel | ScalarSensorModel | WhiteNoise | AttitudeNoise | NoError | NoSensor
+Sample: TypeAlias = Number | Vec3 | Quat | Absent
 Drift: TypeAlias = Number | Vec3 | Absent
 """Of a sample: its drift, or the standard normals of its noise."""
 S = TypeVar("S", Number, Vec3, Quat)
@@ -110,7 +115,7 @@ D = TypeVar("D", Number, Vec3, Absent)
 V = TypeVar("V", Number, Vec3)
 
 
-@choice(instead={NoError: "truth"})
+@choice(instead={NoError: "truth", NoSensor: Absent()})
 def read(model: ChannelModel, drift: Drift, truth: S, normals: Drift) -> S:
     """A sample of `truth` with the drift so far; `normals`: independent standard normals, laid out like the sample."""
 
@@ -140,7 +145,7 @@ def _read_attitude(k: AttitudeNoise, drift: Absent, truth: Quat, normals: Vec3) 
     return rotated_by(truth, normals * k.sigma)
 
 
-@choice(instead={WhiteNoise: "drift", AttitudeNoise: "drift", NoError: "drift"})
+@choice(instead={WhiteNoise: "drift", AttitudeNoise: "drift", NoError: "drift", NoSensor: "drift"})
 def next_drift(model: ChannelModel, drift: D, normals: Drift, fresh: Number) -> D:
     """The drift after a sample (`fresh` 1), or as it was (0)."""
 

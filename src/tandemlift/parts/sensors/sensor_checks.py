@@ -44,6 +44,8 @@ def first_sample_checks(table: SensorsTable, step: float) -> Iterator[CheckResul
 def range_warnings(table: SensorsTable, vehicle: Vehicle, thrusts: Array) -> Iterator[CheckResult]:
     """Check for sensors whose ranges are exceeded in hover; `thrusts` of all rotors there [N] (N × 4)."""
     for i, (q, own) in enumerate(zip(vehicle.quadrotors, thrusts, strict=True), 1):
+        if table.joints.model == "none":
+            break
         force = own.sum() - q.mass * GRAVITY
         if abs(force) > table.joints.force_range:
             given = f"sensors.joints.force_range = {table.joints.force_range}"
@@ -58,6 +60,8 @@ def sensor_fault_checks(
     """Check for faults of sensors that do not exist, that cannot fail in this way, or that fail twice."""
     if tables and sensors.model == "none":
         yield refused('sensors.model = "none": must be "simulated" where there are sensor_faults')
+    if sensors.joints.model == "none" and any(f.sensor == "joints" for f in tables):
+        yield refused('sensors.joints.model = "none": must be "simulated" where there are sensor_faults of joints')
     additional = [s.name for s in sensors.additional]
     seen: dict[tuple[str, int | None, bool], int] = {}
     for i, f in enumerate(tables):

@@ -206,12 +206,12 @@ def all_faults(
     """The faults of all sensors.
 
     Args:
-        joints: of the sensors at each joint, `SOUND` for none.
+        joints: of the sensors at each joint, `SOUND` for none; empty without such sensors.
         faults: by the name of the sensor, of all others that fail.
         stale: by the name of the device, of those that send no new sample: the first step, and the first that does.
         additional: names of the additional sensors.
     """
-    whole = fault_of_joints(joints)
+    whole = fault_of_joints(joints or [SOUND])
     by_quantity = {q: faults.get(row.name, SOUND) for row in SENSORS.values() for q in row.quantities}
     by_quantity |= {"joint_force": whole, "joint_torque": _torque_fault(whole)}
 
@@ -223,6 +223,8 @@ def all_faults(
         return device(name, AdditionalChannels(fault if additional_sensor(name).width == 3 else ScalarFault(fault)))
 
     by_channel: dict[str, ChannelFault] = {**by_quantity, "attitude": AttitudeFault(by_quantity["attitude"])}
+    if not joints:
+        by_channel |= {"joint_force": NoFault(), "joint_torque": NoFault()}
     imu = ImuChannels(**{q: by_channel[q] for row in sensors_on("imu") for q in row.quantities}, frame=NoFault())
     motion = MotionChannels(**{q: by_channel[q] for row in sensors_on("motion") for q in row.quantities})
     return SensorFaults(

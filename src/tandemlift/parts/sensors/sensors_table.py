@@ -42,6 +42,15 @@ WITHIN = "below the time between samples"
 class JointSensors(Table):
     """`[sensors.joints]`: the force-torque sensor at each joint, between quadrotor and payload."""
 
+    model: Literal["none", "simulated"] = key(
+        "simulated",
+        None,
+        "model of the joint sensors",
+        choices={
+            "none": "there are none: the push is known or observed (`estimator.wrench`)",
+            "simulated": "sensors with the errors of this table",
+        },
+    )
     force_noise: Size = key(0.0, "N", f"force: {NOISE}")
     force_bias: Size = key(0.0, "N", f"force: {BIAS}")
     force_drift: Size = key(0.0, "N/√s", f"force: {DRIFT}")
@@ -236,7 +245,7 @@ def noise_scale(s: SensorsTable, interval: float) -> float:
 
 def joint_steps(s: SensorsTable, step: float) -> int | None:
     """The sampling interval of joints with a clock of their own in whole steps; None without."""
-    return None if s.joints.interval is None else steps_of(s.joints.interval, step)
+    return None if s.joints.interval is None or s.joints.model == "none" else steps_of(s.joints.interval, step)
 
 
 def clocks_of(s: SensorsTable) -> Iterator[tuple[str, str, float | None, float]]:

@@ -17,6 +17,7 @@ from tandemlift.parts.sensors.noise_bias_drift import (
     AttitudeNoise,
     ChannelModel,
     NoError,
+    NoSensor,
     SensorGrade,
     WhiteNoise,
     no_noise,
@@ -78,6 +79,7 @@ def sensors(
     motion_period: int = 1,
     additional: tuple[Device, ...] = NONE,
     joint_period: int | None = None,
+    has_joints: bool = True,
 ) -> Sensors:
     """The sensors of a vehicle of `count` quadrotors; by default perfect and sampled every step.
 
@@ -95,11 +97,12 @@ def sensors(
         motion_period: of the motion measurement, in whole steps.
         additional: parameters of additional sensors by name (`by_name`).
         joint_period: of the joints, in whole steps; None for the IMU's clock.
+        has_joints: whether there are sensors at the joints.
     """
     interval = step * (joint_period or imu_period)
     models: tuple[ChannelModel, ...] = (sensor_model(force, interval, count), sensor_model(torque, interval, count))
     joints = DeviceModel(JointChannels(*models), float(joint_period)) if joint_period else Absent()
-    own_force, own_torque = (NoError(), NoError()) if joint_period else models
+    own_force, own_torque = (NoError(), NoError()) if joint_period else models if has_joints else (NoSensor(),) * 2
     imu: ImuChannels[ChannelModel] = ImuChannels(
         specific_force=sensor_model(accelerometer, step * imu_period),
         rates=sensor_model(gyroscope, step * imu_period),
@@ -137,6 +140,7 @@ def sensors_from(
         imu_period=imu_period,
         motion_period=steps_of(s.motion.interval, step),
         joint_period=joint_period,
+        has_joints=s.joints.model != "none",
         additional=_additional_sensors(s.additional, step, chance),
     )
     return devices, zero_noise(devices)

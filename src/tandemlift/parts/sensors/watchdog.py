@@ -28,6 +28,7 @@ from tandemlift.parts.sensors.health import (
     FROZEN,
     AttitudeLimits,
     JointLimits,
+    NoLimits,
     PerSensor,
     SensorHealth,
     SensorLimits,
@@ -275,11 +276,12 @@ def watchdog_from(w: WatchTable, s: SensorsTable, step: float) -> Watchdog:
 
     held = -(-(joint_steps(s, step) or 1) // steps_of(s.interval, step))  # samples of the imu with one of the joints
     interval = step * steps_of(s.motion.interval, step)
+    joints: SensorLimits = JointLimits(w.max_force, w.max_torque, frozen(s.joints.force_noise, held))
     return Watchdog(
         stale_time=w.stale_time,
         invalid_time=w.invalid_time,
         sensors=PerSensor(
-            joints=JointLimits(w.max_force, w.max_torque, frozen(s.joints.force_noise, held)),
+            joints=joints if s.joints.model != "none" else NoLimits(math.inf),
             accelerometer=VectorLimits(w.max_specific_force, frozen(s.accelerometer.noise)),
             gyroscope=VectorLimits(w.max_rates, frozen(s.gyroscope.noise)),
             position=VectorLimits(w.max_position, frozen(s.motion.position_noise)),

@@ -151,9 +151,9 @@ def _sensors(flight: Flight) -> Iterator[Row]:
             f"; noise on board is that of samples every {describe(s.noise_interval, 'ms', 1e3)}, its density is kept"
         )
     yield "Sensors on board", f"{_every(s.interval, s.delay)}; {drawn}"
-    if s.joints.interval is not None:
+    if s.joints.interval is not None and s.joints.model != "none":
         yield "Joints", f"{_every(s.joints.interval, s.delay)}, with the next sample on board"
-    for kind, (unit, name) in JOINTS.items():
+    for kind, (unit, name) in JOINTS.items() if s.joints.model != "none" else ():
         noise, bias, drift, step = (getattr(s.joints, f"{kind}_{x}") for x in ("noise", "bias", "drift", "resolution"))
         errors = _errors(unit, noise=(noise, ""), bias=(bias, ""), drift=(drift, "/√s"), steps=(step, ""))
         turned = f", misaligned by {describe(s.joints.misalignment, 'rad')}" if s.joints.misalignment else ""

@@ -19,7 +19,7 @@ from tandemlift.parts.estimation.contact_detection import (
     shaken,
 )
 from tandemlift.parts.estimation.contact_evidence import ContactDetector, PushReading
-from tandemlift.parts.estimation.navigation import NavigationState, Navigator, navigate
+from tandemlift.parts.estimation.navigation import NavigationState, Navigator
 from tandemlift.parts.estimation.off_center import about_center
 from tandemlift.parts.estimation.push_confirmation import (
     ConfirmationState,
@@ -28,7 +28,8 @@ from tandemlift.parts.estimation.push_confirmation import (
     confirm,
     refuted_push,
 )
-from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState, estimate
+from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState
+from tandemlift.parts.estimation.wrench_push import PushInputs, WrenchPush, WrenchPushState, push_and_state
 from tandemlift.parts.guidance.contact_hold import contact_of
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
 from tandemlift.parts.guidance.phases import in_the_air, is_in
@@ -63,7 +64,7 @@ class Estimators(NamedTuple):
     where the IMU samples at every step.
     """
 
-    push: PushEstimator
+    push: PushEstimator | WrenchPush
     state: Navigator
     vehicle: NominalVehicle
     tare: TareAtTime | TareInHover
@@ -92,7 +93,7 @@ class HeldEstimates(NamedTuple):
 class EstimatorState(NamedTuple):
     """Memory of the estimators; `held` is `Absent` where they run in every step."""
 
-    push: PushEstimatorState
+    push: PushEstimatorState | WrenchPushState
     state: NavigationState
     contact: ContactState | Absent
     confirmation: ConfirmationState | Absent
@@ -197,14 +198,13 @@ def _estimated(
     dt: Number,
 ) -> tuple[Estimates, EstimatorState]:
     dt = time_between(estimators.sampling, dt)
-    push, push_memory = estimate(estimators.push, memory.push, readings.imu, t)
-    state, state_memory = navigate(estimators.state, memory.state, readings)
-    imu = about_center(estimators.push.off_center, readings.imu, push_memory.angular)
-    seen = PushReading(imu, push_memory.angular, push)
-    contact, contact_memory = contact_step(
-        estimators.contact, memory.contact, estimators.push, seen, state, surroundings, dt
-    )
-    sampled, explained = SampledPush(imu, estimators.push, push_memory), shaken(contact_memory)
+    inputs = PushInputs(readings, commands, surroundings.aloft, t, dt)
+    push, pushed, state, moved = push_and_state(estimators.push, memory.push, estimators.state, memory.state, inputs)
+    by_joints: Any = estimators.push  # for the next two laws, which are those of absent parts where an observer runs
+    imu = about_center(by_joints.off_center, readings.imu, pushed.angular)
+    seen = PushReading(imu, pushed.angular, push)
+    contact, contact_memory = contact_step(estimators.contact, memory.contact, by_joints, seen, state, surroundings, dt)
+    sampled, explained = SampledPush(imu, by_joints, pushed), shaken(contact_memory)
     push, confirmation = confirm(
         estimators.confirmation,
         memory.confirmation,
@@ -215,7 +215,7 @@ def _estimated(
         dt,
     )
     estimates = Estimates(push, state, estimators.vehicle, contact)
-    after = EstimatorState(push_memory, state_memory, contact_memory, confirmation)
+    after = EstimatorState(pushed, moved, contact_memory, confirmation)
     return held_between(estimators.sampling, memory, readings, estimates, after)
 
 
@@ -244,6 +244,22 @@ def known_surroundings(
     return KnownSurroundings(walls_known(sources.map, near), in_the_air(m), is_in(m, LAND), m.ground)
 
 
+@choice(instead={AdmittanceState: 1.0})
+def aloft(guidance: AdmittanceState | HandGuidanceState) -> Number:
+    """1 in flight, except in lift and landing, else 0; 1 where guidance is scheduled."""
+
+
+@aloft.register(HandGuidanceState)
+def _aloft(guidance: HandGuidanceState) -> Number:
+    return in_the_air(guidance.phase)
+
+
+@law(instead={PushEstimator: "known"})
+def with_flight_phase(push: WrenchPush, known: KnownSurroundings, guidance: object) -> KnownSurroundings:
+    """The same, with the phase of the flight where an observer needs it, for which a floor is a push."""
+    return known._replace(aloft=aloft(guidance))
+
+
 @surroundings_of.register(Estimators)
 def _surroundings(
     estimators: Estimators,
@@ -251,7 +267,8 @@ def _surroundings(
     near: NearWalls | Absent,
     guidance: AdmittanceState | HandGuidanceState,
 ) -> KnownSurroundings:
-    return known_surroundings(estimators.contact, sources, near, guidance)
+    known = known_surroundings(estimators.contact, sources, near, guidance)
+    return with_flight_phase(estimators.push, known, guidance)
 
 
 @choice(absent="readings")

@@ -8,16 +8,18 @@ from typing import Any, NamedTuple
 from tandemlift.core.algebra import absolute, greatest, maximum, minimum, sqrt, where
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, PerRotor
-from tandemlift.core.vector import ZERO, Absent, Vec3, dot, total
+from tandemlift.core.vector import ZERO, Absent, Vec3, apply_transposed, cross, dot, total
 from tandemlift.parts.contact.clearance import Clearance, clearance, smaller_clearance
+from tandemlift.parts.estimation.estimate_errors import EstimateErrors, PushErrors, error_metrics, with_errors
 from tandemlift.parts.guidance.guidance import thrust_fraction
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
 from tandemlift.parts.interaction.outside_push import OutsidePush, held_by_anyone
 from tandemlift.parts.interaction.person import PersonState
 from tandemlift.parts.interaction.virtual_hand import VirtualHandState
-from tandemlift.parts.mechanics.rotation import wrap_angle
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion, wrap_angle
 from tandemlift.parts.rotors.rotors import Rotors
 from tandemlift.simulation.loop.log_sample import Sample
+from tandemlift.simulation.loop.sources import EstimatedFlight
 
 
 class StepContribution(NamedTuple):
@@ -36,6 +38,7 @@ class StepContribution(NamedTuple):
     effort: PersonEffort | Absent
     push_active: Number
     height: Number
+    estimate: PushErrors | Absent = Absent()
 
 
 class PersonEffort(NamedTuple):
@@ -69,6 +72,7 @@ class RunningMetrics(NamedTuple):
     triggers: Number
     push_active: Number
     highest: Number
+    estimate: EstimateErrors | Absent = Absent()
 
 
 EMPTY = RunningMetrics(
@@ -127,6 +131,7 @@ def count(c: RunningMetrics, x: StepContribution) -> RunningMetrics:
         triggers=c.triggers + x.push_active * (1.0 - c.push_active),
         push_active=x.push_active,
         highest=maximum(c.highest, x.height),
+        estimate=with_errors(c.estimate, x.estimate),
     )
 
 
@@ -157,6 +162,7 @@ def summary(early: RunningMetrics, late: RunningMetrics, step: float) -> dict[st
         "rotor_saturated_share": (early.saturated + late.saturated) / steps if steps else None,
         **_of_walls(early, late),
         **_of_effort(early, late, step),
+        **error_metrics(early.estimate, late.estimate, step),
     }
 
 
@@ -219,6 +225,14 @@ def push_active(channels: HandGuidanceChannels) -> Number:
     return greatest(channels.push_active)
 
 
+@law(absent=Absent())
+def push_errors(sums: EstimateErrors, known: EstimatedFlight, x: Sample) -> PushErrors:
+    """The errors of an estimated push in a step, where they are counted."""
+    arm = cross(known.vehicle.payload, apply_transposed(rotation_from_quaternion(x.attitude), x.push_force))
+    p, moment = known.push, x.push_moment - arm
+    return PushErrors(p.trusted * p.armed, p.force - x.push_force, p.moment - moment, x.push_force)
+
+
 @law
 def contribution_of(model: Any, output: Any, x: Sample, outside: OutsidePush | Absent) -> StepContribution:
     """The contribution of a step to the running metrics; `outside`: of its `StepInputs`."""
@@ -237,4 +251,5 @@ def contribution_of(model: Any, output: Any, x: Sample, outside: OutsidePush | A
         effort=effort(model.flight_state.person, x, outside),
         push_active=push_active(decision.guidance.channels),
         height=x.position.z,
+        estimate=push_errors(model.flight_state.metrics.estimate, output.estimates, x),
     )

@@ -20,20 +20,14 @@ from tandemlift.missions import Mission
 from tandemlift.parts.contact.clearance import Clearance, clearance
 from tandemlift.parts.contact.feet import start_foot_grip
 from tandemlift.parts.contact.touches import start_touches
+from tandemlift.parts.estimation.estimate_errors import NO_ERRORS
 from tandemlift.parts.interaction.person import PersonState
 from tandemlift.parts.interaction.person_table import PersonTable, Walk, path_legs_from, start_person, waypoints_from
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.wind import start_wind, wind_noise_of
 from tandemlift.parts.rotors.rotors import ActuatorsTable, start_rotors
-from tandemlift.parts.sensors.readings import (
-    Readings,
-    SensorNoise,
-    Sensors,
-    SensorState,
-    by_name,
-    readings_of,
-)
+from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState, by_name, readings_of
 from tandemlift.parts.sensors.sensor_faults import sensor_faults_from
 from tandemlift.parts.sensors.sensors_table import SensorsTable, first_samples
 from tandemlift.parts.sensors.start_sensors import sensors_from, start_sensing
@@ -101,9 +95,11 @@ def delay_lines_from(names: Sequence[str], delays: NDArray[np.int64]) -> DelayLi
     return DelayLines(imu, motion, command, view, by_name(tuple(names))(*more))
 
 
-def start_metrics(far: Clearance | Absent, person: PersonState | Absent) -> RunningMetrics:
+def start_metrics(mission: Mission, far: Clearance | Absent, person: PersonState | Absent) -> RunningMetrics:
     """The running metrics before the first step; `far`: the clearance before the first search for walls."""
-    return EMPTY._replace(clearance=far, effort=person if isinstance(person, Absent) else NO_EFFORT)
+    counted = mission.estimator.error_metrics and mission.sensors.model != "none"
+    effort, errors = person if isinstance(person, Absent) else NO_EFFORT, NO_ERRORS if counted else Absent()
+    return EMPTY._replace(clearance=far, effort=effort, estimate=errors)
 
 
 class StartedPerception(NamedTuple):
@@ -118,9 +114,12 @@ class StartedPerception(NamedTuple):
 
 
 def start_perception(
-    mission: Mission, vehicle: Vehicle, state: State, chance: np.random.Generator, at_rest: Callable[[], Any]
+    mission: Mission, vehicle: Vehicle, state: State, chance: Any, at_rest: Callable[[], Any], floor: float | None
 ) -> StartedPerception:
-    """Sensors and estimators before the first step; `at_rest` gives the perfect readings at the start."""
+    """Sensors and estimators before the first step; `at_rest` gives the perfect readings at the start.
+
+    `floor`: height z [m] of a floor with ground effect, or None.
+    """
     step = mission.mission.step
     devices, noise = sensors_from(mission.sensors, vehicle.count, step, chance)
     sensing: Any = Absent()
@@ -129,13 +128,14 @@ def start_perception(
         waits = first_samples(mission.sensors, step)
         sensing = start_sensing(devices, state, at_rest(), state.attitude, waits)
         readings = readings_of(sensing)
-    estimators, known = start_estimators(mission, vehicle, state, readings)
+    estimators, known = start_estimators(mission, vehicle, state, readings, floor)
     if mission.supervision.model != "none":
         watchdog = mission.supervision.watchdog
         estimators, known = with_watchdogs(watchdog, mission.sensors, step, estimators, known, readings)
     if mission.sensor_faults:
         names = [s.name for s in mission.sensors.additional]
-        faults = sensor_faults_from(mission.sensor_faults, vehicle.count, names, step)
+        joints = vehicle.count if mission.sensors.joints.model != "none" else 0
+        faults = sensor_faults_from(mission.sensor_faults, joints, names, step)
         devices, sensing = with_faults(faults, devices, sensing)
     return StartedPerception(
         devices=devices, sensing=sensing, noise=noise, readings=readings, estimators=estimators, known=known
@@ -160,7 +160,7 @@ def assemble(mission: Mission) -> AssembledFlight:
     wind, wind_state = start_wind(mission.wind, vehicle, step, chance)
     near, hand = near_walls_from(plant.walls), push_kind(mission.pushes, mission.person)
     at_rest = lambda: readings_at_rest(plant, state, grip, near, thrusts, hand)  # noqa: E731
-    senses = start_perception(mission, vehicle, state, chance, at_rest)
+    senses = start_perception(mission, vehicle, state, chance, at_rest, over)
     waypoints = waypoints_from(mission.person, mission.corridor)
     walk = Walk(waypoints, state, mission.initial.euler[2], mission.phases.height)
     person, memory_of_person, tremor_noise = start_person(mission.person, vehicle, step, walk)
@@ -178,7 +178,7 @@ def assemble(mission: Mission) -> AssembledFlight:
         rotors=spinning,
         readings=senses.readings,
         person=memory_of_person,
-        metrics=start_metrics(_clearance(plant.walls, near, plant.frame, state), memory_of_person),
+        metrics=start_metrics(mission, _clearance(plant.walls, near, plant.frame, state), memory_of_person),
         impulse=Absent() if isinstance(limits.strike, Absent) else 0.0,
         crash=start_crash(limits, state),
         ended=FLIES,

@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-
-import numpy as np
 
 from tandemlift.core.algebra import minimum
 from tandemlift.core.types import NEVER
-from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
+from tandemlift.core.vector import ZERO, Absent, Vec3, each, vec3
 from tandemlift.missions import Mission
 from tandemlift.parts.controllers import controller
 from tandemlift.parts.estimation.contact_table import start_contact_detection
 from tandemlift.parts.estimation.disturbance_observer import start_observer
 from tandemlift.parts.estimation.navigation import navigator_from, start_navigation
-from tandemlift.parts.estimation.off_center import off_center_at
 from tandemlift.parts.estimation.push_confirmation import start_confirmation
-from tandemlift.parts.estimation.push_estimate import estimate, push_estimator, start_push
-from tandemlift.parts.estimation.wind_compensation import payload_drag_from
+from tandemlift.parts.estimation.wrench_push import PushInputs, push_and_state, start_push_estimator
 from tandemlift.parts.guidance.available import start_available
 from tandemlift.parts.guidance.compliance_table import ComplianceTable, compliance_from, push_filters
 from tandemlift.parts.guidance.contact_hold import start_contact_hold
@@ -135,34 +130,23 @@ def start_hand_guidance(
 
 
 def start_estimators(
-    mission: Mission, vehicle: Vehicle, state: State, readings: Readings | Absent
+    mission: Mission, vehicle: Vehicle, state: State, readings: Readings | Absent, floor: float | None
 ) -> tuple[Estimators | Absent, EstimatorState | Absent]:
-    """The estimators of a mission and their memory at t = 0, for the nominal vehicle; or `Absent`."""
+    """The estimators of a mission and their memory at t = 0, for the nominal vehicle; or `Absent`.
+
+    `floor`: height z [m] of a floor with ground effect, or None.
+    """
     if isinstance(readings, Absent):
         return Absent(), Absent()
     e, s, period = mission.estimator, mission.sensors, steps_of(mission.sensors.interval, mission.mission.step)
     step = mission.mission.step
     interval, sampling = step * period, Sampling(step * period) if period > 1 else Absent()
-    payload, quadrotors = vehicle.payload, vehicle.quadrotors
-    push = push_estimator(
-        mass=payload.mass,
-        inertia=payload.tensor,
-        joints=[np.subtract(q.joint_position, payload.center_of_mass) for q in quadrotors],
-        quadrotors=[np.subtract(q.position, payload.center_of_mass) for q in quadrotors],
-        quadrotor_masses=[q.mass for q in quadrotors],
-        step=interval,
-        length=math.inf if payload.span is None else payload.span,
-        bandwidth=e.push_bandwidth,
-        min_force=e.min_force,
-        tare_start=0.0 if e.tare == "hover" else e.tare_start,
-        tare_duration=e.tare_duration,
-        identify_mass=e.identify_mass,
-        disagreement_limit=e.disagreement_limit,
-        windage=Absent() if e.wind_compensation == "none" else payload_drag_from(vehicle, e.wind_bandwidth, interval),
-        system=-vehicle.payload_center,
-        off_center=off_center_at(payload.center_of_mass),
-    )
+    late = mission.observer.rotor_delay + s.delay
+    push, pushed = start_push_estimator(e, s, vehicle, readings.imu, interval, late, floor)
+    stopped = each(vehicle.rotor_count)(*[0.0] * vehicle.rotor_count)
     observer = navigator_from(e, s, vehicle, step)
+    navigation, inputs = start_navigation(observer, state), PushInputs(readings, stopped, 0.0, 0.0, interval)
+    first = push_and_state(push, pushed, observer, navigation, inputs).push
     drag = vehicle.drag
     believed = NominalVehicle(vec3(vehicle.payload_center), vec3(drag.force), vec3(drag.moment))
     tare = TareInHover() if e.tare == "hover" else TareAtTime()
@@ -176,8 +160,6 @@ def start_estimators(
         limited=mission.allocation.method == "constrained",
     )
     known = Estimators(push, observer, believed, tare, contact, confirmation, sampling)
-    pushed = start_push(push, readings.imu)
-    first, _ = estimate(push, pushed, readings.imu, 0.0)
     touching = Absent() if isinstance(no_contact, Absent) else no_contact.contact
     held = Absent() if isinstance(sampling, Absent) else HeldEstimates(first, state, touching, 0.0)
-    return known, EstimatorState(pushed, start_navigation(observer, state), no_contact, unconfirmed, held)
+    return known, EstimatorState(pushed, navigation, no_contact, unconfirmed, held)

@@ -1,0 +1,90 @@
+"""Observers of the external wrench: their common input, output and model of the vehicle.
+
+An observer estimates the force F [N, world axes] and the moment τ [N·m, body axes, about the system's centre of mass]
+that act on the vehicle besides its weight and its modelled rotors:
+
+    m v̇ = R e_z f − m g e_z + F,    J ω̇ = M − ω × J ω + τ.
+
+It reads inertial sensors, motion capture and the modelled thrust f and moment M of the rotors. So wind, drag and every
+error of the model are in the wrench, with the person's push; `parts.estimation.wrench_push` tares it in hover.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, TypeVar
+
+from tandemlift.core.law import choice, law
+from tandemlift.core.types import GRAVITY, Number
+from tandemlift.core.vector import Quat, Vec3, apply
+from tandemlift.parts.mechanics.rigid_body import UP, Inertia, State, Wrench, apply_inertia, gyroscopic
+from tandemlift.parts.mechanics.rotation import body_z_axis, rotation_from_quaternion
+
+M = TypeVar("M")
+
+
+class NominalBody(NamedTuple):
+    """The nominal vehicle as one rigid body: mass [kg], inertia [kg·m²] about its centre of mass, and its inverse."""
+
+    mass: Number
+    inertia: Inertia
+    inverse_inertia: Inertia
+
+
+class Observation(NamedTuple):
+    """The input of an observer at a sample.
+
+    `specific_force` at the centre of mass [m/s², body axes]; `state` of the centre of mass, by the navigator; `rotors`:
+    the modelled wrench from this sample to the next. The last motion capture: `position` and `velocity` [world axes]
+    and `attitude`; `fresh` is 1 if it is new, else 0. `dt`: to the next sample [s].
+    """
+
+    specific_force: Vec3
+    state: State
+    rotors: Wrench
+    position: Vec3
+    velocity: Vec3
+    attitude: Quat
+    fresh: Number
+    dt: Number
+
+
+class ExternalWrench(NamedTuple):
+    """Force [N, world axes] and moment about the centre of mass [N·m, body axes]."""
+
+    force: Vec3
+    moment: Vec3
+
+
+@choice
+def observe(observer: object, memory: M, x: Observation) -> tuple[ExternalWrench, M]:
+    """(the external wrench at a sample, the observer's new memory)."""
+
+
+@law
+def modelled_force(k: NominalBody, x: Observation) -> Vec3:
+    """The force of weight and modelled rotors [N, world axes]."""
+    return body_z_axis(x.state.attitude) * x.rotors.thrust - UP * (k.mass * GRAVITY)
+
+
+@law
+def unexplained_force(k: NominalBody, x: Observation) -> Vec3:
+    """m (a + g e_z) − R e_z f: the external force by the accelerometer at this sample [N, world axes]."""
+    R = rotation_from_quaternion(x.state.attitude)
+    return apply(R, x.specific_force * k.mass - UP * x.rotors.thrust)
+
+
+@law
+def modelled_moment(k: NominalBody, x: Observation) -> Vec3:
+    """The rate of the angular momentum J ω in body axes without an external moment: M − ω × J ω [N·m]."""
+    return x.rotors.moment + gyroscopic(k.inertia, x.state.rates)
+
+
+@law
+def angular_momentum(k: NominalBody, x: Observation) -> Vec3:
+    """J ω [kg·m²/s, body axes]."""
+    return apply_inertia(k.inertia, x.state.rates)
+
+
+def principal(J: Inertia) -> Vec3:
+    """The diagonal of an inertia tensor [kg·m²]."""
+    return J if isinstance(J, Vec3) else Vec3(J.x.x, J.y.y, J.z.z)

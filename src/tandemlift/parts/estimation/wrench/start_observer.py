@@ -1,0 +1,56 @@
+"""The observer of the external wrench that a mission selects, before its first sample."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.core.algebra import exp
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Vec3, vec3
+from tandemlift.parts.estimation.wrench.extended_kalman import ExtendedKalmanFilter, start_filter
+from tandemlift.parts.estimation.wrench.hybrid import HybridObserver, start_hybrid
+from tandemlift.parts.estimation.wrench.kalman import LEAST_NOISE, kalman_observer
+from tandemlift.parts.estimation.wrench.momentum import MomentumObserver, start_momentum
+from tandemlift.parts.estimation.wrench.nonlinear_disturbance import NonlinearObserver, start_disturbance
+from tandemlift.parts.estimation.wrench.observation import NominalBody, principal
+from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable
+
+
+class SampleNoise(NamedTuple):
+    """Standard deviations of a sample: accelerometer [m/s²], gyroscope [rad/s], position [m], velocity, attitude."""
+
+    accelerometer: Number
+    gyroscope: Number
+    position: Number
+    velocity: Number
+    attitude: Number
+
+
+def _decay(bandwidth: Vec3, interval: Number) -> Vec3:
+    return Vec3(*[exp(-w * interval) for w in bandwidth])
+
+
+def start_wrench_observer(
+    name: str, table: WrenchTable, body: NominalBody, noise: SampleNoise, interval: Number
+) -> tuple[Any, Any]:
+    """(the observer, its memory); `name`: `estimator.wrench`; `interval`: between samples [s]."""
+    decay = _decay(vec3(table.force_bandwidth), interval)
+    turning_decay = _decay(vec3(table.moment_bandwidth), interval)
+    one = Vec3(1.0, 1.0, 1.0)
+    force, moment = one - decay, (one - turning_decay) / interval
+    changes = vec3(table.force_change), vec3(table.moment_change)
+    if name == "momentum":
+        return MomentumObserver(body, force / interval, moment), start_momentum()
+    if name == "hybrid":
+        return HybridObserver(body, force, moment), start_hybrid()
+    if name == "disturbance-observer":
+        return NonlinearObserver(body, force / interval, moment, decay, turning_decay), start_disturbance()
+    if name == "kalman":
+        return kalman_observer(body, *changes, noise.accelerometer, noise.gyroscope, interval)
+    by_mass, by_inertia = changes[0] / body.mass, changes[1] / principal(body.inertia)
+    sizes = [LEAST_NOISE + sigma for sigma in (noise.position, noise.velocity, noise.attitude, noise.gyroscope)]
+    position, velocity, attitude, rates = (sigma * sigma for sigma in sizes)
+    filtered = ExtendedKalmanFilter(
+        body, by_mass * by_mass, by_inertia * by_inertia, position, velocity, attitude, rates
+    )
+    return filtered, start_filter(filtered)

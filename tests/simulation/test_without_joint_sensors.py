@@ -1,0 +1,93 @@
+"""Flights without force sensors: a hand is followed by an observer of the external wrench."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+
+WITHOUT = {"sensors.joints.model": "none", "estimator.wrench": "kalman"}
+AFTER_TARE, BEFORE_LANDING = 12.5, 69.0  # s
+
+
+def lag_of(found, true, most=150):
+    """The delay [ms] with which `found` agrees best with `true`; samples every ms."""
+    errors = [np.mean((found[k:] - true[: len(true) - k]) ** 2) for k in range(0, most, 2)]
+    return 2 * int(np.argmin(errors))
+
+
+@pytest.fixture(scope="module")
+def flown():
+    return tl.fly(tl.load_mission("iris", {**WITHOUT, "mission.log_interval": 0.001}))
+
+
+def test_a_hand_guides_the_vehicle_without_force_sensors(flown):
+    assert flown.metrics()["outcome"] == "landed"
+    assert not flown.findings
+    assert flown.metrics()["push_triggers_after_10s"] == 8  # as many as there are pushes
+    assert np.max(flown.metrics()["position_rmse_after_10s_m"]) < 0.005
+
+
+def test_force_and_moment_are_found_within_their_goals(flown):
+    t = flown.time
+    within = (t > AFTER_TARE) & (t < BEFORE_LANDING)
+    force, true = flown["push_estimate"][within], flown["push_force"][within]
+    rmse = np.sqrt(np.mean((force - true) ** 2, axis=0))
+    assert np.all(rmse < [0.08, 0.07, 0.06])
+    assert [lag_of(force[:, axis], true[:, axis]) <= 60 for axis in range(3)] == [True, True, False]
+    moment = flown["push_moment_estimate"][within] - np.cross([0.0, 0.0, 0.0642857], force)  # level enough
+    assert np.all(np.sqrt(np.mean(moment**2, axis=0)) < 0.03)
+
+
+def test_there_is_no_reading_of_joints_that_have_no_sensors(flown):
+    assert "measured_joint_force" not in flown.channels
+    assert "measured_specific_force" in flown.channels
+
+
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [
+        ({"sensors.joints.model": "none"}, "sensors.joints.model"),
+        ({**WITHOUT, "contact.model": "on"}, "contact.model"),
+        ({**WITHOUT, "detection.model": "residual"}, "detection.model"),
+        ({**WITHOUT, "allocation.method": "pseudo-inverse", "observer.model": "none"}, "allocation.method"),
+        ({**WITHOUT, "sensors.model": "none", "pilot.state": "truth", "pilot.push": "truth"}, "sensors.model"),
+        ({**WITHOUT, "estimator.wind_compensation": "quadrotors"}, "estimator.wind_compensation"),
+        ({**WITHOUT, "sensor_faults": [{"sensor": "joints", "kind": "nan", "time": 20.0}]}, "sensor_faults"),
+    ],
+)
+def test_what_needs_joint_sensors_or_known_thrusts_is_refused_by_its_key(changes, key):
+    with pytest.raises(tl.InputError, match=key):
+        tl.load_mission("iris", changes)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"estimator.wrench": "momentum", "estimator.wrench_observer.force_bandwidth": 10.0}, "at most 5 rad/s"),
+        ({"estimator.wrench": "kalman"}, "force_change .* must be at most 0.0742 N/√s"),
+    ],
+)
+def test_a_bandwidth_beyond_the_rate_of_the_samples_is_refused_with_the_highest(changes, said):
+    with pytest.raises(tl.InputError, match=rf"{said} .*samples every 0.02 s"):
+        tl.load_mission("iris", {"sensors.interval": 0.02, **changes})
+
+
+def test_the_tare_without_joint_sensors_finds_an_excess_mass_and_leaves_no_force():
+    heavy = tl.load_mission("iris", {**WITHOUT, "plant.mass_scale": 1.1, "mission.duration": 14.0, "pushes": []})
+    flown = tl.fly(heavy)
+    after = flown.time > AFTER_TARE
+    assert flown["payload_mass_estimate"][-1] == pytest.approx(0.5 + 0.35, abs=0.02)
+    assert np.abs(flown["push_estimate"][after].mean(axis=0)).max() < 0.1
+
+
+@pytest.mark.parametrize("lost", ["nan", "frozen"])
+def test_a_supervised_vehicle_without_joint_sensors_survives_a_lost_accelerometer(lost):
+    changes = {
+        **WITHOUT,
+        "supervision.model": "on",
+        "sensor_faults": [{"sensor": "accelerometer", "kind": lost, "time": 20.0}],
+        "mission.duration": 40.0,
+    }
+    assert tl.fly(tl.load_mission("iris", changes)).metrics()["outcome"].startswith("landed")
