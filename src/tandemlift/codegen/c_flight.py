@@ -10,12 +10,12 @@ from collections.abc import Callable, Iterator
 from functools import cached_property
 from typing import Any
 
-from tandemlift.codegen.c_expressions import UNARY, number
-from tandemlift.codegen.c_laws import write_call, write_functions
+from tandemlift.codegen.c.expressions import UNARY, number
+from tandemlift.codegen.c.laws import write_call, write_functions
+from tandemlift.codegen.c.source import SourceFile
+from tandemlift.codegen.c.statements import Statements
+from tandemlift.codegen.c.text import FunctionHead, function
 from tandemlift.codegen.c_limits import write_limits, write_solver
-from tandemlift.codegen.c_source import SourceFile
-from tandemlift.codegen.c_statements import Statements
-from tandemlift.codegen.c_text import FunctionHead, function
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import ZERO
 from tandemlift.simulation.loop import external_inputs

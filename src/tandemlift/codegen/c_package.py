@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from tandemlift.codegen.c_expressions import number
+from tandemlift.codegen.c.expressions import number
+from tandemlift.codegen.c.source import SourceFile
+from tandemlift.codegen.c.text import wrapped
 from tandemlift.codegen.c_flight import FlightFile
 from tandemlift.codegen.c_pilot import PilotFile
-from tandemlift.codegen.c_source import SourceFile
-from tandemlift.codegen.c_text import wrapped
 from tandemlift.codegen.prepare import PrepareFile
 from tandemlift.core.types import Array, leaves
 from tandemlift.missions import Mission

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from tandemlift.codegen.c_laws import write_functions
+from tandemlift.codegen.c.laws import write_functions
+from tandemlift.codegen.c.source import SourceFile
+from tandemlift.codegen.c.statements import Statements
+from tandemlift.codegen.c.text import FunctionHead, function
 from tandemlift.codegen.c_limits import write_limits, write_solver
-from tandemlift.codegen.c_source import SourceFile
-from tandemlift.codegen.c_statements import Statements
-from tandemlift.codegen.c_text import FunctionHead, function
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import each
 from tandemlift.simulation.pilot_api import INPUT

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from tandemlift.codegen.c_expressions import number
-from tandemlift.codegen.c_source import SourceFile, Unit
-from tandemlift.codegen.c_statements import Statements
-from tandemlift.codegen.c_text import FunctionHead, function
-from tandemlift.codegen.c_types import Names, leaf_paths
+from tandemlift.codegen.c.expressions import number
+from tandemlift.codegen.c.source import SourceFile, Unit
+from tandemlift.codegen.c.statements import Statements
+from tandemlift.codegen.c.text import FunctionHead, function
+from tandemlift.codegen.c.types import Names, leaf_paths
 from tandemlift.compiler.tracer import LEAVES, Function, Module, Place, Symbol, symbols
 from tandemlift.core.types import rebuilt
 from tandemlift.simulation.loop.external_inputs import ROWS

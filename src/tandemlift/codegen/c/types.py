@@ -23,7 +23,7 @@ gamma hypot isfinite isinf isnan j0 j1 jn ldexp lgamma log log10 log1p log2 lrin
 nearbyint pow remainder rint round scalbn signbit sin sinh sqrt tan tanh tgamma trunc y0 y1 yn size_t int32_t int64_t
 uint32_t uint64_t to_integer bits_of number_of shifted_right"""
 NO_MEMBER = frozenset(KEYWORDS.split())
-RESERVED = NO_MEMBER | {"shared"} | set(LIBRARY.split())  # `shared`: of the parts of a function (c_text)
+RESERVED = NO_MEMBER | {"shared"} | set(LIBRARY.split())  # `shared`: of the parts of a function (`text`)
 
 
 def identifier(name: str) -> str:

@@ -7,9 +7,9 @@ from collections.abc import Iterable
 from importlib.resources import files
 from typing import Any
 
-from tandemlift.codegen.c_expressions import number
-from tandemlift.codegen.c_text import wrapped
-from tandemlift.codegen.c_types import Names, Signature, Struct, Structs, identifier, parts_of, signature_of, type_name
+from tandemlift.codegen.c.expressions import number
+from tandemlift.codegen.c.text import wrapped
+from tandemlift.codegen.c.types import Names, Signature, Struct, Structs, identifier, parts_of, signature_of, type_name
 from tandemlift.compiler.tracer import Graph, Symbol
 from tandemlift.compiler.tracer.structured import Laws, TracedLaw, calls_in, is_nested, numbers_in, with_numbers
 
