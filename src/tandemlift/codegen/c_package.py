@@ -63,7 +63,7 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
     """The texts of all files but the self-tests, by name."""
     mission = portable_mission(mission)
     pilot = PilotFile(_file(mission.mission, single), assembled_by_graph(mission, pilot_at_start))
-    flight = FlightFile(_file(mission.mission, single), FlightPlan(mission))
+    flight = FlightFile(_file(mission.mission, single), FlightPlan(mission, interactive=True))
     pilot_prepare = PrepareFile(_file(mission.mission, single), trace_assembly(mission, pilot_at_start), "pilot")
     flight_prepare = PrepareFile(_file(mission.mission, single), trace_assembly(mission), "flight")
     file = _file(mission.mission, single)
