@@ -58,6 +58,37 @@ def test_numbers_of_another_mission_are_prepared_in_c_as_by_assembly(tmp_path):
     assert not same(found, FlightPlan(mission).start().numbers)
 
 
+TABLES = """#include "{p}_flight_prepare.h"
+#include <string.h>
+int tables_differ(void);
+int tables_differ(void)
+{{
+    static {p}_Prepared prepared;
+    static {p}_FlightModel model;
+    static {p}_Inputs inputs;
+    {p}_flight_mission(&model, &inputs);
+    return {p}_flight_prepare(&{p}_flight_numbers, &prepared)
+        + (memcmp(prepared.inputs.walls, inputs.walls, (size_t)inputs.wall_count * sizeof *inputs.walls) != 0)
+        + (memcmp(prepared.inputs.pushes, inputs.pushes, (size_t)inputs.push_count * sizeof *inputs.pushes) != 0)
+        + (inputs.wall_count != 2) + (inputs.push_count != 1);
+}}
+"""
+
+
+def test_walls_and_pushes_stay_when_numbers_are_prepared(tmp_path):
+    walls = [upright((-1.0, 3.0), (1.0, 3.0)), upright((1.0, -3.0), (1.0, 3.0))]
+    push = {"force": [1.0, 0.0, 0.0], "time": 0.05, "sigma": 0.01}
+    mission = unfused(thrown({"walls": walls, "pushes": [push]}, 0.1))
+    files = written(code_texts(mission), tmp_path)
+    name = next(f.name for f in files if f.name.endswith("_flight.h")).removesuffix("_flight.h")
+    (tmp_path / "tables.c").write_text(TABLES.format(p=name))
+    sources = [tmp_path / f"{name}_flight.c", tmp_path / f"{name}_flight_prepare.c", tmp_path / "tables.c"]
+    subprocess.run(
+        ["gcc", *STRICT, "-O1", "-shared", "-fPIC", *sources, "-o", tmp_path / "tables.so", "-lm"], check=True
+    )
+    assert ctypes.CDLL(str(tmp_path / "tables.so")).tables_differ() == 0
+
+
 def test_numbers_for_which_assembly_would_branch_otherwise_are_reported(tmp_path):
     mission = mission_of("one-push")
     traced = trace_assembly(mission)

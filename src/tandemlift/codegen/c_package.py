@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
@@ -14,7 +16,7 @@ from tandemlift.codegen.c_flight import FlightFile
 from tandemlift.codegen.c_pilot import PilotFile
 from tandemlift.codegen.prepare import PrepareFile
 from tandemlift.core.types import Array, leaves
-from tandemlift.missions import Mission
+from tandemlift.missions import Mission, tables_of
 from tandemlift.missions.mission import MissionTable
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.fly import fly
@@ -53,6 +55,12 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
         f"{file.name}_flight_selftest.c": flight_selftest(file, FlightPlan(mission)),
     }
     return written(code_texts(mission, single) | selftests, Path(folder))
+
+
+def mission_hash(mission: Mission) -> str:
+    """The first 16 digits of the SHA-256 of a mission's tables as JSON with sorted keys."""
+    text = json.dumps(tables_of(mission), sort_keys=True, ensure_ascii=False, default=str)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def _file(m: MissionTable, single: bool) -> SourceFile:

@@ -87,6 +87,9 @@ def _function(module: Module, traced: TracedAssembly, kept: ScratchValues, head:
 
 # ---- C
 
+COPY = (
+    "    memcpy(prepared->{0}, prepared->inputs.{0}, sizeof prepared->{0});\n    prepared->inputs.{0} = prepared->{0};"
+)
 NOTE = "/* The numbers, one after the other (tandemlift.simulation.preparation.traced_assembly). */\n"
 
 
@@ -116,7 +119,7 @@ class PrepareFile:
     def source(self, tables: tuple[Any, ...] = ()) -> str:
         """The text of the source; `tables`: as for the header."""
         values = [f"    .{m} = {number(x, 'double')}," for m, x in zip(self.members, self.traced.values, strict=True)]
-        copies = [f"    prepared->inputs.{name} = prepared->{name};" for name, *_ in tables]
+        copies = [COPY.format(name) for name, *_ in tables]
         words = {"VALUES": "\n".join(values), "COPIES": "\n".join(copies)}
         self.file.unit.texts.append(self._function())
         return self.file.source(f"{self.part}_prepare.c", [], **words)
