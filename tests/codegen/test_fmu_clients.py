@@ -44,7 +44,7 @@ def test_fmpy_finds_no_problem_and_flies_the_same_bits(flown, fmi):
 
 
 @BOTH
-def test_fmuloader_flies_the_same_bits(flown, fmi):
+def test_fmuloader_flies_the_same_bits(flown, fmi, tmp_path):
     from fmuloader import fmi2, fmi3
 
     flight, files = flown
@@ -53,14 +53,14 @@ def test_fmuloader_flies_the_same_bits(flown, fmi):
         root = ElementTree.fromstring(archive.read("modelDescription.xml"))
     places = {v.get("name"): int(v.get("valueReference")) for v in root.find("ModelVariables")}
     if fmi == 2:
-        slave = fmi2.Fmi2Slave(path, model_identifier=path.stem)
+        slave = fmi2.Fmi2Slave(path, model_identifier=path.stem, unpack_dir=tmp_path)
         slave.instantiate("one", fmi2.Fmi2Type.CO_SIMULATION, guid=root.get("guid"))
         slave.setup_experiment(start_time=0.0)
         slave.enter_initialization_mode()
         names = [label for name in flight.channels for label in labels_of(flight, name, 2)]
         wanted = np.hstack([np.reshape(flight[name], (len(flight.time), -1)) for name in flight.channels])
     else:
-        slave = fmi3.Fmi3Slave(path, model_identifier=path.stem)
+        slave = fmi3.Fmi3Slave(path, model_identifier=path.stem, unpack_dir=tmp_path)
         slave.instantiate_co_simulation("one", instantiation_token=root.get("instantiationToken"))
         slave.enter_initialization_mode(0.0)
         names = [name for name in flight.channels if flight[name].ndim == 1]  # it reads no arrays

@@ -18,7 +18,7 @@ LOGGER3 = CFUNCTYPE(None, c_void_p, c_int, c_char_p, c_char_p)
 
 
 class Callbacks(Structure):
-    _fields_ = [(name, c_void_p) for name in ("logger", "allocate", "free", "finished", "environment")]  # noqa: RUF012
+    _fields_ = [(name, c_void_p) for name in ("logger", "allocate", "free", "finished", "environment")]
 
 
 class Fmu:

@@ -16,6 +16,7 @@ from tandemlift.codegen.c.source import SourceFile
 from tandemlift.codegen.c.statements import Statements
 from tandemlift.codegen.c.text import FunctionHead, function
 from tandemlift.codegen.c_limits import write_limits, write_solver
+from tandemlift.codegen.number_facts import described
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import ZERO
 from tandemlift.simulation.loop import external_inputs
@@ -92,7 +93,7 @@ class FlightFile:
             "RING_ROWS": str(self.ring_rows),
             "RING_WIDTH": str(max(self.delayed.size, 1)),
             "DELAYS": str(max(len(self.delayed), 1)),
-            "TYPES": self.file.typedefs(self.public),
+            "TYPES": self.file.typedefs(self.public, described),
             "PUSH": self.file.unit.type_of(self.plan.given.hand.start),
         }
         return self.file.filled("flight.h", self.has, **words)

@@ -17,7 +17,6 @@ from tandemlift.codegen.c_pilot import PilotFile
 from tandemlift.codegen.prepare import PrepareFile
 from tandemlift.core.types import Array, leaves
 from tandemlift.missions import Mission, tables_of
-from tandemlift.missions.mission import MissionTable
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.fly import fly
 from tandemlift.simulation.pilot_api import INPUT, Pilot, pilot_at_start
@@ -49,7 +48,7 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
         InputError: the mission's controller is plain Python, or the mission changes while it is flown.
     """
     mission = portable_mission(mission)
-    file = _file(mission.mission, single)
+    file = source_file(mission, single)
     selftests = {
         f"{file.name}_pilot_selftest.c": pilot_selftest(file, pilot_vectors(mission)),
         f"{file.name}_flight_selftest.c": flight_selftest(file, FlightPlan(mission)),
@@ -63,18 +62,20 @@ def mission_hash(mission: Mission) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-def _file(m: MissionTable, single: bool) -> SourceFile:
-    return SourceFile(m.name, single, m.step)
+def source_file(mission: Mission, single: bool = False) -> SourceFile:
+    """A file of C of a mission, as yet empty."""
+    m = mission.mission
+    return SourceFile(m.name, single, m.step, mission_hash(mission))
 
 
 def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
     """The texts of all files but the self-tests, by name."""
     mission = portable_mission(mission)
-    pilot = PilotFile(_file(mission.mission, single), assembled_by_graph(mission, pilot_at_start))
-    flight = FlightFile(_file(mission.mission, single), FlightPlan(mission, interactive=True))
-    pilot_prepare = PrepareFile(_file(mission.mission, single), trace_assembly(mission, pilot_at_start), "pilot")
-    flight_prepare = PrepareFile(_file(mission.mission, single), trace_assembly(mission), "flight")
-    file = _file(mission.mission, single)
+    pilot = PilotFile(source_file(mission, single), assembled_by_graph(mission, pilot_at_start))
+    flight = FlightFile(source_file(mission, single), FlightPlan(mission, interactive=True))
+    pilot_prepare = PrepareFile(source_file(mission, single), trace_assembly(mission, pilot_at_start), "pilot")
+    flight_prepare = PrepareFile(source_file(mission, single), trace_assembly(mission), "flight")
+    file = source_file(mission, single)
     how = {"PRECISION": "single" if single else "double"}
     how["COMPARED"] = "within 1e-3 of the range of thrusts" if single else "to the last bit"
     return {
@@ -84,9 +85,9 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
         f"{file.name}_flight.c": flight.source(),
         f"{file.name}_flight.h": flight.header(),
         f"{file.name}_pilot_prepare.c": pilot_prepare.source(),
-        f"{file.name}_pilot_prepare.h": pilot_prepare.header(),
+        f"{file.name}_pilot_prepare.h": pilot_prepare.header(mission),
         f"{file.name}_flight_prepare.c": flight_prepare.source(flight.traced_tables),
-        f"{file.name}_flight_prepare.h": flight_prepare.header(flight.traced_tables),
+        f"{file.name}_flight_prepare.h": flight_prepare.header(mission, flight.traced_tables),
         "CMakeLists.txt": file.filled("CMakeLists.txt"),
         "README.md": file.filled("README.md", **how),
     }

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.codegen.c.expressions import number
-from tandemlift.codegen.c.source import SourceFile
 from tandemlift.codegen.c_flight import FlightFile
-from tandemlift.codegen.c_package import mission_hash
+from tandemlift.codegen.c_package import source_file
 from tandemlift.codegen.c_pilot import PilotFile
 from tandemlift.codegen.fmu_variables import (
     FmuVariable,
@@ -20,7 +19,6 @@ from tandemlift.codegen.fmu_variables import (
 from tandemlift.codegen.prepare import PrepareFile, prepared_numbers
 from tandemlift.codegen.vehicle_step import VehicleStep, is_of_vehicle
 from tandemlift.compiler.tracer import symbols
-from tandemlift.core.files import __version__
 from tandemlift.core.types import flat, leaves
 from tandemlift.missions import Mission
 from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
@@ -57,17 +55,17 @@ class FmuPart(NamedTuple):
 
 def pilot_part(mission: Mission) -> FmuPart:
     """The pilot of a mission, which is portable."""
-    file, traced = _file(mission), trace_assembly(mission, pilot_at_start)
+    file, traced = source_file(mission), trace_assembly(mission, pilot_at_start)
     pilot, prepare = (
         PilotFile(file, assembled_by_graph(mission, pilot_at_start)),
-        PrepareFile(_file(mission), traced, "pilot"),
+        PrepareFile(source_file(mission), traced, "pilot"),
     )
     effective = _effective(traced, [*symbols(traced.graph, traced.assembled), *_conditions(traced)])
     count, start = len(traced.keys), [float(x) for x in flat(INPUT)]
     found = [*parameters(mission, traced, effective), *pilot_inputs(count, start)]
     found.append(thrust_output(count + len(start), len(pilot.thrusts)))
     code = {"pilot.c": pilot.source(), "pilot.h": pilot.header()}
-    code |= {"pilot_prepare.c": prepare.source(), "pilot_prepare.h": prepare.header()}
+    code |= {"pilot_prepare.c": prepare.source(), "pilot_prepare.h": prepare.header(mission)}
     words = {"STARTS": _numbers(start), "ENDS": "", "PLACES": "", "COPIES": ""}
     return _part(mission, "pilot", traced, found, code, {"pilot"}, words)
 
@@ -76,7 +74,10 @@ def flight_part(mission: Mission, part: str) -> FmuPart:
     """The whole flight of a mission, which is portable, or its vehicle: `part` is "flight" or "vehicle"."""
     is_whole, plan, traced = part == "flight", FlightPlan(mission, interactive=True), trace_assembly(mission)
     step: Any = {} if is_whole else {"step": VehicleStep}
-    flight, prepare = FlightFile(_file(mission), plan, **step), PrepareFile(_file(mission), traced, "flight")
+    flight, prepare = (
+        FlightFile(source_file(mission), plan, **step),
+        PrepareFile(source_file(mission), traced, "flight"),
+    )
     found, spans = prepared_numbers(traced)
     if is_whole:
         found += _conditions(traced)
@@ -90,7 +91,7 @@ def flight_part(mission: Mission, part: str) -> FmuPart:
     variables += [*caller_inputs(external, count, has_pilot=is_whole), *shown]
     code = {"flight.c": flight.source(), "flight.h": flight.header()}
     code["flight_prepare.c"] = prepare.source(flight.traced_tables)
-    code["flight_prepare.h"] = prepare.header(flight.traced_tables)
+    code["flight_prepare.h"] = prepare.header(mission, flight.traced_tables)
     upper = flight.file.prefix.upper()
     words = {
         "STARTS": _numbers([0.0] * leaves(external)),
@@ -99,10 +100,6 @@ def flight_part(mission: Mission, part: str) -> FmuPart:
         "ENDS": f" || flight->k == {upper}FLIGHT_STEPS" if is_whole else "",
     }
     return _part(mission, part, traced, variables, code, {"flight"}, words)
-
-
-def _file(mission: Mission) -> SourceFile:
-    return SourceFile(mission.mission.name, False, mission.mission.step)
 
 
 def _numbers(values: list[float]) -> str:
@@ -129,7 +126,7 @@ def _part(
     words: dict[str, str],
 ) -> FmuPart:
     """The part with the sources of FMI beside its code."""
-    file, kind = _file(mission), "pilot" if part == "pilot" else "flight"
+    file, kind = source_file(mission), "pilot" if part == "pilot" else "flight"
     count, outs = len(traced.keys), [v for v in variables if v.causality == "output"]
     last = outs[-1]
     sizes = [0] * (last.at + len(last.labels))
@@ -137,8 +134,6 @@ def _part(
         sizes[variable.at] = len(variable.labels)
     guards = [f'    "{", ".join(traced.keys_of(guard))}",' for guard in traced.guards]
     words |= {
-        "VERSION": __version__,
-        "HASH": mission_hash(mission),
         "TOKEN": "/*@TOKEN@*/",
         "DOUBLE_STEP": number(mission.mission.step, "double"),
         "PARAMETERS": str(count),

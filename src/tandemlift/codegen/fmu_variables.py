@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.codegen.number_facts import number_facts
+from tandemlift.codegen.number_facts import CALLER, FIELDS, PUSH, REQUESTS, STATE, STATUS, number_facts
 from tandemlift.core.types import leaves
 from tandemlift.flight.channels import Channel, channel_of
 from tandemlift.flight.data_frames import column_names
@@ -24,27 +24,6 @@ from tandemlift.simulation.preparation.traced_assembly import TracedAssembly
 from tandemlift.simulation.results import channels_of
 
 ENTRY = re.compile(r"(.+?)((?:\.\d+)+)")  # a key of a number in a list
-
-STATE = {
-    "position": Channel("m", "world", "position of the centre of mass"),
-    "velocity": Channel("m/s", "world", "velocity of the centre of mass"),
-    "attitude": Channel("1", "body to world", "unit quaternion w, x, y, z", 4),
-    "rates": Channel("rad/s", "body", "angular velocity p, q, r"),
-    "push_force": Channel("N", "world", "force of the person on the vehicle"),
-    "push_moment": Channel("N m", "body", "moment of the person about the centre of mass"),
-}
-REQUESTS = {
-    "land": "whether to land: a request counts once, when it becomes true",
-    "lift": "whether to lift, in addition to phases.lift_start: a request counts once, when it becomes true",
-    "stop": "whether to stop the rotors at once; they stay stopped",
-    "enabled": "whether the pilot may follow the person; otherwise it holds its position",
-}
-STATUS = {
-    "rotor_failed": Channel("1", "", "1 once a rotor has failed, else 0", 1),
-    "allocated_thrust": Channel("N", "", "thrust of all rotors as allocated at the last sample, 0 if unknown", 1),
-    "state_invalid": Channel("1", "", "1 if the state has values that are no numbers, else 0", 1),
-    "limited_reason": Channel("1", "", "number of the reason why the reference cannot be followed, or 0", 1),
-}
 
 
 class FmuVariable(NamedTuple):
@@ -138,12 +117,8 @@ def thrust_output(first: int, rotors: int) -> FmuVariable:
 def caller_inputs(external: Any, first: int, *, has_pilot: bool) -> Iterator[FmuVariable]:
     """The inputs of a flight, or of a vehicle without pilot, which are held over a step."""
     places, rotors = held_inputs(external), len(external.thrusts)
-    channels = {
-        "push": Channel("N", "world", "force on the vehicle, in addition to the mission's pushes"),
-        "point": Channel("m", "body", "where the push acts, from the centre of mass"),
-        "thrusts": Channel("N", "body z", "commanded thrust of each rotor, quadrotor by quadrotor", 1, "rotor"),
-        "velocity": Channel("m/s", "world", "velocity of the reference, in place of the response to pushes"),
-    }
+    channels = {"push": CALLER["force"], "point": CALLER["point"], "thrusts": CALLER["thrusts"]}
+    channels["velocity"] = FIELDS["ReferenceVelocity"]["velocity"]
     counts = {
         "thrusts": "whether the thrusts count, in place of the pilot's",
         "velocity": "whether that velocity counts",
@@ -163,15 +138,16 @@ def caller_inputs(external: Any, first: int, *, has_pilot: bool) -> Iterator[Fmu
 def pilot_inputs(first: int, start: list[float]) -> Iterator[FmuVariable]:
     """The inputs of a pilot, in the order of a `PilotInput`; `start`: its numbers at rest."""
     at = 0
-    for name, channel in STATE.items():
+    for name, channel in {**STATE, **PUSH}.items():
         values = tuple(start[at : at + channel.width])
         labels = _labelled(name, channel, channel.width, (channel.width,))
         yield FmuVariable(name, "input", channel, first + at, labels, True, values)
         at += channel.width
-    for name, meaning in REQUESTS.items():
-        yield _truth(name, meaning, first + at, start[at])
+    for name, channel in REQUESTS.items():
+        yield _truth(name, channel.meaning.replace("1 to", "whether to"), first + at, start[at])
         at += 1
     for name, channel in STATUS.items():
+        name = {"thrust": "allocated_thrust", "limited": "limited_reason"}.get(name, name)
         yield FmuVariable(name, "input", channel, first + at, (name,), False, (start[at],))
         at += 1
 

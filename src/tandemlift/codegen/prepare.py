@@ -6,16 +6,19 @@ mission needs code of its own.
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from tandemlift.codegen.c.expressions import number
 from tandemlift.codegen.c.source import SourceFile, Unit
 from tandemlift.codegen.c.statements import Statements
-from tandemlift.codegen.c.text import FunctionHead, function
+from tandemlift.codegen.c.text import WIDTH, FunctionHead, comment, function
 from tandemlift.codegen.c.types import Names, leaf_paths
+from tandemlift.codegen.number_facts import key_comment
 from tandemlift.compiler.tracer import LEAVES, Function, Module, Place, Symbol, symbols
 from tandemlift.core.types import rebuilt
+from tandemlift.missions import Mission
 from tandemlift.simulation.loop.external_inputs import ROWS
 from tandemlift.simulation.preparation.assemble import AssembledFlight
 from tandemlift.simulation.preparation.memory import ScratchLayout
@@ -107,13 +110,15 @@ class PrepareFile:
         names = Names()
         self.members = [names.new(key.replace(".", "_")) for key in traced.keys]
 
-    def header(self, tables: tuple[Any, ...] = ()) -> str:
-        """The text of the header; `tables`: name, type and rows of those of a flight."""
+    def header(self, mission: Mission, tables: tuple[Any, ...] = ()) -> str:
+        """The text of the header; `mission`: of the numbers; `tables`: name, type and rows of those of a flight."""
         guards = [", ".join(self.traced.keys_of(g)) for g in self.traced.guards]
-        lines = [f"    double {name}; /* {key} */" for name, key in zip(self.members, self.traced.keys, strict=True)]
+        lines = list[str]()
+        for name, key in zip(self.members, self.traced.keys, strict=True):
+            lines += [*comment(textwrap.wrap(key_comment(mission, key), WIDTH)).splitlines(), f"double {name};"]
         numbered = "\n * ".join(f"{i + 1}: one of {keys}" for i, keys in enumerate(guards)) or "there is none"
         rows = [f"    {self.file.prefix}{kind} {name}[{count}];" for name, kind, count in tables]
-        words = {"MEMBERS": "\n".join(lines), "GUARDS": numbered, "TABLES": "\n".join(rows)}
+        words = {"MEMBERS": textwrap.indent("\n".join(lines), "    "), "GUARDS": numbered, "TABLES": "\n".join(rows)}
         return self.file.filled(f"{self.part}_prepare.h", **words)
 
     def source(self, tables: tuple[Any, ...] = ()) -> str:
