@@ -255,6 +255,13 @@ def test_another_token_and_unknown_references_are_refused(fmu):
     assert "has 3 numbers, but 1 are given" in instance.said[-1]
 
 
+def test_all_functions_are_there_and_those_of_other_kinds_refuse(fmu):
+    for fmi, name in ((2, "GetDerivatives"), (2, "GetDirectionalDerivative"), (3, "EnterEventMode"), (3, "GetClock")):
+        instance = Instance(fmu("hover", "pilot", fmi))
+        assert instance(name) == ERROR
+        assert instance.said[-1] == f"fmi{fmi}{name}: this FMU has no such thing"
+
+
 def test_descriptions_have_keys_units_bounds_and_arrays(fmu):
     flat, arrays = fmu("iris", "flight", 2), fmu("iris", "flight", 3)
     mass = next(v for v in flat.variables if v.get("name") == "vehicle.payload.mass")

@@ -271,3 +271,21 @@ FMU_EXPORT Status fmi2DeSerializeFMUstate(Component c, const char bytes[], size_
     }
     return saved ? OK : ERROR;
 }
+
+/* Functions of model exchange, which some importers look for: they refuse whatever their further arguments are. */
+
+#define REFUSED(NAME) \
+    FMU_EXPORT Status NAME(Component c) \
+    { \
+        return refused(c, #NAME); \
+    }
+REFUSED(fmi2EnterEventMode)
+REFUSED(fmi2NewDiscreteStates)
+REFUSED(fmi2EnterContinuousTimeMode)
+REFUSED(fmi2CompletedIntegratorStep)
+REFUSED(fmi2SetTime)
+REFUSED(fmi2SetContinuousStates)
+REFUSED(fmi2GetDerivatives)
+REFUSED(fmi2GetEventIndicators)
+REFUSED(fmi2GetContinuousStates)
+REFUSED(fmi2GetNominalsOfContinuousStates)
