@@ -69,16 +69,14 @@ int tables_differ(void)
     {p}_flight_mission(&model, &inputs);
     return {p}_flight_prepare(&{p}_flight_numbers, &prepared)
         + (memcmp(prepared.inputs.walls, inputs.walls, (size_t)inputs.wall_count * sizeof *inputs.walls) != 0)
-        + (memcmp(prepared.inputs.pushes, inputs.pushes, (size_t)inputs.push_count * sizeof *inputs.pushes) != 0)
-        + (inputs.wall_count != 2) + (inputs.push_count != 1);
+        + (memcmp(prepared.inputs.legs, inputs.legs, (size_t)inputs.leg_count * sizeof *inputs.legs) != 0)
+        + (inputs.wall_count == 0) + (inputs.leg_count == 0);
 }}
 """
 
 
-def test_walls_and_pushes_stay_when_numbers_are_prepared(tmp_path):
-    walls = [upright((-1.0, 3.0), (1.0, 3.0)), upright((1.0, -3.0), (1.0, 3.0))]
-    push = {"force": [1.0, 0.0, 0.0], "time": 0.05, "sigma": 0.01}
-    mission = unfused(thrown({"walls": walls, "pushes": [push]}, 0.1))
+def test_walls_and_legs_of_a_path_keep_their_constant_numbers_when_numbers_are_prepared(tmp_path):
+    mission = mission_of("zigzag")
     files = written(code_texts(mission), tmp_path)
     name = next(f.name for f in files if f.name.endswith("_flight.h")).removesuffix("_flight.h")
     (tmp_path / "tables.c").write_text(TABLES.format(p=name))
