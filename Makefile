@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page docs docs-quick test check quick lint types imports tests examples test-learning test-pythons test-distributions test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
+.PHONY: run live page docs docs-quick test check quick lint types imports tests examples test-learning test-clients test-pythons test-distributions test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -69,6 +69,11 @@ test-learning: .venv/dev  ## environments by Stable-Baselines3, a policy that le
 	test -x .venv-learning/bin/python || $(BIN)/python -m venv .venv-learning
 	.venv-learning/bin/pip install --disable-pip-version-check --quiet -e '.[gymnasium,jax,torch]' -r tools/dev.txt stable-baselines3
 	.venv-learning/bin/pytest -p no:xdist -m learning tests/analysis
+
+test-clients: .venv/dev  ## FMUs of all missions in FMPy and fmuloader, and for each platform by ziglang; installs them into .venv-clients
+	test -x .venv-clients/bin/python || $(BIN)/python -m venv .venv-clients
+	.venv-clients/bin/pip install --disable-pip-version-check --quiet -e '.[fmu]' -r tools/dev.txt fmpy==0.3.32 fmuloader==0.1.2rc0
+	.venv-clients/bin/pytest -p no:xdist -m clients tests/codegen
 
 test-pythons:    ## the fast tests under each installed Python from 3.11 to 3.13
 	tools/test-pythons

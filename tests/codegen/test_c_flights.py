@@ -58,6 +58,35 @@ def test_numbers_of_another_mission_are_prepared_in_c_as_by_assembly(tmp_path):
     assert not same(found, FlightPlan(mission).start().numbers)
 
 
+TABLES = """#include "{p}_flight_prepare.h"
+#include <string.h>
+int tables_differ(void);
+int tables_differ(void)
+{{
+    static {p}_Prepared prepared;
+    static {p}_FlightModel model;
+    static {p}_Inputs inputs;
+    {p}_flight_mission(&model, &inputs);
+    return {p}_flight_prepare(&{p}_flight_numbers, &prepared)
+        + (memcmp(prepared.inputs.walls, inputs.walls, (size_t)inputs.wall_count * sizeof *inputs.walls) != 0)
+        + (memcmp(prepared.inputs.legs, inputs.legs, (size_t)inputs.leg_count * sizeof *inputs.legs) != 0)
+        + (inputs.wall_count == 0) + (inputs.leg_count == 0);
+}}
+"""
+
+
+def test_walls_and_legs_of_a_path_keep_their_constant_numbers_when_numbers_are_prepared(tmp_path):
+    mission = mission_of("zigzag")
+    files = written(code_texts(mission), tmp_path)
+    name = next(f.name for f in files if f.name.endswith("_flight.h")).removesuffix("_flight.h")
+    (tmp_path / "tables.c").write_text(TABLES.format(p=name))
+    sources = [tmp_path / f"{name}_flight.c", tmp_path / f"{name}_flight_prepare.c", tmp_path / "tables.c"]
+    subprocess.run(
+        ["gcc", *STRICT, "-O1", "-shared", "-fPIC", *sources, "-o", tmp_path / "tables.so", "-lm"], check=True
+    )
+    assert ctypes.CDLL(str(tmp_path / "tables.so")).tables_differ() == 0
+
+
 def test_numbers_for_which_assembly_would_branch_otherwise_are_reported(tmp_path):
     mission = mission_of("one-push")
     traced = trace_assembly(mission)

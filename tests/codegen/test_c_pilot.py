@@ -123,7 +123,33 @@ def test_its_functions_are_short_allocate_nothing_and_name_their_laws(name):
     assert set(re.findall(r"#include <(.+)>", source)) <= {"math.h", "stdbool.h", "stddef.h", "stdint.h", "string.h"}
     assert "\n/* tandemlift." in source
     assert "\n * paper: " in source
-    assert len(texts["README.md"].split("\n")) <= 45
+    assert len(texts["README.md"].split("\n")) <= 60
+
+
+def test_its_headers_say_version_hash_units_frames_and_meanings():
+    texts, other = (code_texts(tl.load_mission("paper", changes)) for changes in ({}, {"mission.seed": 7}))
+    pilot, numbers = texts["paper_pilot.h"], texts["paper_pilot_prepare.h"]
+    for text in (pilot, numbers, texts["paper_flight.h"], texts["README.md"]):
+        assert f"tandemlift {tl.__version__}" in text
+    found, elsewhere = (re.search(r"hash ([0-9a-f]{16});", t["paper_pilot.h"])[1] for t in (texts, other))
+    assert found != elsewhere
+    assert f"`{found}`" in texts["README.md"]
+    assert "paper_Vec3 velocity; /* m/s, world: velocity of the centre of mass */" in pilot
+    assert "paper_Each8 thrusts; /* N, body z: commanded thrust of each rotor" in texts["paper_flight.h"]
+    assert re.search(
+        r"/\* vehicle\.payload\.mass \[kg\]: mass of the payload, > 0 \*/\n    double vehicle_payload_mass;", numbers
+    )
+    for filled in ("State", "PilotInput", "OperatorRequest", "VehicleStatus"):  # what a caller fills, field by field
+        body = re.search(rf"struct \{{\n((?:    .+\n)+)\}} paper_{filled};", pilot)[1]
+        assert all(
+            "/*" in line or "paper_State" in line or "_Operator" in line or "_Vehicle" in line
+            for line in body.splitlines()
+        )
+    structs = re.findall(r"^(.*)\ntypedef struct \{$", texts["paper_flight.h"], re.MULTILINE)
+    assert structs
+    assert all(line.endswith("*/") for line in structs)
+    for word in ("operator_.lift", "input.land", "operator_.stop", "status.rotor_failed", "status.state_invalid"):
+        assert word in texts["README.md"]
 
 
 def test_a_controller_in_plain_python_is_refused(tmp_path):

@@ -8,8 +8,8 @@ from c_flights import STRICT
 from random_missions.generate import random_family
 
 import tandemlift as tl
+from tandemlift.codegen.c.text import FunctionHead, Statement, function, token
 from tandemlift.codegen.c_package import code_texts, written
-from tandemlift.codegen.c_text import FunctionHead, Statement, function, token
 from tandemlift.missions import built_in
 from tools import need
 

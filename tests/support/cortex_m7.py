@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import tandemlift as tl
-from tandemlift.codegen.c_expressions import number
+from tandemlift.codegen.c.expressions import number
 from tandemlift.codegen.c_package import code_texts, written
 from tandemlift.core.types import leaves
 from tandemlift.simulation.pilot_api import INPUT

@@ -10,12 +10,13 @@ from collections.abc import Callable, Iterator
 from functools import cached_property
 from typing import Any
 
-from tandemlift.codegen.c_expressions import UNARY, number
-from tandemlift.codegen.c_laws import write_call, write_functions
+from tandemlift.codegen.c.expressions import UNARY, number
+from tandemlift.codegen.c.laws import write_call, write_functions
+from tandemlift.codegen.c.source import SourceFile
+from tandemlift.codegen.c.statements import Statements
+from tandemlift.codegen.c.text import FunctionHead, function
 from tandemlift.codegen.c_limits import write_limits, write_solver
-from tandemlift.codegen.c_source import SourceFile
-from tandemlift.codegen.c_statements import Statements
-from tandemlift.codegen.c_text import FunctionHead, function
+from tandemlift.codegen.number_facts import described
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import ZERO
 from tandemlift.simulation.loop import external_inputs
@@ -36,22 +37,24 @@ class FlightFile:
 
     Args:
         file: the names of the mission, and its precision.
-        plan: of the flight.
+        plan: of the flight, interactive: a caller has inputs.
+        step: traces the step; by default, the whole of it.
     """
 
-    def __init__(self, file: SourceFile, plan: FlightPlan) -> None:
+    def __init__(self, file: SourceFile, plan: FlightPlan, step: Callable[..., TracedStep] = TracedStep) -> None:
         self.file, self.plan, unit = file, plan, file.unit
         self.templates, self.delayed = templates_from(plan.model, plan.given), plan.loop_code.delayed
         for value in (ZERO, *ROWS, plan.model, plan.given, self.templates.sample):  # these get the plain names
             unit.structs.of(value)
         with unit.laws.recording():
-            x = self.traced = TracedStep(self.templates, fuses=False, rolls=False)
+            x = self.traced = step(self.templates, fuses=False, rolls=False)
         symbols = [*x.next_state, *x.sample, *x.body_in_contact, *x.body_on_feet, *x.body_in_free_air]
         symbols += [*x.may_touch_walls, *x.may_touch_hull, *(x.limits.symbols if x.limits else [])]
         self.roots = [s.node for s in symbols]
         self.has_noise = leaves(self.templates.given.noise) > 0
         self.has_gusts = any(x.graph.args[n][0] == "gust" for n in x.graph.needed(self.roots) if x.graph.ops[n] == "in")
-        values = [plan.model, self.templates.sample, plan.given.hand.start, *[row for _, row, _ in self._tables]]
+        values = [plan.model, self.templates.sample, plan.given.hand.start, plan.given.external]
+        values += [row for _, row, _ in self._tables]
         self.public = [unit.structs.of(value) for value in values]
 
     @property
@@ -74,6 +77,7 @@ class FlightFile:
         found = {"gusts": self.has_gusts, "walls": x.has_walls, "person": x.has_person, "floor": x.has_floor}
         found |= {"draws": self.has_noise, "delays": x.has_delays and self.ring_rows > 1}
         found["surroundings"] = x.has_floor or x.has_person
+        found["ends"] = type(self.traced) is TracedStep  # a vehicle goes on beyond the mission's duration
         return {name for name, is_there in found.items() if is_there}
 
     @property
@@ -89,7 +93,7 @@ class FlightFile:
             "RING_ROWS": str(self.ring_rows),
             "RING_WIDTH": str(max(self.delayed.size, 1)),
             "DELAYS": str(max(len(self.delayed), 1)),
-            "TYPES": self.file.typedefs(self.public),
+            "TYPES": self.file.typedefs(self.public, described),
             "PUSH": self.file.unit.type_of(self.plan.given.hand.start),
         }
         return self.file.filled("flight.h", self.has, **words)
@@ -115,11 +119,12 @@ class FlightFile:
     def _write_step(self) -> None:
         x, unit, templates = self.traced, self.file.unit, self.templates
         body = Statements(unit, x.graph, self.roots)
-        for name in ("model", "hand", "gust", "noise", "low", "t", "dt", "sample"):
+        for name in ("model", "hand", "external", "gust", "noise", "low", "t", "dt", "sample"):
             body.taken.new(name)
         given = [
             body.argument("model", x.model, pointer=True),
             body.argument("hand", x.input_of("hand", templates.given.hand), pointer=True),
+            body.argument("external", x.graph.inputs("external", templates.given.external), pointer=True),
         ]
         if self.has_gusts:
             given.append(body.argument("gust", x.input_of("gust", ZERO)))
@@ -132,7 +137,8 @@ class FlightFile:
         self._move_body(body)
         body.compute([s.node for s in [*x.sample, *x.next_state]])
         state = templates.model.flight_state
-        last = [f"*sample = {body.value(rebuilt(iter(x.sample), templates.sample))};"]
+        last = [] if x.t.node in x.graph.needed(self.roots) else ["(void)t;"]  # a vehicle may not know the time
+        last.append(f"*sample = {body.value(rebuilt(iter(x.sample), templates.sample))};")
         last.append(f"return {body.value(rebuilt(iter(x.next_state), state))};")
         head = FunctionHead(STEP, unit.type_of(state), "advance_flight", given)
         unit.texts.append(function(head, body.made, "\n".join(last)))

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from tandemlift.codegen.c_laws import write_functions
-from tandemlift.codegen.c_source import Unit
-from tandemlift.codegen.c_statements import Statements
+from tandemlift.codegen.c.laws import write_functions
+from tandemlift.codegen.c.source import Unit
+from tandemlift.codegen.c.statements import Statements
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.simulation.preparation.limit_solver import LimitProblem, TracedSolver
 

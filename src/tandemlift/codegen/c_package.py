@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
 
-from tandemlift.codegen.c_expressions import number
+from tandemlift.codegen.c.expressions import number
+from tandemlift.codegen.c.source import SourceFile
+from tandemlift.codegen.c.text import wrapped
 from tandemlift.codegen.c_flight import FlightFile
 from tandemlift.codegen.c_pilot import PilotFile
-from tandemlift.codegen.c_source import SourceFile
-from tandemlift.codegen.c_text import wrapped
 from tandemlift.codegen.prepare import PrepareFile
 from tandemlift.core.types import Array, leaves
-from tandemlift.missions import Mission
-from tandemlift.missions.mission import MissionTable
+from tandemlift.missions import Mission, tables_of
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.fly import fly
 from tandemlift.simulation.pilot_api import INPUT, Pilot, pilot_at_start
@@ -47,7 +48,7 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
         InputError: the mission's controller is plain Python, or the mission changes while it is flown.
     """
     mission = portable_mission(mission)
-    file = _file(mission.mission, single)
+    file = source_file(mission, single)
     selftests = {
         f"{file.name}_pilot_selftest.c": pilot_selftest(file, pilot_vectors(mission)),
         f"{file.name}_flight_selftest.c": flight_selftest(file, FlightPlan(mission)),
@@ -55,18 +56,26 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
     return written(code_texts(mission, single) | selftests, Path(folder))
 
 
-def _file(m: MissionTable, single: bool) -> SourceFile:
-    return SourceFile(m.name, single, m.step)
+def mission_hash(mission: Mission) -> str:
+    """The first 16 digits of the SHA-256 of a mission's tables as JSON with sorted keys."""
+    text = json.dumps(tables_of(mission), sort_keys=True, ensure_ascii=False, default=str)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def source_file(mission: Mission, single: bool = False) -> SourceFile:
+    """A file of C of a mission, as yet empty."""
+    m = mission.mission
+    return SourceFile(m.name, single, m.step, mission_hash(mission))
 
 
 def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
     """The texts of all files but the self-tests, by name."""
     mission = portable_mission(mission)
-    pilot = PilotFile(_file(mission.mission, single), assembled_by_graph(mission, pilot_at_start))
-    flight = FlightFile(_file(mission.mission, single), FlightPlan(mission))
-    pilot_prepare = PrepareFile(_file(mission.mission, single), trace_assembly(mission, pilot_at_start), "pilot")
-    flight_prepare = PrepareFile(_file(mission.mission, single), trace_assembly(mission), "flight")
-    file = _file(mission.mission, single)
+    pilot = PilotFile(source_file(mission, single), assembled_by_graph(mission, pilot_at_start))
+    flight = FlightFile(source_file(mission, single), FlightPlan(mission, interactive=True))
+    pilot_prepare = PrepareFile(source_file(mission, single), trace_assembly(mission, pilot_at_start), "pilot")
+    flight_prepare = PrepareFile(source_file(mission, single), trace_assembly(mission), "flight")
+    file = source_file(mission, single)
     how = {"PRECISION": "single" if single else "double"}
     how["COMPARED"] = "within 1e-3 of the range of thrusts" if single else "to the last bit"
     return {
@@ -76,9 +85,9 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
         f"{file.name}_flight.c": flight.source(),
         f"{file.name}_flight.h": flight.header(),
         f"{file.name}_pilot_prepare.c": pilot_prepare.source(),
-        f"{file.name}_pilot_prepare.h": pilot_prepare.header(),
+        f"{file.name}_pilot_prepare.h": pilot_prepare.header(mission),
         f"{file.name}_flight_prepare.c": flight_prepare.source(flight.traced_tables),
-        f"{file.name}_flight_prepare.h": flight_prepare.header(flight.traced_tables),
+        f"{file.name}_flight_prepare.h": flight_prepare.header(mission, flight.traced_tables),
         "CMakeLists.txt": file.filled("CMakeLists.txt"),
         "README.md": file.filled("README.md", **how),
     }

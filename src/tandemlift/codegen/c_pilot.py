@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from tandemlift.codegen.c_laws import write_functions
+from tandemlift.codegen.c.laws import write_functions
+from tandemlift.codegen.c.source import SourceFile
+from tandemlift.codegen.c.statements import Statements
+from tandemlift.codegen.c.text import FunctionHead, function
 from tandemlift.codegen.c_limits import write_limits, write_solver
-from tandemlift.codegen.c_source import SourceFile
-from tandemlift.codegen.c_statements import Statements
-from tandemlift.codegen.c_text import FunctionHead, function
+from tandemlift.codegen.number_facts import described
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import each
 from tandemlift.simulation.pilot_api import INPUT
@@ -35,7 +36,9 @@ class PilotFile:
 
     def header(self) -> str:
         """The text of the header."""
-        return self.file.filled("pilot.h", ROTORS=str(len(self.thrusts)), TYPES=self.file.typedefs(self.public))
+        return self.file.filled(
+            "pilot.h", ROTORS=str(len(self.thrusts)), TYPES=self.file.typedefs(self.public, described)
+        )
 
     def source(self) -> str:
         """The text of the source."""

@@ -10,10 +10,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from pydantic import BaseModel
 
 from tandemlift.codegen.c_package import write_c
+from tandemlift.codegen.fmu import VERSIONS, write_fmus
+from tandemlift.codegen.fmu_binaries import HOST
 from tandemlift.codegen.module_text import ValuesFunction, write_flight_loop, write_ramp, write_values_function
+from tandemlift.codegen.number_facts import number_facts
 from tandemlift.codegen.prepare import write_prepare
 from tandemlift.compiler.machine_code import store
 from tandemlift.compiler.machine_code.code import Written
@@ -21,10 +23,8 @@ from tandemlift.compiler.machine_code.machine import MACHINES, Machine, machine_
 from tandemlift.compiler.machine_code.wasm_linker import linked
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import __version__, atomic_write
-from tandemlift.core.keys import description_of
 from tandemlift.core.types import flat, leaves
 from tandemlift.missions import Mission, MissionLike, mission_of, tables_of
-from tandemlift.missions.schema import schema_of
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.parameter_changes import hand_place
 from tandemlift.simulation.plan import FlightPlan
@@ -33,7 +33,6 @@ from tandemlift.simulation.preparation.memory import POINTERS, WORDS
 from tandemlift.simulation.preparation.traced_assembly import TracedAssembly, trace_assembly
 from tandemlift.simulation.results import channel_places
 
-BOUNDS = ("minimum", "exclusiveMinimum", "maximum", "exclusiveMaximum")
 FUNCTIONS = ("prepare", "fly", "ramp")
 Functions = Callable[[FlightPlan], Sequence[ValuesFunction]]
 
@@ -134,11 +133,23 @@ def _written(
     return Written(loop.module.text, about)
 
 
-TARGETS = {"c": "C99 sources, for any compiler", **{name: machine.meaning for name, machine in MACHINES.items()}}
+TARGETS = {
+    "c": "C99 sources, for any compiler",
+    "fmu": "FMUs for Simulink, OpenModelica and other importers of FMI 2.0 or 3.0",
+    **{name: machine.meaning for name, machine in MACHINES.items()},
+}
 ENDINGS = {"wasm32": "wasm"}
 
 
-def compile_mission(mission: MissionLike, target: str, folder: Path | str, *, single: bool = False) -> list[Path]:
+def compile_mission(
+    mission: MissionLike,
+    target: str,
+    folder: Path | str,
+    *,
+    single: bool = False,
+    fmi: int | None = None,
+    platforms: Sequence[str] | None = None,
+) -> list[Path]:
     """Compile a mission for another machine: its numbers, its loop over steps, its pilot.
 
     Args:
@@ -146,17 +157,25 @@ def compile_mission(mission: MissionLike, target: str, folder: Path | str, *, si
         target: a name in `TARGETS`.
         folder: where the files go; made if it does not exist.
         single: whether C computes in single precision.
+        fmi: version of FMI that an FMU has, 2 or 3; 2 by default.
+        platforms: those that an FMU is compiled for: linux, linux-arm64, windows, macos; by default, this machine's.
+            "none" gives sources alone.
 
     Returns:
-        The files, which are a module or object and its manifest, or the sources of a C project.
+        The files: a module or object and its manifest, the sources of a C project, or three FMUs.
 
     Raises:
-        InputError: the target is unknown, this LLVM lacks it, or no other machine can fly the mission.
+        InputError: the target or a platform is unknown, no compiler for it is there, or no other machine can fly the
+            mission.
     """
     if target not in TARGETS:
         raise InputError(f"target = {target!r}: must be one of {', '.join(TARGETS)}")
     if single and target != "c":
         raise InputError(f"single = true: only for target 'c'; {target} computes in double precision")
+    if (fmi is not None or platforms is not None) and target != "fmu":
+        raise InputError(f"fmi and platforms: only for target 'fmu', not for {target!r}")
+    if target == "fmu":
+        return write_fmus(mission_of(mission), folder, fmi or VERSIONS[0], (HOST,) if platforms is None else platforms)
     if target == "c":
         return write_c(mission_of(mission), folder, single)
     module = module_of(mission_of(mission), target)
@@ -220,28 +239,3 @@ def manifest_of(plan: FlightPlan, traced: TracedAssembly, about: dict[str, Any])
 def number(value: float) -> float | str:
     """A number for JSON, which has no infinity."""
     return float(value) if np.isfinite(value) else str(float(value))
-
-
-def number_facts(mission: Mission, key: str) -> dict[str, Any]:
-    """The description of a number of a mission: `unit`, `meaning` and bounds by their names in JSON Schema.
-
-    Args:
-        mission: that of the number, which also determines the controller's keys.
-        key: dotted, with the number of a list's entry where there is one.
-    """
-    value: Any = mission
-    for part in key.split("."):
-        if isinstance(value, BaseModel):
-            field, value = type(value).model_fields[part], getattr(value, part)
-        else:
-            value = value[int(part)]
-    description = description_of(field)
-    unit = "" if description.unit in (None, "1") else description.unit
-    return {"unit": unit, "meaning": description.meaning, **_bounds(schema_of(field))}
-
-
-def _bounds(schema: dict[str, Any]) -> dict[str, float]:
-    """The bounds of the innermost number of a schema."""
-    while "type" not in schema or schema["type"] == "array":
-        schema = schema["items"] if schema.get("type") == "array" else schema["anyOf"][0]
-    return {name: schema[name] for name in BOUNDS if name in schema}

@@ -6,16 +6,19 @@ mission needs code of its own.
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from tandemlift.codegen.c_expressions import number
-from tandemlift.codegen.c_source import SourceFile, Unit
-from tandemlift.codegen.c_statements import Statements
-from tandemlift.codegen.c_text import FunctionHead, function
-from tandemlift.codegen.c_types import Names, leaf_paths
+from tandemlift.codegen.c.expressions import number
+from tandemlift.codegen.c.source import SourceFile, Unit
+from tandemlift.codegen.c.statements import Statements
+from tandemlift.codegen.c.text import WIDTH, FunctionHead, comment, function
+from tandemlift.codegen.c.types import Names, leaf_paths
+from tandemlift.codegen.number_facts import key_comment
 from tandemlift.compiler.tracer import LEAVES, Function, Module, Place, Symbol, symbols
 from tandemlift.core.types import rebuilt
+from tandemlift.missions import Mission
 from tandemlift.simulation.loop.external_inputs import ROWS
 from tandemlift.simulation.preparation.assemble import AssembledFlight
 from tandemlift.simulation.preparation.memory import ScratchLayout
@@ -87,6 +90,9 @@ def _function(module: Module, traced: TracedAssembly, kept: ScratchValues, head:
 
 # ---- C
 
+COPY = (
+    "    memcpy(prepared->{0}, prepared->inputs.{0}, sizeof prepared->{0});\n    prepared->inputs.{0} = prepared->{0};"
+)
 NOTE = "/* The numbers, one after the other (tandemlift.simulation.preparation.traced_assembly). */\n"
 
 
@@ -104,19 +110,21 @@ class PrepareFile:
         names = Names()
         self.members = [names.new(key.replace(".", "_")) for key in traced.keys]
 
-    def header(self, tables: tuple[Any, ...] = ()) -> str:
-        """The text of the header; `tables`: name, type and rows of those of a flight."""
+    def header(self, mission: Mission, tables: tuple[Any, ...] = ()) -> str:
+        """The text of the header; `mission`: of the numbers; `tables`: name, type and rows of those of a flight."""
         guards = [", ".join(self.traced.keys_of(g)) for g in self.traced.guards]
-        lines = [f"    double {name}; /* {key} */" for name, key in zip(self.members, self.traced.keys, strict=True)]
+        lines = list[str]()
+        for name, key in zip(self.members, self.traced.keys, strict=True):
+            lines += [*comment(textwrap.wrap(key_comment(mission, key), WIDTH)).splitlines(), f"double {name};"]
         numbered = "\n * ".join(f"{i + 1}: one of {keys}" for i, keys in enumerate(guards)) or "there is none"
         rows = [f"    {self.file.prefix}{kind} {name}[{count}];" for name, kind, count in tables]
-        words = {"MEMBERS": "\n".join(lines), "GUARDS": numbered, "TABLES": "\n".join(rows)}
+        words = {"MEMBERS": textwrap.indent("\n".join(lines), "    "), "GUARDS": numbered, "TABLES": "\n".join(rows)}
         return self.file.filled(f"{self.part}_prepare.h", **words)
 
     def source(self, tables: tuple[Any, ...] = ()) -> str:
         """The text of the source; `tables`: as for the header."""
         values = [f"    .{m} = {number(x, 'double')}," for m, x in zip(self.members, self.traced.values, strict=True)]
-        copies = [f"    prepared->inputs.{name} = prepared->{name};" for name, *_ in tables]
+        copies = [COPY.format(name) for name, *_ in tables]
         words = {"VALUES": "\n".join(values), "COPIES": "\n".join(copies)}
         self.file.unit.texts.append(self._function())
         return self.file.source(f"{self.part}_prepare.c", [], **words)

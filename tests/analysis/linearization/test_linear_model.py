@@ -135,6 +135,20 @@ def test_a_saved_model_holds_all_of_it(paper, ending, tmp_path):
     assert (about["mission"], about["assumptions"]) == ("paper", list(paper.assumptions))
 
 
+def test_a_file_of_matlab_holds_all_of_it_beside_a_script_that_names_it(paper, tmp_path):
+    scipy_io = pytest.importorskip("scipy.io")
+    paper.save(tmp_path / "my-model.mat")
+    found = scipy_io.loadmat(tmp_path / "my-model.mat")
+    for name in ("A", "B", "C", "D"):
+        assert np.array_equal(found[name], getattr(paper, name))
+    assert found["step"].item() == paper.step
+    assert [[cell.item() for cell in row] for row in found["inputs"]] == [list(v) for v in paper.inputs]
+    assert json.loads(found["about"].item())["mission"] == "paper"
+    script = (tmp_path / "my_model_plots.m").read_text("utf-8")
+    assert '"my-model.mat"' in script
+    assert "@" not in script
+
+
 def test_python_control_gets_the_model_with_its_names(paper):
     control = pytest.importorskip("control")
     few = paper.connected()

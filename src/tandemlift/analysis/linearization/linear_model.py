@@ -9,6 +9,7 @@ import json
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from importlib.resources import files
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -17,12 +18,12 @@ from numpy.typing import NDArray
 
 from tandemlift.analysis.linearization.kinks import Kink
 from tandemlift.core.errors import InputError, extra
-from tandemlift.core.files import atomic_write
+from tandemlift.core.files import atomic_write, write_file
 from tandemlift.core.types import Array
 from tandemlift.flight.state_variables import Variable
 
 MATRICES = ("A", "B", "C", "D")
-ENDINGS = (".npz", ".json")
+ENDINGS = (".npz", ".json", ".mat")
 DEADBEAT = 1e-6  # of an eigenvalue, below which its mode decays within a few steps
 ROUNDING = 1e-9  # of log z
 MOST_NAMES = 3
@@ -126,36 +127,38 @@ class LinearModel:
         """Write the model to a file atomically.
 
         A .npz file holds the matrices, `x0`, `u0`, `y0`, `x1`, `step`, `time`, and the names and units of `states`,
-        `inputs` and `outputs` (rows of two texts); `about` is JSON of the rest. A .json file holds all of it.
+        `inputs` and `outputs` (rows of two texts); `about` is JSON of the rest. A .json file holds all of it. A .mat
+        file is as a .npz file; beside it, a script for MATLAB draws, and prints margins.
 
         Args:
-            path: ends with .npz or .json.
+            path: ends with .npz, .json or .mat.
 
         Raises:
-            InputError: it has another ending.
+            InputError: it has another ending, or SciPy, which writes .mat files, is not installed.
         """
         path = Path(path)
         if path.suffix not in ENDINGS:
             raise InputError(f"{path}: a linear model is written to a file that ends with {' or '.join(ENDINGS)}")
         arrays = {name: getattr(self, name) for name in MATRICES} | self.point._asdict()
         names = {kind: [list(v) for v in getattr(self, kind)] for kind in ("states", "inputs", "outputs")}
-        about = {
-            "mission": self.mission,
-            "of": self.of,
-            "assumptions": list(self.assumptions),
-            "kinks": [kink.text for kink in self.kinks],
-            "left_out": self.left_out,
-        }
-        with atomic_write(path) as partial:
+        about: dict[str, Any] = {"mission": self.mission, "of": self.of, "assumptions": list(self.assumptions)}
+        about |= {"kinks": [kink.text for kink in self.kinks], "left_out": self.left_out}
+        texts = {kind: np.array(rows, dtype=str).reshape(-1, 2) for kind, rows in names.items()}
+        numbers = {"step": self.step, "time": self.time, "about": json.dumps(about)}
+        with atomic_write(path) as partial, partial.open("wb") as file:
             if path.suffix == ".npz":
-                texts = {kind: np.array(rows, dtype=str).reshape(-1, 2) for kind, rows in names.items()}
-                with partial.open("wb") as file:
-                    numbers = {"step": self.step, "time": self.time, "about": json.dumps(about)}
-                    np.savez_compressed(file, **{**numbers, **arrays, **texts})
-            else:
+                np.savez_compressed(file, **{**numbers, **arrays, **texts})
+            elif path.suffix == ".json":
                 lists = {name: a.tolist() for name, a in arrays.items()}
                 whole = {"step": self.step, "time": self.time, **about, **names, **lists}
-                partial.write_text(json.dumps(whole, ensure_ascii=False), "utf-8")
+                file.write(json.dumps(whole, ensure_ascii=False).encode())
+            else:
+                with extra("control", "a .mat file"):
+                    from scipy.io import savemat
+                savemat(file, {**numbers, **arrays, **{kind: rows.astype(object) for kind, rows in texts.items()}})
+                name = re.sub(r"\W", "_", f"{path.stem}_plots", flags=re.ASCII)
+                script = (files("tandemlift") / "data" / "linear_model.m").read_text("utf-8")
+                write_file(path.with_name(f"{name}.m"), script.replace("@FILE@", path.name).replace("@NAME@", name))
 
 
 def reachable(steps: NDArray[np.bool_], start: NDArray[np.bool_]) -> NDArray[np.bool_]:

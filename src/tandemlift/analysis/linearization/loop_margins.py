@@ -143,9 +143,8 @@ def open_loop(mission: Mission) -> OpenLoop:
     w = np.geomspace(LOWEST, min(HIGHEST, 0.9 * math.pi / model.step), POINTS)
     T, h, s, eye = calm.mission.step, model.step, 1j * w, np.eye(4)
     held = (np.expm1(-s * T) * h) / (np.expm1(-s * h) * T)  # an offset acts for a sample, a rotor's thrust for a step
-    S: NDArray[np.complexfloating] = (
-        eye + (frequency_response(in_axes, w / (2.0 * math.pi)) - eye) * held[:, None, None]
-    )
+    near = frequency_response(in_axes, w / (2.0 * math.pi)) - eye
+    S: NDArray[np.complexfloating] = eye + near * held[:, None, None]
     return OpenLoop(w, np.linalg.inv(S) - eye, radius <= 1.0 + ON_CIRCLE and is_calm(model))
 
 

@@ -54,7 +54,7 @@ def input_columns(p: FlightPlan, chosen: Sequence[str] | None, of: str, attitude
             raise InputError('input wind_velocity: the mission has no wind; wind.model = "air" gives it one')
         if name == "thrust_offsets" and p.mission.actuators.model != "rotors":
             raise InputError(
-                'input thrust_offsets: actuators.model must be "rotors", whose thrusts are not the commands'
+                'input thrust_offsets: actuators.model must be "rotors", whose thrusts differ from commands'
             )
     names = [name for name in known if not (windless and name == "wind_velocity")] if chosen is None else chosen
     return [column for name in names for column in _columns(p, name, attitude)]

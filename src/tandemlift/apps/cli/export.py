@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -28,11 +28,7 @@ CAMERAS = "follow, overview, front, side, top, or AZIMUTH,ELEVATION[,DISTANCE] i
 @click.argument("flight_or_mission", shell_complete=FLIGHTS_AND_MISSIONS)
 @click.option("--out", metavar="FILE", required=True, help="FILE.mcap, FILE.bag, FILE.csv, FILE.sdf or FILE.xml.")
 @set_option
-@click.option(
-    "--plugin",
-    metavar="PORT|ros",
-    help="For FILE.sdf: connect a pilot by a plugin.",
-)
+@click.option("--plugin", metavar="PORT|ros", help="For FILE.sdf: connect a pilot by a plugin.")
 def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: str | None) -> None:
     """Write a flight or a mission for other tools.
 
@@ -72,25 +68,22 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
 
 @click.command()
 @click.argument("mission", shell_complete=MISSIONS)
-@click.option(
-    "--target",
-    required=True,
-    metavar="TARGET",
-    shell_complete=names("target"),
-    help="wasm32, c, aarch64 or cortex-m7.",
-)
+@click.option("--target", required=True, shell_complete=names("target"), help="wasm32, c, fmu, aarch64 or cortex-m7.")
 @click.option("--out", metavar="DIR", help="Folder for the files; by default out/NAME-TARGET.")
 @click.option("--single", is_flag=True, help="For C: compute in single precision.")
+@click.option("--fmi", type=click.IntRange(2, 3), help="For FMUs: version of FMI.  [default: 2]")
+@click.option("--platforms", metavar="A,B,…", help="For FMUs: linux, linux-arm64, windows, macos.  [default: this one]")
 @set_option
 @controller_option()
 def compile(
-    mission: str, target: str, out: str | None, single: bool, settings: tuple[str, ...], controller: str | None
+    mission: str, target: str, out: str | None, settings: tuple[str, ...], controller: str | None, **how: Any
 ) -> None:
     """Compile a mission for another machine.
 
     \b
     wasm32     NAME.wasm, without imports, for browsers and Node.js
     c          C99 sources with CMake: the pilot alone, and the whole flight
+    fmu        NAME_pilot.fmu, NAME_vehicle.fmu, NAME_flight.fmu for Simulink and other tools
     aarch64    NAME.o for 64-bit ARM with Linux
     cortex-m7  NAME.o for microcontrollers with double precision
 
@@ -101,6 +94,7 @@ def compile(
     Examples:
       tandemlift compile iris --target wasm32
       tandemlift compile iris --target c --single --out pilot
+      tandemlift compile iris --target fmu --fmi 3 --platforms linux,windows,macos
       tandemlift compile zigzag --target aarch64 --set vehicle.payload.mass=0.6
       tandemlift compile hover --target c --controller my_pd.py
     """
@@ -108,7 +102,8 @@ def compile(
 
     what = load(mission, settings, controller)
     folder = Path(out) if out else Path("out") / f"{what.mission.name}-{target}"
-    for path in compile_mission(what, target, folder, single=single):
+    how["platforms"] = how["platforms"].split(",") if how["platforms"] else None
+    for path in compile_mission(what, target, folder, **how):
         echo(f"{path} ({path.stat().st_size / 1e3:.0f} kB)")
 
 
@@ -119,11 +114,7 @@ def compile(
 @click.option("--from", "start", type=float, help="Start of the animation [s].")
 @click.option("--to", "end", type=float, help="End of the animation [s].")
 @click.option("--fps", type=float, help="Frames per second of the animation, 1 to 50.  [default: 20]")
-@click.option(
-    "--speed",
-    type=float,
-    help="Playback speed.  [default: 1, or faster so that it lasts 20 s]",
-)
+@click.option("--speed", type=float, help="Playback speed.  [default: 1, or faster so that it lasts 20 s]")
 @click.option("--size", metavar="WxH", help="Size in pixels.  [default: 1280x720, a GIF 640x360]")
 @click.option("--camera", default="follow", show_default=True, metavar="VIEW", help=f"Camera: {CAMERAS}.")
 @engine_option

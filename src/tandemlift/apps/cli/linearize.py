@@ -34,7 +34,7 @@ from tandemlift.core.files import write_file
 @click.option("--inputs", metavar="NAMES", help="Inputs, separated by commas.  [default: all]")
 @click.option("--outputs", metavar="NAMES", help="Channels, separated by commas.  [default: motion, thrusts, joints]")
 @click.option("--modes", "count", type=click.IntRange(0), default=15, show_default=True, help="Modes that are printed.")
-@click.option("--out", metavar="FILE", help="Write the model to FILE.npz or FILE.json.")
+@click.option("--out", metavar="FILE", help="Write the model to FILE.npz, .json or .mat.")
 @click.option("--figure", metavar="FILE", help="Draw modes and frequency response into FILE.png, .pdf or .svg.")
 @style_option
 @set_option

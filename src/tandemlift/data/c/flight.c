@@ -155,15 +155,13 @@ void mission_flight_start(mission_Flight *flight)
     mission_flight_start_from(flight, &START, &INPUTS);
 }
 
-bool mission_flight_step(mission_Flight *flight, mission_Sample *sample)
+/* What step k does from the present state: the state after it, and the sample at its start. The flight stays, but for
+ * what was found around it. */
+static FlightState evaluate(mission_Flight *flight, const CallerInput *external, Sample *sample)
 {
     const int64_t k = flight->k, in_span = k % MISSION_SPAN;
-    const bool last = k == MISSION_FLIGHT_STEPS;
-    Sample sampled;
-    if (flight->over || flight->model.flight_state.ended != 0) {
-        flight->over = true;
-        return false;
-    }
+    const real t = time_of(k);
+    PushSamples hand;
     if (in_span == 0) {
         sum_pushes(flight, k);
 //if surroundings
@@ -173,29 +171,64 @@ bool mission_flight_step(mission_Flight *flight, mission_Sample *sample)
 //if walls
     find_walls(flight, in_span == 0);
 //end walls
+    hand.start = flight->hands[2 * in_span];
+    hand.middle = flight->hands[2 * in_span + 1];
+    hand.end = flight->hands[2 * in_span + 2];
     {
-        const real t = time_of(k);
-        const PushSamples hand = {flight->hands[2 * in_span], flight->hands[2 * in_span + 1],
-            flight->hands[2 * in_span + 2]};
 //if gusts
         const Vec3 gust = sum_gusts(flight, t);
 //end gusts
 //if draws
         const StepNoise noise = draw_noise(flight, k);
 //end draws
-        const FlightState after = advance_flight(&flight->model, &hand, /*@ARGUMENTS@*/t, MISSION_FLIGHT_STEP, &sampled);
-        if (sample) {
-            *sample = sampled;
-        }
-        if (last) {
-            flight->over = true;
-            return true;
-        }
-        flight->model.flight_state = after;
+        return advance_flight(&flight->model, &hand, external, /*@ARGUMENTS@*/t, MISSION_FLIGHT_STEP, sample);
     }
+}
+
+bool mission_flight_is_over(const mission_Flight *flight)
+{
+    return flight->over || flight->model.flight_state.ended != 0;
+}
+
+bool mission_flight_look(mission_Flight *flight, const mission_CallerInput *external, mission_Sample *sample)
+{
+    static const CallerInput NONE;
+    if (mission_flight_is_over(flight)) {
+        return false;
+    }
+    (void)evaluate(flight, external ? external : &NONE, sample);
+    return true;
+}
+
+bool mission_flight_step_with(mission_Flight *flight, const mission_CallerInput *external, mission_Sample *sample)
+{
+    static const CallerInput NONE;
+    const int64_t k = flight->k;
+    Sample sampled;
+    FlightState after;
+    if (mission_flight_is_over(flight)) {
+        flight->over = true;
+        return false;
+    }
+    after = evaluate(flight, external ? external : &NONE, &sampled);
+    if (sample) {
+        *sample = sampled;
+    }
+//if ends
+    if (k == MISSION_FLIGHT_STEPS) {
+        flight->over = true;
+        return true;
+    }
+//end ends
+    flight->model.flight_state = after;
 //if delays
     exchange_delayed(flight, k);
 //end delays
     flight->k = k + 1;
     return true;
+}
+
+bool mission_flight_step(mission_Flight *flight, mission_Sample *sample)
+{
+    return mission_flight_step_with(flight, 0, sample);
 }

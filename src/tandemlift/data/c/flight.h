@@ -1,4 +1,5 @@
-/* The flight of the mission "/*@NAME@*/": pilot, rotors, sensors, body, person. Written by tandemlift; see README.md. */
+/* The flight of the mission "/*@NAME@*/": pilot, rotors, sensors, body, person.
+ * Written by tandemlift /*@VERSION@*/ from a mission with the hash /*@HASH@*/; see README.md. */
 #ifndef MISSION_FLIGHT_H
 #define MISSION_FLIGHT_H
 
@@ -70,6 +71,16 @@ void mission_flight_start_from(mission_Flight *flight, const mission_FlightModel
 /* One step: the sample at its start is written to `sample`, unless it is a null pointer. False, and nothing done, once
  * the flight is over: after MISSION_FLIGHT_STEPS steps and one more sample, or where it crashes or diverges. */
 bool mission_flight_step(mission_Flight *flight, mission_Sample *sample);
+
+/* The same with inputs of a caller, which are held over the step: a force at a point, beside the mission's pushes;
+ * thrusts in place of the pilot's, if `override` is 1; and a velocity of the reference, if `lead.given` is 1. */
+bool mission_flight_step_with(mission_Flight *flight, const mission_CallerInput *external, mission_Sample *sample);
+
+/* The sample that the next step will have with these inputs; the flight does not advance. False once it is over. */
+bool mission_flight_look(mission_Flight *flight, const mission_CallerInput *external, mission_Sample *sample);
+
+/* Whether the flight is over. */
+bool mission_flight_is_over(const mission_Flight *flight);
 
 #ifdef __cplusplus
 }

@@ -1,10 +1,11 @@
-/* The flight's numbers from those of the mission "/*@NAME@*/". Written by tandemlift; see README.md. */
+/* The flight's numbers from those of the mission "/*@NAME@*/".
+ * Written by tandemlift /*@VERSION@*/ from a mission with the hash /*@HASH@*/; see README.md. */
 #ifndef MISSION_FLIGHT_PREPARE_H
 #define MISSION_FLIGHT_PREPARE_H
 
 #include "mission_flight.h"
 
-/* Numbers of the mission, each by its key. */
+/* Numbers of the mission, each by its key: unit, meaning, bounds. */
 typedef struct {
 /*@MEMBERS@*/
 } mission_FlightNumbers;

@@ -1,4 +1,5 @@
-/* The pilot of the mission "/*@NAME@*/": from a measurement to rotor thrusts. Written by tandemlift; see README.md. */
+/* The pilot of the mission "/*@NAME@*/": from a measurement to rotor thrusts.
+ * Written by tandemlift /*@VERSION@*/ from a mission with the hash /*@HASH@*/; see README.md. */
 #ifndef MISSION_PILOT_H
 #define MISSION_PILOT_H
 

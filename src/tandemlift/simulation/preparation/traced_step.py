@@ -96,6 +96,8 @@ class TracedStep:
         rolls: whether large sets may be loops.
     """
 
+    pilot, end = staticmethod(run_pilot), staticmethod(finish_sample)  # laws of a flight; a vehicle alone has others
+
     def __init__(
         self, templates: Templates, calls_python: bool = False, *, fuses: bool = True, rolls: bool = True
     ) -> None:
@@ -118,7 +120,8 @@ class TracedStep:
         )
         self.given = self.trace(with_person)(self.model, outer, self.t, self.dt)
         self.asked: Symbols = []
-        output = self._ask_python() if calls_python else self.trace(run_pilot)(self.model, self.given, self.t, self.dt)
+        now = self.model, self.given, self.t, self.dt
+        output = self._ask_python() if calls_python else self.trace(self.pilot)(*now)
         self.limits: LimitProblem | None = None
         if templates.has_thrust_limits:
             output = self._limit_thrusts(output)
@@ -133,7 +136,7 @@ class TracedStep:
             self.body_in_free_air = self.numbers(self._stepped_body(without_contact(plant), acting))
         self.may_touch_walls = [self._may_touch_walls(acting)] if templates.has_walls else []
         moved = self.input_of("moved", templates.moved)
-        after, sample = self.trace(finish_sample)(self.model, output, acting, moved, self.given, self.t, self.dt)
+        after, sample = self.trace(self.end)(self.model, output, acting, moved, self.given, self.t, self.dt)
         check_layout(self.model.pilot.controller, templates.model.flight_state, written_out(after))
         self.next_state, self.sample = self.numbers(after), self.numbers(sample)
 
@@ -161,9 +164,8 @@ class TracedStep:
         return PilotOutput(estimates, pilot_input.state.attitude, decision, memory, estimator)
 
     def _limit_thrusts(self, output: PilotOutput) -> PilotOutput:
-        self.limits, decision, memory = limit_thrusts(
-            self, self.model.pilot, self.model.flight_state.memory, output, self.t
-        )
+        pilot, memory = self.model.pilot, self.model.flight_state.memory
+        self.limits, decision, memory = limit_thrusts(self, pilot, memory, output, self.t)
         return output._replace(decision=decision, memory=memory)
 
     def _stepped_body(self, plant: CompiledPlant, acting: Any) -> BodyStep:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any, NamedTuple
 
-from tandemlift.codegen.c_source import Unit
-from tandemlift.codegen.c_types import Signature
+from tandemlift.codegen.c.source import Unit
+from tandemlift.codegen.c.types import Signature
 from tandemlift.compiler.tracer import LEAVES, Graph
 from tandemlift.compiler.tracer.structured import is_nested, nodes_of
 

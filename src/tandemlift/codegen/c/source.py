@@ -7,11 +7,22 @@ from collections.abc import Iterable
 from importlib.resources import files
 from typing import Any
 
-from tandemlift.codegen.c_expressions import number
-from tandemlift.codegen.c_text import wrapped
-from tandemlift.codegen.c_types import Names, Signature, Struct, Structs, identifier, parts_of, signature_of, type_name
+from tandemlift.codegen.c.expressions import number
+from tandemlift.codegen.c.text import wrapped
+from tandemlift.codegen.c.types import (
+    Describe,
+    Names,
+    Signature,
+    Struct,
+    Structs,
+    identifier,
+    parts_of,
+    signature_of,
+    type_name,
+)
 from tandemlift.compiler.tracer import Graph, Symbol
 from tandemlift.compiler.tracer.structured import Laws, TracedLaw, calls_in, is_nested, numbers_in, with_numbers
+from tandemlift.core.files import __version__
 
 TEXTS = files("tandemlift") / "data" / "c"
 BLOCK = re.compile(r"^ *//if (\w+)\n(.*?)^ *//end \1\n", re.MULTILINE | re.DOTALL)
@@ -118,10 +129,11 @@ class SourceFile:
         mission: its name.
         single: whether it computes in single precision.
         step: of the mission [s].
+        digest: a hash of the mission.
     """
 
-    def __init__(self, mission: str, single: bool, step: float) -> None:
-        self.mission = mission
+    def __init__(self, mission: str, single: bool, step: float, digest: str = "") -> None:
+        self.mission, self.digest = mission, digest
         self.name = identifier(mission).lower()
         self.prefix = self.name + "_"
         self.unit = Unit("float" if single else "double")
@@ -144,6 +156,7 @@ class SourceFile:
         while BLOCK.search(text):
             text = BLOCK.sub(lambda m: m[2] if m[1] in kept else "", text)
         words = {"STEP": number(self.step, self.real), "NAME": self.mission} | words
+        words |= {"VERSION": __version__, "HASH": self.digest}
         text = re.sub(r"\bmission_", self.prefix, text)
         text = re.sub(r"\bMISSION_", self.prefix.upper(), text)
         text = re.sub(r"\breal\b", self.real, text)
@@ -159,9 +172,9 @@ class SourceFile:
                 stack += [m.kind for m in struct.members]
         return [s for s in self.unit.structs.all.values() if s in found]
 
-    def typedefs(self, roots: list[Struct]) -> str:
-        """The definitions of public structs, with the mission's name before theirs."""
-        return "\n".join(s.definition(self.prefix, self.real) for s in self.public(roots))
+    def typedefs(self, roots: list[Struct], describe: Describe) -> str:
+        """The definitions of public structs with comments, with the mission's name before theirs."""
+        return "\n".join(s.definition(self.prefix, self.real, describe) for s in self.public(roots))
 
     def source(self, name: str, roots: list[Struct], has: Iterable[str] = (), used: str = "", **words: str) -> str:
         """A source: short names for public structs, the other structs, the unit's functions, and a text behind them.

@@ -7,7 +7,7 @@ import inspect
 import itertools
 import re
 import textwrap
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
 from tandemlift.compiler.tracer import Symbol
@@ -23,7 +23,7 @@ gamma hypot isfinite isinf isnan j0 j1 jn ldexp lgamma log log10 log1p log2 lrin
 nearbyint pow remainder rint round scalbn signbit sin sinh sqrt tan tanh tgamma trunc y0 y1 yn size_t int32_t int64_t
 uint32_t uint64_t to_integer bits_of number_of shifted_right"""
 NO_MEMBER = frozenset(KEYWORDS.split())
-RESERVED = NO_MEMBER | {"shared"} | set(LIBRARY.split())  # `shared`: of the parts of a function (c_text)
+RESERVED = NO_MEMBER | {"shared"} | set(LIBRARY.split())  # `shared`: of the parts of a function (`text`)
 
 
 def identifier(name: str) -> str:
@@ -69,21 +69,31 @@ class Member(NamedTuple):
     kind: Any
 
 
+Describe = Callable[[type, str], str]  # the comment of a class, or of a field of it, by its name; "" for none
+
+
 class Struct(NamedTuple):
-    """A struct: its name, its members, how many numbers it holds, and whether it is an array of equal numbers."""
+    """A struct: its name, members, numbers in all, whether it is an array of equal numbers, and its class in Python."""
 
     name: str
     members: tuple[Member, ...]
     size: int
     is_set: bool
+    source: type
 
-    def definition(self, prefix: str, real: str) -> str:
-        """The typedef."""
+    def definition(self, prefix: str, real: str, describe: Describe = lambda source, field: "") -> str:
+        """The typedef, with comments from `describe`."""
         if self.is_set:
             kind = type_name(self.members[0].kind, real, prefix)
             return f"typedef struct {{ {kind} r[{len(self.members)}]; }} {prefix}{self.name};"
-        lines = [f"    {type_name(m.kind, real, prefix)} {m.name};" for m in self.members]
-        return "\n".join(["typedef struct {", *lines, f"}} {prefix}{self.name};"])
+        lines = [f"    {type_name(m.kind, real, prefix)} {m.name};{self._note(m, describe)}" for m in self.members]
+        about = describe(self.source, "")
+        return "\n".join([*([about] if about else []), "typedef struct {", *lines, f"}} {prefix}{self.name};"])
+
+    def _note(self, member: Member, describe: Describe) -> str:
+        """The comment behind a member: its own, or that of its type."""
+        text = describe(self.source, member.name.removesuffix("_"))
+        return f" /* {text} */" if text else ""
 
 
 def type_name(kind: Any, real: str, prefix: str = "") -> str:
@@ -136,7 +146,7 @@ class Structs:
         key = type(value), members
         if key not in self.all:
             name = self.names.new(type(value).__name__ if hasattr(value, "_fields") else "Items")
-            self.all[key] = Struct(name, members, len(list(numbers_in(value))), is_set(value))
+            self.all[key] = Struct(name, members, len(list(numbers_in(value))), is_set(value), type(value))
         return self.all[key]
 
 

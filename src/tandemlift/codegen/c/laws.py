@@ -8,9 +8,9 @@ import re
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from tandemlift.codegen.c_source import Unit
-from tandemlift.codegen.c_statements import Statements
-from tandemlift.codegen.c_text import FunctionHead, comment, function
+from tandemlift.codegen.c.source import Unit
+from tandemlift.codegen.c.statements import Statements
+from tandemlift.codegen.c.text import FunctionHead, comment, function
 from tandemlift.compiler.tracer.structured import TracedLaw
 from tandemlift.core.types import leaves
 

@@ -1,0 +1,1 @@
+"""C from traced laws: types, expressions, statements, functions and files."""

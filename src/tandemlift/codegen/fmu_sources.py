@@ -1,0 +1,170 @@
+"""The C sources of the three FMUs of a mission: its code (`c_package`), and the functions of FMI on top of it."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.codegen.c.expressions import number
+from tandemlift.codegen.c_flight import FlightFile
+from tandemlift.codegen.c_package import source_file
+from tandemlift.codegen.c_pilot import PilotFile
+from tandemlift.codegen.fmu_variables import (
+    FmuVariable,
+    caller_inputs,
+    outputs,
+    parameters,
+    pilot_inputs,
+    thrust_output,
+)
+from tandemlift.codegen.prepare import PrepareFile, prepared_numbers
+from tandemlift.codegen.vehicle_step import VehicleStep, is_of_vehicle
+from tandemlift.compiler.tracer import symbols
+from tandemlift.core.types import flat, leaves
+from tandemlift.missions import Mission
+from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation.traced_assembly import TracedAssembly, assembled_by_graph, trace_assembly
+from tandemlift.simulation.results import channel_names
+
+PARTS = {
+    "pilot": "the pilot: state and push in, thrusts out",
+    "vehicle": "the vehicle without pilot: thrusts and push in; readings, state, joint wrenches out",
+    "flight": "the whole flight: pilot, rotors, sensors and body",
+}
+
+
+class FmuPart(NamedTuple):
+    """An FMU before it is compiled.
+
+    Attributes:
+        identifier: of the model, in C.
+        meaning: in words.
+        variables: parameters, inputs and outputs.
+        texts: of its sources by name; the mark `/*@TOKEN@*/` is left in `…_fmu.h`.
+        step: [s].
+        duration: of the mission [s].
+    """
+
+    identifier: str
+    meaning: str
+    variables: list[FmuVariable]
+    texts: dict[str, str]
+    step: float
+    duration: float
+
+
+def pilot_part(mission: Mission) -> FmuPart:
+    """The pilot of a mission, which is portable."""
+    file, traced = source_file(mission), trace_assembly(mission, pilot_at_start)
+    pilot, prepare = (
+        PilotFile(file, assembled_by_graph(mission, pilot_at_start)),
+        PrepareFile(source_file(mission), traced, "pilot"),
+    )
+    effective = _effective(traced, [*symbols(traced.graph, traced.assembled), *_conditions(traced)])
+    count, start = len(traced.keys), [float(x) for x in flat(INPUT)]
+    found = [*parameters(mission, traced, effective), *pilot_inputs(count, start)]
+    found.append(thrust_output(count + len(start), len(pilot.thrusts)))
+    code = {"pilot.c": pilot.source(), "pilot.h": pilot.header()}
+    code |= {"pilot_prepare.c": prepare.source(), "pilot_prepare.h": prepare.header(mission)}
+    words = {"STARTS": _numbers(start), "ENDS": "", "PLACES": "", "COPIES": ""}
+    return _part(mission, "pilot", traced, found, code, {"pilot"}, words)
+
+
+def flight_part(mission: Mission, part: str) -> FmuPart:
+    """The whole flight of a mission, which is portable, or its vehicle: `part` is "flight" or "vehicle"."""
+    is_whole, plan, traced = part == "flight", FlightPlan(mission, interactive=True), trace_assembly(mission)
+    step: Any = {} if is_whole else {"step": VehicleStep}
+    flight, prepare = (
+        FlightFile(source_file(mission), plan, **step),
+        PrepareFile(source_file(mission), traced, "flight"),
+    )
+    found, spans = prepared_numbers(traced)
+    if is_whole:
+        found += _conditions(traced)
+    else:
+        used, model = VehicleStep(flight.templates, fuses=False, rolls=False).used(), spans["flight"].columns
+        found = [x for i, x in enumerate(found) if i >= model or i in used]
+    count, external = len(traced.keys), plan.given.external
+    names = [name for name in channel_names(plan) if is_whole or is_of_vehicle(name)]
+    shown, places = outputs(flight.templates.sample, count + leaves(external), names)
+    variables = [*parameters(mission, traced, _effective(traced, found))]
+    variables += [*caller_inputs(external, count, has_pilot=is_whole), *shown]
+    code = {"flight.c": flight.source(), "flight.h": flight.header()}
+    code["flight_prepare.c"] = prepare.source(flight.traced_tables)
+    code["flight_prepare.h"] = prepare.header(mission, flight.traced_tables)
+    upper = flight.file.prefix.upper()
+    words = {
+        "STARTS": _numbers([0.0] * leaves(external)),
+        "PLACES": ", ".join(map(str, places)),
+        "COPIES": "\n".join(f"    prepared->inputs.{name} = prepared->{name};" for name, *_ in flight.traced_tables),
+        "ENDS": f" || flight->k == {upper}FLIGHT_STEPS" if is_whole else "",
+    }
+    return _part(mission, part, traced, variables, code, {"flight"}, words)
+
+
+def _numbers(values: list[float]) -> str:
+    return ", ".join(number(x, "double") for x in values)
+
+
+def _conditions(traced: TracedAssembly) -> list[Any]:
+    return [guard.condition for guard in traced.guards]
+
+
+def _effective(traced: TracedAssembly, results: list[Any]) -> set[int]:
+    """The inputs of an assembly that its results depend on."""
+    graph = traced.graph
+    return {graph.args[n][1] for n in graph.needed([s.node for s in results]) if graph.ops[n] == "in"}
+
+
+def _part(
+    mission: Mission,
+    part: str,
+    traced: TracedAssembly,
+    variables: list[FmuVariable],
+    code: dict[str, str],
+    has: set[str],
+    words: dict[str, str],
+) -> FmuPart:
+    """The part with the sources of FMI beside its code."""
+    file, kind = source_file(mission), "pilot" if part == "pilot" else "flight"
+    count, outs = len(traced.keys), [v for v in variables if v.causality == "output"]
+    last = outs[-1]
+    sizes = [0] * (last.at + len(last.labels))
+    for variable in variables:
+        sizes[variable.at] = len(variable.labels)
+    guards = [f'    "{", ".join(traced.keys_of(guard))}",' for guard in traced.guards]
+    words |= {
+        "TOKEN": "/*@TOKEN@*/",
+        "DOUBLE_STEP": number(mission.mission.step, "double"),
+        "PARAMETERS": str(count),
+        "INPUTS": str(outs[0].at - count),
+        "OUTPUTS": str(len(sizes) - outs[0].at),
+        "PART": kind,
+        "NUMBERS": f"{file.prefix}{kind.capitalize()}Numbers",
+        "SIZES": _lines(sizes),
+        "BOUNDS": "\n".join(_bounds(traced, variables)),
+        "GUARDS": "\n".join(guards),
+    }
+    api = ["fmi2.c", "fmi3.c", "fmu.c", "fmu.h", "fmu_values.c"]  # a library speaks both versions
+    texts = {f"{file.prefix}{name}": text for name, text in code.items()}
+    texts |= {f"{file.prefix}{name}": file.filled(name, has, **words) for name in ("checks.h", *api)}
+    table = mission.mission
+    return FmuPart(f"{file.prefix}{part}", PARTS[part], variables, texts, table.step, table.duration)
+
+
+def _lines(sizes: list[int]) -> str:
+    return ",\n".join("    " + ", ".join(map(str, sizes[i : i + 32])) for i in range(0, len(sizes), 32))
+
+
+def _bounds(traced: TracedAssembly, variables: list[FmuVariable]) -> list[str]:
+    """A row of key and bounds for each number of the mission; NaN is in no bounds."""
+    bounds = {v.at + i: v.bounds for v in variables for i in range(len(v.labels)) if v.causality == "parameter"}
+    rows = list[str]()
+    for i, key in enumerate(traced.keys):
+        own = bounds.get(i, {})
+        least = own.get("minimum", own.get("exclusiveMinimum", -float("inf")))
+        most = own.get("maximum", own.get("exclusiveMaximum", float("inf")))
+        ends = f"{number(float(least), 'double')}, {number(float(most), 'double')}"
+        is_open = [str(f"exclusive{end}" in own).lower() for end in ("Minimum", "Maximum")]
+        rows.append(f'    {{"{key}", {ends}, {", ".join(is_open)}}},')
+    return rows
