@@ -25,7 +25,7 @@ def pull_and_push(page):
     for i in range(20):
         page.mouse.move(x + 4.0 * i, y - 2.0 * i)
         time.sleep(0.02)
-    until(lambda: page.inner_text("#meters .held-by dd") == "you", "the page holds the beam")
+    until(lambda: page.locator("#surface.pulling").count() == 1, "the page holds the beam")
     page.mouse.up()
     page.keyboard.down("KeyD")
     time.sleep(0.6)
@@ -70,16 +70,17 @@ def test_an_own_mission_with_an_own_controller_flies_from_the_file_that_the_comm
     assert page.locator("#missions option").all_inner_texts() == ["mine"]
     until(lambda: seconds_flown(page) > 4.0, "a flight at its height")
     assert page.inner_text("#controller") == "my-pd"
-    bandwidth = panel(page, "controller.bandwidth").locator("input[type=number]").first
-    bandwidth.fill("3")
-    bandwidth.press("Enter")
     pull_and_push(page)
+    entry = panel(page, "controller.stiffness").locator("input[type=number]").first
+    entry.fill("5")
+    entry.press("Enter")
+    until(lambda: page.locator(".parameter.altered[data-key='controller.stiffness']").count(), "the new number")
     save(page, tmp_path)
     assert page.wrong == []
     page.close()
     recorded = tl.load_mission(tmp_path / "recorded.toml")
     assert recorded.controller.name == "my-pd"
-    assert [(change.key, change.value[0]) for change in recorded.changes] == [("controller.bandwidth", 3.0)]
+    assert [(change.key, change.value[0]) for change in recorded.changes] == [("controller.stiffness", 5.0)]
     assert_flown_again_to_the_last_bit(tmp_path)
 
 
