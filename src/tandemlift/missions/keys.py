@@ -162,6 +162,11 @@ def is_of_the_package(controller: str) -> bool:
     return not controller or CONTROLLERS[controller].start.__module__.startswith("tandemlift.")
 
 
+def controller_names() -> list[str]:
+    """The controllers that a mission may name, a user's loaded ones among them."""
+    return sorted(CONTROLLERS)
+
+
 def own_numbers(controller: str) -> Iterator[Key]:
     """The keys of a user's controller that are a number or a few, without those that all controllers share."""
     if controller not in CONTROLLERS or is_of_the_package(controller):

@@ -109,8 +109,17 @@ class LinearModel:
         )
 
     def lines(self, count: int = 15) -> Iterator[str]:
-        """The model in words, with that many modes."""
-        return model_lines(self, self.connected(), count)
+        """The model in words: its size, that many of its slowest modes, kinks and assumptions."""
+        n, m, p, connected = len(self.states), len(self.inputs), len(self.outputs), self.connected()
+        yield title_of(self)
+        connecting = len(connected.states)
+        yield f"  {n} states, of which {connecting} connect the {m} inputs with the {p} outputs at this point"
+        if count:
+            yield from _mode_lines(connected, count)
+        kinks = [kink.text for kink in self.kinks] or ["none within 1e-4 of the point"]
+        for title, rows in (("kinks", kinks), ("assumptions", self.assumptions)):
+            yield f"  {title}:"
+            yield from (f"    - {row}" for row in rows)
 
     def to_control(self) -> Any:
         """The model as a `control.StateSpace` with names, of sample time `step`.
@@ -237,25 +246,6 @@ def _largest(fields: list[str], shares: Array) -> tuple[tuple[str, float], ...]:
 def title_of(model: LinearModel) -> str:
     """The mission, the modelled part, the time of the point and the sample time, in a line."""
     return f"{model.mission}: the {model.of} at {model.time:g} s, sample time {model.step * 1e3:g} ms"
-
-
-def model_lines(model: LinearModel, connected: LinearModel, count: int) -> Iterator[str]:
-    """A model in words: its size, its slowest modes, kinks and assumptions.
-
-    Args:
-        model: the whole one.
-        connected: the part of it that connects inputs with outputs.
-        count: of the modes.
-    """
-    n, m, p = len(model.states), len(model.inputs), len(model.outputs)
-    yield title_of(model)
-    yield f"  {n} states, of which {len(connected.states)} connect the {m} inputs with the {p} outputs at this point"
-    if count:
-        yield from _mode_lines(connected, count)
-    kinks = [kink.text for kink in model.kinks] or ["none within 1e-4 of the point"]
-    for title, rows in (("kinks", kinks), ("assumptions", model.assumptions)):
-        yield f"  {title}:"
-        yield from (f"    - {row}" for row in rows)
 
 
 def _mode_lines(model: LinearModel, count: int) -> Iterator[str]:

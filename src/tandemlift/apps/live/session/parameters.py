@@ -37,8 +37,7 @@ from tandemlift.apps.live.session.server_messages import (
 from tandemlift.core.errors import InputError, shown
 from tandemlift.missions import Mission, built_in, tables_of
 from tandemlift.missions.changes import MISSING, Tables, place_of, value_at
-from tandemlift.missions.keys import own_numbers
-from tandemlift.parts.controllers import CONTROLLERS
+from tandemlift.missions.keys import controller_names, own_numbers
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 RAMP = 0.5  # s, within which a parameter changes to its new value
@@ -126,7 +125,7 @@ def parameters_of(tables: Tables, first: Tables) -> Iterator[SceneParameter]:
             if restored is not MISSING:
                 shown["initial"] = restored
             yield shown
-    yield _choice(tables, first, CONTROLLER, "controller", sorted(CONTROLLERS))
+    yield _choice(tables, first, CONTROLLER, "controller", controller_names())
     if tables["pilot"]["guidance"] == "scheduled":  # other pilots have a dead-band instead
         yield _choice(tables, first, GATE, "admittance", ["hard", "soft"])
 
