@@ -51,6 +51,8 @@ def flown(tmp_path_factory):
 
 def test_every_model_of_the_library_is_flown_here():
     assert list(quadrotor_models()) == MODELS
+    shown = CliRunner().invoke(cli, ["new", "--help"]).output
+    assert [model for model in MODELS if model not in shown] == []
 
 
 @pytest.mark.parametrize("model", MODELS)

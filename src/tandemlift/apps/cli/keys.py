@@ -40,9 +40,14 @@ def _answer(option: str, given: float | None, default: float, low: float, high: 
 
 @click.command()
 @click.argument("file", shell_complete=names(files=[".toml"]))
-@click.option("--quadrotor", metavar="MODEL", shell_complete=names("quadrotor"), help="Their model.  [default: iris]")
+@click.option(
+    "--quadrotor",
+    metavar="MODEL",
+    shell_complete=names("quadrotor"),
+    help="Their model: crazyflie, hummingbird, iris or x500.  [default: iris]",
+)
 @click.option("--length", type=float, help="Length of the beam [m].  [default: as suits the model]")
-@click.option("--center", type=float, help="Its centre of mass from its middle, to the left [m].  [default: 0]")
+@click.option("--center", type=float, help="Its centre of mass from its middle, to the left (+y) [m].  [default: 0]")
 @click.option("--mass", type=float, help="Its mass [kg].  [default: as suits the model]")
 @click.option("--force", is_flag=True, help="Overwrite FILE.")
 def new(
@@ -69,6 +74,7 @@ def new(
     if quadrotor is None and sys.stdin.isatty():
         _print_table(models)
         quadrotor = click.prompt("quadrotor", default="iris", type=click.Choice(list(models)))
+    quadrotor = quadrotor and quadrotor.lower()
     if (quadrotor or "iris") not in models:
         raise unknown("quadrotor", quadrotor, models)
     beam = NewBeam.default(quadrotor or "iris")
