@@ -33,7 +33,7 @@ figure, axes = plt.subplots(figsize=(7, 3.2), layout="constrained")
 rows = [row for row in found.rows if row.start and row.excited]
 for place, row in enumerate(reversed(rows)):
     axes.plot([100 * (x / row.start - 1) for x in (row.low, row.high)], [place, place], "C0", lw=3)
-axes.set(xlabel="change from the start mission [%]", xlim=(-40, 40))
+axes.set(xlabel="change from mission and scale [%]", xlim=(-40, 40))
 names = [row.key.removeprefix("vehicle.") for row in reversed(rows)]
 axes.set_yticks(range(len(rows)), names, fontsize=6)
 figure.savefig("identify_your_vehicle.png", dpi=150)

@@ -27,6 +27,7 @@ TRIES = 40  # of keys for one mission; many changes do not load
 OTHER_BODIES = "shape", "size", "mesh", "density", "corners", "bodies"  # of a payload that is no beam
 FIXED = (
     *("mission.name", "mission.fma", "mission.log_interval", "person.recording", "changes", "admittance.feel"),
+    "excitation",  # needs lines that suit the vehicle
     *("plant.center_of_mass_offset", *(f"vehicle.payload.{key}" for key in OTHER_BODIES)),  # the judge has none of them
 )
 NEEDS: Mapping[tuple[str, Any], Changes] = {  # keys that a choice needs, or excludes

@@ -203,7 +203,7 @@ METRIC: Edits = {
             "    push_active: Number\n    height: Number\n",
             "    push_active: Number\n    height: Number\n    speed: Number\n",
         ),
-        ("    highest: Number\n\n\nEMPTY", "    highest: Number\n    fastest: Number\n\n\nEMPTY"),
+        ("    highest: Number\n    estimate", "    highest: Number\n    fastest: Number\n    estimate"),
         ("    highest=-math.inf,\n", "    highest=-math.inf,\n    fastest=0.0,\n"),
         (
             "        highest=maximum(c.highest, x.height),\n",

@@ -201,7 +201,9 @@ def _remarks(
                 f"Intervals count it by a factor of {w.factor:.2f} in variance."
             )
     if search.left_out:
-        said.append(f"{search.left_out} windows are left out: a push, a contact or a fault, which no vehicle explains.")
+        said.append(
+            f"{search.left_out} windows are left out, which no vehicle explains: as under a push, a contact or a fault."
+        )
     return said
 
 

@@ -1,4 +1,4 @@
-/* The functions of FMI 2.0 for co-simulation (https://fmi-standard.org), on top of mission_fmu.h. */
+/* The functions of FMI 2.0 for co-simulation, on top of mission_fmu.h. */
 #include "mission_fmu.h"
 
 #include <stdlib.h>

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tandemlift.core.files import versions
+from tandemlift.flight.channels import channel_of
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.style import BLUE, GREY, INK, look, page_figure, styled
 from tandemlift.pictures.report.page import DASH, html, html_figures, html_row, html_table, number, write_page
@@ -31,7 +32,7 @@ CAPTIONS = {
     ),
     "example": Caption(
         "A window",
-        "Measured (points) and predicted (lines) readings in the last window that was used.",
+        "Measured (points) and predicted (lines) readings in the last window that was used, less the mean.",
         "Panels of measured and predicted readings over a second.",
     ),
     "autocorrelation": Caption(
@@ -145,7 +146,7 @@ def draw_example(panels: Mapping[str, Any]) -> Figure:
         for place in range(min(measured.shape[1], 3)):
             axes.plot(panel["time"], measured[:, place] - middle[place], **look(place, ls="none", marker=".", ms=2.0))
             axes.plot(panel["time"], predicted[:, place] - middle[place], label="xyz"[place], **look(place))
-        axes.set_ylabel(name.removeprefix("measured_").replace("_", "\n"))
+        axes.set_ylabel(f"{name.removeprefix('measured_').replace('_', chr(10))}\n({channel_of(name).unit})")
     every[0].legend(ncols=3)
     every[-1].set_xlabel("time (s)")
     return figure

@@ -14,7 +14,7 @@ def test_a_push_below_the_threshold_says_how_much_is_missing_and_the_menu_is_rem
     page.evaluate("document.activeElement.blur()")
     page.keyboard.down("w")
     until(
-        lambda: re.fullmatch(r"0\.20 of 0\.\d\d N", page.text_content(".label.push") or ""),
+        lambda: re.fullmatch(r"0\.\d\d of 0\.\d\d N along [xy]", page.text_content(".label.push") or ""),
         "the label of a push that moves nothing",
     )
     page.keyboard.up("w")

@@ -30,7 +30,7 @@ ONES = Vec3(1.0, 1.0, 1.0)
 UNKNOWN = 1.0  # (m/s²)² and (rad/s²)²: variance of the loads at the start
 
 
-class Covariance(NamedTuple):
+class BlockCovariance(NamedTuple):
     """The covariance of value, rate and load along three axes: its six different elements, each of the three axes."""
 
     value: Vec3
@@ -77,20 +77,20 @@ class FilterState(NamedTuple):
     rates: Vec3
     acceleration: Vec3
     turning: Vec3
-    translation: Covariance
-    rotation: Covariance
+    translation: BlockCovariance
+    rotation: BlockCovariance
     started: Number
 
 
 @law
-def predicted(P: Covariance, change: Vec3, dt: Number) -> Covariance:
+def predicted(P: BlockCovariance, change: Vec3, dt: Number) -> BlockCovariance:
     """F P Fᵀ + Q after dt [s]: value' = rate, rate' = load, the load a random walk with this variance after 1 s."""
     half = 0.5 * dt * dt
     value = P.value + P.value_rate * dt + P.value_load * half  # F P, row by row
     value_rate = P.value_rate + P.rate * dt + P.rate_load * half
     value_load = P.value_load + P.rate_load * dt + P.load * half
     rate, rate_load = P.rate + P.rate_load * dt, P.rate_load + P.load * dt
-    return Covariance(
+    return BlockCovariance(
         value=value + value_rate * dt + value_load * half,
         value_rate=value_rate + value_load * dt,
         value_load=value_load,
@@ -101,7 +101,7 @@ def predicted(P: Covariance, change: Vec3, dt: Number) -> Covariance:
 
 
 @law
-def by_value(P: Covariance, off: Vec3, variance: Number, fresh: Number) -> tuple[Correction, Covariance]:
+def by_value(P: BlockCovariance, off: Vec3, variance: Number, fresh: Number) -> tuple[Correction, BlockCovariance]:
     """(corrections, the covariance) after a measurement of the value, `off` from the prediction, if `fresh` (1)."""
     scale = ONES * fresh / (P.value + ONES * variance)
     gain = Correction(P.value * scale, P.value_rate * scale, P.value_load * scale)
@@ -109,7 +109,7 @@ def by_value(P: Covariance, off: Vec3, variance: Number, fresh: Number) -> tuple
 
 
 @law
-def by_rate(P: Covariance, off: Vec3, variance: Number, fresh: Number) -> tuple[Correction, Covariance]:
+def by_rate(P: BlockCovariance, off: Vec3, variance: Number, fresh: Number) -> tuple[Correction, BlockCovariance]:
     """The same after a measurement of the rate."""
     scale = ONES * fresh / (P.rate + ONES * variance)
     gain = Correction(P.value_rate * scale, P.rate * scale, P.rate_load * scale)
@@ -123,9 +123,9 @@ def corrections(gain: Correction, off: Vec3) -> Correction:
 
 
 @law
-def reduced(P: Covariance, gain: Correction, value: Vec3, rate: Vec3, load: Vec3) -> Covariance:
+def reduced(P: BlockCovariance, gain: Correction, value: Vec3, rate: Vec3, load: Vec3) -> BlockCovariance:
     """P − K H P for a scalar measurement along each axis; (value, rate, load): the row H P."""
-    return Covariance(
+    return BlockCovariance(
         value=P.value - gain.value * value,
         value_rate=P.value_rate - gain.value * rate,
         value_load=P.value_load - gain.value * load,
@@ -189,7 +189,7 @@ def start_filter(k: ExtendedKalmanFilter) -> FilterState:
         rates=ZERO,
         acceleration=ZERO,
         turning=ZERO,
-        translation=Covariance(one * k.position, ZERO, ZERO, one * k.velocity, ZERO, one * UNKNOWN),
-        rotation=Covariance(one * k.attitude, ZERO, ZERO, one * k.rates, ZERO, one * UNKNOWN),
+        translation=BlockCovariance(one * k.position, ZERO, ZERO, one * k.velocity, ZERO, one * UNKNOWN),
+        rotation=BlockCovariance(one * k.attitude, ZERO, ZERO, one * k.rates, ZERO, one * UNKNOWN),
         started=0.0,
     )
