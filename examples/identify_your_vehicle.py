@@ -30,7 +30,7 @@ assert abs(found["actuators.delay"].value - 0.013) < 1e-4  # s
 assert max(found.details["held_back"]["ratio"].values()) < 1.3
 
 figure, axes = plt.subplots(figsize=(7, 3.2), layout="constrained")
-rows = [row for row in found.rows if row.start and row.excited]
+rows = [row for row in found.rows if row.high - row.low < 0.4 * abs(row.start)]
 for place, row in enumerate(reversed(rows)):
     axes.plot([100 * (x / row.start - 1) for x in (row.low, row.high)], [place, place], "C0", lw=3)
 axes.set(xlabel="change from mission and scale [%]", xlim=(-40, 40))
