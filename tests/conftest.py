@@ -2,6 +2,7 @@
 
 import ctypes
 import gc
+import importlib.util
 import os
 import shutil
 import signal
@@ -27,6 +28,8 @@ M_MMAP_THRESHOLD, M_ARENA_MAX = -3, -8  # names and numbers of glibc
 if hasattr(LIBC, "mallopt"):  # large arrays go back to the system when they are freed, and threads share two heaps
     LIBC.mallopt(M_MMAP_THRESHOLD, 1 << 20)
     LIBC.mallopt(M_ARENA_MAX, 2)
+# of `make test-learning`, which installs it
+collect_ignore = [] if importlib.util.find_spec("torch") else ["analysis/linearization/test_torch_step.py"]
 LOOP_CODE.most = 10  # a process tests hundreds of variants, and seldom one again
 SLOW = hypothesis.HealthCheck.too_slow
 hypothesis.settings.register_profile("tandemlift", deadline=None, suppress_health_check=[SLOW], derandomize=True)

@@ -7,12 +7,12 @@ from functools import cache
 
 import numpy as np
 import pytest
+import torch
 from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.core.errors import InputError
 
-torch = pytest.importorskip("torch")
 pytestmark = [
     pytest.mark.learning,
     pytest.mark.filterwarnings("ignore:`torch.jit.script` is deprecated:DeprecationWarning"),  # PyTorch's own use
