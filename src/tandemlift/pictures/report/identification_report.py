@@ -74,19 +74,18 @@ def write_identification(found: Mapping[str, Any], folder: Path) -> Path:
 
 
 def _table(rows: Sequence[Mapping[str, Any]]) -> str:
-    titles = ("", "Estimate", "95 % from", "to", "Unit", "Mission", "Efficiency", "Excited")
+    titles = ("", "Estimate", "95 % from", "to", "Unit", "Mission", "Efficiency")
     lines = [
         html_row(
             f"<code>{escape(r['key'])}</code>",
             *[number(r[name]) for name in ("value", "low", "high")],
             escape(r["unit"]),
             number(r["start"]),
-            number(round(r["efficiency"], 2)),
-            "yes" if r["excited"] else "<strong>no</strong>",
+            f"{r['efficiency']:.2f}" if r["excited"] else "<strong>not excited</strong>",
         )
         for r in rows
     ]
-    return html_table(titles, lines, "compared")
+    return html_table(titles, lines, "compared keys")
 
 
 def _residuals(found: Mapping[str, Any]) -> str:
