@@ -1,5 +1,8 @@
 """Figures that two processes draw are those that one draws, also when the second process fails."""
 
+import shutil
+import time
+
 import pytest
 
 import tandemlift as tl
@@ -43,3 +46,11 @@ def test_figures_that_the_second_process_cannot_draw_are_drawn_by_the_first(flig
 
 def test_one_processor_draws_without_a_second_process(flight, alone, tmp_path):
     assert drawn(SecondDrawer(), flight, tmp_path / "none.npz", tmp_path / "figures") == alone
+
+
+def test_a_process_that_does_not_start_leaves_all_to_the_first(flight, alone, tmp_path, monkeypatch):
+    monkeypatch.setattr(drawing.os, "cpu_count", lambda: 2)
+    monkeypatch.setattr(drawing.sys, "executable", shutil.which("false"))
+    with second_drawer() as drawer:
+        time.sleep(0.2)  # so that it has ended when it is asked
+        assert drawn(drawer, flight, tmp_path / "none.npz", tmp_path / "figures") == alone

@@ -12,7 +12,7 @@ import subprocess
 import sys
 from collections import deque
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from threading import Lock, Thread
 from typing import IO
@@ -63,7 +63,7 @@ class SecondDrawer:
                 requests.write(json.dumps({**request, "figure": name}) + "\n")
                 requests.flush()
                 answer = answers.readline().strip()
-            except OSError:  # the process has ended
+            except (OSError, ValueError):  # the process has ended, or its pipes are closed
                 answer = ""
             if answer != DRAWN:
                 left.append(name)
@@ -115,6 +115,9 @@ def second_drawer(wanted: bool = True) -> Iterator[SecondDrawer]:
             yield SecondDrawer(tuple(pipe for pipe in (process.stdin, process.stdout) if pipe))
         finally:
             process.kill()
+            if process.stdin:
+                with suppress(OSError):  # a request that it did not read
+                    process.stdin.close()
 
 
 def main() -> None:
