@@ -54,7 +54,7 @@ HEARD = guidance.PilotInput(STATE, V, V, 0.0, Absent())
 SLOPE = low_pass.LowPassState(V, V)
 BLOWN = wind_compensation.PayloadDragState(V, 0.0, SLOPE)
 VEHICLE, OBSERVED = NominalBody(0.0, V, V), Observation(V, STATE, Wrench(0.0, V), V, V, Q, 0.0, 0.0)
-SPREAD = extended_kalman.Covariance(*[V] * 6)
+SPREAD = extended_kalman.BlockCovariance(*[V] * 6)
 
 SINES = excitation.Sines(*[each(4)(*[0.0] * 4)] * 3)
 LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
