@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from tandemlift.analysis.studies.tuning.tune import train, tune
     from tandemlift.apps.export.logs import read_log
     from tandemlift.apps.export.registration import register_environments
+    from tandemlift.apps.live.grading import grade
+    from tandemlift.apps.live.notebook_page import page
     from tandemlift.codegen.mission_module import compile_mission
     from tandemlift.core.errors import FlightWarning, InputError
     from tandemlift.flight.record import Flight
@@ -58,12 +60,14 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "feel": "pictures.report.study.feel_report",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
+    "grade": "apps.live.grading",
     "identify": "analysis.identification.identify",
     "jax_step": "analysis.linearization.differentiable_step",
     "linearize": "analysis.linearization.linearize",
     "load_controller": "parts.controllers.user_controller",
     "load_mission": "missions",
     "load_study": "analysis.studies.table",
+    "page": "apps.live.notebook_page",
     "plot": "pictures.figures.registry",
     "read_log": "apps.export.logs",
     "register_environments": "apps.export.registration",
@@ -92,12 +96,14 @@ __all__ = [
     "feel",
     "fly",
     "fly_many",
+    "grade",
     "identify",
     "jax_step",
     "linearize",
     "load_controller",
     "load_mission",
     "load_study",
+    "page",
     "plot",
     "read_log",
     "register_environments",

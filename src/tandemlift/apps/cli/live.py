@@ -6,6 +6,8 @@
 from __future__ import annotations
 
 import asyncio
+import csv
+import io
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -220,3 +222,42 @@ def score(folder: Path, mission: str, free: tuple[str, ...], settings: tuple[str
     for line in table:
         echo(line)
     sys.exit(FAILED if refused else 0)
+
+
+@click.command()
+@click.argument("folder", type=click.Path(path_type=Path))
+@click.option("--exercises", type=click.Path(path_type=Path), default="exercises", help="Where their checks are.")
+@click.option(
+    "--seconds", type=click.FloatRange(1.0, 3600.0), default=20.0, show_default=True, help="For each notebook."
+)
+@click.option("--out", metavar="FILE", help="Write the table as CSV.")
+def grade(folder: Path, exercises: Path, seconds: float, out: str | None) -> None:
+    """Grade the notebooks of a class.
+
+    FOLDER holds the notebooks of exercises that participants handed in, a notebook or a folder each. Each is run in a
+    process of its own, with the checks that stand in --exercises, not with those that were handed in. A notebook that
+    raises, does not end, or opens a solution is named with its cell. Run what you do not trust in a container.
+
+    \b
+    Examples:
+      tandemlift grade handed-in
+      tandemlift grade handed-in --out points.csv
+
+    Exit code 3: some did not run to their end.
+    """
+    from tandemlift.apps.live.grading import graded_class, notebooks_in, remarks_of, table_of
+
+    path = file_path("--out", out, ".csv") if out else None
+    notebooks, others = notebooks_in(folder)
+    with progress_bar("Grading", "notebooks", shown=sys.stderr.isatty()) as progress:
+        grades = graded_class(notebooks, exercises, seconds, progress)
+    table = table_of(grades)
+    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
+    for name, *points in table:
+        echo("  ".join([f"{name:{widths[0]}}", *(f"{p:>{w}}" for p, w in zip(points, widths[1:], strict=True))]))
+    for line in ["", *remarks_of(grades), *others]:
+        echo(line)
+    if path:
+        csv.writer(text := io.StringIO()).writerows(table)
+        write_file(path, text.getvalue())
+    sys.exit(FAILED if any(one.failure for one in grades.values()) else 0)

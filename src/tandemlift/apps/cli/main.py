@@ -13,7 +13,7 @@ from tandemlift.apps.cli.export import compile, export, render
 from tandemlift.apps.cli.identify import identify, shadow
 from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, new, schema, template
 from tandemlift.apps.cli.linearize import certify, check, excite, linearize
-from tandemlift.apps.cli.live import live, page, replay, score
+from tandemlift.apps.cli.live import grade, live, page, replay, score
 from tandemlift.apps.cli.report import paper, plot, report
 from tandemlift.apps.cli.ros import gazebo, ros
 from tandemlift.apps.cli.run import run
@@ -31,7 +31,7 @@ GROUPS: dict[str, tuple[click.Command, ...]] = {
     "Try first": (run, live, missions),
     "Write a mission": (new, template, explain, check, controllers, engines, schema, completion),
     "Look at a flight": (report, plot, render, replay),
-    "Fly many, compare, analyse": (compare, score, study, tune, train, feel, linearize, certify, paper),
+    "Fly many, compare, analyse": (compare, score, grade, study, tune, train, feel, linearize, certify, paper),
     "Your vehicle": (excite, identify, shadow),
     "Take it elsewhere": (gazebo, ros, page, export, compile),
 }

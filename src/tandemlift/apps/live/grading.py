@@ -1,0 +1,300 @@
+"""Exercises: the checks of one, run against the answers of a notebook, and the table of a class."""
+
+from __future__ import annotations
+
+import contextlib
+import html
+import inspect
+import io
+import json
+import multiprocessing
+import os
+import resource
+import runpy
+import sys
+import tempfile
+import time
+import traceback
+from collections.abc import Iterable, Iterator, Mapping
+from multiprocessing.connection import Connection, wait
+from pathlib import Path
+from types import CodeType, ModuleType, SimpleNamespace
+from typing import Any, NamedTuple
+
+import matplotlib
+
+from tandemlift.core.errors import InputError
+from tandemlift.core.types import Progress
+
+CHECKS, SOLUTIONS = "checks.py", "solutions"  # beside the notebook of an exercise; the folder that no answer may read
+LEFT_OUT = {"page", "check"}  # tags of cells that grading does not run
+MEMORY = 8 << 30  # bytes that the answers of one notebook may take
+PREFIX = "check_"
+
+
+class Graded(NamedTuple):
+    """One check: its title, the points got and possible, and what helps where some are missing."""
+
+    title: str
+    points: int
+    of: int
+    hint: str = ""
+
+
+class Grade(NamedTuple):
+    """What a notebook got: each check, and the reason why it could not be run to its end."""
+
+    checks: tuple[Graded, ...] = ()
+    failure: str = ""
+
+    @property
+    def points(self) -> int:
+        """The points of all checks."""
+        return sum(check.points for check in self.checks)
+
+    def __str__(self) -> str:
+        lines = [f"{'✓' if c.points else '✗'} {c.points}/{c.of}  {c.title}" for c in self.checks]
+        hints = [f"\n       {c.hint}" if c.hint else "" for c in self.checks]
+        of = sum(check.of for check in self.checks)
+        return "\n".join([*map("".join, zip(lines, hints, strict=True)), f"{self.points} of {of} points"])
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(str(self))}</pre>"
+
+
+def grade(checks: ModuleType | SimpleNamespace, answers: Mapping[str, Any]) -> Grade:
+    """The checks of an exercise, run against answers.
+
+    Args:
+        checks: the module of the exercise. Each of its functions `check_…` names by its arguments the answers that it
+            asks for, by the default of `points` what it is worth, and by its docstring what it asks; an assertion that
+            fails has the hint.
+        answers: by name, such as `globals()`.
+    """
+    asked = [value for name, value in vars(checks).items() if name.startswith(PREFIX) and inspect.isfunction(value)]
+    return Grade(tuple(_graded(check, answers) for check in asked))
+
+
+def _graded(check: Any, answers: Mapping[str, Any]) -> Graded:
+    parameters = dict(inspect.signature(check).parameters)
+    of = parameters.pop("points").default
+    title = inspect.getdoc(check) or check.__name__
+    missing = [name for name in parameters if name not in answers]
+    if missing:
+        return Graded(title, 0, of, f"`{missing[0]}` is not there yet: run the cell that defines it")
+    try:
+        check(*(answers[name] for name in parameters))
+    except AssertionError as error:
+        return Graded(title, 0, of, str(error))
+    except Exception as error:  # of an answer
+        return Graded(title, 0, of, f"{_place(error)}{type(error).__name__}: {error}")
+    return Graded(title, of, of)
+
+
+def _place(error: BaseException) -> str:
+    """Where an answer raised: "`step`, line 3: "."""
+    inside = [f for f in traceback.extract_tb(error.__traceback__) if Path(f.filename).name != CHECKS]
+    ours = [f for f in inside if f.filename.startswith("cell ") or "ipykernel" in f.filename]
+    return f"`{ours[-1].name}`, line {ours[-1].lineno}: " if ours else ""
+
+
+def checks_of(folder: Path) -> SimpleNamespace:
+    """The checks of the exercise in a folder.
+
+    Raises:
+        InputError: there are none.
+    """
+    if not (folder / CHECKS).is_file():
+        raise InputError(f"{folder}: must be the folder of an exercise, with a {CHECKS}")
+    return SimpleNamespace(**runpy.run_path(str(folder / CHECKS), run_name="checks"))
+
+
+class Notebook(NamedTuple):
+    """A notebook that was handed in: by whom, its exercise, and its file."""
+
+    name: str
+    exercise: str
+    path: Path
+
+
+def notebooks_in(folder: Path) -> tuple[list[Notebook], list[str]]:
+    """What a class handed in: notebooks by name and exercise; and a line for each that is none of an exercise.
+
+    Raises:
+        InputError: there is no such folder, or no notebook in it.
+    """
+    if not folder.is_dir():
+        raise InputError(f"{folder}: {'is a file, not a folder' if folder.exists() else 'there is no such folder'}")
+    paths = [p for p in sorted(folder.rglob("*.ipynb")) if not any(part.startswith(".") for part in p.parts[1:])]
+    if not paths:
+        raise InputError(
+            f"{folder}: must hold notebooks (.ipynb), one or a folder for each participant; there are none"
+        )
+    found, others = list[Notebook](), list[str]()
+    for path in paths:
+        name = path.relative_to(folder).parts[0].removesuffix(".ipynb")
+        try:
+            exercise = json.loads(path.read_text("utf-8"))["metadata"]["tandemlift"]["exercise"]
+            found.append(Notebook(name, str(exercise), path))
+        except (ValueError, KeyError, TypeError):
+            others.append(f"{path.relative_to(folder)}: is no notebook of an exercise, and was skipped")
+    return found, others
+
+
+def cells_of(path: Path) -> Iterator[tuple[int, CodeType | SyntaxError]]:
+    """The code cells of a notebook that grading runs, with their numbers; lines with % and ! are left out."""
+    for number, cell in enumerate(json.loads(path.read_text("utf-8"))["cells"], 1):
+        if cell["cell_type"] != "code" or LEFT_OUT & set(cell["metadata"].get("tags", ())):
+            continue
+        lines = "".join(cell["source"]).splitlines()
+        text = "\n".join("" if line.lstrip().startswith(("%", "!")) else line for line in lines)
+        try:
+            yield number, compile(text, f"cell {number}", "exec")
+        except SyntaxError as error:
+            yield number, error
+
+
+class _Forbidden(BaseException):
+    """An answer did what none may: it passes through `except Exception`."""
+
+
+def _guard(own: Path) -> list[str]:
+    """From now on this process opens no solution, no other notebook, and starts no program; what it tried."""
+    tried = list[str]()
+
+    def hook(event: str, arguments: tuple[Any, ...]) -> None:
+        if event in ("subprocess.Popen", "os.system", "os.posix_spawn", "os.exec"):
+            tried.append("starts another program")
+        elif event == "open" and isinstance(arguments[0], (str, bytes, os.PathLike)):
+            path = Path(os.path.realpath(os.fsdecode(arguments[0])))
+            if SOLUTIONS in path.parts[:-1]:
+                tried.append(f"reads the solution ({path.name})")
+            elif path.suffix == ".ipynb" and path != own:
+                tried.append(f"reads another notebook ({path.name})")
+            else:
+                return
+        else:
+            return
+        raise _Forbidden(tried[-1])
+
+    sys.addaudithook(hook)
+    return tried
+
+
+def _run_apart(notebook: Notebook, checks: SimpleNamespace, report: Connection) -> None:
+    """In a process of its own: run the answers of a notebook, then the checks; send each cell's number, and the end."""
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    matplotlib.use("Agg")
+    cells, own = list(cells_of(notebook.path)), Path(os.path.realpath(notebook.path))
+    sys.modules["checks"] = ModuleType("checks")
+    vars(sys.modules["checks"]).update(vars(checks))
+    namespace: dict[str, Any] = {"__name__": "__main__"}
+    failure, result, at = "", Grade(), 0
+    with tempfile.TemporaryDirectory() as here, contextlib.redirect_stdout(io.StringIO()) as out:
+        os.chdir(here)
+        tried = _guard(own)
+        try:
+            for at, code in cells:
+                report.send(at)
+                if isinstance(code, SyntaxError):
+                    raise code
+                with contextlib.redirect_stderr(out):
+                    exec(code, namespace)
+        except (Exception, SystemExit) as error:
+            failure = f"cell {at}, {type(error).__name__}: {error}"
+        except (_Forbidden, KeyboardInterrupt):
+            failure = f"cell {at} {tried[-1] if tried else 'was interrupted'}"
+        try:
+            report.send("the checks")
+            result = grade(checks, namespace)
+        except _Forbidden:
+            pass
+        failure = f"cell {at} {tried[0]}" if tried else failure
+        os.chdir("/")
+    report.send(Grade((), failure) if tried else Grade(result.checks, failure))
+
+
+def graded_class(
+    notebooks: Iterable[Notebook], exercises: Path, seconds: float = 20.0, progress: Progress | None = None
+) -> dict[Notebook, Grade]:
+    """What each notebook got, each run in a process of its own, as many together as there are processors.
+
+    Args:
+        notebooks: from `notebooks_in`.
+        exercises: the folder of the exercises, by name.
+        seconds: in which a notebook must end.
+        progress: called with (notebooks graded, notebooks in all).
+
+    Raises:
+        InputError: an exercise is not there, or has no checks.
+    """
+    import matplotlib.pyplot  # noqa: F401  (before the processes fork: notebooks draw)
+
+    waiting = list(notebooks)
+    checks = {name: checks_of(exercises / name) for name in sorted({one.exercise for one in waiting})}
+    context, total = multiprocessing.get_context("fork"), len(waiting)
+    running, grades = dict[Connection, _Running](), dict[Notebook, Grade]()
+    while waiting or running:
+        while waiting and len(running) < (os.cpu_count() or 1):
+            here, there = context.Pipe(duplex=False)
+            process = context.Process(target=_run_apart, args=(waiting[0], checks[waiting[0].exercise], there))
+            process.start()
+            there.close()
+            running[here] = _Running(waiting.pop(0), process, time.monotonic() + seconds)
+        wait(list(running), timeout=0.1)
+        for pipe, one in list(running.items()):
+            ended = _ended(pipe, one, seconds)
+            if ended is not None:
+                grades[one.notebook] = ended
+                del running[pipe]
+                pipe.close()
+                if progress:
+                    progress(len(grades), total)
+    return grades
+
+
+class _Running:
+    """A notebook that is being graded."""
+
+    def __init__(self, notebook: Notebook, process: Any, end: float) -> None:
+        self.notebook, self.process, self.end, self.at = notebook, process, end, "the start"
+
+
+def _ended(pipe: Connection, one: _Running, seconds: float) -> Grade | None:
+    """The grade of a notebook that has ended, was ended, or ended itself; None while it runs."""
+    result: Grade | None = None
+    try:
+        while result is None and pipe.poll():
+            heard = pipe.recv()
+            if isinstance(heard, Grade):
+                result = heard
+            else:
+                one.at = f"cell {heard}" if isinstance(heard, int) else heard
+    except (EOFError, OSError):
+        result = Grade((), f"{one.at} ended the process")
+    if result is None and time.monotonic() > one.end:
+        result = Grade((), f"{one.at} did not end within {seconds:g} s")
+    if result is not None:
+        one.process.kill()
+        one.process.join()
+    return result
+
+
+def table_of(grades: Mapping[Notebook, Grade]) -> list[list[str]]:
+    """The table of a class: a row for each name, a column for the points of each exercise, and their sum."""
+    exercises = sorted({one.exercise for one in grades})
+    best = dict[str, dict[str, int]]()
+    for one, got in grades.items():
+        row = best.setdefault(one.name, {})
+        row[one.exercise] = max(got.points, row.get(one.exercise, 0))
+    rows = [[name, *(str(row.get(e, "–")) for e in exercises), str(sum(row.values()))] for name, row in best.items()]
+    return [["name", *exercises, "points"], *sorted(rows)]
+
+
+def remarks_of(grades: Mapping[Notebook, Grade]) -> list[str]:
+    """A line for each notebook that did not run to its end, and for each check that failed, with its hint."""
+    lines = list[str]()
+    for one, got in sorted(grades.items()):
+        lines += [f"{one.name}, {one.exercise}: {got.failure}"] if got.failure else []
+        lines += [f"{one.name}, {one.exercise}: {c.title} {c.hint}" for c in got.checks if c.hint]
+    return lines

@@ -1,0 +1,217 @@
+"""Exercises: solutions get all points, common mistakes a hint, and what notebooks must not do is named."""
+
+import csv
+import json
+import re
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from tandemlift.apps.cli.main import cli
+from tandemlift.apps.live.grading import Notebook, checks_of, grade, graded_class, notebooks_in
+from tandemlift.core.errors import InputError
+
+EXERCISES = Path(__file__).parents[3] / "exercises"
+NAMES = sorted(p.parent.name for p in EXERCISES.glob("*/checks.py"))
+
+
+def source(name: str) -> str:
+    return (EXERCISES / "solutions" / f"{name}.py").read_text("utf-8")
+
+
+def answers(text: str) -> dict:
+    namespace: dict = {}
+    exec(compile(text, "cell 1", "exec"), namespace)
+    return namespace
+
+
+# For each exercise ten wrong answers: what stands in the solution, what somebody wrote instead, and a word of the hint.
+WRONG = {
+    "1-admittance": [
+        ("return force * (1.0 - threshold / length)", "return force", "jumps"),
+        ("return force * (1.0 - threshold / length)", "return force - threshold * np.array([1.0, 0, 0])", "backwards"),
+        (
+            "return force * (1.0 - threshold / length)",
+            "return force * np.maximum(1 - threshold / abs(force).clip(1e-9), 0)",
+            "direction",
+        ),
+        ("length = np.linalg.norm(force)", "length = np.max(force)", "backwards"),
+        ("return np.zeros(3)", "return force", "within the threshold"),
+        ("np.exp(-damping * dt / mass)", "np.exp(damping * dt / mass)", "without end"),
+        ("np.exp(-damping * dt / mass)", "np.exp(-mass * dt / damping)", "63 %"),
+        ("np.exp(-damping * dt / mass)", "1.0 - damping * dt / mass", "solve the equation"),
+        ("force / damping * (1.0 - kept)", "force / mass * dt", "1.25"),
+        ("mass = damping * time_constant", "mass = damping / time_constant", "time constant is"),
+    ],
+    "2-margins": [
+        ("np.log(np.abs(response))", "20 * np.log10(np.abs(response)) - 1.0", "not 1 dB"),
+        ("np.log(np.abs(response))", "np.log(np.abs(response)) + np.log(2) / 2", "4 rad/s"),
+        (
+            "* (frequency[i + 1] / frequency[i]) ** share",
+            "* (frequency[i + 1] / frequency[i]) ** share / (2 * np.pi)",
+            "rad/s",
+        ),
+        (
+            "i = np.flatnonzero(np.diff(np.sign(size)))",
+            "i = np.flatnonzero(np.diff(np.sign(size)))[:1]",
+            "downwards and upwards",
+        ),
+        ("np.exp(-1j * frequency * delay)", "np.exp(-1j * delay)", "At 4 rad/s"),
+        ("np.exp(-1j * frequency * delay)", "np.exp(-frequency * delay)", "no magnitude"),
+        ("np.degrees(margin[np.argmin(abs(margin))])", "np.min(margin)", "degrees"),
+        ("np.degrees(margin[np.argmin(abs(margin))])", "np.degrees(np.min(abs(margin)))", "comes back"),
+        ("np.min(margin % (2.0 * np.pi) / at)", "np.degrees(np.min(margin % (2 * np.pi) / at))", "in rad over"),
+        (
+            "np.min(margin % (2.0 * np.pi) / at)",
+            "np.radians(phase_margin(frequency, response)) / at[0]",
+            "fastest crossover",
+        ),
+    ],
+    "3-sliding-mode": [
+        ("rate + slope * error", "rate - slope * error", "decays"),
+        ("rate + slope * error", "error + rate / slope", "factor 1"),
+        ("if boundary == 0.0:\n        return np.sign(s)\n    return", "return", "ZeroDivisionError"),
+        ("np.clip(s / boundary, -1.0, 1.0)", "np.sign(s)", "Within the layer"),
+        ("np.clip(s / boundary, -1.0, 1.0)", "s / boundary", "Far from"),
+        ("- gain * switching", "+ gain * switching", "without end"),
+        ("-slope * rate - gain", "-gain", "slope times the speed"),
+        ("- gain * switching(s, boundary)", "- gain * s", "1 s"),
+        ("return disturbance + fall", "return max(disturbance, fall)", "although"),
+        ("/ (len(signal) * dt)", "", "10 times"),
+    ],
+    "4-allocation": [
+        ("np.array([np.ones(len(arms)), ", "np.array([np.ones(len(arms)) / len(arms), ", "ones"),
+        ("arms[:, 1], -arms[:, 0], torque", "-arms[:, 1], arms[:, 0], torque", "rolls"),
+        ("arms[:, 1], -arms[:, 0], torque", "arms[:, 0], -arms[:, 1], torque", "rolls"),
+        ("-arms[:, 0], torque_per_thrust", "arms[:, 0], torque_per_thrust", "pitches"),
+        ("torque_per_thrust * np.asarray(spins)", "np.asarray(spins)", "reaction torque"),
+        ("np.linalg.pinv(effectiveness) @ wrench", "np.linalg.solve(effectiveness, wrench)", "LinAlgError"),
+        ("np.linalg.pinv(effectiveness) @ wrench", "effectiveness.T @ wrench", "Your thrusts make"),
+        ("left[:, rotor] = 0.0", "pass", "is lost, but makes"),
+        (
+            "return np.linalg.pinv(left) @ wrench",
+            "f = allocate(effectiveness, wrench); f[rotor] = 0.0; return f",
+            "others must still",
+        ),
+        ("np.all(thrusts >= -1e-9) and np.all(thrusts <= largest)", "np.all(thrusts <= largest)", "below zero"),
+    ],
+    "5-observer": [
+        ("2.0 * (x * z + w * y)", "2.0 * (x * z - w * y)", "forwards"),
+        ("thrust * np.array(", "np.array(", "30 N point up"),
+        ("known = rotors + mass * GRAVITY", "known = rotors", "weight"),
+        ("known = rotors + mass * GRAVITY", "known = rotors - mass * GRAVITY", "weight"),
+        ("dt * (known + estimate)", "dt * (known - estimate)", "without end"),
+        ("dt * (known + estimate)", "dt * known", "the hand pushes"),
+        ("gain * (mass * velocity - memory)", "gain * (velocity - memory)", "begins with"),
+        ("gain * (mass * velocity - memory)", "0.5 * gain * (mass * velocity - memory)", "63 %"),
+        ("return mass * velocity", "return 0.0 * velocity", "begin at the momentum"),
+        ("estimates[:samples].mean(axis=0)", "0.0", "its mean"),
+    ],
+    "6-passivity": [
+        ("np.sum(power) * dt", "np.sum(power)", "3 J"),
+        ("np.sum(power) * dt", "np.cumsum(power) * dt", "one number"),
+        ("np.sum(power) * dt", "np.sum(abs(power)) * dt", "sign counts"),
+        ("mass * 1j * frequency + damping", "mass + damping * 1j * frequency", "Without delay"),
+        ("np.exp(-1j * frequency * delay)", "np.exp(1j * frequency * delay)", "backwards"),
+        ("admittance.real >= -1e-12", "abs(admittance) >= 0.0", "Behind 50 ms"),
+        ("np.all(admittance.real", "np.any(admittance.real", "at some frequency"),
+        ("return low * np.hypot(mass * low, damping)", "return low", "bears"),
+        ("middle * delay < np.pi / 2.0", "middle * delay < np.pi", "swings"),
+        ("return high", "return 2.0 * high", "of phase"),
+    ],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_solutions_get_all_points_and_wrong_answers_a_hint(name):
+    checks, text = checks_of(EXERCISES / name), source(name)
+    full = grade(checks, answers(text))
+    assert full.points == sum(c.of for c in full.checks) == 10, str(full)
+    assert len(WRONG[name]) == 10
+    for right, wrong, word in WRONG[name]:
+        assert text.count(right) == 1, right
+        got = grade(checks, answers(text.replace(right, wrong)))
+        hints = " | ".join(c.hint for c in got.checks)
+        assert got.points < 10, f"{wrong}: full points"
+        assert word in hints, f"{wrong}: {hints}"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_notebooks_ask_for_what_their_checks_need(name):
+    notebook = json.loads((EXERCISES / name / f"{name}.ipynb").read_text("utf-8"))
+    cells = ["".join(c["source"]) for c in notebook["cells"] if "answer" in c["metadata"].get("tags", ())]
+    asked = re.findall(r"^def (\w+)", "\n".join(cells), re.M)
+    assert set(asked) <= set(answers(source(name)))
+    assert notebook["metadata"]["tandemlift"]["exercise"] == name
+    empty = grade(checks_of(EXERCISES / name), answers("\n".join(cells)))
+    assert empty.points == 0, str(empty)
+    assert all(c.hint for c in empty.checks)
+    assert not any(c.get("outputs") for c in notebook["cells"])
+
+
+def handed_in(folder: Path, name: str, exercise: str, *codes: str, tags: tuple[str, ...] = ()) -> Notebook:
+    cells = [{"cell_type": "code", "metadata": {"tags": list(tags)}, "source": code, "outputs": []} for code in codes]
+    notebook = {"cells": cells, "metadata": {"tandemlift": {"exercise": exercise}}, "nbformat": 4, "nbformat_minor": 5}
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / f"{name}.ipynb").write_text(json.dumps(notebook), "utf-8")
+    return Notebook(name, exercise, folder / f"{name}.ipynb")
+
+
+def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
+    first = "1-admittance"
+    solution = EXERCISES / "solutions" / f"{first}.py"
+    handed_in(tmp_path, "anna", first, "%matplotlib inline\nimport numpy as np", source(first))
+    handed_in(tmp_path, "ben", first, source(first), "1 / 0")
+    handed_in(
+        tmp_path, "cleo", first, "x = 1", "while True:\n    try:\n        pass\n    except BaseException:\n        pass"
+    )
+    handed_in(
+        tmp_path, "dan", first, f"try:\n    exec(open({str(solution)!r}).read())\nexcept BaseException:\n    pass"
+    )
+    handed_in(tmp_path, "eve", first, "import os\nos._exit(0)")
+    handed_in(tmp_path, "finn", first, "def dead_band(")
+    handed_in(tmp_path, "gus", first, f"text = open({str(tmp_path / 'anna.ipynb')!r}).read()")
+    handed_in(tmp_path, "hal", first, "import subprocess\nsubprocess.run(['true'])")
+    handed_in(tmp_path, "ida", first, "raise SystemExit")
+    handed_in(tmp_path, "jo", first, "import checks\nchecks.check_flight = lambda points=10: None\n" + "tl = 1")
+    (tmp_path / "kim.ipynb").write_text("{}", "utf-8")
+    notebooks, others = notebooks_in(tmp_path)
+    assert len(notebooks) == 10
+    assert others == ["kim.ipynb: is no notebook of an exercise, and was skipped"]
+    got = {one.name: result for one, result in graded_class(notebooks, EXERCISES, seconds=8.0).items()}
+    assert (got["anna"].points, got["anna"].failure) == (10, "")
+    assert (got["ben"].points, got["ben"].failure) == (10, "cell 2, ZeroDivisionError: division by zero")
+    assert got["cleo"].failure == "cell 2 did not end within 8 s"
+    assert (got["dan"].points, got["dan"].failure) == (0, f"cell 1 reads the solution ({first}.py)")
+    assert got["eve"].failure == "cell 1 ended the process"
+    assert got["finn"].failure.startswith("cell 1, SyntaxError:")
+    assert got["gus"].failure == "cell 1 reads another notebook (anna.ipynb)"
+    assert got["hal"].failure == "cell 1 starts another program"
+    assert got["ida"].failure.startswith("cell 1, SystemExit")
+    assert got["jo"].points == 0
+
+
+def test_the_command_prints_and_writes_a_table(tmp_path):
+    for name in ("anna", "ben"):
+        handed_in(tmp_path / "in" / name, "1-admittance", "1-admittance", source("1-admittance"))
+    handed_in(tmp_path / "in" / "ben", "6-passivity", "6-passivity", source("6-passivity"))
+    out = tmp_path / "points.csv"
+    result = CliRunner().invoke(cli, ["grade", str(tmp_path / "in"), "--exercises", str(EXERCISES), "--out", str(out)])
+    assert result.exit_code == 0, result.output
+    rows = list(csv.reader(out.read_text("utf-8").splitlines()))
+    assert rows == [
+        ["name", "1-admittance", "6-passivity", "points"],
+        ["anna", "10", "–", "10"],
+        ["ben", "10", "10", "20"],
+    ]
+
+
+def test_folders_without_notebooks_or_exercises_are_refused(tmp_path):
+    with pytest.raises(InputError, match="there is no such folder"):
+        notebooks_in(tmp_path / "none")
+    with pytest.raises(InputError, match=r"must hold notebooks \(.ipynb\)"):
+        notebooks_in(tmp_path)
+    one = handed_in(tmp_path, "anna", "9-unknown", "pass")
+    with pytest.raises(InputError, match=r"9-unknown: must be the folder of an exercise, with a checks.py"):
+        graded_class([one], EXERCISES)
