@@ -1,92 +1,73 @@
-"""What the project promises to the outside keeps its name: commands, exit codes, Python names, mission keys, metrics.
+"""What the project promises to the outside keeps its name; public_names.txt records all of it, a line each.
 
-These are written here as data, by hand, and compared with what there is. There may be more; none may go or be renamed.
+A new name is recorded by `python tests/repository/test_promised_names.py`. A name that goes stays in the file, marked as
+gone, and CHANGELOG.md must name it.
 """
 
+import sys
+from pathlib import Path
+
 import numpy as np
-import pytest
-from mission_schema import SCHEMA
 
-import tandemlift as tl
-from tandemlift.apps.cli.main import cli
-
-COMMANDS = {  # each with its arguments and options
-    "run": {"MISSION", "--engine", "--out", "--set", "--no-figures"},
-    "missions": set(),
-    "controllers": set(),
-    "engines": set(),
-}
-
-KEYS = {  # table: the keys in it
-    "mission": "name duration step log_interval seed",
-    "vehicle.payload": "mass length radius inertia",
-    "vehicle.quadrotors.0": (
-        "mass inertia position layout arm thrust_constant max_speed torque_per_thrust lag_up lag_down"
-    ),
-    "vehicle.drag": "force moment",
-    "controller": (
-        "name switching boundary_layer attitude_reference_derivatives filter_bandwidth euler_rates tilt_inverse "
-        "human_force_feedforward"
-    ),
-    "controller.gains": "xi eta lambda_1 lambda_2 a",
-    "admittance": "mass damping stiffness threshold gate hold_after_release",
-    "allocation": "method weights",
-    "initial": "position velocity euler rates",
-    "phases": "lift_start lift_duration height land_start land_duration",
-    "pushes.0": "force time sigma point",
-    "disturbance": "force moment",
-    "plant": "mass_scale inertia_scale",
-    "actuators": "model",
-}
-PROMISED = {f"{table}.{key}" for table, keys in KEYS.items() for key in keys.split()}
-METRICS = {  # name: how many numbers, 0 for one that is no list; 4 for U₁ to U₄
-    "position_rmse_m": 3,
-    "position_rmse_after_10s_m": 3,
-    "position_max_error_m": 3,
-    "position_max_error_after_10s_m": 3,
-    "attitude_rmse_rad": 3,
-    "velocity_max_error_after_10s_m_s": 3,
-    "max_tilt_after_10s_rad": 3,
-    "final_position_m": 3,
-    "final_reference_m": 3,
-    "thrust_min_after_10s_n": 0,
-    "thrust_max_after_10s_n": 0,
-    "moment_max_abs_after_10s_n_m": 3,
-    "command_at_start": 4,
-    "human_impulse_n_s": 3,
-    "human_work_j": 0,
-    "rotor_saturated_share": 0,
-    "steps": 0,
-    "wall_s": 0,
-}
+RECORD, GONE = Path(__file__).with_name("public_names.txt"), "  (gone)"
+ROOT = Path(__file__).parents[2]
+NEW = "a name is not recorded: run python tests/repository/test_promised_names.py, and name the change in CHANGELOG.md"
 
 
-# ---- Commands
+def public_names():
+    """Each name that users write or read: commands and options, exit codes, Python, keys, channels, metrics, findings."""
+    from mission_schema import SCHEMA
+
+    import tandemlift as tl
+    import tandemlift.parts.controllers as tc
+    from tandemlift.apps.cli import flying, main
+    from tandemlift.core.findings import KINDS
+    from tandemlift.flight.channels import GROUPS
+    from tandemlift.flight.metric_descriptions import METRIC_GROUPS
+
+    for name, command in main.cli.commands.items():
+        yield f"command {name}"
+        for p in command.params:
+            yield f"command {name} {p.opts[0] if p.opts[0].startswith('-') else p.human_readable_name}"
+    yield from (f"exit code {code}" for code in (0, main.BAD_INPUT, flying.FAILED, main.INTERRUPTED))
+    yield from (f"python tandemlift.{name}" for name in tl.__all__)
+    yield from (f"python tandemlift.parts.controllers.{name}" for name in tc.__all__)
+    for one in (tl.Flight, tl.Simulation, tl.Pilot, tl.Block, tl.Study, tl.LinearModel):
+        yield from (f"python tandemlift.{one.__name__}.{name}" for name in dir(one) if not name.startswith("_"))
+    yield from (f"key {name}" for name in SCHEMA)
+    yield from (f"channel {name}" for group in GROUPS for name in group.channels)
+    yield from (f"metric {name}" for group in METRIC_GROUPS for name in group.metrics)
+    yield from (f"finding {kind.name}" for kind in KINDS)
 
 
-@pytest.mark.parametrize("command", COMMANDS)
-def test_a_command_has_its_arguments_and_options(command):
-    found = {
-        name
-        for p in cli.commands[command].params
-        for name in (p.opts if p.opts[0][0] == "-" else [p.human_readable_name])
-    }
-    assert found >= COMMANDS[command]
+def recorded():
+    return dict.fromkeys(RECORD.read_text("utf-8").splitlines())
 
 
-# ---- Python
+def test_what_is_recorded_is_what_there_is():
+    there = set(public_names())
+    missing = [name for name in recorded() if not name.endswith(GONE) and name not in there]
+    assert missing == [], "a promised name went: keep it, or record that it is gone and name it in CHANGELOG.md"
+    assert sorted(there - set(recorded())) == [], NEW
 
 
-# ---- Mission keys
+def test_what_is_gone_is_in_the_changelog():
+    changelog = (ROOT / "CHANGELOG.md").read_text("utf-8")
+    gone = [name.removesuffix(GONE).split()[-1].split(".")[-1] for name in recorded() if name.endswith(GONE)]
+    assert [name for name in gone if name not in changelog] == []
 
 
-def test_a_mission_has_the_promised_keys():
-    assert sorted(PROMISED - set(SCHEMA)) == []
+def test_metrics_of_a_flight_are_recorded_ones():
+    import tandemlift as tl
 
-
-# ---- Metrics
-
-
-def test_a_flown_mission_has_the_promised_metrics():
     metrics = tl.fly(tl.load_mission("one-push")).metrics()
-    assert {name: np.size(metrics[name]) * isinstance(metrics[name], list) for name in METRICS} == METRICS
+    assert {f"metric {name}" for name in metrics} <= set(recorded())
+    assert np.shape(metrics["position_rmse_m"]) == (3,)
+
+
+if __name__ == "__main__":
+    sys.path += [str(ROOT / "src"), str(ROOT / "tests" / "support")]
+    now = set(public_names())
+    old = {name.removesuffix(GONE) for name in recorded()} if RECORD.exists() else set()
+    RECORD.write_text("".join(f"{name}\n" for name in sorted(now | {name + GONE for name in old - now})), "utf-8")
+    print(f"{RECORD.name}: {len(now)} names, {len(old - now)} gone")
