@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page docs docs-quick test check quick lint types imports tests examples test-learning test-clients test-pythons test-distributions test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
+.PHONY: run live page docs docs-quick test check quick lint types imports tests examples test-learning test-clients test-pythons test-distributions release test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -80,6 +80,9 @@ test-pythons:    ## the fast tests under each installed Python from 3.11 to 3.13
 
 test-distributions: .venv/dev  ## build the wheel and the source distribution; try them, and each extra, in fresh environments
 	tools/test-distributions
+
+release: .venv/dev .venv/docs  ## wheel, sources, site, page, paper, bill of materials, notes and checksums, tried, into dist/
+	tools/release
 
 test-gazebo: .venv/dev  ## flights in a real Gazebo 11, ROS 1, ROS 2's DDS and RViz; installs them, as root
 	tools/gazebo-root $(GAZEBO_ROOT)

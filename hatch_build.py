@@ -7,6 +7,7 @@ The description is README.md without what leads nowhere outside the repository.
 from __future__ import annotations
 
 import json
+import os
 import re
 import shutil
 import sys
@@ -56,3 +57,5 @@ class ShippedData(BuildHookInterface):  # type: ignore[type-arg]
         with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:  # LLVM compiles once at a time in a process
             list(pool.map(build_modules, repeat(root / FLIGHTS), [[name] for name in MISSIONS]))
         build_data["force_include"][FLIGHTS] = "tandemlift/data/flights"
+        if site := os.environ.get("TANDEMLIFT_SITE"):  # of a release: for `tandemlift docs`
+            build_data["force_include"][site] = "tandemlift/data/site"

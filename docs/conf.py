@@ -36,6 +36,7 @@ html_theme = "furo"
 html_title = f"tandemlift {release}"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
+html_extra_path = ["llms.txt"]  # a short map of the site for language models
 html_show_sphinx = False
 html_copy_source = False
 html_math_renderer = "mathml"

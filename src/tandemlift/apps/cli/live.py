@@ -19,7 +19,7 @@ from tandemlift.apps.cli.console import echo, exit_now, progress_bar
 from tandemlift.apps.cli.flying import FAILED, HTML, controller_option, engine_option, load, set_option
 from tandemlift.apps.export.results import file_path, flight_file
 from tandemlift.core.errors import InputError, extra
-from tandemlift.core.files import write_file
+from tandemlift.core.files import DATA, write_file
 
 if TYPE_CHECKING:
     from tandemlift.apps.live.server import PageServer
@@ -261,3 +261,15 @@ def grade(folder: Path, exercises: Path, seconds: float, out: str | None) -> Non
         csv.writer(text := io.StringIO()).writerows(table)
         write_file(path, text.getvalue())
     sys.exit(FAILED if any(one.failure for one in grades.values()) else 0)
+
+
+@click.command()
+def docs() -> None:
+    """Open the documentation in a browser, without a network."""
+    places = [DATA / "site", DATA.parents[2] / "out" / "site"]  # of a wheel; of a checkout
+    for place in places:
+        if (place / "index.html").is_file():
+            echo(str(place / "index.html"))
+            click.launch((place / "index.html").as_uri())
+            return
+    raise InputError("this installation has no documentation: in a checkout, `make docs` makes it")

@@ -13,7 +13,7 @@ from tandemlift.apps.cli.export import compile, export, render
 from tandemlift.apps.cli.identify import identify, shadow
 from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, new, schema, template
 from tandemlift.apps.cli.linearize import certify, check, excite, linearize
-from tandemlift.apps.cli.live import grade, live, page, replay, score
+from tandemlift.apps.cli.live import docs, grade, live, page, replay, score
 from tandemlift.apps.cli.report import paper, plot, report
 from tandemlift.apps.cli.ros import gazebo, ros
 from tandemlift.apps.cli.run import run
@@ -28,7 +28,7 @@ INTERRUPTED = 130  # as shells report it
 
 
 GROUPS: dict[str, tuple[click.Command, ...]] = {
-    "Try first": (run, live, missions),
+    "Try first": (run, live, missions, docs),
     "Write a mission": (new, template, explain, check, controllers, engines, schema, completion),
     "Look at a flight": (report, plot, render, replay),
     "Fly many, compare, analyse": (compare, score, grade, study, tune, train, feel, linearize, certify, paper),
