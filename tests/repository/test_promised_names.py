@@ -1,7 +1,7 @@
 """What the project promises to the outside keeps its name; public_names.txt records all of it, a line each.
 
-A new name is recorded by `python tests/repository/test_promised_names.py`. A name that goes stays in the file, marked as
-gone, and CHANGELOG.md must name it.
+A new name is recorded by `python tests/repository/test_promised_names.py`. A name that goes stays in the file, marked
+as gone, and CHANGELOG.md must name it.
 """
 
 import sys
@@ -15,7 +15,7 @@ NEW = "a name is not recorded: run python tests/repository/test_promised_names.p
 
 
 def public_names():
-    """Each name that users write or read: commands and options, exit codes, Python, keys, channels, metrics, findings."""
+    """Each name that users write or read: commands, exit codes, Python, keys, channels, metrics, findings."""
     from mission_schema import SCHEMA
 
     import tandemlift as tl
