@@ -76,9 +76,7 @@ def test_the_help_of_run_names_what_is_written_and_the_exit_codes(run):
     _, out, _ = run("run", "-h")
     for word in (
         *OURS,
-        "Exit code",
-        "2   bad input",
-        "3   crashed, diverged, interrupted or not lifted",
+        "Exit code 3: crashed, diverged, interrupted or not lifted",
         "--set mission.duration=30",
         "out/NAME",
     ):

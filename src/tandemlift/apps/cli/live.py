@@ -5,12 +5,8 @@
 
 from __future__ import annotations
 
-import asyncio
-import csv
-import io
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
@@ -18,11 +14,8 @@ from tandemlift.apps.cli.completion import FLIGHTS, MISSIONS
 from tandemlift.apps.cli.console import echo, exit_now, progress_bar
 from tandemlift.apps.cli.flying import FAILED, HTML, controller_option, engine_option, load, set_option
 from tandemlift.apps.export.results import file_path, flight_file
-from tandemlift.core.errors import InputError, extra
+from tandemlift.core.errors import InputError
 from tandemlift.core.files import DATA, write_file
-
-if TYPE_CHECKING:
-    from tandemlift.apps.live.server import PageServer
 
 HOST, PORT = "127.0.0.1", 8710
 DEFAULT, OUT = "zigzag", Path("out/live")
@@ -74,47 +67,16 @@ def live(
       tandemlift live hover --controller my_pd.py
       tandemlift live hover --script lecture.toml
     """
+    from tandemlift.apps.live.page_files import page_files, with_script
+    from tandemlift.apps.live.server import PageServer, Session, serve_until_interrupt
     from tandemlift.engines.registry import engine_named
 
-    check_live_installed()
     engine_named(engine)
-    from tandemlift.apps.live.page_files import page_files, with_script
-    from tandemlift.apps.live.server import PageServer, Session
 
     files = with_script(page_files(), script)
     session = Session(load(mission, settings, controller), engine, Path(out))
-    serve_until_interrupt(PageServer(files, session, host, port), f"{mission}, live", browser=not no_browser)
+    serve_until_interrupt(PageServer(files, session, host, port), f"{mission}, live", echo, browser=not no_browser)
     exit_now(0)  # a thread may still be compiling
-
-
-def check_live_installed() -> None:
-    """Check that the packages of the extra `live` are installed.
-
-    Raises:
-        InputError: websockets is not installed.
-    """
-    with extra("live", "the live page"):
-        import websockets  # noqa: F401
-
-
-def serve_until_interrupt(server: PageServer, what: str, *, browser: bool) -> None:
-    """Serve a page until Ctrl-C; print `what` it shows and its address, and optionally open it in a browser."""
-    from tandemlift.apps.live.server import open_in_browser, qr_code, serve_until_stopped
-
-    def opened(address: str) -> None:
-        echo(f"{what}: {address}")
-        echo("  Ctrl-C ends it")
-        sys.stdout.flush()
-        if "token=" in address:
-            echo(qr_code(address), nl=False)
-            click.echo("warning: any machine that can reach this one and knows this address can push", err=True)
-        if browser:
-            open_in_browser(address)
-
-    try:
-        asyncio.run(serve_until_stopped(server, opened))
-    except KeyboardInterrupt:
-        echo("stopped")
 
 
 @click.command()
@@ -145,11 +107,10 @@ def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
         echo(f"{loaded.name}: {path}")
         return
     loaded = Flight.load(saved)
-    check_live_installed()
-    from tandemlift.apps.live.server import PageServer
+    from tandemlift.apps.live.server import PageServer, serve_until_interrupt
 
     server = PageServer(replay_files(loaded, page_files()), host=HOST, port=port)
-    serve_until_interrupt(server, loaded.name, browser=not no_browser)
+    serve_until_interrupt(server, loaded.name, echo, browser=not no_browser)
 
 
 @click.command()
@@ -245,31 +206,27 @@ def grade(folder: Path, exercises: Path, seconds: float, out: str | None) -> Non
 
     Exit code 3: some did not run to their end.
     """
-    from tandemlift.apps.live.grading import graded_class, notebooks_in, remarks_of, table_of
+    from tandemlift.apps.live.class_table import csv_of, lines_of, remarks_of, table_of
+    from tandemlift.apps.live.grading import graded_class, notebooks_in
 
     path = file_path("--out", out, ".csv") if out else None
     notebooks, others = notebooks_in(folder)
     with progress_bar("Grading", "notebooks", shown=sys.stderr.isatty()) as progress:
         grades = graded_class(notebooks, exercises, seconds, progress)
     table = table_of(grades)
-    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
-    for name, *points in table:
-        echo("  ".join([f"{name:{widths[0]}}", *(f"{p:>{w}}" for p, w in zip(points, widths[1:], strict=True))]))
-    for line in ["", *remarks_of(grades), *others]:
+    for line in lines_of(table, [*remarks_of(grades), *others]):
         echo(line)
     if path:
-        csv.writer(text := io.StringIO()).writerows(table)
-        write_file(path, text.getvalue())
+        write_file(path, csv_of(table))
     sys.exit(FAILED if any(one.failure for one in grades.values()) else 0)
 
 
 @click.command()
 def docs() -> None:
     """Open the documentation in a browser, without a network."""
-    places = [DATA / "site", DATA.parents[2] / "out" / "site"]  # of a wheel; of a checkout
-    for place in places:
-        if (place / "index.html").is_file():
-            echo(str(place / "index.html"))
-            click.launch((place / "index.html").as_uri())
+    for page in (DATA / "site/index.html", DATA.parents[2] / "out/site/index.html"):  # of a wheel; of a checkout
+        if page.is_file():
+            echo(str(page))
+            click.launch(page.as_uri())
             return
     raise InputError("this installation has no documentation: in a checkout, `make docs` makes it")

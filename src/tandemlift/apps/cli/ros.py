@@ -63,11 +63,7 @@ def ros(
       tandemlift ros hover --set admittance.mass=2 --rate 50
       tandemlift ros zigzag --version 2
 
-    \b
-    Exit code:
-      0   ended by Ctrl-C, by ROS, or after an hour of flight
-      2   bad input: one message, nothing is flown
-      3   crashed, diverged or interrupted, or ROS 1's master is gone: the flight so far is saved with --save
+    Exit code 3: crashed, diverged or interrupted, or ROS 1's master is gone; --save saves the flight so far.
     """
     from tandemlift.apps.live.server import Session
     from tandemlift.apps.ros import ros1, ros2
@@ -148,11 +144,7 @@ def gazebo(
       tandemlift gazebo iris --by-hand
       tandemlift gazebo zigzag --pictures --fast --no-window
 
-    \b
-    Exit code:
-      0   the flight was flown; findings are on standard error, a line each
-      2   bad input: one message, nothing is written
-      3   crashed, diverged, interrupted or not lifted: the flight so far is written; with --strict, also findings
+    Exit code 3: crashed, diverged, interrupted or not lifted; what was flown is written. With --strict, also findings.
     """
     if by_hand and (fast or pictures):
         raise InputError(

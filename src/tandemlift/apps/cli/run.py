@@ -88,11 +88,7 @@ def run(
                      surroundings, corridor where the mission has such parts (PNG and PDF)
       report.html    all of it on one page that needs no network; it opens with the flight in three dimensions
 
-    \b
-    Exit code:
-      0   the flight was flown; findings are on standard error, a line each
-      2   bad input: one message, nothing is written
-      3   crashed, diverged, interrupted or not lifted: the flight so far is written; with --strict, also findings
+    Exit code 3: crashed, diverged, interrupted or not lifted; what was flown is written. With --strict, also findings.
     """
     from tandemlift.engines.registry import engine_named
 
@@ -108,11 +104,7 @@ def run(
 
 
 def _selected(
-    mission: str | None,
-    study: str | None,
-    row: int | None,
-    settings: tuple[str, ...],
-    controller: Controller | None,
+    mission: str | None, study: str | None, row: int | None, settings: tuple[str, ...], controller: Controller | None
 ) -> tuple[Mission, str | None, str]:
     """The mission to fly, its engine and the name of its results: a mission by name, or a row of a study by number.
 

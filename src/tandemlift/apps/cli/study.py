@@ -72,7 +72,7 @@ def study(
 ) -> None:
     """Fly the study in FILE: many missions, in one table.
 
-    A stopped study continues when it is started again: finished rows in its folder are not flown again.
+    A study stopped by Ctrl-C (exit code 130) continues when it is started again: finished rows are not flown again.
 
     \b
     Examples:
@@ -88,12 +88,6 @@ def study(
       study.json      the same, with all missions and controllers
       chunks/         the table: tl.load_study, or any reader of Parquet files
       report.html     outcomes, distributions, maps, the worst rows; `tandemlift report DIR` writes it again
-
-    \b
-    Exit code:
-      0    the study, or its part, is flown
-      2    bad input: one message; finished rows are kept
-      130  stopped by Ctrl-C; finished rows are kept
     """
     if template:
         from tandemlift.analysis.studies.design.study_files import TEMPLATE
@@ -200,12 +194,7 @@ def compare(
       *.csv, *.tex   all metrics, a column for each controller or engine, for a spreadsheet and for LaTeX
       figures/       with --style: the figures of the page (PNG and PDF)
 
-    \b
-    Exit code:
-      0   all flights were flown; findings are on standard error, a line each
-      2   bad input: one message, nothing is written
-      3   a flight crashed, diverged or did not lift: its row has the reason; everything is written; with --strict,
-          also a flight with findings
+    Exit code 3: a flight crashed, diverged or did not lift; its row has the reason. With --strict, also findings.
     """
     from tandemlift.pictures.report.study.comparison import write_comparison_files
 

@@ -103,12 +103,7 @@ def tune(
       tune.html      all of it on one page that needs no network
       figures/       cost over candidates; old and new on holdout draws; the front (PNG and PDF)
 
-    \b
-    Exit code:
-      0    the new values are better on holdout draws
-      1    they are not; everything is written
-      2    bad input: one message, nothing is written
-      130  Ctrl-C: the best so far is written, marked as unfinished
+    Exit code 1: the new values are not better on holdout draws. 130: Ctrl-C; the best so far is written.
     """
     from tandemlift.analysis.studies.tuning.goals import goal_of
     from tandemlift.analysis.studies.tuning.parameters import range_of

@@ -278,23 +278,3 @@ def _ended(pipe: Connection, one: _Running, seconds: float) -> Grade | None:
         one.process.kill()
         one.process.join()
     return result
-
-
-def table_of(grades: Mapping[Notebook, Grade]) -> list[list[str]]:
-    """The table of a class: a row for each name, a column for the points of each exercise, and their sum."""
-    exercises = sorted({one.exercise for one in grades})
-    best = dict[str, dict[str, int]]()
-    for one, got in grades.items():
-        row = best.setdefault(one.name, {})
-        row[one.exercise] = max(got.points, row.get(one.exercise, 0))
-    rows = [[name, *(str(row.get(e, "–")) for e in exercises), str(sum(row.values()))] for name, row in best.items()]
-    return [["name", *exercises, "points"], *sorted(rows)]
-
-
-def remarks_of(grades: Mapping[Notebook, Grade]) -> list[str]:
-    """A line for each notebook that did not run to its end, and for each check that failed, with its hint."""
-    lines = list[str]()
-    for one, got in sorted(grades.items()):
-        lines += [f"{one.name}, {one.exercise}: {got.failure}"] if got.failure else []
-        lines += [f"{one.name}, {one.exercise}: {c.title} {c.hint}" for c in got.checks if c.hint]
-    return lines

@@ -17,11 +17,14 @@ from collections.abc import Callable, Mapping
 from http import HTTPStatus
 from typing import Self
 
-from websockets.asyncio.server import Server as SocketServer
-from websockets.asyncio.server import ServerConnection, serve
-from websockets.datastructures import Headers
-from websockets.exceptions import ConnectionClosed
-from websockets.http11 import Request, Response
+from tandemlift.core.errors import extra
+
+with extra("live", "the live page"):
+    from websockets.asyncio.server import Server as SocketServer
+    from websockets.asyncio.server import ServerConnection, serve
+    from websockets.datastructures import Headers
+    from websockets.exceptions import ConnectionClosed
+    from websockets.http11 import Request, Response
 
 from tandemlift.apps.live.access import HOST, PORT, AccessControl, RequestHead, listen
 from tandemlift.apps.live.dispatch import Dispatcher
@@ -31,7 +34,6 @@ from tandemlift.apps.live.session.page_messages import MAX_SIZE
 from tandemlift.apps.live.session.server_messages import SceneMessage
 from tandemlift.apps.live.session.session import Session
 from tandemlift.apps.live.viewers import FAREWELL, Viewer, Viewers, dismiss
-from tandemlift.core.errors import extra
 
 STATUS_EVERY = RATE // 4  # frames
 MAX_VIEWERS = 16
@@ -199,6 +201,25 @@ async def serve_until_stopped(server: PageServer, opened: Callable[[str], None])
     async with server:
         opened(server.address)
         await server.broadcast()
+
+
+def serve_until_interrupt(server: PageServer, what: str, say: Callable[..., None], *, browser: bool) -> None:
+    """Serve a page until Ctrl-C; `say` what it shows and its address, and optionally open it in a browser."""
+
+    def opened(address: str) -> None:
+        say(f"{what}: {address}")
+        say("  Ctrl-C ends it")
+        sys.stdout.flush()
+        if "token=" in address:
+            say(qr_code(address), nl=False)
+            print("warning: any machine that can reach this one and knows this address can push", file=sys.stderr)
+        if browser:
+            open_in_browser(address)
+
+    try:
+        asyncio.run(serve_until_stopped(server, opened))
+    except KeyboardInterrupt:
+        say("stopped")
 
 
 def open_in_browser(address: str) -> None:

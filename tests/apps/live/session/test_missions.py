@@ -8,6 +8,7 @@ from sessions import fly, say
 
 import tandemlift as tl
 from tandemlift.apps.cli import live as command
+from tandemlift.apps.live import server
 from tandemlift.apps.live.session.session import Session
 from tandemlift.missions import built_in
 from tandemlift.parts.controllers import load_controller
@@ -85,7 +86,7 @@ def test_the_command_flies_a_controller_of_a_file(tmp_path, monkeypatch):
     file = tmp_path / "mine.py"
     file.write_text((ROOT / "examples" / "my_controller.py").read_text("utf-8"), "utf-8")
     served = []
-    monkeypatch.setattr(command, "serve_until_interrupt", lambda server, what, browser: served.append(server._flight))
+    monkeypatch.setattr(server, "serve_until_interrupt", lambda page, what, say, browser: served.append(page._flight))
     monkeypatch.setattr(command, "exit_now", lambda status: None)
     command.live.callback("hover", "compiled", 0, "127.0.0.1", str(tmp_path), True, (), str(file))
     name = next(one for one in served[0].scene["parameters"] if one["key"] == "controller.name")
