@@ -20,7 +20,7 @@ class EstimatorTable(Table):
     it. During the tare, in hover, it is assumed to be zero; the joints' readings are then their bias.
     """
 
-    wrench: Literal["joints", "momentum", "hybrid", "disturbance-observer", "kalman", "extended-kalman"] = key(
+    wrench: Literal["joints", "momentum", "hybrid", "disturbance-observer", "kalman", "extended-kalman", "fused"] = key(
         "joints",
         None,
         "source of the push: force sensors, or an observer of the external wrench, which includes wind and model error",
@@ -31,6 +31,7 @@ class EstimatorTable(Table):
             "disturbance-observer": "nonlinear disturbance observer (Mohammadi, Yüksel), here equal to 'momentum'",
             "kalman": "steady-state Kalman filter of accelerometer and gyroscope",
             "extended-kalman": "error-state extended Kalman filter of motion capture and gyroscope",
+            "fused": "force sensors and 'kalman' in one filter, each monitored by the other",
         },
     )
     wrench_observer: WrenchTable = WrenchTable()
@@ -139,12 +140,12 @@ def wrench_checks(
     """
     used = {"estimator.wind_compensation": e.wind_compensation, **beside}
     used = {name: choice for name, choice in used.items() if choice != "none"}
+    if e.wrench in ("joints", "fused") and s.model == "simulated" and s.joints.model == "none":
+        yield refused(
+            f'sensors.joints.model = "none": must be "simulated" where estimator.wrench is "{e.wrench}"; or choose an '
+            'observer, such as estimator.wrench = "kalman"'
+        )
     if e.wrench == "joints":
-        if s.model == "simulated" and s.joints.model == "none":
-            yield refused(
-                'sensors.joints.model = "none": must be "simulated" where estimator.wrench is "joints"; or choose an '
-                'observer, such as estimator.wrench = "kalman"'
-            )
         return
     given = f'estimator.wrench = "{e.wrench}": must be "joints"'
     if s.model == "none":

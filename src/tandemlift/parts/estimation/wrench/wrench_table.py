@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from tandemlift.core.errors import CheckResult, refused
-from tandemlift.core.keys import Positive3, Table, key
+from tandemlift.core.keys import Positive, Positive3, Table, key
 
 BY_BANDWIDTH = ("momentum", "hybrid", "disturbance-observer")
 FASTEST = 0.1  # rad: bandwidth times the time between samples, at which the model of the thrusts still follows
@@ -33,13 +33,15 @@ class WrenchTable(Table):
         rule="at most 0.1 over sensors.interval",
         source="chosen: noise of 0.03 N m with the gyroscope of mission iris",
     )
-    force_change: Positive3 = key(
-        (0.1, 0.1, 0.033),
+    force_change: Positive3 | None = key(
+        None,
         "N/√s",
-        "for 'kalman' and 'extended-kalman': standard deviation of the change of the force within a second; more is "
-        "faster and noisier, and the pilot closes a loop over it that lag and delay of the rotors limit",
-        rule="for 'kalman', such that the bandwidth is at most 0.1 over sensors.interval",
-        source="chosen: a delay of 33 ms with the sensors of mission iris; along z of 100 ms, as force_bandwidth",
+        "for 'kalman', 'extended-kalman' and 'fused': standard deviation of the change of the force within a second; "
+        "more is faster and noisier, and the pilot closes a loop over it that lag and delay of the rotors limit",
+        rule="for 'kalman' and 'fused', such that the bandwidth is at most 0.1 over sensors.interval",
+        unset="0.1, 0.1 and 0.033; of 'fused' 0.06 along z: chosen for 33 ms with the sensors of mission iris, and "
+        "along z for 100 and 40 ms",
+        example=0.1,
     )
     moment_change: Positive3 = key(
         (0.1, 0.01, 0.1),
@@ -47,6 +49,18 @@ class WrenchTable(Table):
         "for the same: standard deviation of the change of the moment within a second",
         source="chosen: noise of 0.03 N m with the gyroscope of mission iris",
     )
+    joint_force_tolerance: Positive = key(
+        0.2,
+        "N",
+        "for 'fused': difference of joints and motion beyond which the joints are wrong, unless the motion shows it",
+        source="chosen: twice what pushes of 3 N leave in mission iris",
+    )
+    joint_moment_tolerance: Positive = key(0.2, "N m", "for 'fused': the same of moments", source="chosen")
+
+
+def force_change_of(wrench: str, table: WrenchTable) -> tuple[float, float, float]:
+    """The change of the force within a second [N/√s] of `estimator.wrench`."""
+    return table.force_change or (0.1, 0.1, 0.06 if wrench == "fused" else 0.033)
 
 
 def bandwidth_checks(wrench: str, table: WrenchTable, accelerometer: float, interval: float) -> Iterator[CheckResult]:
@@ -61,8 +75,9 @@ def bandwidth_checks(wrench: str, table: WrenchTable, accelerometer: float, inte
             key = f"estimator.wrench_observer.{name}_bandwidth"
             yield refused(f"{key} = {list(bandwidth)}: must be at most {fastest:g} rad/s {often}")
     largest = fastest * accelerometer * math.sqrt(interval)
-    if wrench == "kalman" and max(table.force_change) > largest:
+    change = force_change_of(wrench, table)
+    if wrench in ("kalman", "fused") and max(change) > largest:
         yield refused(
-            f"estimator.wrench_observer.force_change = {list(table.force_change)}: must be at most {largest:.3g} N/√s "
+            f"estimator.wrench_observer.force_change = {list(change)}: must be at most {largest:.3g} N/√s "
             f"{often} and this sensors.accelerometer.noise, for a bandwidth of {fastest:g} rad/s"
         )
