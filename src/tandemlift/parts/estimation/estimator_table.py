@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Literal
 
 from tandemlift.core.errors import CheckResult, refused, warned
@@ -131,15 +131,13 @@ def tare_checks(e: EstimatorTable, sampling: float, step: float) -> Iterator[Che
 
 
 def wrench_checks(
-    e: EstimatorTable, s: SensorsTable, actuators: str, method: str, beside: Mapping[str, str], mass: float, step: float
+    e: EstimatorTable, s: SensorsTable, actuators: str, method: str, contact: str, mass: float, step: float
 ) -> Iterator[CheckResult]:
     """Refusals of an observer without what it needs, and of joint sensors that are asked for and not there.
 
-    `actuators`: `actuators.model`; `method`: `allocation.method`; `beside`: the choices of
-    other keys that use joint sensors or the same residual as an observer; `mass` of the vehicle [kg]; `step` [s].
+    `actuators`: `actuators.model`; `method`: `allocation.method`; `contact`: `contact.model`; `mass` of the vehicle
+    [kg]; `step` [s].
     """
-    used = {"estimator.wind_compensation": e.wind_compensation, **beside}
-    used = {name: choice for name, choice in used.items() if choice != "none"}
     if e.wrench in ("joints", "fused") and s.model == "simulated" and s.joints.model == "none":
         yield refused(
             f'sensors.joints.model = "none": must be "simulated" where estimator.wrench is "{e.wrench}"; or choose an '
@@ -155,8 +153,9 @@ def wrench_checks(
             f'{given} unless actuators.model is "rotors" and allocation.method is "constrained", which give it the '
             "thrusts of the rotors"
         )
-    for name, choice in used.items():
-        yield refused(f'{given} where {name} is "{choice}", which reads joints or a lost rotor in the same motion')
+    for name, choice in (("estimator.wind_compensation", e.wind_compensation), ("contact.model", contact)):
+        if choice != "none":
+            yield refused(f'{given} where {name} is "{choice}", which reads joints')
     interval = step * steps_of(s.interval, step)
     noise = mass * s.accelerometer.noise * noise_scale(s, interval)
     yield from bandwidth_checks(e.wrench, e.wrench_observer, noise, interval)

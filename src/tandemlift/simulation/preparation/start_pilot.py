@@ -69,7 +69,10 @@ def start_pilot(mission: Mission, vehicle: Vehicle) -> tuple[PilotParameters, Pi
     )
     observer, observer_memory = start_observer(mission.observer, vehicle, effect, step, initial, hovers=hovers)
     allocation, allocation_memory = start_allocation(mission.allocation, vehicle, known)
-    detection, detection_memory = start_detection(mission.detection, vehicle, effect, step, initial, hovers=hovers)
+    observed = mission.estimator.wrench not in ("joints", "fused")
+    detection, detection_memory = start_detection(
+        mission.detection, vehicle, effect, step, initial, hovers=hovers, observed=observed
+    )
     lead, led = start_lead(mission.allocation, vehicle.weight, step, hovers=hovers)
     excitation = start_excitation(mission.excitation)
     parameters = PilotParameters(guidance, observer, gains, lead, allocation, detection, excitation)

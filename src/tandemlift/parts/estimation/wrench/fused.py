@@ -13,8 +13,8 @@ Where e is beyond a tolerance and F_o does not show it, the joints are wrong, ev
 out until j has followed.
 
 Force: F is a random walk, measured by F_j − j and F_o − z, weighted by their inverse variances, with the steady Kalman
-gain of both. Moment: ω̇ = J⁻¹(M − ω × J ω) + d, d a random walk, measured by the gyroscope of σ_ω and by the joints of σ_τ,
-ω̇ in τ_j being the model's. With a = q/(σ_τ √T) and b² = q/(J σ_ω √T), the gains of the Kalman-Bucy filter are
+gain of both. Moment: ω̇ = J⁻¹(M − ω × J ω) + d, d a random walk, measured by the gyroscope of σ_ω and by the joints of
+σ_τ, with the model's ω̇ in τ_j. With a = q/(σ_τ √T) and b² = q/(J σ_ω √T), the gains of the Kalman-Bucy filter are
 
     s = √(a² + 2 b²),  on ω̂: (b² s, a²)/(a² + b²),  on d̂: (b⁴, a² s)/(a² + b²),  from the gyroscope and from the joints.
 
