@@ -22,11 +22,11 @@ from tandemlift.core.types import Array
 FLIGHT, AT_ONCE, AFTER, SEEDS = 600.0, 4, 12.0, 3  # s; flights in memory; s; flights with pushes
 SOON = 0.08  # s
 FORCES = np.geomspace(1.0, 3.0, 23)  # over the threshold
-THRESHOLDS = {  # N by wind [m/s]: chosen as 1.5 times the largest force of five minutes
+THRESHOLDS = {  # N by wind [m/s]: chosen above the largest force of 1,000 minutes with `kalman`
     0.0: (0.15, 0.15, 0.25),
     1.0: (0.3, 0.15, 0.25),
-    2.0: (0.9, 0.2, 0.4),
-    3.0: (1.9, 0.35, 0.9),
+    2.0: (1.3, 0.2, 0.55),
+    3.0: (3.2, 0.4, 1.2),
 }
 
 

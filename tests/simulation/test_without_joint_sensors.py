@@ -61,6 +61,15 @@ def test_what_needs_joint_sensors_or_known_thrusts_is_refused_by_its_key(changes
         tl.load_mission("iris", changes)
 
 
+def test_a_filter_by_motion_capture_alone_needs_samples_of_it_that_are_fast_enough():
+    """20 rad/s: 3.5 kg of 3 mm and √5 ms times 20³, as 10 mm/s allow less."""
+    slow = {**WITHOUT, "estimator.wrench": "unscented", "sensors.motion.interval": 0.05}
+    with pytest.raises(
+        tl.InputError, match=r"at most 0.0188 N/√s with samples every 0.05 s .*for a bandwidth of 2 rad"
+    ):
+        tl.load_mission("iris", slow)
+
+
 @pytest.mark.parametrize(
     ("changes", "said"),
     [

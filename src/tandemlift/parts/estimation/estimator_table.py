@@ -7,7 +7,7 @@ from typing import Literal
 
 from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.keys import Bandwidth, NonNegative, Positive, Scale, Table, key
-from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable, bandwidth_checks
+from tandemlift.parts.estimation.wrench.wrench_table import MotionNoise, WrenchTable, bandwidth_checks
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale, steps_of
@@ -20,7 +20,9 @@ class EstimatorTable(Table):
     it. During the tare, in hover, it is assumed to be zero; the joints' readings are then their bias.
     """
 
-    wrench: Literal["joints", "momentum", "hybrid", "disturbance-observer", "kalman", "extended-kalman", "fused"] = key(
+    wrench: Literal[
+        "joints", "momentum", "hybrid", "disturbance-observer", "kalman", "extended-kalman", "unscented", "fused"
+    ] = key(
         "joints",
         None,
         "source of the push: force sensors, or an observer of the external wrench, which includes wind and model error",
@@ -31,6 +33,7 @@ class EstimatorTable(Table):
             "disturbance-observer": "nonlinear disturbance observer (Mohammadi, Yüksel), here equal to 'momentum'",
             "kalman": "steady-state Kalman filter of accelerometer and gyroscope",
             "extended-kalman": "error-state extended Kalman filter of motion capture and gyroscope",
+            "unscented": "the same, unscented on unit quaternions for rotation and moment",
             "fused": "force sensors and 'kalman' in one filter, each monitored by the other",
         },
     )
@@ -158,7 +161,9 @@ def wrench_checks(
             yield refused(f'{given} where {name} is "{choice}", which reads joints')
     interval = step * steps_of(s.interval, step)
     noise = mass * s.accelerometer.noise * noise_scale(s, interval)
-    yield from bandwidth_checks(e.wrench, e.wrench_observer, noise, interval)
+    motion = step * steps_of(s.motion.interval, step)
+    seen = MotionNoise(mass * s.motion.velocity_noise, mass * s.motion.position_noise, motion)
+    yield from bandwidth_checks(e.wrench, e.wrench_observer, noise, interval, seen)
 
 
 def hover_tare_checks(e: EstimatorTable, guidance: str) -> Iterator[CheckResult]:

@@ -13,6 +13,7 @@ from tandemlift.parts.estimation.wrench.kalman import LEAST_NOISE, kalman_observ
 from tandemlift.parts.estimation.wrench.momentum import MomentumObserver, start_momentum
 from tandemlift.parts.estimation.wrench.nonlinear_disturbance import NonlinearObserver, start_disturbance
 from tandemlift.parts.estimation.wrench.observation import NominalBody, principal
+from tandemlift.parts.estimation.wrench.unscented import start_unscented
 from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable, force_change_of
 
 
@@ -53,4 +54,6 @@ def start_wrench_observer(
     filtered = ExtendedKalmanFilter(
         body, by_mass * by_mass, by_inertia * by_inertia, position, velocity, attitude, rates
     )
+    if name == "unscented":
+        return start_unscented(filtered)
     return filtered, start_filter(filtered)
