@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import solve_discrete_are
 
-from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.core.vector import ZERO, Quat, vec3
 from tandemlift.parts.estimation.wrench.fused import JointPush, fuse, fused_filter
 from tandemlift.parts.estimation.wrench.kalman import kalman_observer
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe

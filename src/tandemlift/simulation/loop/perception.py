@@ -41,7 +41,6 @@ from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, Se
 from tandemlift.simulation.loop.sources import EstimatedFlight, KnownWalls, NominalVehicle, PilotSources
 
 M = TypeVar("M")
-
 NO_SURROUNDINGS = KnownSurroundings(Absent(), 0.0, 0.0, 0.0)
 
 
