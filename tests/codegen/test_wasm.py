@@ -67,6 +67,7 @@ def test_a_module_flies_with_a_policy_as_native_code(tmp_path: Path) -> None:
     check_draws("iris", tmp_path, duration=14.0, count=2, compliance__policy__model="network")
 
 
+@pytest.mark.targets
 @pytest.mark.parametrize("wrench", ["kalman", "unscented", "fused"])
 def test_a_module_observes_as_native_code(wrench: str, tmp_path: Path) -> None:
     check_draws("iris", tmp_path, duration=14.0, count=1, estimator__wrench=wrench)
