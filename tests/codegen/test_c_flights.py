@@ -128,3 +128,11 @@ def test_every_controller_has_the_bits_of_native_flights(controller, tmp_path):
     mission = mission_of("one-push", controller__name=controller)
     wrong, _ = differences(CFlight(mission, tmp_path), mission, range(5))
     assert not wrong
+
+
+@pytest.mark.targets
+@pytest.mark.parametrize("wrench", ["momentum", "hybrid", "kalman", "extended-kalman", "unscented", "fused"])
+def test_every_observer_has_the_bits_of_native_flights(wrench, tmp_path):
+    mission = mission_of("iris", estimator__wrench=wrench, mission__duration=14.0)
+    wrong, _ = differences(CFlight(mission, tmp_path), mission, range(2))
+    assert not wrong

@@ -38,10 +38,10 @@ def evaluate(request: pytest.FixtureRequest) -> Iterator[Callable[[str], Any]]:
 
 
 def check_draws(
-    name: str, folder: Path, *, duration: float, count: int, fly: Fly = wasm_flights, policy: str = "none"
+    name: str, folder: Path, *, duration: float, count: int, fly: Fly = wasm_flights, **choices: str
 ) -> int:
-    """Fly draws of a mission in both; how many flights were lost."""
-    changes = {"mission.fma": False, "compliance.policy.model": policy}
+    """Fly draws of a mission in both; how many flights were lost. `choices`: values of its keys, with __ for a dot."""
+    changes = {"mission.fma": False, **{key.replace("__", "."): value for key, value in choices.items()}}
     mission = changed(tl.load_mission(name, changes), "mission.duration", duration)
     compile_mission(mission, "wasm32", folder)
     manifest = json.loads((folder / f"{name}.json").read_text())
@@ -64,7 +64,13 @@ def test_a_module_flies_as_native_code(name: str, tmp_path: Path) -> None:
 
 
 def test_a_module_flies_with_a_policy_as_native_code(tmp_path: Path) -> None:
-    check_draws("iris", tmp_path, duration=14.0, count=2, policy="network")
+    check_draws("iris", tmp_path, duration=14.0, count=2, compliance__policy__model="network")
+
+
+@pytest.mark.targets
+@pytest.mark.parametrize("wrench", ["kalman", "unscented", "fused"])
+def test_a_module_observes_as_native_code(wrench: str, tmp_path: Path) -> None:
+    check_draws("iris", tmp_path, duration=14.0, count=1, estimator__wrench=wrench)
 
 
 @pytest.mark.targets

@@ -20,7 +20,15 @@ from tandemlift.core.vector import (
 )
 from tandemlift.parts.controllers import attitude_reference, equations_of_motion, sliding_surface
 from tandemlift.parts.estimation import wind_compensation
-from tandemlift.parts.estimation.wrench import delay, extended_kalman, hybrid, kalman, momentum, nonlinear_disturbance
+from tandemlift.parts.estimation.wrench import (
+    delay,
+    extended_kalman,
+    fused,
+    hybrid,
+    kalman,
+    momentum,
+    nonlinear_disturbance,
+)
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
 from tandemlift.parts.guidance import guidance
 from tandemlift.parts.interaction import policy
@@ -54,6 +62,8 @@ HEARD = guidance.PilotInput(STATE, V, V, 0.0, Absent())
 SLOPE = low_pass.LowPassState(V, V)
 BLOWN = wind_compensation.PayloadDragState(V, 0.0, SLOPE)
 VEHICLE, OBSERVED = NominalBody(0.0, V, V), Observation(V, STATE, Wrench(0.0, V), V, V, Q, 0.0, 0.0)
+ALONE, LOW_PASS = kalman.KalmanObserver(VEHICLE, V, V, V), low_pass.LowPass(*[0.0] * 4)
+COMPARED = fused.Monitor(V, V, *[low_pass.LowPassState(V, V)] * 3)
 SPREAD = extended_kalman.BlockCovariance(*[V] * 6)
 
 SINES = excitation.Sines(*[each(4)(*[0.0] * 4)] * 3)
@@ -131,6 +141,15 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
             extended_kalman.ExtendedKalmanFilter(VEHICLE, V, V, 0.0, 0.0, 0.0, 0.0),
             extended_kalman.FilterState(V, V, Q, V, V, V, SPREAD, SPREAD, 0.0),
             OBSERVED,
+        ),
+    ),
+    "fused": (
+        fused.fuse,
+        (
+            fused.FusedFilter(ALONE, V, V, 0.0, V, fused.TurningGains(V, V, V, V), V, V, LOW_PASS, LOW_PASS),
+            fused.FusedState(kalman.KalmanState(V, V, V, 0.0), COMPARED, COMPARED, 0.0, 0.0),
+            OBSERVED,
+            fused.JointPush(V, V, V, V, 0.0, 0.0, 0.0, 0.0),
         ),
     ),
 }

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from hands import gusts, steady
 from validation.scenarios import drawn
 
 import tandemlift as tl
@@ -12,10 +13,6 @@ HOVER, AWAY = 12.5, 1.0  # s, m
 
 def fault(sensor, size, time=15.0, **more):
     return {"sensor_faults": [{"sensor": sensor, "kind": "bias", "time": time, "size": size, **more}]}
-
-
-def gusts(*rows):
-    return {"wind.model": "air", "wind.gusts": [dict(zip(("velocity", "start", "rise", "hold"), r)) for r in rows]}  # noqa: B905
 
 
 FALSE = {  # on top of mission iris, without a push
@@ -44,13 +41,6 @@ FALSE = {  # on top of mission iris, without a push
 }
 SPARSE = {"mission.log_interval": 0.05}  # s: a few logs in memory, not hundreds of megabytes of them
 QUIET = {"pushes": [], **SPARSE}
-
-
-def steady(force, start=15.0, lasts=30.0, width=0.2):
-    """A steady push as a sum of Gaussians."""
-    apart = 0.5 * width
-    peak = (np.array(force) * apart / (width * np.sqrt(2.0 * np.pi))).tolist()
-    return [{"force": peak, "time": start + apart * (i + 0.5), "sigma": width} for i in range(round(lasts / apart))]
 
 
 @pytest.fixture(scope="module")

@@ -50,7 +50,6 @@ def test_there_is_no_reading_of_joints_that_have_no_sensors(flown):
     [
         ({"sensors.joints.model": "none"}, "sensors.joints.model"),
         ({**WITHOUT, "contact.model": "on"}, "contact.model"),
-        ({**WITHOUT, "detection.model": "residual"}, "detection.model"),
         ({**WITHOUT, "allocation.method": "pseudo-inverse", "observer.model": "none"}, "allocation.method"),
         ({**WITHOUT, "sensors.model": "none", "pilot.state": "truth", "pilot.push": "truth"}, "sensors.model"),
         ({**WITHOUT, "estimator.wind_compensation": "quadrotors"}, "estimator.wind_compensation"),
@@ -60,6 +59,15 @@ def test_there_is_no_reading_of_joints_that_have_no_sensors(flown):
 def test_what_needs_joint_sensors_or_known_thrusts_is_refused_by_its_key(changes, key):
     with pytest.raises(tl.InputError, match=key):
         tl.load_mission("iris", changes)
+
+
+def test_a_filter_by_motion_capture_alone_needs_samples_of_it_that_are_fast_enough():
+    """20 rad/s: 3.5 kg of 3 mm and √5 ms times 20³, as 10 mm/s allow less."""
+    slow = {**WITHOUT, "estimator.wrench": "unscented", "sensors.motion.interval": 0.05}
+    with pytest.raises(
+        tl.InputError, match=r"at most 0.0188 N/√s with samples every 0.05 s .*for a bandwidth of 2 rad"
+    ):
+        tl.load_mission("iris", slow)
 
 
 @pytest.mark.parametrize(
@@ -80,6 +88,31 @@ def test_the_tare_without_joint_sensors_finds_an_excess_mass_and_leaves_no_force
     after = flown.time > AFTER_TARE
     assert flown["payload_mass_estimate"][-1] == pytest.approx(0.5 + 0.35, abs=0.02)
     assert np.abs(flown["push_estimate"][after].mean(axis=0)).max() < 0.1
+
+
+@pytest.mark.parametrize(("quadrotor", "rotor"), [(1, 2), (2, 3)])
+def test_a_lost_rotor_is_named_beside_an_observer_and_landed_with(quadrotor, rotor):
+    fault = {"quadrotor": quadrotor, "rotor": rotor, "time": 14.0}
+    flight = tl.fly(tl.load_mission("rotor-loss", {**WITHOUT, "faults": [fault], "mission.log_interval": 0.01}))
+    m = flight.metrics()
+    assert m["outcome"] == "landed"
+    assert set(flight["failed_rotor"]) == {0.0, 4.0 * (quadrotor - 1) + rotor}
+    assert 0.0 < m["rotor_failure_detection_delay_s"] < 0.1
+    held = (flight.time > 14.0) & (flight.time < 14.2)
+    assert np.ptp(flight["position"][held, 2]) < 0.05
+    assert np.abs(flight["push_estimate"][(flight.time > 15.0) & (flight.time < 17.0), 2]).max() < 0.3
+
+
+@pytest.mark.parametrize("wrench", ["kalman", "fused"])
+def test_a_hand_is_no_lost_rotor(wrench):
+    """Pushes down at the ends of the beam leave thrust and roll as a lost rotor does, but not pitch and yaw."""
+    hands = [
+        {"force": [0.0, 0.0, -3.0], "point": [0.0, y, 0.0], "time": 14.0 + 5.0 * i, "sigma": 0.3}
+        for i, y in enumerate((0.9, -0.9, 0.0))
+    ]
+    sensed = WITHOUT if wrench == "kalman" else {"estimator.wrench": wrench}
+    changes = {**sensed, "pushes": hands, "detection.model": "residual", "mission.duration": 28.0}
+    assert tl.fly(tl.load_mission("iris", changes)).metrics()["rotor_failure_detections"] == 0.0
 
 
 @pytest.mark.parametrize("lost", ["nan", "frozen"])

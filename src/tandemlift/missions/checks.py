@@ -64,8 +64,7 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from sensors.first_sample_checks(s, step)
     yield from reading_checks(m.pilot, s.model)
     yield from estimator.tare_checks(m.estimator, s.interval, step)
-    beside = {"contact.model": m.contact.model, "detection.model": m.detection.model}
-    yield from estimator.wrench_checks(m.estimator, s, rotors, m.allocation.method, beside, m.hover.mass, step)
+    yield from estimator.wrench_checks(m.estimator, s, rotors, m.allocation.method, m.contact.model, m.hover.mass, step)
     yield from compensation_checks(m.estimator.wind_compensation, m.vehicle.quadrotors)
     yield from observer_checks(m.observer, m.allocation.method)
     yield from detection_checks(m.detection, m.allocation.method)

@@ -16,7 +16,7 @@ from tandemlift.parts.estimation.wrench.delay import DelayState, delay_of, delay
 from tandemlift.parts.estimation.wrench.kalman import natural_frequency, steady_gain, turning_gains
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
 from tandemlift.parts.estimation.wrench.start_observer import SampleNoise, start_wrench_observer
-from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable
+from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable, force_change_of
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
 
 MASS, INERTIA, GRAVITY, H = 3.5, (3.2, 0.06, 3.3), 9.81, 1e-3
@@ -25,7 +25,7 @@ NOISE = SampleNoise(0.03, 0.0025, 0.003, 0.01, 0.002)
 FORCE, MOMENT = (5.0, 15.0, 25.0), (4.0, 20.0, 6.0)  # rad/s
 TABLE = WrenchTable(force_bandwidth=FORCE, moment_bandwidth=MOMENT)
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
-ALL = ("momentum", "hybrid", "disturbance-observer", "kalman", "extended-kalman")
+ALL = ("momentum", "hybrid", "disturbance-observer", "kalman", "extended-kalman", "unscented")
 
 
 def started(name):
@@ -144,7 +144,7 @@ def test_the_extended_filter_is_that_of_filterpy_for_samples_at_random_times():
     """One axis each of translation and rotation, level: position and angle measured at random samples."""
     kalman = pytest.importorskip("filterpy.kalman")
     rng, sizes = np.random.default_rng(5), np.array([MASS, INERTIA[0]])
-    changes = np.array([TABLE.force_change[0], TABLE.moment_change[0]])
+    changes = np.array([force_change_of("extended-kalman", TABLE)[0], TABLE.moment_change[0]])
     value_noise, rate_noise = np.array([0.003, 0.002]), np.array([0.01, 0.0025])
     filters = []
     for size, change, value, rate in zip(sizes, changes, value_noise, rate_noise, strict=True):
@@ -174,6 +174,51 @@ def test_the_extended_filter_is_that_of_filterpy_for_samples_at_random_times():
         for f in filters:
             f.predict()
     assert filters[0].x[2, 0] * MASS == pytest.approx(0.3 * MASS, abs=0.5)
+
+
+def test_the_unscented_filter_is_that_of_filterpy_with_rotations_by_scipy(tumbling):
+    """Attitude and rates of the tumbling body with noise, the attitude at random samples."""
+    kalman = pytest.importorskip("filterpy.kalman")
+    J, M, rng = np.array(INERTIA), np.array(ROTORS), np.random.default_rng(7)
+    points = kalman.JulierSigmaPoints(9, kappa=1.0)
+    f = kalman.UnscentedKalmanFilter(9, 6, H, hx=None, fx=None, points=points)
+    f.Q = np.diag([0.0] * 6 + list((np.array(TABLE.moment_change) / J) ** 2 * H))
+    noise = np.diag([NOISE.attitude**2] * 3 + [NOISE.gyroscope**2] * 3)
+    f.P, q = np.diag([*np.diag(noise), 1.0, 1.0, 1.0]), None
+
+    def turned(x):
+        """(the rotation in a step, the rates after it)."""
+        angular = (M - np.cross(x[3:6], J * x[3:6])) / J + x[6:]
+        return Rotation.from_mrp((x[3:6] * H + angular * 0.5 * H * H) / 4.0), x[3:6] + angular * H
+
+    k, memory = started("unscented")
+    for i, x in enumerate(tumbling[:300]):
+        fresh = i == 0 or rng.random() < 0.3
+        true = Rotation.from_quat(x.state.attitude, scalar_first=True)
+        seen_at = true * Rotation.from_rotvec(rng.normal(size=3) * NOISE.attitude * (i > 0))
+        rates = np.array(x.state.rates) + rng.normal(size=3) * NOISE.gyroscope * (i > 0)
+        motion = x.state._replace(attitude=Quat(*seen_at.as_quat(scalar_first=True)))
+        state = (motion if i == 0 else x.state)._replace(rates=vec3(rates))
+        wrench, memory = observe(k, memory, seen(state, x.specific_force, x.rotors, motion, float(fresh)))
+        if q is None:
+            q, f.x = seen_at, np.array([0.0, 0.0, 0.0, *rates, 0.0, 0.0, 0.0])
+        f.sigmas_f = points.sigma_points(f.x, f.P)
+        start = 0 if fresh else 3
+        z = np.array([*(4.0 * (q.inv() * seen_at).as_mrp()), *rates])[start:]
+        f.update(z, R=noise[start:, start:], hx=lambda x, start=start: x[start:6])
+        assert wrench.moment == pytest.approx(tuple(J * f.x[6:]), abs=1e-5)
+        q, f.x[:3] = q * Rotation.from_mrp(f.x[:3] / 4.0), 0.0
+        ahead = q * turned(f.x)[0]
+
+        def moved(x, dt, q=q, ahead=ahead):
+            turn, after = turned(x)
+            return np.array(
+                [*(4.0 * (ahead.inv() * q * Rotation.from_mrp(x[:3] / 4.0) * turn).as_mrp()), *after, *x[6:]]
+            )
+
+        f.predict(fx=moved)
+        q, f.x[:3] = ahead * Rotation.from_mrp(f.x[:3] / 4.0), 0.0
+    assert np.abs(np.array(wrench.moment) - MOMENT_ON).max() < 0.1
 
 
 def test_the_delay_of_the_thrusts_is_an_all_pass_of_that_delay():

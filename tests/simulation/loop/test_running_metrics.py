@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tandemlift.core.vector import Absent, Vec3, each, vec3
-from tandemlift.parts.estimation.estimate_errors import NO_ERRORS, PushErrors, error_metrics, with_errors
+from tandemlift.parts.guidance.estimate_errors import NO_ERRORS, PushErrors, error_metrics, with_errors
 from tandemlift.parts.guidance.guidance import ThrustFraction
 from tandemlift.parts.rotors.rotors import Rotors
 from tandemlift.simulation.loop.running_metrics import (

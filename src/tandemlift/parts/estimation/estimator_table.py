@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Literal
 
 from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.keys import Bandwidth, NonNegative, Positive, Scale, Table, key
-from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable, bandwidth_checks
+from tandemlift.parts.estimation.wrench.wrench_table import MotionNoise, WrenchTable, bandwidth_checks
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale, steps_of
@@ -20,7 +20,9 @@ class EstimatorTable(Table):
     it. During the tare, in hover, it is assumed to be zero; the joints' readings are then their bias.
     """
 
-    wrench: Literal["joints", "momentum", "hybrid", "disturbance-observer", "kalman", "extended-kalman"] = key(
+    wrench: Literal[
+        "joints", "momentum", "hybrid", "disturbance-observer", "kalman", "extended-kalman", "unscented", "fused"
+    ] = key(
         "joints",
         None,
         "source of the push: force sensors, or an observer of the external wrench, which includes wind and model error",
@@ -31,6 +33,8 @@ class EstimatorTable(Table):
             "disturbance-observer": "nonlinear disturbance observer (Mohammadi, Yüksel), here equal to 'momentum'",
             "kalman": "steady-state Kalman filter of accelerometer and gyroscope",
             "extended-kalman": "error-state extended Kalman filter of motion capture and gyroscope",
+            "unscented": "the same, unscented on unit quaternions for rotation and moment",
+            "fused": "force sensors and 'kalman' in one filter, each monitored by the other",
         },
     )
     wrench_observer: WrenchTable = WrenchTable()
@@ -130,21 +134,19 @@ def tare_checks(e: EstimatorTable, sampling: float, step: float) -> Iterator[Che
 
 
 def wrench_checks(
-    e: EstimatorTable, s: SensorsTable, actuators: str, method: str, beside: Mapping[str, str], mass: float, step: float
+    e: EstimatorTable, s: SensorsTable, actuators: str, method: str, contact: str, mass: float, step: float
 ) -> Iterator[CheckResult]:
     """Refusals of an observer without what it needs, and of joint sensors that are asked for and not there.
 
-    `actuators`: `actuators.model`; `method`: `allocation.method`; `beside`: the choices of
-    other keys that use joint sensors or the same residual as an observer; `mass` of the vehicle [kg]; `step` [s].
+    `actuators`: `actuators.model`; `method`: `allocation.method`; `contact`: `contact.model`; `mass` of the vehicle
+    [kg]; `step` [s].
     """
-    used = {"estimator.wind_compensation": e.wind_compensation, **beside}
-    used = {name: choice for name, choice in used.items() if choice != "none"}
+    if e.wrench in ("joints", "fused") and s.model == "simulated" and s.joints.model == "none":
+        yield refused(
+            f'sensors.joints.model = "none": must be "simulated" where estimator.wrench is "{e.wrench}"; or choose an '
+            'observer, such as estimator.wrench = "kalman"'
+        )
     if e.wrench == "joints":
-        if s.model == "simulated" and s.joints.model == "none":
-            yield refused(
-                'sensors.joints.model = "none": must be "simulated" where estimator.wrench is "joints"; or choose an '
-                'observer, such as estimator.wrench = "kalman"'
-            )
         return
     given = f'estimator.wrench = "{e.wrench}": must be "joints"'
     if s.model == "none":
@@ -154,11 +156,14 @@ def wrench_checks(
             f'{given} unless actuators.model is "rotors" and allocation.method is "constrained", which give it the '
             "thrusts of the rotors"
         )
-    for name, choice in used.items():
-        yield refused(f'{given} where {name} is "{choice}", which reads joints or a lost rotor in the same motion')
+    for name, choice in (("estimator.wind_compensation", e.wind_compensation), ("contact.model", contact)):
+        if choice != "none":
+            yield refused(f'{given} where {name} is "{choice}", which reads joints')
     interval = step * steps_of(s.interval, step)
     noise = mass * s.accelerometer.noise * noise_scale(s, interval)
-    yield from bandwidth_checks(e.wrench, e.wrench_observer, noise, interval)
+    motion = step * steps_of(s.motion.interval, step)
+    seen = MotionNoise(mass * s.motion.velocity_noise, mass * s.motion.position_noise, motion)
+    yield from bandwidth_checks(e.wrench, e.wrench_observer, noise, interval, seen)
 
 
 def hover_tare_checks(e: EstimatorTable, guidance: str) -> Iterator[CheckResult]:

@@ -31,7 +31,6 @@ from tandemlift.core.arrays import array
 from tandemlift.core.law import law
 from tandemlift.core.types import Number, NumberSet, PerQuadrotor, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, cross, each, spread, total, vec3
-from tandemlift.parts.estimation.off_center import OffCenter, about_center, from_origin
 from tandemlift.parts.estimation.wind_compensation import (
     PayloadDrag,
     PayloadDragState,
@@ -44,6 +43,7 @@ from tandemlift.parts.mechanics.loads import add_to_each, sum_over_set
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import Inertia, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.sensors.off_center import OffCenter, about_center, from_origin
 from tandemlift.parts.sensors.readings import ImuReading
 
 NOTHING = Absent()

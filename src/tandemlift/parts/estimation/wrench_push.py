@@ -15,8 +15,6 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from tandemlift.core.algebra import where
 from tandemlift.core.arrays import inverse
 from tandemlift.core.law import choice, law
@@ -24,17 +22,13 @@ from tandemlift.core.types import GRAVITY, Number, PerRotor, number
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, each, vec3
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.estimation.navigation import NavigationState, Navigator, navigate
-from tandemlift.parts.estimation.off_center import OffCenter, at_center, off_center_at
 from tandemlift.parts.estimation.push_confirmation import RotorModel, rotor_model, speed_at
 from tandemlift.parts.estimation.push_estimate import (
     PushEstimator,
     PushEstimatorState,
     estimate,
     point_of_application,
-    push_estimator,
-    start_push,
 )
-from tandemlift.parts.estimation.wind_compensation import payload_drag_from
 from tandemlift.parts.estimation.wrench.delay import Delay, DelayState, delay_of, delayed
 from tandemlift.parts.estimation.wrench.estimated_push import PushEstimate
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
@@ -48,7 +42,8 @@ from tandemlift.parts.rotors.allocation import wrench
 from tandemlift.parts.rotors.ground_effect import GroundEffect, ground_effect_ratio
 from tandemlift.parts.rotors.rotor_lag import lag_step
 from tandemlift.parts.rotors.rotors import ground_effect_from
-from tandemlift.parts.sensors.readings import ImuReading, Readings
+from tandemlift.parts.sensors.off_center import OffCenter, at_center, off_center_at
+from tandemlift.parts.sensors.readings import Readings
 from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale
 
 
@@ -156,17 +151,25 @@ def modelled_rotors(k: ThrustModel, m: ThrustState, commands: PerRotor, state: S
 
 
 @law
+def observation(k: WrenchPush, m: WrenchPushState, x: PushInputs, state: State) -> tuple[Observation, WrenchPushState]:
+    """(what an observer sees, the memory with the model of the thrusts and the rates)."""
+    imu, motion = x.readings.imu, x.readings.motion
+    angular = where(imu.fresh > 0.0, (imu.rates - m.rates) * k.per_interval, m.angular)
+    rotors, thrust = modelled_rotors(k.thrust, m.thrust, x.commands, state)
+    at = at_center(k.imu, imu.specific_force, imu.rates, angular)
+    seen = Observation(at, state, rotors, motion.position, motion.velocity, motion.attitude, motion.fresh, x.dt)
+    return seen, m._replace(thrust=thrust, rates=imu.rates, angular=angular)
+
+
+@law
 def observed_push(
     k: WrenchPush, m: WrenchPushState, x: PushInputs, state: State
 ) -> tuple[PushEstimate, WrenchPushState]:
     """(the push by an observer, the new memory)."""
-    imu, motion = x.readings.imu, x.readings.motion
-    angular = where(imu.fresh > 0.0, (imu.rates - m.rates) * k.per_interval, m.angular)
-    rotors, thrust = modelled_rotors(k.thrust, m.thrust, x.commands, state)
+    imu = x.readings.imu
+    seen, m = observation(k, m, x, state)
     smooth = low_pass_step(k.low_pass, m.specific_force, imu.specific_force)
     a = smooth.value  # of the excess mass, about as late as the observed force
-    at = at_center(k.imu, imu.specific_force, imu.rates, angular)
-    seen = Observation(at, state, rotors, motion.position, motion.velocity, motion.attitude, motion.fresh, x.dt)
     found, observer = observe(k.observer, m.observer, seen)
     R = rotation_from_quaternion(state.attitude)
     force = apply_transposed(R, found.force)
@@ -176,8 +179,8 @@ def observed_push(
     tare = tare_of(k.mass, k.identify, sums, armed)
     push = (force + a * (tare.mass - k.mass) - tare.force) * x.airborne
     moment = (found.moment - tare.moment) * x.airborne - cross(k.payload, push)
-    return concluded(k, R, push, moment, tare.mass, armed), WrenchPushState(
-        observer, thrust, imu.rates, angular, smooth, sums
+    return concluded(k, R, push, moment, tare.mass, armed), m._replace(
+        observer=observer, specific_force=smooth, sums=sums
     )
 
 
@@ -242,37 +245,3 @@ def start_wrench_push(
     still = ThrustState(speeds, DelayState(0.0, 0.0), DelayState(ZERO, ZERO))
     sums = TareSums(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, SideForces(each(1)(0.0), each(1)(0.0)))
     return push, WrenchPushState(memory, still, ZERO, ZERO, LowPassState(UP * GRAVITY, ZERO), sums)
-
-
-def start_push_estimator(
-    e: EstimatorTable,
-    s: SensorsTable,
-    vehicle: Vehicle,
-    imu: ImuReading,
-    interval: float,
-    late: float,
-    floor: Number | None,
-) -> tuple[PushEstimator, PushEstimatorState] | tuple[WrenchPush, WrenchPushState]:
-    """The estimator of pushes, by joints or an observer, and its memory; arguments as for `start_wrench_push`."""
-    if e.wrench != "joints":
-        return start_wrench_push(e, s, vehicle, interval, late, floor)
-    payload, quadrotors = vehicle.payload, vehicle.quadrotors
-    push = push_estimator(
-        mass=payload.mass,
-        inertia=payload.tensor,
-        joints=[np.subtract(q.joint_position, payload.center_of_mass) for q in quadrotors],
-        quadrotors=[np.subtract(q.position, payload.center_of_mass) for q in quadrotors],
-        quadrotor_masses=[q.mass for q in quadrotors],
-        step=interval,
-        length=math.inf if payload.span is None else payload.span,
-        bandwidth=e.push_bandwidth,
-        min_force=e.min_force,
-        tare_start=0.0 if e.tare == "hover" else e.tare_start,
-        tare_duration=e.tare_duration,
-        identify_mass=e.identify_mass,
-        disagreement_limit=e.disagreement_limit,
-        windage=Absent() if e.wind_compensation == "none" else payload_drag_from(vehicle, e.wind_bandwidth, interval),
-        system=-vehicle.payload_center,
-        off_center=off_center_at(payload.center_of_mass),
-    )
-    return push, start_push(push, imu)

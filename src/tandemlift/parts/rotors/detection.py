@@ -14,18 +14,21 @@ gets. So the test continues until the trial is over: it may declare another roto
 one that turns.
 (Basseville and Nikiforov, Detection of abrupt changes, 1993, chapters 2 and 7.)
 
+A push by joint sensors is one of the other loads. One that an observer estimates from the same motion is not: the loss
+would be in it. It stays in r, where a rotor explains it only if it has the rotor's direction in thrust and all moments.
+
 σ grows with the scatter of r over the last second: the test is less sensitive on a poorly modelled vehicle, and off
 just after the lift, and while a floor supports the vehicle. One lost rotor is looked for.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from tandemlift.core.algebra import maximum, minimum, where
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import GRAVITY, Number, NumberSet, PerRotor
-from tandemlift.core.vector import Mat3, Vec3, each, total
+from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, each, total
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import PushedState, apply_inertia, gyroscopic
 from tandemlift.parts.mechanics.rotation import body_z_axis
@@ -36,6 +39,10 @@ FOUR = each(4)
 UPRIGHT = 0.3  # least cosine of the tilt
 START_SCATTER = 4.0  # scatter² just after the lift, over its `bound`
 SUPPORTED = 0.15  # of the weight: the force of a floor from which on the vehicle counts as standing
+
+
+class ObservedPush(NamedTuple):
+    """Marks that the push is estimated from motion and thrusts, in which the loss of a rotor is a push."""
 
 
 class RotorLossDetection(NamedTuple):
@@ -59,6 +66,7 @@ class RotorLossDetection(NamedTuple):
     trial: PerRotor
     numbers: PerRotor
     rules: DecisionRules
+    observed: ObservedPush | Absent = Absent()
 
 
 class DetectionState(NamedTuple):
@@ -165,6 +173,12 @@ def explained_by(k: RotorLossDetection, verdict: DecisionState, thrusts: PerRoto
     return FOUR(-missing.thrust, -missing.moment.x, -missing.moment.y, -missing.moment.z)
 
 
+@law(absent="pilot_input")
+def without_push(observed: ObservedPush, pilot_input: Any) -> Any:
+    """The input of the pilot without an observed push."""
+    return pilot_input._replace(push=ZERO, moment=ZERO)
+
+
 @law(absent="memory")
 def detection_step(
     k: RotorLossDetection,
@@ -186,6 +200,7 @@ def detection_step(
         t: time [s].
         dt: since the last sample [s].
     """
+    pilot_input = without_push(k.observed, pilot_input)
     m = followed(k, memory, pilot_input, thrusts, t)
     r, f = residual(k, m, pilot_input), m.thrusts.value
     off = r - m.mean.value

@@ -17,7 +17,13 @@ from tandemlift.parts.mechanics.rigid_body import InitialTable, inertia_value
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import Mixer
 from tandemlift.parts.rotors.decision import DecisionRules, DecisionState
-from tandemlift.parts.rotors.detection import FOUR, START_SCATTER, DetectionState, RotorLossDetection
+from tandemlift.parts.rotors.detection import (
+    FOUR,
+    START_SCATTER,
+    DetectionState,
+    ObservedPush,
+    RotorLossDetection,
+)
 
 Positive4 = Annotated[tuple[Scale, Scale, Scale, Scale], PerAxis(4)]
 
@@ -103,9 +109,19 @@ def _four(values: Iterable[float]) -> NumberSet:
 
 
 def start_detection(
-    d: DetectionTable, vehicle: Vehicle, effect: Mixer, step: float, initial: InitialTable, *, hovers: bool
+    d: DetectionTable,
+    vehicle: Vehicle,
+    effect: Mixer,
+    step: float,
+    initial: InitialTable,
+    *,
+    hovers: bool,
+    observed: bool = False,
 ) -> tuple[RotorLossDetection, DetectionState] | tuple[Absent, Absent]:
-    """The detection before its first sample, and its memory; or `Absent`. Arguments as of `start_observer`."""
+    """The detection before its first sample, and its memory; or `Absent`.
+
+    Arguments as of `start_observer`; `observed`: whether the push is estimated from motion.
+    """
     if d.model == "none":
         return Absent(), Absent()
     rotors, hover = each(vehicle.rotor_count), vehicle.weight / vehicle.rotor_count
@@ -123,6 +139,7 @@ def start_detection(
         trial=rotors(*(hover,) * vehicle.rotor_count),
         numbers=rotors(*map(float, range(1, vehicle.rotor_count + 1))),
         rules=_rules(d),
+        observed=ObservedPush() if observed else Absent(),
     )
     return detection, _at_start(detection, vehicle, initial, hovers)
 

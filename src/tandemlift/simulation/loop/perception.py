@@ -19,8 +19,8 @@ from tandemlift.parts.estimation.contact_detection import (
     shaken,
 )
 from tandemlift.parts.estimation.contact_evidence import ContactDetector, PushReading
+from tandemlift.parts.estimation.fused_push import FusedPush, FusedPushState
 from tandemlift.parts.estimation.navigation import NavigationState, Navigator
-from tandemlift.parts.estimation.off_center import about_center
 from tandemlift.parts.estimation.push_confirmation import (
     ConfirmationState,
     PushConfirmation,
@@ -36,11 +36,11 @@ from tandemlift.parts.guidance.phases import in_the_air, is_in
 from tandemlift.parts.interaction.admittance import AdmittanceState
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.sensors.off_center import about_center
 from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState, sense
 from tandemlift.simulation.loop.sources import EstimatedFlight, KnownWalls, NominalVehicle, PilotSources
 
 M = TypeVar("M")
-
 NO_SURROUNDINGS = KnownSurroundings(Absent(), 0.0, 0.0, 0.0)
 
 
@@ -64,7 +64,7 @@ class Estimators(NamedTuple):
     where the IMU samples at every step.
     """
 
-    push: PushEstimator | WrenchPush
+    push: PushEstimator | WrenchPush | FusedPush
     state: Navigator
     vehicle: NominalVehicle
     tare: TareAtTime | TareInHover
@@ -93,7 +93,7 @@ class HeldEstimates(NamedTuple):
 class EstimatorState(NamedTuple):
     """Memory of the estimators; `held` is `Absent` where they run in every step."""
 
-    push: PushEstimatorState | WrenchPushState
+    push: PushEstimatorState | WrenchPushState | FusedPushState
     state: NavigationState
     contact: ContactState | Absent
     confirmation: ConfirmationState | Absent
@@ -258,6 +258,9 @@ def _aloft(guidance: HandGuidanceState) -> Number:
 def with_flight_phase(push: WrenchPush, known: KnownSurroundings, guidance: object) -> KnownSurroundings:
     """The same, with the phase of the flight where an observer needs it, for which a floor is a push."""
     return known._replace(aloft=aloft(guidance))
+
+
+with_flight_phase.register(FusedPush)(lambda push, known, guidance: known._replace(aloft=aloft(guidance)))
 
 
 @surroundings_of.register(Estimators)

@@ -10,7 +10,7 @@ from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply_transposed, cross, dot, total
 from tandemlift.parts.contact.clearance import Clearance, clearance, smaller_clearance
-from tandemlift.parts.estimation.estimate_errors import EstimateErrors, PushErrors, error_metrics, with_errors
+from tandemlift.parts.guidance.estimate_errors import EstimateErrors, PushErrors, error_metrics, with_errors
 from tandemlift.parts.guidance.guidance import thrust_fraction
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
 from tandemlift.parts.interaction.outside_push import OutsidePush, held_by_anyone

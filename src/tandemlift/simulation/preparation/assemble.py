@@ -20,7 +20,7 @@ from tandemlift.missions import Mission
 from tandemlift.parts.contact.clearance import Clearance, clearance
 from tandemlift.parts.contact.feet import start_foot_grip
 from tandemlift.parts.contact.touches import start_touches
-from tandemlift.parts.estimation.estimate_errors import NO_ERRORS
+from tandemlift.parts.guidance.estimate_errors import NO_ERRORS
 from tandemlift.parts.interaction.person import PersonState
 from tandemlift.parts.interaction.person_table import PersonTable, Walk, path_legs_from, start_person, waypoints_from
 from tandemlift.parts.mechanics.rigid_body import State

@@ -11,9 +11,10 @@ from tandemlift.missions import Mission
 from tandemlift.parts.controllers import controller
 from tandemlift.parts.estimation.contact_table import start_contact_detection
 from tandemlift.parts.estimation.disturbance_observer import start_observer
+from tandemlift.parts.estimation.fused_push import start_push_estimator
 from tandemlift.parts.estimation.navigation import navigator_from, start_navigation
 from tandemlift.parts.estimation.push_confirmation import start_confirmation
-from tandemlift.parts.estimation.wrench_push import PushInputs, push_and_state, start_push_estimator
+from tandemlift.parts.estimation.wrench_push import PushInputs, push_and_state
 from tandemlift.parts.guidance.available import start_available
 from tandemlift.parts.guidance.compliance_table import ComplianceTable, compliance_from, push_filters
 from tandemlift.parts.guidance.contact_hold import start_contact_hold
@@ -68,7 +69,10 @@ def start_pilot(mission: Mission, vehicle: Vehicle) -> tuple[PilotParameters, Pi
     )
     observer, observer_memory = start_observer(mission.observer, vehicle, effect, step, initial, hovers=hovers)
     allocation, allocation_memory = start_allocation(mission.allocation, vehicle, known)
-    detection, detection_memory = start_detection(mission.detection, vehicle, effect, step, initial, hovers=hovers)
+    observed = mission.estimator.wrench not in ("joints", "fused")
+    detection, detection_memory = start_detection(
+        mission.detection, vehicle, effect, step, initial, hovers=hovers, observed=observed
+    )
     lead, led = start_lead(mission.allocation, vehicle.weight, step, hovers=hovers)
     excitation = start_excitation(mission.excitation)
     parameters = PilotParameters(guidance, observer, gains, lead, allocation, detection, excitation)

@@ -13,7 +13,8 @@ from tandemlift.parts.estimation.wrench.kalman import LEAST_NOISE, kalman_observ
 from tandemlift.parts.estimation.wrench.momentum import MomentumObserver, start_momentum
 from tandemlift.parts.estimation.wrench.nonlinear_disturbance import NonlinearObserver, start_disturbance
 from tandemlift.parts.estimation.wrench.observation import NominalBody, principal
-from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable
+from tandemlift.parts.estimation.wrench.unscented import start_unscented
+from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable, force_change_of
 
 
 class SampleNoise(NamedTuple):
@@ -38,14 +39,14 @@ def start_wrench_observer(
     turning_decay = _decay(vec3(table.moment_bandwidth), interval)
     one = Vec3(1.0, 1.0, 1.0)
     force, moment = one - decay, (one - turning_decay) / interval
-    changes = vec3(table.force_change), vec3(table.moment_change)
+    changes = vec3(force_change_of(name, table)), vec3(table.moment_change)
     if name == "momentum":
         return MomentumObserver(body, force / interval, moment), start_momentum()
     if name == "hybrid":
         return HybridObserver(body, force, moment), start_hybrid()
     if name == "disturbance-observer":
         return NonlinearObserver(body, force / interval, moment, decay, turning_decay), start_disturbance()
-    if name == "kalman":
+    if name in ("kalman", "fused"):
         return kalman_observer(body, *changes, noise.accelerometer, noise.gyroscope, interval)
     by_mass, by_inertia = changes[0] / body.mass, changes[1] / principal(body.inertia)
     sizes = [LEAST_NOISE + sigma for sigma in (noise.position, noise.velocity, noise.attitude, noise.gyroscope)]
@@ -53,4 +54,6 @@ def start_wrench_observer(
     filtered = ExtendedKalmanFilter(
         body, by_mass * by_mass, by_inertia * by_inertia, position, velocity, attitude, rates
     )
+    if name == "unscented":
+        return start_unscented(filtered)
     return filtered, start_filter(filtered)

@@ -4,12 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from tandemlift.core.errors import CheckResult, refused
-from tandemlift.core.keys import Positive3, Table, key
+from tandemlift.core.keys import Positive, Positive3, Table, key
 
 BY_BANDWIDTH = ("momentum", "hybrid", "disturbance-observer")
+BY_MOTION = ("extended-kalman", "unscented")
 FASTEST = 0.1  # rad: bandwidth times the time between samples, at which the model of the thrusts still follows
+
+
+class MotionNoise(NamedTuple):
+    """Of motion capture: noise of a sample of velocity and position, times the vehicle's mass; interval [s]."""
+
+    velocity: float
+    position: float
+    interval: float
 
 
 class WrenchTable(Table):
@@ -33,13 +43,16 @@ class WrenchTable(Table):
         rule="at most 0.1 over sensors.interval",
         source="chosen: noise of 0.03 N m with the gyroscope of mission iris",
     )
-    force_change: Positive3 = key(
-        (0.1, 0.1, 0.033),
+    force_change: Positive3 | None = key(
+        None,
         "N/√s",
-        "for 'kalman' and 'extended-kalman': standard deviation of the change of the force within a second; more is "
+        "for 'fused' and the filters of Kalman: standard deviation of the change of the force within a second; more is "
         "faster and noisier, and the pilot closes a loop over it that lag and delay of the rotors limit",
-        rule="for 'kalman', such that the bandwidth is at most 0.1 over sensors.interval",
-        source="chosen: a delay of 33 ms with the sensors of mission iris; along z of 100 ms, as force_bandwidth",
+        rule="such that the bandwidth is at most 0.1 over sensors.interval, or, without accelerometer, over "
+        "sensors.motion.interval",
+        unset="0.1, 0.1 and 0.033; of 'fused' 0.06 along z: chosen for 33 ms with the sensors of mission iris, and "
+        "along z for 100 and 40 ms",
+        example=0.1,
     )
     moment_change: Positive3 = key(
         (0.1, 0.01, 0.1),
@@ -47,12 +60,28 @@ class WrenchTable(Table):
         "for the same: standard deviation of the change of the moment within a second",
         source="chosen: noise of 0.03 N m with the gyroscope of mission iris",
     )
+    joint_force_tolerance: Positive = key(
+        0.2,
+        "N",
+        "for 'fused': difference of joints and motion beyond which the joints are wrong, unless the motion shows it",
+        source="chosen: twice what pushes of 3 N leave in mission iris",
+    )
+    joint_moment_tolerance: Positive = key(0.2, "N m", "for 'fused': the same of moments", source="chosen")
 
 
-def bandwidth_checks(wrench: str, table: WrenchTable, accelerometer: float, interval: float) -> Iterator[CheckResult]:
+def force_change_of(wrench: str, table: WrenchTable) -> tuple[float, float, float]:
+    """The change of the force within a second [N/√s] of `estimator.wrench`."""
+    return table.force_change or (0.1, 0.1, 0.06 if wrench == "fused" else 0.033)
+
+
+def bandwidth_checks(
+    wrench: str, table: WrenchTable, accelerometer: float, interval: float, motion: MotionNoise
+) -> Iterator[CheckResult]:
     """Refusal of a bandwidth that samples every `interval` [s] do not allow; `wrench`: `estimator.wrench`.
 
-    `accelerometer`: noise of a sample, times the vehicle's mass [N].
+    `accelerometer`: noise of a sample, times the vehicle's mass [N]; `motion`: of motion capture. A filter without the
+    accelerometer has a bandwidth of √(q/(m σ_v √T)) by velocities and of the cube root of q/(m σ_p √T) by positions,
+    whichever is larger.
     """
     fastest, often = FASTEST / interval, f"with samples every {interval:g} s (sensors.interval)"
     for name in ("force", "moment") if wrench in BY_BANDWIDTH else ():
@@ -60,9 +89,17 @@ def bandwidth_checks(wrench: str, table: WrenchTable, accelerometer: float, inte
         if max(bandwidth) > fastest:
             key = f"estimator.wrench_observer.{name}_bandwidth"
             yield refused(f"{key} = {list(bandwidth)}: must be at most {fastest:g} rad/s {often}")
-    largest = fastest * accelerometer * math.sqrt(interval)
-    if wrench == "kalman" and max(table.force_change) > largest:
+    largest, of = fastest * accelerometer * math.sqrt(interval), "sensors.accelerometer.noise"
+    if wrench in BY_MOTION:
+        fastest, often = (
+            FASTEST / motion.interval,
+            f"with samples every {motion.interval:g} s (sensors.motion.interval)",
+        )
+        sizes, of = (motion.velocity * fastest**2, motion.position * fastest**3), "noise of sensors.motion"
+        largest = min([size for size in sizes if size > 0.0], default=math.inf) * math.sqrt(motion.interval)
+    change = force_change_of(wrench, table)
+    if wrench not in BY_BANDWIDTH and max(change) > largest:
         yield refused(
-            f"estimator.wrench_observer.force_change = {list(table.force_change)}: must be at most {largest:.3g} N/√s "
-            f"{often} and this sensors.accelerometer.noise, for a bandwidth of {fastest:g} rad/s"
+            f"estimator.wrench_observer.force_change = {list(change)}: must be at most {largest:.3g} N/√s "
+            f"{often} and this {of}, for a bandwidth of {fastest:g} rad/s"
         )

@@ -1,0 +1,147 @@
+"""The push of a person by joint sensors and motion, fused (`parts.estimation.wrench.fused`); the estimator's start.
+
+Both are tared in hover. While a floor may carry the vehicle, the joints alone count.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.core.algebra import maximum
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Absent, Vec3, apply, apply_transposed, cross, vec3
+from tandemlift.parts.estimation.estimator_table import EstimatorTable
+from tandemlift.parts.estimation.navigation import NavigationState, Navigator, navigate
+from tandemlift.parts.estimation.push_estimate import (
+    PushEstimator,
+    PushEstimatorState,
+    estimate,
+    push_estimator,
+    start_push,
+)
+from tandemlift.parts.estimation.wind_compensation import payload_drag_from
+from tandemlift.parts.estimation.wrench.fused import (
+    FusedFilter,
+    FusedState,
+    JointPush,
+    fuse,
+    fused_filter,
+    refuted_force,
+)
+from tandemlift.parts.estimation.wrench.wrench_table import force_change_of
+from tandemlift.parts.estimation.wrench_push import (
+    PushAndState,
+    PushInputs,
+    WrenchPush,
+    WrenchPushState,
+    concluded,
+    observation,
+    push_and_state,
+    start_wrench_push,
+)
+from tandemlift.parts.mechanics.rigid_body import inertia_value
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.sensors.off_center import OffCenter, off_center_at
+from tandemlift.parts.sensors.readings import ImuReading
+from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale
+
+
+class FusedPush(NamedTuple):
+    """The estimator by joints, the model of the thrusts, and the filter of both."""
+
+    joints: PushEstimator
+    motion: WrenchPush
+    filter: FusedFilter
+    off_center: OffCenter | Absent
+
+
+class FusedPushState(NamedTuple):
+    """Memory of the three; angular acceleration [rad/s²]."""
+
+    joints: PushEstimatorState
+    motion: WrenchPushState
+    filter: FusedState
+    angular: Vec3
+
+
+@push_and_state.register(FusedPush)
+def _by_both(
+    k: FusedPush, memory: FusedPushState, navigator: Navigator, navigation: NavigationState, x: PushInputs
+) -> PushAndState:
+    state, after = navigate(navigator, navigation, x.readings)
+    push, joints = estimate(k.joints, memory.joints, x.readings.imu, x.t)
+    seen, motion = observation(k.motion, memory.motion, x, state)
+    R, count = rotation_from_quaternion(x.readings.imu.frame), maximum(joints.sums.count, 1.0)
+    heavier, mean = push.payload_mass - k.motion.mass, joints.sums.specific_force * (1.0 / count)
+    measured = JointPush(
+        force=apply_transposed(R, push.measured),
+        moment=push.measured_moment,
+        angular=joints.angular,
+        excess=(x.readings.imu.specific_force - mean) * heavier,
+        tare=maximum(joints.sums.count - memory.joints.sums.count, 0.0) / count,
+        armed=push.armed,
+        trusted=push.trusted,
+        free=x.airborne,
+    )
+    found, fused = fuse(k.filter, memory.filter, seen, measured)
+    known = FusedPushState(joints, motion, fused, joints.angular)
+    R = rotation_from_quaternion(state.attitude)
+    about = found.moment - cross(k.motion.payload, apply_transposed(R, found.force))
+    used = concluded(k.motion, R, apply_transposed(R, found.force), about, push.payload_mass, push.armed)
+    rest = apply(R, refuted_force(fused))
+    return PushAndState(
+        used._replace(disagreement=push.disagreement, withheld=rest, refuted=fused.wrong), known, state, after
+    )
+
+
+def start_push_estimator(
+    e: EstimatorTable,
+    s: SensorsTable,
+    vehicle: Vehicle,
+    imu: ImuReading,
+    interval: float,
+    late: float,
+    floor: Number | None,
+) -> tuple[PushEstimator, PushEstimatorState] | tuple[WrenchPush, WrenchPushState] | tuple[FusedPush, FusedPushState]:
+    """The estimator of pushes, by joints, motion or both, and its memory; arguments as for `start_wrench_push`."""
+    if e.wrench not in ("joints", "fused"):
+        return start_wrench_push(e, s, vehicle, interval, late, floor)
+    payload, quadrotors = vehicle.payload, vehicle.quadrotors
+    push = push_estimator(
+        mass=payload.mass,
+        inertia=payload.tensor,
+        joints=[np.subtract(q.joint_position, payload.center_of_mass) for q in quadrotors],
+        quadrotors=[np.subtract(q.position, payload.center_of_mass) for q in quadrotors],
+        quadrotor_masses=[q.mass for q in quadrotors],
+        step=interval,
+        length=math.inf if payload.span is None else payload.span,
+        bandwidth=e.push_bandwidth,
+        min_force=e.min_force,
+        tare_start=0.0 if e.tare == "hover" else e.tare_start,
+        tare_duration=e.tare_duration,
+        identify_mass=e.identify_mass,
+        disagreement_limit=e.disagreement_limit,
+        windage=Absent() if e.wind_compensation == "none" else payload_drag_from(vehicle, e.wind_bandwidth, interval),
+        system=-vehicle.payload_center,
+        off_center=off_center_at(payload.center_of_mass),
+    )
+    if e.wrench == "joints":
+        return push, start_push(push, imu)
+    motion, moved = start_wrench_push(e, s, vehicle, interval, late, floor)
+    scale = noise_scale(s, interval)
+    noise = s.accelerometer.noise, s.gyroscope.noise, s.joints.force_noise, s.joints.torque_noise
+    fused, filtered = fused_filter(
+        alone=motion.observer,
+        changes=(vec3(force_change_of(e.wrench, e.wrench_observer)), vec3(e.wrench_observer.moment_change)),
+        tolerances=(e.wrench_observer.joint_force_tolerance, e.wrench_observer.joint_moment_tolerance),
+        payload=(payload.mass, inertia_value(payload.tensor), vec3(vehicle.payload_center)),
+        noise=(noise[0] * scale, noise[1] * scale, noise[2] * scale, noise[3] * scale),
+        joints=[np.subtract(q.joint_position, payload.center_of_mass) for q in quadrotors],
+        interval=interval,
+    )
+    memory = FusedPushState(start_push(push, imu), moved, filtered, ZERO)
+    return FusedPush(push, motion, fused, push.off_center), memory
