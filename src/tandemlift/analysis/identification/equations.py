@@ -13,7 +13,13 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.analysis.identification.log import JOINTS
-from tandemlift.analysis.identification.prediction import STARTS, PredictedDerivatives, Predictor
+from tandemlift.analysis.identification.prediction import (
+    STARTS,
+    PredictedDerivatives,
+    Predictor,
+    conjugate,
+    quaternion_product,
+)
 from tandemlift.analysis.identification.sensor_errors import (
     SensorPriors,
     by_turns,
@@ -21,7 +27,7 @@ from tandemlift.analysis.identification.sensor_errors import (
     residuals,
     robust_sd,
 )
-from tandemlift.analysis.identification.windows import FlightWindows, Places, Samples
+from tandemlift.analysis.identification.windows import FlightWindows, Places, Samples, Truths
 from tandemlift.core.types import Array
 from tandemlift.engines.vehicle_unknowns import Unknowns
 
@@ -43,12 +49,14 @@ class LogInSearch:
         starts: of its windows (W, 13).
         groups: the group of biases of each window (W,).
         spans: the first of its groups, and the mean time [s] of each.
+        used: whether a window counts (W,): one that no vehicle explains does not, but its start is found.
     """
 
     predictor: Predictor
     starts: Array
     groups: Places
     spans: tuple[int, Array]
+    used: Truths
 
     @property
     def windows(self) -> FlightWindows:
@@ -142,11 +150,17 @@ class Linearisation:
             span = max(GROUP, (w.times()[-1] - w.times()[0]) / MOST_GROUPS)
             _, own = np.unique(((w.times() - w.times()[0]) / span).astype(int), return_inverse=True)
             middle = np.bincount(own, w.times()) / np.bincount(own)
-            self.parts.append(LogInSearch(predictor, predictor.starts(), own + groups, (groups, middle)))
+            every = np.ones(len(own), bool)
+            self.parts.append(LogInSearch(predictor, predictor.starts(), own + groups, (groups, middle), every))
             groups += int(own.max()) + 1
         self.estimate = Estimate(np.zeros(len(unknowns)), self._fixed, np.zeros((groups, len(priors.bias))))
         self.estimate.noise = self._first_noise()
-        self.steps, self.left_out = 0, 0
+        self.steps = 0
+
+    @property
+    def left_out(self) -> int:
+        """Number of windows that do not count."""
+        return int(sum((~part.used).sum() for part in self.parts))
 
     def _first_noise(self) -> dict[str, float]:
         found = dict[str, list[float]]()
@@ -172,8 +186,10 @@ class Linearisation:
         for name, samples in w.samples.items():
             place = self.priors.places.get(name, slice(0, 0))
             biases = e.biases[part.groups][:, place]
-            r = residuals(samples, name, predicted, biases, e.turns) / e.noise[name]
-            found.spread[name] = robust_sd(r) * e.noise[name]
+            clock = self.priors.clocks.get(name)
+            behind = None if clock is None else e.biases[part.groups, clock] / w.step
+            r = residuals(samples, name, predicted, biases, e.turns, behind) / e.noise[name]
+            found.spread[name] = robust_sd(r[part.used[samples.window]]) * e.noise[name]
             clipped = np.minimum(np.sum(r * r, axis=1) / r.shape[1], HUBER**2)
             counts = np.maximum(np.bincount(samples.window, minlength=len(w.first)), 1)
             found.misfit[name] = np.bincount(samples.window, clipped, len(w.first)) / counts
@@ -182,6 +198,8 @@ class Linearisation:
             weight = weight * (size < ABSURD) if robust == CAREFUL else weight
             mean, count, late = _block_means(w, samples, r, weight)
             J, root = self._columns(derivatives, name, place, late), np.sqrt(count)
+            if clock is not None:
+                J[:, STARTS + clock] = _slopes(derivatives.base, name) / (w.step * w.block)
             J *= (root / e.noise[name])[:, None]
             rows, J = mean * root, J.reshape(*J.shape[:2], -1)
             found.matrices[name] = J @ J.swapaxes(1, 2)
@@ -225,12 +243,13 @@ class Linearisation:
             places = self.places(part)
             spread = np.zeros((len(g), size))
             np.put_along_axis(spread, places, g, axis=1)
+            spread *= part.used[:, None]
             scores.append(spread)
             side += spread.sum(axis=0)
             for name, M in own.matrices.items():
                 reduced = T.swapaxes(1, 2) @ M @ T
                 into = noises.setdefault(name, np.zeros((size, size)))
-                for place, one in zip(places, reduced, strict=True):
+                for place, one in zip(places[part.used], reduced[part.used], strict=True):
                     into[np.ix_(place, place)] += one
         for one in noises.values():
             total += one
@@ -260,6 +279,16 @@ class Linearisation:
                 Q[at, behind] -= tie
                 Q[behind, at] -= tie
         return Q, -Q @ x
+
+
+def _slopes(base: dict[str, Array], name: str) -> Array:
+    """The change of predictions per block (W, blocks, width); of the attitude, the turn about body axes."""
+    y = base[name]
+    if name in FORCES:  # means over a block
+        return np.asarray(np.gradient(y, axis=1)[:, :-1])
+    if name == "measured_attitude":
+        return 2.0 * quaternion_product(conjugate(y[:, :-1]), y[:, 1:])[..., 1:]
+    return np.diff(y, axis=1)
 
 
 def _block_means(w: FlightWindows, s: Samples, r: Array, weight: Array) -> tuple[Array, Array, Array]:

@@ -5,8 +5,6 @@ A window that no vehicle explains, as under a push, is left out.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from tandemlift.analysis.identification.equations import (
@@ -59,8 +57,8 @@ class VehicleSearch(Linearisation):
                 self._follow_noise(equations)
             elif chosen == MOST_STEPS and number >= PLAIN_STEPS and (size < NEAR or number == MOST_STEPS // 2):
                 chosen = number
-                if follow:
-                    self._leave_out(equations)
+            if number >= chosen and follow:
+                self._leave_out(equations)
         if progress:
             progress(MOST_STEPS, MOST_STEPS)
         return self.linearised(CAREFUL)
@@ -81,7 +79,10 @@ class VehicleSearch(Linearisation):
             self.estimate.noise[name] = max(float(np.median(own)), 1e-12)
 
     def _leave_out(self, equations: list[Equations]) -> None:
-        """Leave out the windows that no vehicle explains and those beside them, but never more than half of a log."""
+        """Leave out the windows that no vehicle explains and those beside them, but never more than half of a log.
+
+        Those that the present vehicle explains come back.
+        """
         for part, own in zip(self.parts, equations, strict=True):
             worst = np.zeros(len(part.starts))
             for name, size in own.misfit.items():
@@ -91,9 +92,4 @@ class VehicleSearch(Linearisation):
             out = worst > max(1.0, float(np.median(worst)))
             near = np.abs(part.windows.first[:, None] - part.windows.first[out]) <= part.windows.length
             kept = ~near.any(axis=1)
-            if kept.all() or kept.sum() < 0.5 * len(kept):
-                continue
-            self.left_out += int((~kept).sum())
-            part.starts, part.groups = part.starts[kept], part.groups[kept]
-            predictor = part.predictor
-            part.predictor = replace(predictor, windows=predictor.windows.chosen(kept))
+            part.used = kept if kept.sum() >= 0.5 * len(kept) else part.used

@@ -30,7 +30,7 @@ from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Array, Progress, flat
 from tandemlift.engines.driven_vehicle import whole_vehicle
-from tandemlift.engines.vehicle_unknowns import AXES, DEFAULT, Unknowns, unknowns_of
+from tandemlift.engines.vehicle_unknowns import AXES, DEFAULT, Unknowns, driven_numbers, unknowns_of
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, MissionLike, mission_of
 
@@ -47,6 +47,7 @@ def identify(
     weighed: Mapping[str, float] | None = None,
     window: float = LENGTH,
     held_back: float = HELD_BACK,
+    predict: Log | Flight | None = None,
     progress: Progress | None = None,
 ) -> Identification:
     """Identify a vehicle from logs of its flights.
@@ -62,6 +63,7 @@ def identify(
             mass, only ratios of masses to thrust constants can be told.
         window: length of a window [s].
         held_back: part of the windows, the last ones, that is not used but predicted.
+        predict: a log of another flight, which the identified mission predicts, window by window.
         progress: called with (steps done, steps in all).
 
     Returns:
@@ -77,7 +79,10 @@ def identify(
         raise InputError("logs: must be one or more")
     if not (0.2 <= window <= 10.0 and 0.0 <= held_back <= 0.5):
         raise InputError(f"window = {window:g} s, held_back = {held_back:g}: must be 0.2 to 10 s, and 0 to 0.5")
-    cut = [windows_of(log_of(one) if isinstance(one, Flight) else one, mission, window) for one in given]
+    cut, other = (
+        [windows_of(log_of(one) if isinstance(one, Flight) else one, mission, window) for one in logs]
+        for logs in (given, [predict] if predict else [])
+    )
     unknowns = unknowns_of(
         mission.vehicle, mission.actuators.delay, DEFAULT if parameters is None else parameters, weighed
     )
@@ -87,6 +92,8 @@ def identify(
     with progress_or_own(f"{mission.mission.name}, identified", progress, "steps") as shown:
         equations, normal = search.run(shown)
     found = _judged(search, equations, normal, [last for _, last in parts if last is not None], mission)
+    vehicle = Unknowns(driven_numbers(found.mission.vehicle, found.mission.actuators.delay), ())
+    found.details["predicted"] = _predicted(other, vehicle, search, None)
     found.details["seconds"] = time.perf_counter() - began
     return found
 
@@ -100,7 +107,10 @@ def _judged(
 ) -> Identification:
     """The estimate of a search, with what the data say of it."""
     unknowns, rows = search.unknowns, [one.rows for one in equations]
-    streams = {name: np.concatenate([r[name] for r in rows if name in r]) for name in search.estimate.noise}
+    streams = {
+        name: np.concatenate([r[name][part.used] for part, r in zip(search.parts, rows, strict=True) if name in r])
+        for name in search.estimate.noise
+    }
     white = {name: whiteness(r) for name, r in streams.items()}
     covariance = covariance_of(normal, {name: w.factor for name, w in white.items()}, len(unknowns))
     information = data_information(normal, len(unknowns))
@@ -108,7 +118,8 @@ def _judged(
     keys = _with_derivatives(lambda x: _values(unknowns, x), search.estimate.q)
     correlations = correlations_of(keys, covariance.covariance)
     remarks += _remarks(unknowns, correlations, information, white, found, search)
-    held = _held_back(search, held_back, mission)
+    vehicle = Unknowns(unknowns.numbers(search.estimate.q), ())
+    held = _predicted(held_back, vehicle, search, search.estimate.fixed)
     details = _details(search, correlations, covariance, white, misfit_by_window(search, rows), held)
     details |= {"example": _example(search)}
     return Identification(identified, tuple(found), tuple(whole), tuple(remarks), details)
@@ -207,13 +218,17 @@ def _remarks(
     return said
 
 
-def _held_back(search: VehicleSearch, windows: list[FlightWindows], mission: Mission) -> dict[str, Any]:
-    """How far the identified vehicle predicts windows that were not used, by stream: RMS over the noise."""
+def _predicted(
+    windows: list[FlightWindows], vehicle: Unknowns, search: VehicleSearch, fixed: Array | None
+) -> dict[str, Any]:
+    """How far a vehicle predicts windows that were not used, by stream: root mean squares over the noise.
+
+    Starts of the windows and biases are found; errors of sensors that stay, too, where `fixed` does not have them.
+    """
     if not windows:
         return {}
-    at = search.unknowns.numbers(search.estimate.q)
-    fixed = Unknowns(at, ())
-    again = VehicleSearch([Predictor(w, fixed, mission) for w in windows], fixed, search.priors, search.estimate.fixed)
+    mission = search.parts[0].predictor.mission
+    again = VehicleSearch([Predictor(w, vehicle, mission) for w in windows], vehicle, search.priors, fixed)
     again.estimate.noise = dict(search.estimate.noise)
     equations, _ = again.run(None, follow=False)
     by_window = misfit_by_window(again, [one.rows for one in equations])
@@ -232,7 +247,7 @@ def _details(
     e = search.estimate
     return {
         "logs": [part.windows.source for part in search.parts],
-        "windows": {"used": sum(len(p.windows.first) for p in search.parts), "left_out": search.left_out},
+        "windows": {"used": int(sum(p.used.sum() for p in search.parts)), "left_out": search.left_out},
         "steps": search.steps,
         "noise": dict(e.noise),
         "whiteness": {name: {**w._asdict(), "white": w.white} for name, w in white.items()},
@@ -243,6 +258,7 @@ def _details(
         "motion_point": e.point.tolist(),
         "joint_turns": e.turns.tolist(),
         "biases": {name: e.biases[:, place].mean(axis=0).tolist() for name, place in search.priors.places.items()},
+        "clocks": {name: float(e.biases[:, place].mean()) for name, place in search.priors.clocks.items()},
     }
 
 
@@ -251,7 +267,7 @@ def _example(search: VehicleSearch) -> dict[str, Any]:
     part = search.parts[0]
     w, n = part.windows, search.unknowns.numbers(search.estimate.q)
     predicted = part.predictor.predicted(part.starts, n, part.predictor.squares(n, False)[0], search.estimate.point)
-    last, shown = len(w.first) - 1, dict[str, Any]()
+    last, shown = int(np.flatnonzero(part.used)[-1]), dict[str, Any]()
     for name in ("measured_specific_force", "measured_rates", "measured_joint_force", "measured_position"):
         if name in w.samples:
             s = w.samples[name]

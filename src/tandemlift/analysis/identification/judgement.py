@@ -128,6 +128,7 @@ def misfit_by_window(search: VehicleSearch, rows: list[dict[str, Array]]) -> dic
     found = dict[str, list[list[float]]]()
     for part, own in zip(search.parts, rows, strict=True):
         for name, r in own.items():
-            sizes = np.sqrt(np.nanmean(r * r, axis=(1, 2)))
-            found.setdefault(name, []).extend(zip(part.windows.times().tolist(), sizes.tolist(), strict=True))  # type: ignore[arg-type]
+            sizes = np.sqrt(np.nanmean(r[part.used] ** 2, axis=(1, 2)))
+            times = part.windows.times()[part.used]
+            found.setdefault(name, []).extend(np.column_stack([times, sizes]).tolist())
     return found
