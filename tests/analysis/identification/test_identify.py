@@ -8,9 +8,9 @@ from plain_vehicle import PlainVehicle, fitted, squares
 
 import tandemlift as tl
 from tandemlift.analysis.identification.identify import reference_rows
-from tandemlift.analysis.identification.log import Log, Stream, log_of
 from tandemlift.analysis.identification.prediction import Predictor
 from tandemlift.analysis.identification.windows import windows_of
+from tandemlift.analysis.logs.log import Log, Stream, log_of
 from tandemlift.core.errors import InputError
 from tandemlift.engines.vehicle_unknowns import driven_numbers, unknowns_of
 from tandemlift.missions import load_mission

@@ -22,17 +22,17 @@ from tandemlift.analysis.identification.judgement import (
     scale_is_known,
     whiteness,
 )
-from tandemlift.analysis.identification.log import Log, log_of
 from tandemlift.analysis.identification.prediction import Predictor
 from tandemlift.analysis.identification.sensor_errors import sensor_priors
 from tandemlift.analysis.identification.windows import FEWEST, LENGTH, FlightWindows, windows_of
+from tandemlift.analysis.logs.log import Log, log_of
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Array, Progress, flat
 from tandemlift.engines.driven_vehicle import whole_vehicle
 from tandemlift.engines.vehicle_unknowns import AXES, DEFAULT, Unknowns, driven_numbers, unknowns_of
-from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, MissionLike, mission_of
+from tandemlift.simulation.fly import Flight
 
 MOST_PAIRS = 4  # that are named
 HELD_BACK = 0.15  # of the windows

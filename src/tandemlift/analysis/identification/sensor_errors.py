@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tandemlift.analysis.identification.clocks import GROUPS
-from tandemlift.analysis.identification.log import JOINTS
 from tandemlift.analysis.identification.prediction import conjugate, quaternion_product
 from tandemlift.analysis.identification.windows import Samples
+from tandemlift.analysis.logs.clocks import GROUPS
+from tandemlift.analysis.logs.log import JOINTS
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
 

@@ -17,13 +17,12 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.analysis.identification.checks import check_log
-from tandemlift.analysis.identification.log import COMMANDS, IMU, JOINTS, MOTION, SOON, SPEED_COMMANDS, Log
+from tandemlift.analysis.logs.checks import check_log
+from tandemlift.analysis.logs.log import COMMANDS, FLOWN_COMMANDS, IMU, JOINTS, MOTION, SOON, SPEED_COMMANDS, Log
 from tandemlift.core.errors import FlightWarning, InputError, without_flight_warnings
 from tandemlift.core.types import Array, Progress, flat, leaves, unflat
-from tandemlift.flight.channels import FLOWN
-from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, MissionLike, check, merge, mission_of, tables_of
+from tandemlift.simulation.fly import Flight
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import SampleChannels, flight_of
 from tandemlift.simulation.stepping import Stepper, fly_stepwise
@@ -65,7 +64,7 @@ def shadow(log: Log, mission: MissionLike, *, progress: Progress | None = None) 
     if body.flown is None:
         return flight
     flown = body.flown[: p.steps + 1 : p.every][: len(flight.time)]
-    return replace(flight, channels={**flight.channels, FLOWN: flown})
+    return replace(flight, channels={**flight.channels, FLOWN_COMMANDS: flown})
 
 
 class LogBody:

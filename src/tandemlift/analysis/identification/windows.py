@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.identification.checks import check_log
-from tandemlift.analysis.identification.log import COMMANDS, JOINTS, SPEED_COMMANDS, Log, Stream
+from tandemlift.analysis.logs.checks import check_log
+from tandemlift.analysis.logs.log import COMMANDS, JOINTS, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.missions import Mission

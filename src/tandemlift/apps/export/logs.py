@@ -18,8 +18,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.identification.clocks import synchronised
-from tandemlift.analysis.identification.log import MOTION, Log, Stream, log_of, stream_channel, without_repeats
+from tandemlift.analysis.logs.clocks import synchronised
+from tandemlift.analysis.logs.log import MOTION, Log, Stream, log_of, stream_channel, without_repeats
 from tandemlift.apps.export.coordinate_frames import to_world
 from tandemlift.apps.export.messages import SECOND
 from tandemlift.apps.export.reading import BASE, read_bag, reading_bag, stamp_of

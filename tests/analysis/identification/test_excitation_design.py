@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.analysis.certification import excitation_design
-from tandemlift.analysis.certification.excitation_design import (
+from tandemlift.analysis.identification import excitation_design
+from tandemlift.analysis.identification.excitation_design import (
     LINES,
     best_shares,
     deviations,
@@ -13,7 +13,7 @@ from tandemlift.analysis.certification.excitation_design import (
     limits_of,
     used_of,
 )
-from tandemlift.analysis.certification.excitation_information import (
+from tandemlift.analysis.identification.excitation_information import (
     PARAMETERS,
     WEIGHED,
     body_response,

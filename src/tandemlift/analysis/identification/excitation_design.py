@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.certification.excitation_information import (
+from tandemlift.analysis.identification.excitation_information import (
     AXES,
     PARAMETERS,
     WEIGHED,

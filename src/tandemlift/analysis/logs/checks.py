@@ -12,8 +12,8 @@ import math
 
 import numpy as np
 
-from tandemlift.analysis.identification.clocks import SPAN, TOLD, SourceClock, fitted_clock, means_of, turn_windows
-from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION, Log, Stream
+from tandemlift.analysis.logs.clocks import SPAN, TOLD, SourceClock, fitted_clock, means_of, turn_windows
+from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY
 

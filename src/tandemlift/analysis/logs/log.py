@@ -18,10 +18,10 @@ import numpy as np
 
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import Array
-from tandemlift.flight.channels import OTHER, Channel, channel_of
+from tandemlift.flight.channels import FLOWN, OTHER, Channel, channel_of
 from tandemlift.flight.record import Flight
 
-COMMANDS, SPEED_COMMANDS = "rotor_commands", "rotor_speed_commands"
+COMMANDS, SPEED_COMMANDS, FLOWN_COMMANDS = "rotor_commands", "rotor_speed_commands", FLOWN
 IMU = ("measured_specific_force", "measured_rates")
 JOINTS = ("measured_joint_force", "measured_joint_torque")
 MOTION = ("measured_position", "measured_velocity", "measured_attitude")
