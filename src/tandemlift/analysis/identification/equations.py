@@ -12,13 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.identification.prediction import (
-    STARTS,
-    PredictedDerivatives,
-    Predictor,
-    conjugate,
-    quaternion_product,
-)
+from tandemlift.analysis.identification.prediction import FORCES, STARTS, PredictedDerivatives, Predictor
 from tandemlift.analysis.identification.sensor_errors import (
     SensorPriors,
     by_turns,
@@ -37,7 +31,6 @@ PLAIN, ROBUST, CAREFUL = range(3)  # least squares of beginnings; Huber's weight
 GROUP = 1.0  # s, about which a bias is constant
 MOST_GROUPS = 60
 ABSURD = 8.0  # standard deviations from where on a residual does not count
-FORCES = ("measured_specific_force", "measured_joint_force", "measured_joint_torque")
 
 
 @dataclass
@@ -116,7 +109,6 @@ class NormalEquations(NamedTuple):
         information: with priors (G, G); `prior` alone (G, G).
         side: its right side (G,).
         noises: information of each stream alone (G, G), by name.
-        scores: of each window (W, G).
         back: of each log, from the unknowns to the starts: (offset (W, 12), matrix (W, 12, C − 12)).
     """
 
@@ -124,7 +116,6 @@ class NormalEquations(NamedTuple):
     prior: Array
     side: Array
     noises: dict[str, Array]
-    scores: Array
     back: list[tuple[Array, Array]]
 
 
@@ -154,7 +145,8 @@ class Linearisation:
             self.parts.append(LogInSearch(predictor, predictor.starts(), own + groups, (groups, middle), every))
             groups += int(own.max()) + 1
         self.estimate = Estimate(np.zeros(len(unknowns)), self._fixed, np.zeros((groups, len(priors.bias))))
-        self.estimate.noise = self._first_noise()
+        self.white = self._first_noise()
+        self.estimate.noise = dict(self.white)
         self.steps = 0
 
     @property
@@ -199,7 +191,7 @@ class Linearisation:
             mean, count, late = _block_means(w, samples, r, weight)
             J, root = self._columns(derivatives, name, place, late), np.sqrt(count)
             if clock is not None:
-                J[:, STARTS + clock] = _slopes(derivatives.base, name) / (w.step * w.block)
+                J[:, STARTS + clock] = derivatives.changes(name) / (w.step * w.block)
             J *= (root / e.noise[name])[:, None]
             rows, J = mean * root, J.reshape(*J.shape[:2], -1)
             found.matrices[name] = J @ J.swapaxes(1, 2)
@@ -230,7 +222,7 @@ class Linearisation:
         groups = len(self.estimate.biases)
         size = P + K + B * groups
         prior, side = self._prior(size)
-        noises, scores, back = dict[str, Array](), list[Array](), list[tuple[Array, Array]]()
+        noises, back = dict[str, Array](), list[tuple[Array, Array]]()
         total = np.zeros((size, size))
         for part, own in zip(self.parts, equations, strict=True):
             every, sides = (np.sum(list(x.values()), axis=0) for x in (own.matrices, own.sides))
@@ -243,9 +235,7 @@ class Linearisation:
             places = self.places(part)
             spread = np.zeros((len(g), size))
             np.put_along_axis(spread, places, g, axis=1)
-            spread *= part.used[:, None]
-            scores.append(spread)
-            side += spread.sum(axis=0)
+            side += spread[part.used].sum(axis=0)
             for name, M in own.matrices.items():
                 reduced = T.swapaxes(1, 2) @ M @ T
                 into = noises.setdefault(name, np.zeros((size, size)))
@@ -253,7 +243,7 @@ class Linearisation:
                     into[np.ix_(place, place)] += one
         for one in noises.values():
             total += one
-        return NormalEquations(total + prior, prior, side, noises, np.concatenate(scores), back)
+        return NormalEquations(total + prior, prior, side, noises, back)
 
     def places(self, part: LogInSearch) -> Places:
         """The places of (biases of its group, coordinates, fixed errors) of each window among all unknowns."""
@@ -279,16 +269,6 @@ class Linearisation:
                 Q[at, behind] -= tie
                 Q[behind, at] -= tie
         return Q, -Q @ x
-
-
-def _slopes(base: dict[str, Array], name: str) -> Array:
-    """The change of predictions per block (W, blocks, width); of the attitude, the turn about body axes."""
-    y = base[name]
-    if name in FORCES:  # means over a block
-        return np.asarray(np.gradient(y, axis=1)[:, :-1])
-    if name == "measured_attitude":
-        return 2.0 * quaternion_product(conjugate(y[:, :-1]), y[:, 1:])[..., 1:]
-    return np.diff(y, axis=1)
 
 
 def _block_means(w: FlightWindows, s: Samples, r: Array, weight: Array) -> tuple[Array, Array, Array]:

@@ -14,12 +14,11 @@ from tandemlift.analysis.identification.identification import Identification, Ro
 from tandemlift.analysis.identification.judgement import (
     Covariance,
     Whiteness,
-    alike_pairs,
     correlations_of,
     covariance_of,
     data_information,
     misfit_by_window,
-    scale_is_known,
+    remarks_on,
     whiteness,
 )
 from tandemlift.analysis.identification.prediction import Predictor
@@ -34,9 +33,9 @@ from tandemlift.engines.vehicle_unknowns import AXES, DEFAULT, Unknowns, driven_
 from tandemlift.missions import Mission, MissionLike, mission_of
 from tandemlift.simulation.fly import Flight
 
-MOST_PAIRS = 4  # that are named
 HELD_BACK = 0.15  # of the windows
 SHOWN = 100  # blocks of the example
+IMPOSSIBLE = 10.0  # times the white noise of samples: residuals that are refused
 
 
 def identify(
@@ -53,7 +52,8 @@ def identify(
     """Identify a vehicle from logs of its flights.
 
     Body, rotors and sensors of the mission are driven by the logged commands, in windows whose starts are unknown, too.
-    No pilot is simulated. Noise levels follow from the residuals; pushes and contacts are left out.
+    No pilot is simulated. Pushes that a force gauge logged count as known; windows under others, and in contact, are
+    left out. Noise levels follow from the residuals.
 
     Args:
         logs: one or several, from `read_log`, or flights with sensors.
@@ -91,6 +91,7 @@ def identify(
     search = VehicleSearch([Predictor(fitted, unknowns, mission) for fitted, _ in parts], unknowns, priors)
     with progress_or_own(f"{mission.mission.name}, identified", progress, "steps") as shown:
         equations, normal = search.run(shown)
+    _check_structure(search, cut[0].source)
     found = _judged(search, equations, normal, [last for _, last in parts if last is not None], mission)
     vehicle = Unknowns(driven_numbers(found.mission.vehicle, found.mission.actuators.delay), ())
     found.details["predicted"] = _predicted(other, vehicle, search, None)
@@ -117,12 +118,23 @@ def _judged(
     found, whole, identified, remarks = _results(search, covariance, mission)
     keys = _with_derivatives(lambda x: _values(unknowns, x), search.estimate.q)
     correlations = correlations_of(keys, covariance.covariance)
-    remarks += _remarks(unknowns, correlations, information, white, found, search)
+    remarks += remarks_on(unknowns, correlations, information, white, found, search)
     vehicle = Unknowns(unknowns.numbers(search.estimate.q), ())
     held = _predicted(held_back, vehicle, search, search.estimate.fixed)
     details = _details(search, correlations, covariance, white, misfit_by_window(search, rows), held)
     details |= {"example": _example(search)}
     return Identification(identified, tuple(found), tuple(whole), tuple(remarks), details)
+
+
+def _check_structure(search: VehicleSearch, source: str) -> None:
+    """Refuse a mission with which no numbers explain how the vehicle turns."""
+    times = search.estimate.noise["measured_rates"] / search.white["measured_rates"]
+    if times > IMPOSSIBLE:
+        mission = search.parts[0].predictor.mission.mission.name
+        raise InputError(
+            f"{source}: measured_rates differ from those of any vehicle of mission {mission} by {times:.0f} times "
+            "their noise: it cannot be this vehicle; compare place, order and spin of rotors, and columns of commands"
+        )
 
 
 def _split(w: FlightWindows, held_back: float) -> tuple[FlightWindows, FlightWindows | None]:
@@ -180,42 +192,6 @@ def _results(
     with without_flight_warnings():
         identified, failed = with_values(mission, changes)
     return found, list(rows_of(_with_derivatives(whole, q), *matrices)), identified, failed
-
-
-def _remarks(
-    unknowns: Unknowns,
-    correlations: Array,
-    information: Array,
-    white: Mapping[str, Whiteness],
-    found: Sequence[Row],
-    search: VehicleSearch,
-) -> list[str]:
-    """What the data could not tell, in sentences."""
-    said, still = list[str](), [row.key for row in found if not row.excited]
-    if not scale_is_known(unknowns, search.estimate.q, information):
-        said.append(
-            "The masses and the thrust constants cannot be told apart: only their ratios are known. Weigh one part "
-            "(--weighed vehicle.payload.mass=…), or log joint sensors of known scale."
-        )
-    if still:
-        said.append(f"The flight did not excite {', '.join(still)}: they keep their prior.")
-    pairs = alike_pairs([row.key for row in found], correlations)
-    for one, other, correlation in pairs[:MOST_PAIRS]:
-        said.append(f"{one} and {other} can hardly be told apart: their errors correlate by {correlation:.3f}.")
-    if len(pairs) > MOST_PAIRS:
-        said.append(f"So do {len(pairs) - MOST_PAIRS} other pairs: see `correlation` in identification.json.")
-    for name, w in white.items():
-        if not w.white:
-            worst = max(w.autocorrelation, key=abs)
-            said.append(
-                f"Residuals of {name} are not white: autocorrelation up to {worst:.3f}, {w.bound:.3f} is allowed. "
-                f"Intervals count it by a factor of {w.factor:.2f} in variance."
-            )
-    if search.left_out:
-        said.append(
-            f"{search.left_out} windows are left out, which no vehicle explains: as under a push, a contact or a fault."
-        )
-    return said
 
 
 def _predicted(

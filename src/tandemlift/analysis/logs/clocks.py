@@ -136,13 +136,15 @@ def change_windows(stream: Stream) -> Windows:
     return Windows(begin, end, means_of(stream, SHORT)(begin, end), SHORT)
 
 
-def _pairs(time: Array, span: float) -> tuple[np.ndarray, np.ndarray]:
-    """First and last samples of spans [s] without a gap."""
+def _pairs(time: Array, span: float) -> np.ndarray:
+    """First and last samples of spans [s] without a gap (2, n)."""
+    if len(time) < FEWEST:
+        return np.zeros((2, 0), int)
     samples = max(1, round(span / float(np.median(np.diff(time)))))
     first = np.arange(0, len(time) - samples, max(1, samples // OVERLAP))
     last = first + samples
     whole = _without_gap(time, time[first], time[last])
-    return first[whole], last[whole]
+    return np.array([first[whole], last[whole]])
 
 
 def _without_gap(time: Array, begin: Array, end: Array) -> np.ndarray:

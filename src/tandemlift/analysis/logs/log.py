@@ -25,7 +25,8 @@ COMMANDS, SPEED_COMMANDS, FLOWN_COMMANDS = "rotor_commands", "rotor_speed_comman
 IMU = ("measured_specific_force", "measured_rates")
 JOINTS = ("measured_joint_force", "measured_joint_torque")
 MOTION = ("measured_position", "measured_velocity", "measured_attitude")
-STREAMS = (*IMU, *JOINTS, *MOTION, COMMANDS, SPEED_COMMANDS, "push_force")
+PUSH = ("push_force", "push_moment")
+STREAMS = (*IMU, *JOINTS, *MOTION, COMMANDS, SPEED_COMMANDS, *PUSH)
 """The streams that readers know; a log may have others, by names of channels."""
 
 SOON = 1e-6  # s: a stamp that much later than a time still counts as it
@@ -53,6 +54,12 @@ class Stream(NamedTuple):
     def at(self, times: Array) -> Array:
         """The last sample at some times [s]; before the first one, that one."""
         return self.values[np.maximum(np.searchsorted(self.time, times + SOON, side="right") - 1, 0)]
+
+
+def rotated(q: Array, v: Array) -> Array:
+    """Vectors (n, 3) turned by quaternions w, x, y, z (n, 4) of about unit length."""
+    w, r = q[:, :1], q[:, 1:]
+    return np.asarray(v + 2.0 * np.cross(r, np.cross(r, v) + w * v) / np.sum(q * q, axis=1)[:, None])
 
 
 def without_repeats(stream: Stream) -> Stream:
@@ -188,7 +195,7 @@ def log_of(flight: Flight) -> Log:
 
     Readings have the times at which their sensor sampled; in the channels the pilot has them a step later, or more with
     delays. The first reading is the one with which the pilot starts, stamped one interval before the first sample.
-    Thrusts that ideal rotors produce are their commands.
+    Thrusts that ideal rotors produce are their commands. The moment of the push is about the payload's origin.
 
     Raises:
         InputError: the flight has no sensors.
@@ -205,7 +212,10 @@ def log_of(flight: Flight) -> Log:
     k, most = np.array([q.thrust_constant for q in rotors]), np.array([q.max_thrust for q in rotors])
     streams[COMMANDS] = Stream(flight.time, commands)
     streams[SPEED_COMMANDS] = Stream(flight.time, np.sqrt(np.clip(commands, 0.0, most) / k))
-    streams["push_force"] = Stream(flight.time, flight["push_force"])
+    force, moment = (flight[name] for name in PUSH)
+    streams[PUSH[0]] = Stream(flight.time, force)
+    in_body = rotated(flight["attitude"] * [1.0, -1.0, -1.0, -1.0], force)
+    streams[PUSH[1]] = Stream(flight.time, moment + np.cross(flight.vehicle.center_of_mass, in_body))
     return Log(streams, flight.name)
 
 

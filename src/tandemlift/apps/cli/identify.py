@@ -127,14 +127,17 @@ def identify(
     from tandemlift.pictures.report.identification_report import write_identification
 
     start, masses = load(mission, settings), dict(map(_weighed, weighed))
-    *read, other = [tl.read_log(path, columns, align=align) if path else None for path in (*logs, predict)]
-    for note in (note for log in (*read, other) if log for note in log.notes):
+    paths = [*logs, *([predict] if predict else [])]
+    read = [tl.read_log(path, columns, align=align) for path in paths]
+    for note in (note for log in read for note in log.notes):
         echo(note)
+    other = read.pop() if predict else None
     keys = parameters.split(",") if parameters else None
     with results_folder(out, Path("out") / f"{start.mission.name}-identification", ()) as folder:
         with progress_bar("Identifying", "steps", shown=sys.stderr.isatty()) as progress:
-            how = {"parameters": keys, "weighed": masses, "window": window, "predict": other}
-            found = tl.identify(read, start, **how, progress=progress)
+            found = tl.identify(
+                read, start, parameters=keys, weighed=masses, window=window, predict=other, progress=progress
+            )
         for line in found.lines():
             echo(line)
         for path in [*found.save(folder), write_identification(found.as_dict(), folder)]:
