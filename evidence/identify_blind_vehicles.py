@@ -29,7 +29,7 @@ import tandemlift as tl
 from tandemlift.analysis.identification.identification import Identification
 from tandemlift.analysis.identification.identify import identify, reference_rows
 from tandemlift.analysis.logs.clocks import GROUPS, synchronised
-from tandemlift.analysis.logs.log import Log, log_of
+from tandemlift.analysis.logs.log import PUSH, Log, log_of
 from tandemlift.core.errors import without_flight_warnings
 from tandemlift.missions import Mission, load_mission, tables_of
 
@@ -114,7 +114,7 @@ def flown(vehicle: dict[str, Any], flight: dict[str, Any], seed: int) -> tuple[L
     with without_flight_warnings():
         mission = load_mission(START, vehicle | flight | changes)
         log = log_of(tl.fly(mission, engine="mujoco"))
-    log = Log({n: s for n, s in log.items() if n not in ("push_force", "rotor_commands")}, f"vehicle {seed}")
+    log = Log({n: s for n, s in log.items() if n not in (*PUSH, "rotor_commands")}, f"vehicle {seed}")
     chance = np.random.default_rng([seed, 1])
     for names in GROUPS.values():
         log = log.aligned(names, *(size * chance.uniform(-1.0, 1.0) for size in CLOCK))

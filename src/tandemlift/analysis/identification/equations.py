@@ -226,7 +226,9 @@ class Linearisation:
         total = np.zeros((size, size))
         for part, own in zip(self.parts, equations, strict=True):
             every, sides = (np.sum(list(x.values()), axis=0) for x in (own.matrices, own.sides))
-            A = every[:, :STARTS, :STARTS] + 1e-9 * np.eye(STARTS) * np.trace(every[:, :STARTS, :STARTS].mean(0))
+            A = every[:, :STARTS, :STARTS] + 1e-9 * np.eye(STARTS) * np.trace(
+                every[part.used, :STARTS, :STARTS].mean(0)
+            )
             to_start = np.linalg.solve(A, every[:, :STARTS, STARTS:])
             offset = np.linalg.solve(A, sides[:, :STARTS, None])[..., 0]
             back.append((offset, to_start))

@@ -88,7 +88,7 @@ class VehicleSearch(Linearisation):
             for name, size in own.misfit.items():
                 count = part.windows.samples[name].values.size / len(size)
                 allowed = max(UNEXPLAINED, CHANCE * np.sqrt(2.0 / max(count, 1.0)))
-                worst = np.maximum(worst, (size / np.median(size) - 1.0) / allowed)
+                worst = np.maximum(worst, np.nan_to_num(size / np.nanmedian(size) - 1.0, nan=np.inf) / allowed)
             out = worst > max(1.0, float(np.median(worst)))
             near = np.abs(part.windows.first[:, None] - part.windows.first[out]) <= part.windows.length
             kept = ~near.any(axis=1)

@@ -129,11 +129,11 @@ def _judged(
 def _check_structure(search: VehicleSearch, source: str) -> None:
     """Refuse a mission with which no numbers explain how the vehicle turns."""
     times = search.estimate.noise["measured_rates"] / search.white["measured_rates"]
-    if times > IMPOSSIBLE:
-        mission = search.parts[0].predictor.mission.mission.name
+    if not times <= IMPOSSIBLE:
+        name = search.parts[0].predictor.mission.mission.name
         raise InputError(
-            f"{source}: measured_rates differ from those of any vehicle of mission {mission} by {times:.0f} times "
-            "their noise: it cannot be this vehicle; compare place, order and spin of rotors, and columns of commands"
+            f"{source}: measured_rates differ from those of any vehicle of mission {name} by more than {IMPOSSIBLE:g} "
+            "times their noise: it cannot be this vehicle; compare place, order and spin of rotors with the commands"
         )
 
 

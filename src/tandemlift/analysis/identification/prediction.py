@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.analysis.identification.windows import FlightWindows, Places
-from tandemlift.analysis.logs.log import JOINTS
+from tandemlift.analysis.logs.log import JOINTS, conjugate, quaternion_product
 from tandemlift.compiler.machine_code.series import Series
 from tandemlift.core.caching import LastUsed
 from tandemlift.core.types import Array, flat
@@ -271,15 +271,3 @@ def _slope_of(w: FlightWindows, name: str) -> Array:
         own = (s.window == i) & (s.step * w.step < 0.1)
         found.append(np.polyfit(s.step[own] * w.step, s.values[own], 1)[0])
     return np.array(found)
-
-
-def conjugate(q: Array) -> Array:
-    """The conjugates of quaternions (…, 4)."""
-    return q * [1.0, -1.0, -1.0, -1.0]
-
-
-def quaternion_product(a: Array, b: Array) -> Array:
-    """The products of quaternions (…, 4)."""
-    aw, av, bw, bv = a[..., :1], a[..., 1:], b[..., :1], b[..., 1:]
-    w = aw * bw - np.sum(av * bv, axis=-1, keepdims=True)
-    return np.concatenate([w, aw * bv + bw * av + np.cross(av, bv)], axis=-1)

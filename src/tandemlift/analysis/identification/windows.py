@@ -129,11 +129,10 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
             f"of {length:g} s are needed, after {SETTLING + LONGEST_DELAY:g} s for delay and lag of the rotors"
         )
     cut = FlightWindows(log.source, step, begin, count, firsts, steps, block, commands, np.zeros((count, 6)), {})
-    for place, name in enumerate(n for n in PUSH if n in log):
-        amid = begin + (np.arange(count) + 0.5) * step
-        cut.pushes[:, 3 * place : 3 * place + 3] = np.array(
-            [np.interp(amid, log[name].time, v) for v in log[name].values.T]
-        ).T
+    amid = begin + (np.arange(count) + 0.5) * step
+    for name, place in zip(PUSH, (slice(0, 3), slice(3, 6)), strict=True):
+        if name in log:
+            cut.pushes[:, place] = np.array([np.interp(amid, log[name].time, v) for v in log[name].values.T]).T
     samples = {name: _samples(cut, log[name]) for name in (*IMU, *MOTION, *JOINTS) if name in log}
     cut = replace(cut, samples=samples)
     flying = _in_flight(cut, log, mission)

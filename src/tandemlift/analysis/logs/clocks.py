@@ -26,7 +26,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream
+from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream, conjugate, quaternion_product
 from tandemlift.core.types import Array
 
 GROUPS = {"motion": MOTION, "joints": JOINTS}
@@ -119,10 +119,8 @@ def turn_windows(attitude: Stream) -> Windows:
     """The mean rates [rad/s] of a measured attitude, body axes, by the rotation from begin to end of each window."""
     q = attitude.values / np.linalg.norm(attitude.values, axis=1, keepdims=True)
     first, last = _pairs(attitude.time, WINDOW)
-    (w, *v), (W, *V) = q[first].T, q[last].T
-    v, V = np.array(v).T, np.array(V).T
-    real = w * W + np.sum(v * V, axis=1)
-    turn = w[:, None] * V - W[:, None] * v - np.cross(v, V)
+    change = quaternion_product(conjugate(q[first]), q[last])
+    real, turn = change[:, 0], change[:, 1:]
     size = np.linalg.norm(turn, axis=1)
     angle = 2.0 * np.arctan2(size, np.abs(real)) * np.where(real < 0.0, -1.0, 1.0)
     begin, end = attitude.time[first], attitude.time[last]

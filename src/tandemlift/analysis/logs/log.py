@@ -56,6 +56,18 @@ class Stream(NamedTuple):
         return self.values[np.maximum(np.searchsorted(self.time, times + SOON, side="right") - 1, 0)]
 
 
+def conjugate(q: Array) -> Array:
+    """The conjugates of quaternions (…, 4)."""
+    return q * [1.0, -1.0, -1.0, -1.0]
+
+
+def quaternion_product(a: Array, b: Array) -> Array:
+    """The products of quaternions (…, 4)."""
+    aw, av, bw, bv = a[..., :1], a[..., 1:], b[..., :1], b[..., 1:]
+    w = aw * bw - np.sum(av * bv, axis=-1, keepdims=True)
+    return np.concatenate([w, aw * bv + bw * av + np.cross(av, bv)], axis=-1)
+
+
 def rotated(q: Array, v: Array) -> Array:
     """Vectors (n, 3) turned by quaternions w, x, y, z (n, 4) of about unit length."""
     w, r = q[:, :1], q[:, 1:]
@@ -214,7 +226,7 @@ def log_of(flight: Flight) -> Log:
     streams[SPEED_COMMANDS] = Stream(flight.time, np.sqrt(np.clip(commands, 0.0, most) / k))
     force, moment = (flight[name] for name in PUSH)
     streams[PUSH[0]] = Stream(flight.time, force)
-    in_body = rotated(flight["attitude"] * [1.0, -1.0, -1.0, -1.0], force)
+    in_body = rotated(conjugate(flight["attitude"]), force)
     streams[PUSH[1]] = Stream(flight.time, moment + np.cross(flight.vehicle.center_of_mass, in_body))
     return Log(streams, flight.name)
 
