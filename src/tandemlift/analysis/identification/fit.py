@@ -27,6 +27,9 @@ CHANCE = 5.0  # standard deviations of such a mean square that chance may add
 class VehicleSearch(Linearisation):
     """The search for a vehicle's numbers."""
 
+    lost = False  # whether the search left all finite numbers
+
+    @np.errstate(over="ignore", invalid="ignore")
     def run(self, progress: Progress | None = None, *, follow: bool = True) -> tuple[list[Equations], NormalEquations]:
         """Search to the end; the equations there.
 
@@ -42,6 +45,9 @@ class VehicleSearch(Linearisation):
         for number in range(MOST_STEPS):
             robust = PLAIN if number < PLAIN_STEPS else CAREFUL if number > chosen else ROBUST
             equations, normal = self.linearised(robust)
+            self.lost = not np.isfinite(normal.information).all()
+            if self.lost:
+                return equations, normal
             covariance = np.linalg.inv(normal.information)
             step = covariance @ normal.side
             self._move(step, normal)

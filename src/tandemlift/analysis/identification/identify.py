@@ -129,7 +129,7 @@ def _judged(
 def _check_structure(search: VehicleSearch, source: str) -> None:
     """Refuse a mission with which no numbers explain how the vehicle turns."""
     times = search.estimate.noise["measured_rates"] / search.white["measured_rates"]
-    if not times <= IMPOSSIBLE:
+    if search.lost or times > IMPOSSIBLE:
         name = search.parts[0].predictor.mission.mission.name
         raise InputError(
             f"{source}: measured_rates differ from those of any vehicle of mission {name} by more than {IMPOSSIBLE:g} "
