@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 from tandemlift.core.files import __version__ as __version__
 
 if TYPE_CHECKING:
-    from tandemlift.analysis.certification.excitation_design import excite
     from tandemlift.analysis.certification.mission_check import check
+    from tandemlift.analysis.identification.excitation_design import excite
     from tandemlift.analysis.identification.identify import identify
     from tandemlift.analysis.identification.shadow import shadow
     from tandemlift.analysis.linearization.differentiable_step import jax_step, torch_step
@@ -56,7 +56,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "certify": "pictures.report.study.certificate_report",
     "check": "analysis.certification.mission_check",
     "compile_mission": "codegen.mission_module",
-    "excite": "analysis.certification.excitation_design",
+    "excite": "analysis.identification.excitation_design",
     "feel": "pictures.report.study.feel_report",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",

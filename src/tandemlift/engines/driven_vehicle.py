@@ -1,7 +1,8 @@
 """The vehicle driven by logged commands: rotors, body and perfect sensors, without pilot, contact and wind.
 
 The rotors do not depend on the body, so they are simulated first, over a whole log; the body then moves under the
-squares of their speeds. Both are the laws of the compiled engine, as functions of the numbers of a vehicle.
+squares of their speeds and the pushes that a force gauge logged. Both are the laws of the compiled engine, as functions
+of the numbers of a vehicle.
 """
 
 from __future__ import annotations
@@ -13,7 +14,20 @@ import numpy as np
 from tandemlift.core.arrays import inverse
 from tandemlift.core.law import law
 from tandemlift.core.types import Array, Number, PerQuadrotor, PerRotor
-from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, apply, cross, each, mat3, set_of, spread, vec3
+from tandemlift.core.vector import (
+    ZERO,
+    Absent,
+    Quat,
+    Vec3,
+    apply,
+    apply_transposed,
+    cross,
+    each,
+    mat3,
+    set_of,
+    spread,
+    vec3,
+)
 from tandemlift.engines.compiled import advance
 from tandemlift.engines.compiled_contact import CompiledPlant
 from tandemlift.engines.models.links import parts_layout_from
@@ -54,7 +68,7 @@ class DrivenBody(NamedTuple):
     """A vehicle in the form that a step needs.
 
     The body, k of each rotor [N/(rad/s)²], their ground effect, the point that the motion measurement follows, from the
-    centre of mass [m, body axes], the time step [s].
+    centre of mass [m, body axes], the time step [s], the centre of mass from the payload's origin [m].
     """
 
     plant: CompiledPlant
@@ -62,6 +76,18 @@ class DrivenBody(NamedTuple):
     surface: GroundEffect | Absent
     point: Vec3
     step: Number
+    center: Vec3
+
+
+class DrivenInputs(NamedTuple):
+    """Mean squares of the rotors' speeds [rad²/s²]; a push: force [N, world axes], moment about the payload's origin.
+
+    The moment is in body axes [N m].
+    """
+
+    squares: PerRotor
+    force: Vec3
+    moment: Vec3
 
 
 class DrivenReadings(NamedTuple):
@@ -143,16 +169,19 @@ def driven_body(table: VehicleTable, floor: float | None, n: VehicleNumbers, poi
     )
     plant = CompiledPlant(mixer_of(vehicle), body, parts_layout_from(vehicle), Absent(), Absent())
     surface = Absent() if floor is None else ground_effect_from(vehicle, floor)
-    return DrivenBody(plant, set_of([k for k in n.thrust_constants for _ in range(4)]), surface, point, step)
+    constants = set_of([k for k in n.thrust_constants for _ in range(4)])
+    return DrivenBody(plant, constants, surface, point, step, vec3(vehicle.center_of_mass))
 
 
 @law
-def driven_step(b: DrivenBody, s: State, squares: PerRotor) -> tuple[State, DrivenReadings]:
-    """(The state after a step, readings at its start) under the mean squares of the rotors' speeds [rad²/s²]."""
-    hand = PushSamples(NO_PUSH, NO_PUSH, NO_PUSH)
-    thrusts = squares * b.constants * ground_effect_ratio(b.surface, s)
-    moved = advance(b.plant, s, Absent(), Absent(), thrusts, Absent(), hand, b.step)
-    R, felt = rotation_from_quaternion(s.attitude), moved.readings
+def driven_step(b: DrivenBody, s: State, u: DrivenInputs) -> tuple[State, DrivenReadings]:
+    """(The state after a step, readings at its start) under its inputs."""
+    hand, R = PushSamples(NO_PUSH, NO_PUSH, NO_PUSH), rotation_from_quaternion(s.attitude)
+    thrusts = u.squares * b.constants * ground_effect_ratio(b.surface, s)
+    moment = u.moment - cross(b.center, apply_transposed(R, u.force))
+    plant = b.plant._replace(body=b.plant.body._replace(force=u.force, moment=moment))
+    moved = advance(plant, s, Absent(), Absent(), thrusts, Absent(), hand, b.step)
+    felt = moved.readings
     return moved.state, DrivenReadings(
         position=s.position + apply(R, b.point),
         velocity=s.velocity + apply(R, cross(s.rates, b.point)),

@@ -125,11 +125,6 @@ class Unknowns:
         return len(self.unknowns)
 
     @property
-    def names(self) -> tuple[str, ...]:
-        """Their names."""
-        return tuple(u.name for u in self.unknowns)
-
-    @property
     def sd(self) -> Array:
         """Standard deviations of their priors, as coordinates (P,)."""
         return np.array([u.sd for u in self.unknowns])

@@ -8,9 +8,9 @@ from plain_vehicle import PlainVehicle, fitted, squares
 
 import tandemlift as tl
 from tandemlift.analysis.identification.identify import reference_rows
-from tandemlift.analysis.identification.log import Log, Stream, log_of
 from tandemlift.analysis.identification.prediction import Predictor
 from tandemlift.analysis.identification.windows import windows_of
+from tandemlift.analysis.logs.log import MOTION, Log, Stream, log_of
 from tandemlift.core.errors import InputError
 from tandemlift.engines.vehicle_unknowns import driven_numbers, unknowns_of
 from tandemlift.missions import load_mission
@@ -64,7 +64,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning")
 
 def blind(log):
     """The log without what only a simulation knows."""
-    return Log({n: s for n, s in log.items() if n not in ("push_force", "rotor_commands")}, "blind")
+    return Log({n: s for n, s in log.items() if not n.startswith("push_") and n != "rotor_commands"}, "blind")
 
 
 @pytest.fixture(scope="module")
@@ -130,7 +130,7 @@ def test_estimates_are_near_the_truth_and_within_their_intervals(found):
 
 
 def test_a_push_is_left_out_and_what_was_held_back_is_predicted(found):
-    assert 1 <= found.details["windows"]["left_out"] <= 6
+    assert 1 <= found.details["windows"]["left_out"] <= 5
     assert any("left out" in text for text in found.remarks)
     assert all(0.8 < ratio < 1.5 for ratio in found.details["held_back"]["ratio"].values())
     assert 0.5 < found.details["efficiency"] <= 1.0
@@ -153,7 +153,8 @@ def test_the_page_shows_each_estimate(found, tmp_path):
     assert all(row.key in text for row in (*found.rows, *found.whole))
 
 
-def test_outliers_and_gaps_change_little(log, found):
+def test_outliers_gaps_and_clocks_of_their_own_change_little(log, found):
+    """Offsets and drifts of the sources' clocks are found beside the vehicle; the correlation does not see 1.3 ms."""
     chance, bad = np.random.default_rng(3), {}
     for name, (time, values) in log.items():
         kept = chance.random(len(time)) > 0.05
@@ -162,7 +163,13 @@ def test_outliers_and_gaps_change_little(log, found):
             hit = chance.random(len(time)) < 0.01
             values[hit] += 20.0 * values.std(axis=0)
         bad[name] = Stream(time[kept], values[kept]) if name.startswith("measured") else Stream(time, values)
-    again = tl.identify(Log(bad, "bad"), START, weighed=WEIGHED, **SILENT)
+    bad = Log(bad, "bad")
+    joints, motion = ([n for n in bad if any(part in n for part in names)] for names in (("joint",), MOTION))
+    bad = bad.aligned(joints, 1.3e-3, 2e-5, 20.0).aligned(motion, -0.7e-3, -3e-5, 20.0)
+    again = tl.identify(bad, START, weighed=WEIGHED, predict=log.between(22.0, 30.0), window=0.8, **SILENT)
+    assert again.details["clocks"]["measured_joint_force"] == pytest.approx(-1.3e-3, abs=2e-4)
+    assert again.details["clocks"]["measured_position"] == pytest.approx(0.7e-3, abs=3e-4)
+    assert all(0.8 < ratio < 1.5 for ratio in again.details["predicted"]["ratio"].values())
     for row in (*found.rows, *found.whole):
         assert abs(again[row.key].value - row.value) < 1.5 * row.half, row.key
 
@@ -208,6 +215,23 @@ def test_without_joints_and_scale_masses_and_thrust_constants_are_a_pair(log):
     assert ratio == pytest.approx(truth["mass"] / truth["vehicle.quadrotors.0.thrust_constant"], rel=0.01)
 
 
+def test_without_joints_and_scale_pushes_of_a_force_gauge_tell_masses_and_yaw_drag(flight):
+    """A doublet along x and one that turns, flown by MuJoCo; the gauge logs force and moment."""
+    ways = [([3.0, 0.0, 0.0], [0.0, 0.0, 0.0]), ([0.0, 0.0, 3.0], [0.0, 0.0, 0.0]), ([3.0, 0.0, 0.0], [0.0, 0.5, 0.0])]
+    pushes = [
+        {"force": [sign * f for f in force], "point": point, "time": BEGIN + 3.0 + 3.0 * (2 * i + k), "sigma": 0.4}
+        for i, (force, point) in enumerate(ways)
+        for k, sign in enumerate((1.0, -1.0))
+    ]
+    log = log_of(tl.fly(load_mission(START, TRUTH | FLOWN | {"pushes": pushes}), engine="mujoco"))
+    log = Log({n: s for n, s in log.items() if "joint" not in n and n != "rotor_commands"}, "gauge")
+    found, truth = tl.identify(log, START, held_back=0.0, **SILENT), reference_rows(load_mission(START, TRUTH))
+    assert not any("cannot be told apart: only their ratios" in text for text in found.remarks)
+    for key in ("mass", "inertia.z", "vehicle.quadrotors.0.thrust_constant", "vehicle.quadrotors.*.torque_per_thrust"):
+        assert abs(found[key].value - truth[key]) < 1.5 * found[key].half, key
+        assert found[key].half < 0.01 * truth[key], key
+
+
 def test_bad_input_is_named(log):
     without = Log({n: s for n, s in log.items() if n != "measured_rates"}, "half")
     for given, options, text in (
@@ -220,8 +244,21 @@ def test_bad_input_is_named(log):
     ):
         with pytest.raises(InputError, match=text):
             tl.identify(given, START, **SILENT, **options)
-    with pytest.raises(InputError, match="has 8 rotors, but the vehicle of mission four has 16"):
+    with pytest.raises(InputError, match="has 6 columns: must be 3 for each of the 4 quadrotors of mission four"):
         tl.identify(log, "four", **SILENT)
+    commands, part = log["rotor_speed_commands"], log.between(BEGIN, BEGIN + 9.5)
+    swapped = Stream(commands.time, np.roll(commands.values, 4, axis=1))
+    other_order = Log({**log, "rotor_speed_commands": swapped}, "blind").between(BEGIN, BEGIN + 9.5)
+    for given, mission in ((part, "paper"), (other_order, START)):
+        with pytest.raises(
+            InputError, match=f"blind: measured_rates differ from those of any .* {mission} .* 10 times"
+        ):
+            tl.identify(given, mission, **SILENT)
+    dead = Log(
+        {**log, "rotor_speed_commands": Stream(commands.time, commands.values * np.arange(8).clip(0, 1))}, "dead"
+    )
+    with pytest.raises(InputError, match="rotor_speed_commands: column 0 is constant"):
+        tl.identify(dead, START, **SILENT)
     still = dict(log.items())
     still["measured_rates"] = Stream(log["measured_rates"].time, 0.0 * log["measured_rates"].values)
     with pytest.raises(InputError, match="measured_rates: column 0 is constant"):

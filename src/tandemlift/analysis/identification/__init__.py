@@ -1,1 +1,1 @@
-"""What a log of a vehicle tells: its contract, its clocks, what a mission's pilot makes of it."""
+"""A vehicle from its logs: the flight that tells most, its numbers, and what a pilot makes of a log."""

@@ -12,8 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.identification.log import JOINTS
-from tandemlift.analysis.identification.prediction import STARTS, PredictedDerivatives, Predictor
+from tandemlift.analysis.identification.prediction import FORCES, STARTS, PredictedDerivatives, Predictor
 from tandemlift.analysis.identification.sensor_errors import (
     SensorPriors,
     by_turns,
@@ -21,7 +20,8 @@ from tandemlift.analysis.identification.sensor_errors import (
     residuals,
     robust_sd,
 )
-from tandemlift.analysis.identification.windows import FlightWindows, Places, Samples
+from tandemlift.analysis.identification.windows import FlightWindows, Places, Samples, Truths
+from tandemlift.analysis.logs.log import JOINTS
 from tandemlift.core.types import Array
 from tandemlift.engines.vehicle_unknowns import Unknowns
 
@@ -31,7 +31,6 @@ PLAIN, ROBUST, CAREFUL = range(3)  # least squares of beginnings; Huber's weight
 GROUP = 1.0  # s, about which a bias is constant
 MOST_GROUPS = 60
 ABSURD = 8.0  # standard deviations from where on a residual does not count
-FORCES = ("measured_specific_force", "measured_joint_force", "measured_joint_torque")
 
 
 @dataclass
@@ -43,12 +42,14 @@ class LogInSearch:
         starts: of its windows (W, 13).
         groups: the group of biases of each window (W,).
         spans: the first of its groups, and the mean time [s] of each.
+        used: whether a window counts (W,): one that no vehicle explains does not, but its start is found.
     """
 
     predictor: Predictor
     starts: Array
     groups: Places
     spans: tuple[int, Array]
+    used: Truths
 
     @property
     def windows(self) -> FlightWindows:
@@ -108,7 +109,6 @@ class NormalEquations(NamedTuple):
         information: with priors (G, G); `prior` alone (G, G).
         side: its right side (G,).
         noises: information of each stream alone (G, G), by name.
-        scores: of each window (W, G).
         back: of each log, from the unknowns to the starts: (offset (W, 12), matrix (W, 12, C − 12)).
     """
 
@@ -116,7 +116,6 @@ class NormalEquations(NamedTuple):
     prior: Array
     side: Array
     noises: dict[str, Array]
-    scores: Array
     back: list[tuple[Array, Array]]
 
 
@@ -142,11 +141,18 @@ class Linearisation:
             span = max(GROUP, (w.times()[-1] - w.times()[0]) / MOST_GROUPS)
             _, own = np.unique(((w.times() - w.times()[0]) / span).astype(int), return_inverse=True)
             middle = np.bincount(own, w.times()) / np.bincount(own)
-            self.parts.append(LogInSearch(predictor, predictor.starts(), own + groups, (groups, middle)))
+            every = np.ones(len(own), bool)
+            self.parts.append(LogInSearch(predictor, predictor.starts(), own + groups, (groups, middle), every))
             groups += int(own.max()) + 1
         self.estimate = Estimate(np.zeros(len(unknowns)), self._fixed, np.zeros((groups, len(priors.bias))))
-        self.estimate.noise = self._first_noise()
-        self.steps, self.left_out = 0, 0
+        self.white = self._first_noise()
+        self.estimate.noise = dict(self.white)
+        self.steps = 0
+
+    @property
+    def left_out(self) -> int:
+        """Number of windows that do not count."""
+        return int(sum((~part.used).sum() for part in self.parts))
 
     def _first_noise(self) -> dict[str, float]:
         found = dict[str, list[float]]()
@@ -172,8 +178,10 @@ class Linearisation:
         for name, samples in w.samples.items():
             place = self.priors.places.get(name, slice(0, 0))
             biases = e.biases[part.groups][:, place]
-            r = residuals(samples, name, predicted, biases, e.turns) / e.noise[name]
-            found.spread[name] = robust_sd(r) * e.noise[name]
+            clock = self.priors.clocks.get(name)
+            behind = None if clock is None else e.biases[part.groups, clock] / w.step
+            r = residuals(samples, name, predicted, biases, e.turns, behind) / e.noise[name]
+            found.spread[name] = robust_sd(r[part.used[samples.window]]) * e.noise[name]
             clipped = np.minimum(np.sum(r * r, axis=1) / r.shape[1], HUBER**2)
             counts = np.maximum(np.bincount(samples.window, minlength=len(w.first)), 1)
             found.misfit[name] = np.bincount(samples.window, clipped, len(w.first)) / counts
@@ -182,6 +190,8 @@ class Linearisation:
             weight = weight * (size < ABSURD) if robust == CAREFUL else weight
             mean, count, late = _block_means(w, samples, r, weight)
             J, root = self._columns(derivatives, name, place, late), np.sqrt(count)
+            if clock is not None:
+                J[:, STARTS + clock] = derivatives.changes(name) / (w.step * w.block)
             J *= (root / e.noise[name])[:, None]
             rows, J = mean * root, J.reshape(*J.shape[:2], -1)
             found.matrices[name] = J @ J.swapaxes(1, 2)
@@ -212,11 +222,13 @@ class Linearisation:
         groups = len(self.estimate.biases)
         size = P + K + B * groups
         prior, side = self._prior(size)
-        noises, scores, back = dict[str, Array](), list[Array](), list[tuple[Array, Array]]()
+        noises, back = dict[str, Array](), list[tuple[Array, Array]]()
         total = np.zeros((size, size))
         for part, own in zip(self.parts, equations, strict=True):
             every, sides = (np.sum(list(x.values()), axis=0) for x in (own.matrices, own.sides))
-            A = every[:, :STARTS, :STARTS] + 1e-9 * np.eye(STARTS) * np.trace(every[:, :STARTS, :STARTS].mean(0))
+            A = every[:, :STARTS, :STARTS] + 1e-9 * np.eye(STARTS) * np.trace(
+                every[part.used, :STARTS, :STARTS].mean(0)
+            )
             to_start = np.linalg.solve(A, every[:, :STARTS, STARTS:])
             offset = np.linalg.solve(A, sides[:, :STARTS, None])[..., 0]
             back.append((offset, to_start))
@@ -225,16 +237,15 @@ class Linearisation:
             places = self.places(part)
             spread = np.zeros((len(g), size))
             np.put_along_axis(spread, places, g, axis=1)
-            scores.append(spread)
-            side += spread.sum(axis=0)
+            side += spread[part.used].sum(axis=0)
             for name, M in own.matrices.items():
                 reduced = T.swapaxes(1, 2) @ M @ T
                 into = noises.setdefault(name, np.zeros((size, size)))
-                for place, one in zip(places, reduced, strict=True):
+                for place, one in zip(places[part.used], reduced[part.used], strict=True):
                     into[np.ix_(place, place)] += one
         for one in noises.values():
             total += one
-        return NormalEquations(total + prior, prior, side, noises, np.concatenate(scores), back)
+        return NormalEquations(total + prior, prior, side, noises, back)
 
     def places(self, part: LogInSearch) -> Places:
         """The places of (biases of its group, coordinates, fixed errors) of each window among all unknowns."""

@@ -5,8 +5,6 @@ A window that no vehicle explains, as under a push, is left out.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from tandemlift.analysis.identification.equations import (
@@ -29,6 +27,9 @@ CHANCE = 5.0  # standard deviations of such a mean square that chance may add
 class VehicleSearch(Linearisation):
     """The search for a vehicle's numbers."""
 
+    lost = False  # whether the search left all finite numbers
+
+    @np.errstate(over="ignore", invalid="ignore")
     def run(self, progress: Progress | None = None, *, follow: bool = True) -> tuple[list[Equations], NormalEquations]:
         """Search to the end; the equations there.
 
@@ -44,6 +45,9 @@ class VehicleSearch(Linearisation):
         for number in range(MOST_STEPS):
             robust = PLAIN if number < PLAIN_STEPS else CAREFUL if number > chosen else ROBUST
             equations, normal = self.linearised(robust)
+            self.lost = not np.isfinite(normal.information).all()
+            if self.lost:
+                return equations, normal
             covariance = np.linalg.inv(normal.information)
             step = covariance @ normal.side
             self._move(step, normal)
@@ -59,8 +63,8 @@ class VehicleSearch(Linearisation):
                 self._follow_noise(equations)
             elif chosen == MOST_STEPS and number >= PLAIN_STEPS and (size < NEAR or number == MOST_STEPS // 2):
                 chosen = number
-                if follow:
-                    self._leave_out(equations)
+            if number >= chosen and follow:
+                self._leave_out(equations)
         if progress:
             progress(MOST_STEPS, MOST_STEPS)
         return self.linearised(CAREFUL)
@@ -81,19 +85,17 @@ class VehicleSearch(Linearisation):
             self.estimate.noise[name] = max(float(np.median(own)), 1e-12)
 
     def _leave_out(self, equations: list[Equations]) -> None:
-        """Leave out the windows that no vehicle explains and those beside them, but never more than half of a log."""
+        """Leave out the windows that no vehicle explains and those beside them, but never more than half of a log.
+
+        Those that the present vehicle explains come back.
+        """
         for part, own in zip(self.parts, equations, strict=True):
             worst = np.zeros(len(part.starts))
             for name, size in own.misfit.items():
                 count = part.windows.samples[name].values.size / len(size)
                 allowed = max(UNEXPLAINED, CHANCE * np.sqrt(2.0 / max(count, 1.0)))
-                worst = np.maximum(worst, (size / np.median(size) - 1.0) / allowed)
+                worst = np.maximum(worst, np.nan_to_num(size / np.nanmedian(size) - 1.0, nan=np.inf) / allowed)
             out = worst > max(1.0, float(np.median(worst)))
             near = np.abs(part.windows.first[:, None] - part.windows.first[out]) <= part.windows.length
             kept = ~near.any(axis=1)
-            if kept.all() or kept.sum() < 0.5 * len(kept):
-                continue
-            self.left_out += int((~kept).sum())
-            part.starts, part.groups = part.starts[kept], part.groups[kept]
-            predictor = part.predictor
-            part.predictor = replace(predictor, windows=predictor.windows.chosen(kept))
+            part.used = kept if kept.sum() >= 0.5 * len(kept) else part.used

@@ -78,12 +78,16 @@ class Identification:
         return f"<Identification of {self.mission.mission.name}: {len(self.rows)} numbers, {len(self.remarks)} remarks>"
 
     def lines(self) -> Iterator[str]:
-        """In words: estimates, then remarks."""
+        """In words: estimates, their efficiency, predictions, then remarks."""
         rows = (*self.rows, *self.whole)
         wide = max(len(row.key) for row in rows)
         for row in rows:
             mark = "" if row.excited else "  not excited: kept by its prior"
             yield f"{row.key:{wide}}  {row.value:>12.6g} ± {row.half:<9.2g} {row.unit:12} was {row.start:.6g}{mark}"
+        yield f"efficiency against the Cramér-Rao bound: {self.details['efficiency']:.2f} (median)"
+        for title, part in (("held-back windows", "held_back"), ("another flight", "predicted")):
+            if ratios := self.details[part].get("ratio", {}).values():
+                yield f"{title}: residuals {min(ratios):.2f} to {max(ratios):.2f} times the noise"
         yield from self.remarks
 
     def as_dict(self) -> dict[str, Any]:

@@ -14,29 +14,28 @@ from tandemlift.analysis.identification.identification import Identification, Ro
 from tandemlift.analysis.identification.judgement import (
     Covariance,
     Whiteness,
-    alike_pairs,
     correlations_of,
     covariance_of,
     data_information,
     misfit_by_window,
-    scale_is_known,
+    remarks_on,
     whiteness,
 )
-from tandemlift.analysis.identification.log import Log, log_of
 from tandemlift.analysis.identification.prediction import Predictor
 from tandemlift.analysis.identification.sensor_errors import sensor_priors
 from tandemlift.analysis.identification.windows import FEWEST, LENGTH, FlightWindows, windows_of
+from tandemlift.analysis.logs.log import Log, log_of
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Array, Progress, flat
 from tandemlift.engines.driven_vehicle import whole_vehicle
-from tandemlift.engines.vehicle_unknowns import AXES, DEFAULT, Unknowns, unknowns_of
-from tandemlift.flight.record import Flight
+from tandemlift.engines.vehicle_unknowns import AXES, DEFAULT, Unknowns, driven_numbers, unknowns_of
 from tandemlift.missions import Mission, MissionLike, mission_of
+from tandemlift.simulation.fly import Flight
 
-MOST_PAIRS = 4  # that are named
 HELD_BACK = 0.15  # of the windows
 SHOWN = 100  # blocks of the example
+IMPOSSIBLE = 10.0  # times the white noise of samples: residuals that are refused
 
 
 def identify(
@@ -47,12 +46,14 @@ def identify(
     weighed: Mapping[str, float] | None = None,
     window: float = LENGTH,
     held_back: float = HELD_BACK,
+    predict: Log | Flight | None = None,
     progress: Progress | None = None,
 ) -> Identification:
     """Identify a vehicle from logs of its flights.
 
     Body, rotors and sensors of the mission are driven by the logged commands, in windows whose starts are unknown, too.
-    No pilot is simulated. Noise levels follow from the residuals; pushes and contacts are left out.
+    No pilot is simulated. Pushes that a force gauge logged count as known; windows under others, and in contact, are
+    left out. Noise levels follow from the residuals.
 
     Args:
         logs: one or several, from `read_log`, or flights with sensors.
@@ -62,6 +63,7 @@ def identify(
             mass, only ratios of masses to thrust constants can be told.
         window: length of a window [s].
         held_back: part of the windows, the last ones, that is not used but predicted.
+        predict: a log of another flight, which the identified mission predicts, window by window.
         progress: called with (steps done, steps in all).
 
     Returns:
@@ -77,7 +79,10 @@ def identify(
         raise InputError("logs: must be one or more")
     if not (0.2 <= window <= 10.0 and 0.0 <= held_back <= 0.5):
         raise InputError(f"window = {window:g} s, held_back = {held_back:g}: must be 0.2 to 10 s, and 0 to 0.5")
-    cut = [windows_of(log_of(one) if isinstance(one, Flight) else one, mission, window) for one in given]
+    cut, other = (
+        [windows_of(log_of(one) if isinstance(one, Flight) else one, mission, window) for one in logs]
+        for logs in (given, [predict] if predict else [])
+    )
     unknowns = unknowns_of(
         mission.vehicle, mission.actuators.delay, DEFAULT if parameters is None else parameters, weighed
     )
@@ -86,7 +91,10 @@ def identify(
     search = VehicleSearch([Predictor(fitted, unknowns, mission) for fitted, _ in parts], unknowns, priors)
     with progress_or_own(f"{mission.mission.name}, identified", progress, "steps") as shown:
         equations, normal = search.run(shown)
+    _check_structure(search, cut[0].source)
     found = _judged(search, equations, normal, [last for _, last in parts if last is not None], mission)
+    vehicle = Unknowns(driven_numbers(found.mission.vehicle, found.mission.actuators.delay), ())
+    found.details["predicted"] = _predicted(other, vehicle, search, None)
     found.details["seconds"] = time.perf_counter() - began
     return found
 
@@ -100,18 +108,33 @@ def _judged(
 ) -> Identification:
     """The estimate of a search, with what the data say of it."""
     unknowns, rows = search.unknowns, [one.rows for one in equations]
-    streams = {name: np.concatenate([r[name] for r in rows if name in r]) for name in search.estimate.noise}
+    streams = {
+        name: np.concatenate([r[name][part.used] for part, r in zip(search.parts, rows, strict=True) if name in r])
+        for name in search.estimate.noise
+    }
     white = {name: whiteness(r) for name, r in streams.items()}
     covariance = covariance_of(normal, {name: w.factor for name, w in white.items()}, len(unknowns))
     information = data_information(normal, len(unknowns))
     found, whole, identified, remarks = _results(search, covariance, mission)
     keys = _with_derivatives(lambda x: _values(unknowns, x), search.estimate.q)
     correlations = correlations_of(keys, covariance.covariance)
-    remarks += _remarks(unknowns, correlations, information, white, found, search)
-    held = _held_back(search, held_back, mission)
+    remarks += remarks_on(unknowns, correlations, information, white, found, search)
+    vehicle = Unknowns(unknowns.numbers(search.estimate.q), ())
+    held = _predicted(held_back, vehicle, search, search.estimate.fixed)
     details = _details(search, correlations, covariance, white, misfit_by_window(search, rows), held)
     details |= {"example": _example(search)}
     return Identification(identified, tuple(found), tuple(whole), tuple(remarks), details)
+
+
+def _check_structure(search: VehicleSearch, source: str) -> None:
+    """Refuse a mission with which no numbers explain how the vehicle turns."""
+    times = search.estimate.noise["measured_rates"] / search.white["measured_rates"]
+    if search.lost or times > IMPOSSIBLE:
+        name = search.parts[0].predictor.mission.mission.name
+        raise InputError(
+            f"{source}: measured_rates differ from those of any vehicle of mission {name} by more than {IMPOSSIBLE:g} "
+            "times their noise: it cannot be this vehicle; compare place, order and spin of rotors with the commands"
+        )
 
 
 def _split(w: FlightWindows, held_back: float) -> tuple[FlightWindows, FlightWindows | None]:
@@ -171,49 +194,17 @@ def _results(
     return found, list(rows_of(_with_derivatives(whole, q), *matrices)), identified, failed
 
 
-def _remarks(
-    unknowns: Unknowns,
-    correlations: Array,
-    information: Array,
-    white: Mapping[str, Whiteness],
-    found: Sequence[Row],
-    search: VehicleSearch,
-) -> list[str]:
-    """What the data could not tell, in sentences."""
-    said, still = list[str](), [row.key for row in found if not row.excited]
-    if not scale_is_known(unknowns, search.estimate.q, information):
-        said.append(
-            "The masses and the thrust constants cannot be told apart: only their ratios are known. Weigh one part "
-            "(--weighed vehicle.payload.mass=…), or log joint sensors of known scale."
-        )
-    if still:
-        said.append(f"The flight did not excite {', '.join(still)}: they keep their prior.")
-    pairs = alike_pairs([row.key for row in found], correlations)
-    for one, other, correlation in pairs[:MOST_PAIRS]:
-        said.append(f"{one} and {other} can hardly be told apart: their errors correlate by {correlation:.3f}.")
-    if len(pairs) > MOST_PAIRS:
-        said.append(f"So do {len(pairs) - MOST_PAIRS} other pairs: see `correlation` in identification.json.")
-    for name, w in white.items():
-        if not w.white:
-            worst = max(w.autocorrelation, key=abs)
-            said.append(
-                f"Residuals of {name} are not white: autocorrelation up to {worst:.3f}, {w.bound:.3f} is allowed. "
-                f"Intervals count it by a factor of {w.factor:.2f} in variance."
-            )
-    if search.left_out:
-        said.append(
-            f"{search.left_out} windows are left out, which no vehicle explains: as under a push, a contact or a fault."
-        )
-    return said
+def _predicted(
+    windows: list[FlightWindows], vehicle: Unknowns, search: VehicleSearch, fixed: Array | None
+) -> dict[str, Any]:
+    """How far a vehicle predicts windows that were not used, by stream: root mean squares over the noise.
 
-
-def _held_back(search: VehicleSearch, windows: list[FlightWindows], mission: Mission) -> dict[str, Any]:
-    """How far the identified vehicle predicts windows that were not used, by stream: RMS over the noise."""
+    Starts of the windows and biases are found; errors of sensors that stay, too, where `fixed` does not have them.
+    """
     if not windows:
         return {}
-    at = search.unknowns.numbers(search.estimate.q)
-    fixed = Unknowns(at, ())
-    again = VehicleSearch([Predictor(w, fixed, mission) for w in windows], fixed, search.priors, search.estimate.fixed)
+    mission = search.parts[0].predictor.mission
+    again = VehicleSearch([Predictor(w, vehicle, mission) for w in windows], vehicle, search.priors, fixed)
     again.estimate.noise = dict(search.estimate.noise)
     equations, _ = again.run(None, follow=False)
     by_window = misfit_by_window(again, [one.rows for one in equations])
@@ -232,7 +223,7 @@ def _details(
     e = search.estimate
     return {
         "logs": [part.windows.source for part in search.parts],
-        "windows": {"used": sum(len(p.windows.first) for p in search.parts), "left_out": search.left_out},
+        "windows": {"used": int(sum(p.used.sum() for p in search.parts)), "left_out": search.left_out},
         "steps": search.steps,
         "noise": dict(e.noise),
         "whiteness": {name: {**w._asdict(), "white": w.white} for name, w in white.items()},
@@ -243,6 +234,7 @@ def _details(
         "motion_point": e.point.tolist(),
         "joint_turns": e.turns.tolist(),
         "biases": {name: e.biases[:, place].mean(axis=0).tolist() for name, place in search.priors.places.items()},
+        "clocks": {name: float(e.biases[:, place].mean()) for name, place in search.priors.clocks.items()},
     }
 
 
@@ -251,7 +243,7 @@ def _example(search: VehicleSearch) -> dict[str, Any]:
     part = search.parts[0]
     w, n = part.windows, search.unknowns.numbers(search.estimate.q)
     predicted = part.predictor.predicted(part.starts, n, part.predictor.squares(n, False)[0], search.estimate.point)
-    last, shown = len(w.first) - 1, dict[str, Any]()
+    last, shown = int(np.flatnonzero(part.used)[-1]), dict[str, Any]()
     for name in ("measured_specific_force", "measured_rates", "measured_joint_force", "measured_position"):
         if name in w.samples:
             s = w.samples[name]

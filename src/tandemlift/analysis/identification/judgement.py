@@ -15,12 +15,13 @@ import numpy as np
 
 from tandemlift.analysis.identification.equations import NormalEquations
 from tandemlift.analysis.identification.fit import VehicleSearch
+from tandemlift.analysis.identification.identification import Row
 from tandemlift.core.types import Array
 from tandemlift.engines.vehicle_unknowns import Unknowns
 
 LAGS = 20  # blocks
-NOT_EXCITED = 0.5  # of the prior's standard deviation
-ALIKE = 0.95  # of the correlation of two coordinates
+ALIKE, MOST_PAIRS = 0.95, 4  # correlation of the errors of two keys; pairs that are named
+UNMODELLED = 1.25  # times the white noise of samples: larger residuals are remarked
 SCALED = ("kg", "kg m²", "N/(rad/s)²")  # units with the scale of force
 
 
@@ -128,6 +129,49 @@ def misfit_by_window(search: VehicleSearch, rows: list[dict[str, Array]]) -> dic
     found = dict[str, list[list[float]]]()
     for part, own in zip(search.parts, rows, strict=True):
         for name, r in own.items():
-            sizes = np.sqrt(np.nanmean(r * r, axis=(1, 2)))
-            found.setdefault(name, []).extend(zip(part.windows.times().tolist(), sizes.tolist(), strict=True))  # type: ignore[arg-type]
+            sizes = np.sqrt(np.nanmean(r[part.used] ** 2, axis=(1, 2)))
+            times = part.windows.times()[part.used]
+            found.setdefault(name, []).extend(np.column_stack([times, sizes]).tolist())
     return found
+
+
+def remarks_on(
+    unknowns: Unknowns,
+    correlations: Array,
+    information: Array,
+    white: Mapping[str, Whiteness],
+    found: Sequence[Row],
+    search: VehicleSearch,
+) -> list[str]:
+    """What the data could not tell, in sentences."""
+    said, still = list[str](), [row.key for row in found if not row.excited]
+    if not scale_is_known(unknowns, search.estimate.q, information):
+        said.append(
+            "The masses and the thrust constants cannot be told apart: only their ratios are known. Weigh one part "
+            "(--weighed vehicle.payload.mass=…), or log joint sensors of known scale, or pushes by a force gauge."
+        )
+    if still:
+        said.append(f"The flight did not excite {', '.join(still)}: they keep their prior.")
+    pairs = alike_pairs([row.key for row in found], correlations)
+    for one, other, correlation in pairs[:MOST_PAIRS]:
+        said.append(f"{one} and {other} can hardly be told apart: their errors correlate by {correlation:.3f}.")
+    if len(pairs) > MOST_PAIRS:
+        said.append(f"So do {len(pairs) - MOST_PAIRS} other pairs: see `correlation` in identification.json.")
+    for name, w in white.items():
+        if not w.white:
+            worst = max(w.autocorrelation, key=abs)
+            said.append(
+                f"Residuals of {name} are not white: autocorrelation up to {worst:.3f}, {w.bound:.3f} is allowed. "
+                f"Intervals count it by a factor of {w.factor:.2f} in variance."
+            )
+    times = {name: search.estimate.noise[name] / search.white[name] for name in white}
+    if beyond := [f"{name} ({x:.1f})" for name, x in times.items() if x > UNMODELLED]:
+        said.append(
+            f"Residuals are larger than the white noise of the samples, by the factor: {', '.join(beyond)}. Something "
+            "of the vehicle is not in the mission: compare place, order and spin of its rotors."
+        )
+    if search.left_out:
+        said.append(
+            f"{search.left_out} windows are left out, which no vehicle explains: as under a push, a contact or a fault."
+        )
+    return said

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.identification.log import JOINTS
 from tandemlift.analysis.identification.windows import FlightWindows, Places
+from tandemlift.analysis.logs.log import JOINTS, conjugate, quaternion_product
 from tandemlift.compiler.machine_code.series import Series
 from tandemlift.core.caching import LastUsed
 from tandemlift.core.types import Array, flat
@@ -20,6 +20,7 @@ from tandemlift.core.vector import ZERO, Vec3, each
 from tandemlift.engines.driven_vehicle import (
     AT_REST,
     DrivenBody,
+    DrivenInputs,
     DrivenRotor,
     VehicleNumbers,
     driven_body,
@@ -40,6 +41,7 @@ OUTPUTS = (  # of `driven_step`, in its order
     "measured_joint_force",
     "measured_joint_torque",
 )
+FORCES = OUTPUTS[4:]  # predicted as means over a block
 ALWAYS = ("measured_attitude",)
 _models = LastUsed["Models"](4)
 
@@ -71,6 +73,15 @@ class PredictedDerivatives(NamedTuple):
 
     base: dict[str, Array]
     streams: dict[str, Array]
+
+    def changes(self, name: str) -> Array:
+        """The change of predictions of a stream per block (W, blocks, width); of the attitude, the turn."""
+        y = self.base[name]
+        if name in FORCES:
+            return np.asarray(np.gradient(y, axis=1)[:, :-1])
+        if name == "measured_attitude":
+            return 2.0 * quaternion_product(conjugate(y[:, :-1]), y[:, 1:])[..., 1:]
+        return np.diff(y, axis=1)
 
 
 @dataclass(frozen=True)
@@ -147,7 +158,7 @@ class Predictor:
             point: that the motion measurement follows, from the centre of mass [m] (3).
         """
         w = self.windows
-        u = _cut(squares, w.first, w.length + 1)
+        u = _cut(np.hstack([squares, w.pushes]), w.first, w.length + 1)
         y, _ = self.models.body(starts, self._parameters(n, point, w.step), u)
         return {name: np.array(part) for name, part in self._streams(y).items()}
 
@@ -159,8 +170,8 @@ class Predictor:
         Directions: the start of the window, the coordinates of the vehicle, the point of the motion measurement.
         """
         w, vehicle = self.windows, len(flat(n.vehicle))
-        u = _in_blocks(_cut(squares, w.first, w.length + w.block), w.block)
-        cut = [_in_blocks(_cut(m, w.first, w.length + w.block), w.block) for m in moved]
+        every = [np.hstack([squares, w.pushes]), *[np.hstack([m, 0.0 * w.pushes]) for m in moved]]
+        u, *cut = (_in_blocks(_cut(rows, w.first, w.length + w.block), w.block) for rows in every)
         p, J = self._parameters(n, point, w.step * w.block), self.unknowns.derivatives(q)
         zero, still, streams = np.zeros_like(starts), np.zeros_like(u), dict[str, Array]()
         directions, base = STARTS + len(self.unknowns) + 3, dict[str, Array]()
@@ -203,12 +214,12 @@ class Predictor:
 def _compiled(mission: Mission, start: DrivenNumbers) -> Models:
     """The machine code of a mission's geometry."""
     table, N = mission.vehicle, len(mission.vehicle.quadrotors)
-    floor, squares = effect_floor(mission), each(4 * N)(*(0.0,) * (4 * N))
+    floor, none = effect_floor(mission), DrivenInputs(each(4 * N)(*(0.0,) * (4 * N)), ZERO, ZERO)
 
     def body(p: StepNumbers) -> DrivenBody:
         return driven_body(table, floor, p.vehicle, p.point, p.step)
 
-    of_body = body, driven_step, StepNumbers(start.vehicle, ZERO, 0.0), AT_REST, squares
+    of_body = body, driven_step, StepNumbers(start.vehicle, ZERO, 0.0), AT_REST, none
     of_rotor = (lambda step: step), rotor_step, 0.0, DrivenRotor(0.0, 0.0, 0.0), 0.0
     made = [Series(*own, differentiated=d) for own in (of_rotor, of_body) for d in (False, True)]
     return Models(*made)
@@ -260,15 +271,3 @@ def _slope_of(w: FlightWindows, name: str) -> Array:
         own = (s.window == i) & (s.step * w.step < 0.1)
         found.append(np.polyfit(s.step[own] * w.step, s.values[own], 1)[0])
     return np.array(found)
-
-
-def conjugate(q: Array) -> Array:
-    """The conjugates of quaternions (…, 4)."""
-    return q * [1.0, -1.0, -1.0, -1.0]
-
-
-def quaternion_product(a: Array, b: Array) -> Array:
-    """The products of quaternions (…, 4)."""
-    aw, av, bw, bv = a[..., :1], a[..., 1:], b[..., :1], b[..., 1:]
-    w = aw * bw - np.sum(av * bv, axis=-1, keepdims=True)
-    return np.concatenate([w, aw * bv + bw * av + np.cross(av, bv)], axis=-1)

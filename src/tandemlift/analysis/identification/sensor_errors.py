@@ -1,8 +1,9 @@
 """The errors of sensors as unknowns beside the vehicle, and the residuals of their samples.
 
 Biases of IMU and joints are constant over a few windows and walk from one group of windows to the next, as the drift of
-the mission's sensors allows. The axes of each joint's sensor are turned by a small rotation, and the motion measurement
-follows a point near the centre of mass.
+the mission's sensors allows. So do the offsets of the clocks of motion measurement and joints against the IMU's, which
+`clocks` finds to about a millisecond only. The axes of each joint's sensor are turned by a small rotation, and the
+motion measurement follows a point near the centre of mass.
 """
 
 from __future__ import annotations
@@ -11,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tandemlift.analysis.identification.log import JOINTS
-from tandemlift.analysis.identification.prediction import conjugate, quaternion_product
 from tandemlift.analysis.identification.windows import Samples
+from tandemlift.analysis.logs.clocks import GROUPS
+from tandemlift.analysis.logs.log import JOINTS, conjugate, quaternion_product
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
 
@@ -23,6 +24,7 @@ STREAMS = {  # with a bias; the least standard deviations of the priors of bias 
     "measured_joint_force": ("joints", "force_", 0.5, 1e-3),
     "measured_joint_torque": ("joints", "torque_", 0.05, 1e-4),
 }
+CLOCK = 3e-3, 3e-5  # s; s/√s: standard deviations of the priors of a clock's offset and of its walk
 POINT = 0.03  # m, standard deviation of the place of the point that the motion measurement follows
 TURN = 0.02  # rad, of a joint's sensor about each axis
 
@@ -32,15 +34,15 @@ class SensorPriors:
     """Priors of the errors of the sensors that a log has.
 
     Attributes:
-        streams: those with a bias.
-        places: of each one's bias among all biases.
+        places: of the bias of each stream that has one among all biases.
+        clocks: the place of the offset of the clock of each stream that is not the IMU's [s]; the last of the biases.
         bias: standard deviations of the biases (B,).
         walk: of their change over a second (B,).
         joints: number of joints whose sensors' axes are unknown.
     """
 
-    streams: tuple[str, ...]
     places: dict[str, slice]
+    clocks: dict[str, int]
     bias: Array
     walk: Array
     joints: int
@@ -67,10 +69,14 @@ def sensor_priors(mission: Mission, streams: frozenset[str]) -> SensorPriors:
             places[name] = slice(len(bias), len(bias) + width)
             bias += [max(getattr(own, f"{prefix}bias"), least)] * width
             walk += [max(getattr(own, f"{prefix}drift"), drift)] * width
-    return SensorPriors(tuple(places), places, np.array(bias), np.array(walk), joints if JOINTS[0] in streams else 0)
+    clocks = {name: len(bias) + i for i, names in enumerate(GROUPS.values()) for name in names}
+    bias, walk = ([*own, *[sd] * len(GROUPS)] for own, sd in zip((bias, walk), CLOCK, strict=True))
+    return SensorPriors(places, clocks, np.array(bias), np.array(walk), joints if JOINTS[0] in streams else 0)
 
 
-def residuals(s: Samples, name: str, predicted: dict[str, Array], biases: Array, turns: Array) -> Array:
+def residuals(
+    s: Samples, name: str, predicted: dict[str, Array], biases: Array, turns: Array, late: Array | None = None
+) -> Array:
     """Samples less predictions (n, width); of the attitude, turns about body axes (n, 3).
 
     Args:
@@ -79,11 +85,14 @@ def residuals(s: Samples, name: str, predicted: dict[str, Array], biases: Array,
         predicted: in every step.
         biases: of every window (W, width), or of none (W, 0).
         turns: of the axes of each joint's sensor (joints, 3).
+        late: steps by which the stamps of every window are too early (W,).
     """
     p, width = predicted[name], s.values.shape[1]
-    seen = p[s.window, s.step]
-    if s.beyond.any():
-        seen = seen + s.beyond[:, None] * (p[s.window, s.step + 1] - seen)
+    beyond = s.beyond if late is None else s.beyond + late[s.window]
+    step = s.step if late is None else np.clip(s.step + np.floor(beyond).astype(np.intp), 0, p.shape[1] - 2)
+    seen = p[s.window, step]
+    if beyond.any():
+        seen = seen + (s.step + beyond - step)[:, None] * (p[s.window, step + 1] - seen)
     if name == "measured_attitude":
         turned = quaternion_product(conjugate(seen), s.values)
         length = np.linalg.norm(s.values, axis=1, keepdims=True) * np.linalg.norm(seen, axis=1, keepdims=True)

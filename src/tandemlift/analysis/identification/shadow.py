@@ -17,19 +17,19 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.analysis.identification.checks import check_log
-from tandemlift.analysis.identification.log import COMMANDS, IMU, JOINTS, MOTION, SOON, SPEED_COMMANDS, Log
+from tandemlift.analysis.identification.windows import check_columns
+from tandemlift.analysis.logs.checks import check_log
+from tandemlift.analysis.logs.log import COMMANDS, FLOWN_COMMANDS, IMU, JOINTS, MOTION, PUSH, SOON, SPEED_COMMANDS, Log
 from tandemlift.core.errors import FlightWarning, InputError, without_flight_warnings
 from tandemlift.core.types import Array, Progress, flat, leaves, unflat
-from tandemlift.flight.channels import FLOWN
-from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, MissionLike, check, merge, mission_of, tables_of
+from tandemlift.simulation.fly import Flight
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import SampleChannels, flight_of
 from tandemlift.simulation.stepping import Stepper, fly_stepwise
 
 ENGINE = "log"
-PUSH, RATES = "push_force", IMU[1]
+RATES = IMU[1]
 ELSEWHERE = 0.5  # m: a log that begins farther from the mission's start is of another flight
 SPARSE = 0.8  # of the mission's rate: with fewer samples the estimators take one sample for several
 HOLDERS = ((("readings",), ()), (("sensing",), ("reading",)))  # of the last readings, in a flight's state
@@ -65,7 +65,7 @@ def shadow(log: Log, mission: MissionLike, *, progress: Progress | None = None) 
     if body.flown is None:
         return flight
     flown = body.flown[: p.steps + 1 : p.every][: len(flight.time)]
-    return replace(flight, channels={**flight.channels, FLOWN: flown})
+    return replace(flight, channels={**flight.channels, FLOWN_COMMANDS: flown})
 
 
 class LogBody:
@@ -84,7 +84,7 @@ class LogBody:
         self._readings = np.hstack(loads)  # in the order of a `PerfectReadings`
         self.state, self.readings = self._states[0].copy(), self._readings[0].copy()
         self.flown = flown_commands(log, p.mission, times)
-        self._pushes = log[PUSH].at(times) if PUSH in log else None
+        self._pushes = log[PUSH[0]].at(times) if PUSH[0] in log else None
         self._external, self._step = np.zeros(leaves(p.given.external)), 0
         self._sample, self._own = SampleChannels(p.sample), p.place("flight_state", "memory", "allocation", "thrusts")
 
@@ -114,16 +114,12 @@ def rows(log: Log, name: str, times: Array) -> Array:
 
 def check_vehicle(log: Log, mission: Mission) -> None:
     """Refuse what cannot be a log of the mission's vehicle, or a mission that cannot be followed."""
-    name, count = mission.mission.name, len(mission.vehicle.quadrotors)
+    name = mission.mission.name
     sensed = (*IMU, *JOINTS) if mission.sensors.model != "none" else (RATES,)
-    log.require(*MOTION, *sensed, *([PUSH] if mission.pilot.push == "truth" else []))
+    log.require(*MOTION, *sensed, *(PUSH[:1] if mission.pilot.push == "truth" else []))
     if mission.changes_in_flight:
         raise InputError(f"mission {name} changes in flight: leave out [[changes]] and person.recording")
-    for stream in (n for n in (*JOINTS, COMMANDS, SPEED_COMMANDS) if n in log):
-        columns, each = log[stream].values.shape[1], 3 if stream in JOINTS else 4
-        if columns != each * count:
-            must = f"{each} for each of the {count} quadrotors of mission {name}"
-            raise InputError(f"{log.source}: stream {stream} has {columns} columns: must be {must}")
+    check_columns(log, mission)
     start = log[MOTION[0]].values[0]
     if np.linalg.norm(start - mission.initial.position) > ELSEWHERE:
         at, other = np.round(start, 3).tolist(), list(mission.initial.position)
@@ -148,7 +144,7 @@ def plan_of(log: Log, mission: Mission) -> FlightPlan:
     calm = {"mission": {"duration": duration}, "pushes": [], "sensor_faults": [], "person": {"model": "none"}}
     with without_flight_warnings():
         mission = check(merge(tables_of(mission), calm))
-        p, exact = (FlightPlan(m, interactive=PUSH in log) for m in (mission, without_errors(mission)))
+        p, exact = (FlightPlan(m, interactive=PUSH[0] in log) for m in (mission, without_errors(mission)))
     numbers = np.array(flat(p.model._replace(sensors=exact.model.sensors)))
     for device, names in (("imu", (*IMU, *JOINTS)), ("motion", MOTION), ("joints", JOINTS)):
         for name in (n for n in names if n in log):

@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.identification.checks import check_log
-from tandemlift.analysis.identification.log import COMMANDS, JOINTS, SPEED_COMMANDS, Log, Stream
+from tandemlift.analysis.logs.checks import check_log
+from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.missions import Mission
@@ -30,15 +30,6 @@ SPIKE = 15.0  # times the usual distance of a sample from the middle of its neig
 CLEAR = 6.0  # radii of a rotor above where it stood: no contact, and a ground effect that its theory gives
 FEWEST = 8  # windows
 
-WIDTHS = {
-    "measured_specific_force": 3,
-    "measured_rates": 3,
-    "measured_position": 3,
-    "measured_velocity": 3,
-    "measured_attitude": 4,
-}
-NEEDED = ("measured_specific_force", "measured_rates", "measured_position", "measured_attitude")
-
 
 class Samples(NamedTuple):
     """The samples of a stream in windows: window, step in it, fraction of a step beyond, values (n, width)."""
@@ -48,11 +39,10 @@ class Samples(NamedTuple):
     beyond: Array
     values: Array
 
-    def of(self, windows: Truths) -> Samples:
-        """Those of some windows (a truth each), which are numbered anew."""
-        kept = windows[self.window]
-        number = np.cumsum(windows) - 1
-        return Samples(number[self.window[kept]], self.step[kept], self.beyond[kept], self.values[kept])
+    def only(self, kept: Truths, windows: Truths | None = None) -> Samples:
+        """Some of them, by a truth for each; windows are numbered anew, as far as each is there."""
+        number = self.window if windows is None else (np.cumsum(windows) - 1)[self.window]
+        return Samples(number[kept], self.step[kept], self.beyond[kept], self.values[kept])
 
 
 @dataclass(frozen=True)
@@ -68,6 +58,7 @@ class FlightWindows:
         length: steps of a window, a whole number of blocks.
         block: steps of a block.
         commands: times (n,) [s] and commanded speeds (n, rotors) [rad/s].
+        pushes: force [N] and moment [N m] of a logged push amid every step of the grid (count, 6), as `DrivenInputs`.
         samples: by stream.
     """
 
@@ -79,6 +70,7 @@ class FlightWindows:
     length: int
     block: int
     commands: Stream
+    pushes: Array
     samples: dict[str, Samples]
 
     def times(self) -> Array:
@@ -98,15 +90,11 @@ class FlightWindows:
     def shortened(self, part: float) -> FlightWindows:
         """The first part of every window."""
         length = max(4, round(part * self.length / self.block)) * self.block
-        samples = {}
-        for name, s in self.samples.items():
-            here = s.step < length
-            samples[name] = Samples(s.window[here], s.step[here], s.beyond[here], s.values[here])
-        return replace(self, length=length, samples=samples)
+        return replace(self, length=length, samples={n: s.only(s.step < length) for n, s in self.samples.items()})
 
     def chosen(self, windows: Truths) -> FlightWindows:
         """Some of the windows, by a truth for each."""
-        samples = {name: s.of(windows) for name, s in self.samples.items()}
+        samples = {name: s.only(windows[s.window], windows) for name, s in self.samples.items()}
         return replace(self, first=self.first[windows], samples=samples)
 
 
@@ -121,9 +109,9 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
     Raises:
         InputError: a stream is missing, has another number of rotors or joints, or no flight is left.
     """
+    check_columns(log, mission)
     commands = _speeds(log, mission)
-    log.require(*NEEDED)
-    _check_joints(log, mission)
+    log.require(*IMU, MOTION[0], MOTION[2])
     check_log(log)
     imu = log["measured_specific_force"].time
     interval = float(np.median(np.diff(imu))) if len(imu) > 1 else LONGEST_STEP
@@ -140,8 +128,12 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
             f"{log.source}: commands and sensors overlap for {max(count, 0) * step:.3g} s; {FEWEST} windows "
             f"of {length:g} s are needed, after {SETTLING + LONGEST_DELAY:g} s for delay and lag of the rotors"
         )
-    cut = FlightWindows(log.source, step, begin, count, firsts, steps, block, commands, {})
-    samples = {name: _samples(cut, log[name]) for name in (*WIDTHS, *JOINTS) if name in log}
+    cut = FlightWindows(log.source, step, begin, count, firsts, steps, block, commands, np.zeros((count, 6)), {})
+    amid = begin + (np.arange(count) + 0.5) * step
+    for name, place in zip(PUSH, (slice(0, 3), slice(3, 6)), strict=True):
+        if name in log:
+            cut.pushes[:, place] = np.array([np.interp(amid, log[name].time, v) for v in log[name].values.T]).T
+    samples = {name: _samples(cut, log[name]) for name in (*IMU, *MOTION, *JOINTS) if name in log}
     cut = replace(cut, samples=samples)
     flying = _in_flight(cut, log, mission)
     if flying.sum() < FEWEST:
@@ -156,24 +148,22 @@ def _speeds(log: Log, mission: Mission) -> Stream:
     name = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
     rotors = [q for q in mission.vehicle.quadrotors for _ in range(4)]
     time, values = log[name]
-    if values.shape[1] != len(rotors):
-        raise InputError(
-            f"{log.source}: {name} has {values.shape[1]} rotors, but the vehicle of mission {mission.mission.name} "
-            f"has {len(rotors)}: it cannot be this vehicle"
-        )
+    if len(time) > 1 and np.ptp(values, axis=0).min() == 0.0:
+        rotor = int(np.argmin(np.ptp(values, axis=0)))
+        raise InputError(f"{log.source}: {name}: column {rotor} is constant, {values[0, rotor]:g}: a dead channel")
     if name == COMMANDS:
         values = np.sqrt(np.maximum(values, 0.0) / [q.thrust_constant for q in rotors])
     return Stream(time, np.clip(values, 0.0, [q.max_speed for q in rotors]))
 
 
-def _check_joints(log: Log, mission: Mission) -> None:
-    """Refuse another number of joints."""
-    joints = len(mission.vehicle.quadrotors)
-    for name in JOINTS:
-        if name in log and log[name].values.shape[1] != 3 * joints:
+def check_columns(log: Log, mission: Mission) -> None:
+    """Refuse a log with another number of rotors or joints than a mission's vehicle has."""
+    count = len(mission.vehicle.quadrotors)
+    for name, each in ((JOINTS[0], 3), (JOINTS[1], 3), (COMMANDS, 4), (SPEED_COMMANDS, 4)):
+        if name in log and (columns := log[name].values.shape[1]) != each * count:
+            must = f"{each} for each of the {count} quadrotors of mission {mission.mission.name}"
             raise InputError(
-                f"{log.source}: {name} has {log[name].values.shape[1]} columns, but mission {mission.mission.name} has "
-                f"{joints} quadrotors: {3 * joints} are needed"
+                f"{log.source}: stream {name} has {columns} columns: must be {must}; not this vehicle's log?"
             )
 
 

@@ -90,6 +90,7 @@ def shadow(
 @click.option("--weighed", multiple=True, metavar="KEY=KG", help="A mass from a scale. Can be repeated.")
 @click.option("--parameters", metavar="A,B,…", help="Keys to estimate.  [default: all that can be]")
 @click.option("--window", type=float, default=1.0, show_default=True, metavar="S", help="Length of a window.")
+@click.option("--predict", metavar="LOG", help="Another flight, which the identified vehicle predicts.")
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-identification]")
 @kept_style_option
 def identify(
@@ -101,6 +102,7 @@ def identify(
     weighed: tuple[str, ...],
     parameters: str | None,
     window: float,
+    predict: str | None,
     out: str | None,
     style: str | None,
 ) -> None:
@@ -125,13 +127,17 @@ def identify(
     from tandemlift.pictures.report.identification_report import write_identification
 
     start, masses = load(mission, settings), dict(map(_weighed, weighed))
-    read = [tl.read_log(path, columns, align=align) for path in logs]
+    paths = [*logs, *([predict] if predict else [])]
+    read = [tl.read_log(path, columns, align=align) for path in paths]
     for note in (note for log in read for note in log.notes):
         echo(note)
+    other = read.pop() if predict else None
     keys = parameters.split(",") if parameters else None
     with results_folder(out, Path("out") / f"{start.mission.name}-identification", ()) as folder:
         with progress_bar("Identifying", "steps", shown=sys.stderr.isatty()) as progress:
-            found = tl.identify(read, start, parameters=keys, weighed=masses, window=window, progress=progress)
+            found = tl.identify(
+                read, start, parameters=keys, weighed=masses, window=window, predict=other, progress=progress
+            )
         for line in found.lines():
             echo(line)
         for path in [*found.save(folder), write_identification(found.as_dict(), folder)]:

@@ -171,13 +171,15 @@ def certify(
 @click.argument("mission", shell_complete=MISSIONS)
 @click.option("--time", type=float, default=60.0, show_default=True, metavar="S", help="Duration of the excitation.")
 @click.option("--room", default="2x2x1", show_default=True, metavar="XxYxZ", help="Room of the centre of mass, in m.")
+@click.option("--push", type=float, default=0.0, metavar="N", help="Ask a person for pushes of about this force.")
 @click.option("--out", metavar="FILE", help="Mission file that is written.  [default: NAME-excited.toml]")
 @set_option
-def excite(mission: str, time: float, room: str, out: str | None, settings: tuple[str, ...]) -> None:
+def excite(mission: str, time: float, room: str, push: float, out: str | None, settings: tuple[str, ...]) -> None:
     """Design the flight of MISSION that tells most of its vehicle.
 
-    Sines move thrust, roll, pitch and yaw, within tilt, thrust, speed and room. The 95 % intervals that such a flight
-    promises are printed, and written as comments. It has been flown once, and kept its limits.
+    Sines move thrust, roll, pitch and yaw, within tilt, thrust, speed and room; then a person pushes, if asked to. It
+    is flown once, kept within its limits, and identified from its log: the 95 % intervals that such a flight promises
+    are printed, and written as comments.
 
     \b
     Examples:
@@ -192,7 +194,7 @@ def excite(mission: str, time: float, room: str, out: str | None, settings: tupl
         raise InputError(f"--room {room}: must be three sizes in m, such as 2x2x1") from None
     loaded = load(mission, settings)
     path = file_path("--out", out or f"{loaded.mission.name}-excited.toml", ".toml")
-    design = tl.excite(loaded, time, room=sizes)
+    design = tl.excite(loaded, time, room=sizes, push=push)
     write_file(path, design.text())
     for line in design.lines():
         echo(line)

@@ -18,8 +18,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.identification.clocks import synchronised
-from tandemlift.analysis.identification.log import MOTION, Log, Stream, log_of, stream_channel, without_repeats
+from tandemlift.analysis.logs.clocks import synchronised
+from tandemlift.analysis.logs.log import MOTION, Log, Stream, log_of, stream_channel, without_repeats
 from tandemlift.apps.export.coordinate_frames import to_world
 from tandemlift.apps.export.messages import SECOND
 from tandemlift.apps.export.reading import BASE, read_bag, reading_bag, stamp_of
@@ -118,7 +118,7 @@ def _ways(given: Map) -> dict[str, list[Way]]:
     """The ways to each stream of a map."""
     common = {key: given[key] for key in OF_ALL if key in given}
     ways = {}
-    for name in given.keys() - common.keys():
+    for name in (name for name in given if name not in common):
         stream_channel(name)
         ways[name] = [
             _way(name, common, table) for table in (given[name] if isinstance(given[name], list) else [given[name]])
@@ -152,8 +152,8 @@ def _log(path: Path, tables: LogTables, ways: Mapping[str, list[Way]], asked: It
                 break
     if missing := [name for name in asked if name not in streams] or [*ways] * (not streams):
         wanted = ", ".join(dict.fromkeys(topic for name in missing for way in ways[name] for topic in way.topics))
-        there = ", ".join(tables.topics) or "nothing"
-        raise InputError(f"{path}: has no samples for {missing[0]} in {wanted or 'its columns'}; it has {there}")
+        wanted, there = wanted or ", ".join(ways[missing[0]][0].columns), ", ".join(tables.topics) or "no number there"
+        raise InputError(f"{path}: has no samples for {missing[0]} in {wanted}; it has {there}")
     for name in in_body:
         streams[name] = _in_world(f"{path}: stream {name}", streams[name], streams.get(MOTION[2]))
     first = min(float(stream.time[0]) for stream in streams.values())
@@ -162,7 +162,11 @@ def _log(path: Path, tables: LogTables, ways: Mapping[str, list[Way]], asked: It
 
 def _stream(place: str, way: Way, tables: LogTables) -> Stream | None:
     """A stream by a way to it; None if its topic is not there or has no numbers."""
-    parts = [_part(f"{place}: {topic}", way, tables, topic) for topic in way.topics if topic in tables.topics]
+    parts = [
+        _part(f"{place}: {topic}" if topic else place, way, tables, topic)
+        for topic in way.topics
+        if topic in tables.topics
+    ]
     if not parts or not all(len(part.time) for part in parts):
         return None
     time, *_ = (part.time for part in parts)
@@ -219,6 +223,8 @@ def csv_table(path: Path) -> LogTables:
         lines = csv.reader(file)
         names = [name.strip() for name in next(lines, [])]
         rows = [_numbers(f"{path}: line {i}", names, cells) for i, cells in enumerate(lines, 2) if cells]
+    if not rows:
+        raise InputError(f"{path}: has no line of numbers below the line of names")
     table = dict(zip(names, np.array(rows).reshape(len(rows), len(names)).T, strict=True))
     return LogTables([""], lambda _: table, lambda _, name: table[name])
 

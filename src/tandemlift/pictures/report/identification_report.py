@@ -89,13 +89,23 @@ def _table(rows: Sequence[Mapping[str, Any]]) -> str:
 
 
 def _residuals(found: Mapping[str, Any]) -> str:
-    titles = ("Stream", "Noise", "Autocorrelation up to", "Bound", "White", "Factor of variance", "Prediction")
-    ratio, lines = found["held_back"].get("ratio", {}), []
+    titles = (
+        "Stream",
+        "Noise",
+        "Autocorrelation up to",
+        "Bound",
+        "White",
+        "Factor of variance",
+        "Held back",
+        "Another flight",
+    )
+    lines = []
     for name, w in found["whiteness"].items():
-        predicted = number(ratio[name]) if name in ratio else DASH
+        ratios = [found[part].get("ratio", {}).get(name) for part in ("held_back", "predicted")]
         largest = max(map(abs, w["autocorrelation"]))
         cells = [number(found["noise"][name]), number(largest), number(w["bound"])]
-        cells += ["yes" if w["white"] else "<strong>no</strong>", number(w["factor"]), predicted]
+        cells += ["yes" if w["white"] else "<strong>no</strong>", number(w["factor"])]
+        cells += [DASH if ratio is None else number(ratio) for ratio in ratios]
         lines.append(html_row(f"<code>{escape(name)}</code>", *cells))
     return html_table(titles, lines, "compared")
 

@@ -4,7 +4,8 @@ Thrust, roll, pitch and yaw get lines at frequencies of their own, whole numbers
 the share q of a line in the limits of its axis, the information is Σ q I, and q minimizes the sum of
 (deviation/target)² by the multiplicative algorithm, whose optimum is the global one. As the vehicle is not known yet,
 half of the shares are spread evenly over all lines. Phases keep the peaks low. Slow motions of the reference along x
-and y bring speed, for the drag of the air. Then the mission is flown, and lowered until it keeps its limits.
+and y bring speed, for the drag of the air. Doublets of pushes follow, if a person is asked for them. Then the mission
+is flown, and lowered until it keeps its limits. What it promises is what an identification from its own log finds.
 
 Sources: Silvey, Titterington and Torsney, An algorithm for optimal designs on a finite design space, 1978; Schroeder,
 Synthesis of low-peak-factor signals, 1970.
@@ -13,20 +14,22 @@ Synthesis of low-peak-factor signals, 1970.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from tandemlift.analysis.certification.excitation_information import (
+from tandemlift.analysis.identification.excitation_information import (
     AXES,
     PARAMETERS,
     WEIGHED,
     ExcitedHover,
-    deviations,
     excited_hover,
 )
+from tandemlift.analysis.identification.identification import Row
+from tandemlift.analysis.identification.identify import identify
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.missions import Mission, MissionLike, built_in, check, format_toml, load_mission, mission_of, tables_of
@@ -42,17 +45,11 @@ EVEN, SLIGHT = 0.5, 0.05  # of the shares, spread evenly; of an axis' largest am
 LEAST_ROOM = 0.2  # m
 LOWER, TRIES = 0.8, 6  # factor of all amplitudes while a flight exceeds a limit; flights
 REMOVED = ("pushes", "requests", "changes", "faults", "sensor_faults", "person")
-Z95 = 1.96
 SEEN = {"thrust": "mass, thrust constant, centre of mass; lag, delay", "yaw": "inertia about z over the yaw drag"}
-
-
-class PromisedInterval(NamedTuple):
-    """The half width of the 95 % interval of a parameter, its unit ("1": relative), and the one that is aimed at."""
-
-    parameter: str
-    half_width: float
-    unit: str
-    target: float
+PUSH_SIGMA, PUSH_EVERY = 0.4, 3.0  # s: of a push over time; from push to push
+PROMISED_KEY = re.compile(
+    r"mass|(inertia|center_of_mass)\.[xyz]|.*\.(thrust_constant|torque_per_thrust|lag_up|lag_down|delay)"
+)
 
 
 @dataclass(frozen=True)
@@ -61,13 +58,14 @@ class ExcitationDesign:
 
     Attributes:
         mission: the mission.
-        promised: for each parameter.
+        promised: the numbers of the vehicle, as an identification from the log of its own flight has them, all parts
+            being weighed.
         used: largest value and limit by name: tilt [rad], rotor thrust [N], speed [m/s], room along each axis [m].
         base: name of the built-in mission that it extends, or "".
     """
 
     mission: Mission
-    promised: tuple[PromisedInterval, ...]
+    promised: tuple[Row, ...]
     used: dict[str, tuple[float, float]]
     base: str
 
@@ -75,14 +73,17 @@ class ExcitationDesign:
         """The promised intervals and the limits, in words."""
         e = self.mission.excitation
         yield f"{self.mission.mission.name}: excited from {e.begin:g} s for {e.duration:g} s by {len(e.lines)} sines"
-        yield "95 % interval, with the mass weighed to 0.1 % and the noise of the mission's sensors, in calm air:"
-        for p in self.promised:
-            factor, unit = {"1": (100.0, "%"), "m": (1e3, "mm"), "s": (1e3, "ms")}[p.unit]
-            aim = f"(aim: {factor * p.target:g} {unit})"
-            yield f"  {p.parameter:<30} ± {factor * p.half_width:.2g} {unit}  {aim}"
+        for p in self.mission.pushes:
+            force, place = (np.round(v, 2).tolist() for v in (p.force, p.point))
+            yield f"{p.time:g} s: a person pushes for a second, with about {force} N, {place} m from the centre of mass"
+        yield "95 % interval, with all parts weighed to 0.1 % and the noise of the mission's sensors, in calm air:"
+        for row in self.promised:
+            relative = row.key != "actuators.delay" and not row.key.startswith("center_of_mass")
+            factor, unit = (100.0 / row.value, "%") if relative else (1e3, f"m{row.unit}")
+            yield f"  {row.key:<38} ± {factor * row.half:.2g} {unit}{'' if row.excited else ', not excited'}"
         for name, (value, limit) in self.used.items():
             unit = {"tilt": "rad", "rotor thrust": "N", "speed": "m/s"}.get(name, "m")
-            yield f"  {name:<30} {value:.3g} of {limit:.3g} {unit}"
+            yield f"  {name:<38} {value:.3g} of {limit:.3g} {unit}"
 
     def text(self) -> str:
         """The mission file, with what each axis excites and the promised intervals as comments."""
@@ -101,13 +102,17 @@ class ExcitationDesign:
                 yield f"{axis}: {len(mine)} lines from {low:.2g} to {high:.2g} Hz: {about}"
 
 
-def excite(mission: MissionLike, time: float = 60.0, *, room: Sequence[float] = (2.0, 2.0, 1.0)) -> ExcitationDesign:
+def excite(
+    mission: MissionLike, time: float = 60.0, *, room: Sequence[float] = (2.0, 2.0, 1.0), push: float = 0.0
+) -> ExcitationDesign:
     """The excitation of a mission's vehicle that tells most of its parameters, flown once to see that limits are kept.
 
     Args:
         mission: from `load_mission`, or its name or path; without its pushes, requests, changes, faults and person.
         time: of the excitation [s].
         room: size for the centre of mass along each world axis [m].
+        push: force [N] with which a person is asked to push to and fro along x, y and z, and beside the middle, after
+            the sines; 0 for none. Logged by a force gauge, pushes tell masses and inertias without a scale.
 
     Returns:
         The mission, the promised intervals, and what it used of its limits.
@@ -122,25 +127,48 @@ def excite(mission: MissionLike, time: float = 60.0, *, room: Sequence[float] = 
         raise InputError(f"time = {time:g}: must be at least {shortest:g} s, {PERIODS:g} periods of {LOWEST:g} Hz")
     if len(room) != 3 or not all(math.isfinite(size) and size >= LEAST_ROOM for size in room):
         raise InputError(f"room = {list(room)}: must be three sizes of at least {LEAST_ROOM:g} m")
-    limits, tables = limits_of(mission, room), excited_tables(mission, time, room)
-    rows, information = best_lines(mission, time - 3.0 * RAMP, limits)
-    slow = reference_lines(time, limits)
+    if not (math.isfinite(push) and push >= 0.0):
+        raise InputError(f"push = {push:g}: must be a force in N, or 0 for no pushes")
+    limits, tables = limits_of(mission, room), excited_tables(mission, time, room, push)
+    pushes, fine = tables["pushes"], {"log_interval": mission.mission.step}
+    rows, slow = best_lines(mission, time - 3.0 * RAMP, limits)[0], reference_lines(time, limits)
     for scale in LOWER ** np.arange(TRIES):
         lowered = [row | {"amplitude": float(f"{scale * row['amplitude']:.3g}")} for row in rows]
         tables["excitation"]["lines"] = lowered + slow
+        tables["pushes"] = [row | {"force": [float(f"{scale * x:.3g}") for x in row["force"]]} for row in pushes]
         with without_flight_warnings():
             made = check(tables, tables["mission"]["name"], quiet=True)
-            flight = fly(made)
+            flight = fly(check(tables | {"mission": tables["mission"] | fine}, made.mission.name, quiet=True))
         used = used_of(made, flight, limits)
         beyond = [f"{key} {value:.3g} of {limit:.3g}" for key, (value, limit) in used.items() if value > limit]
         beyond += [finding.kind for finding in flight.findings]
         if not beyond:
-            found = zip(PARAMETERS, Z95 * deviations(scale**2 * information), strict=True)
-            promised = tuple(PromisedInterval(p.name, float(width), p.unit, p.target) for p, width in found)
             known = mission.mission.name
             base = known if known in built_in() and load_mission(known) == mission else ""
-            return ExcitationDesign(made, promised, used, base)
+            return ExcitationDesign(made, promised_by(flight, made), used, base)
     raise InputError(f"{made.mission.name}: no excitation keeps the limits of its flight: {', '.join(beyond)}")
+
+
+def promised_by(flight: Flight, mission: Mission) -> tuple[Row, ...]:
+    """The numbers that an identification from a flight of a mission finds, all parts being weighed."""
+    table = mission.vehicle
+    weighed = {f"vehicle.quadrotors.{i}.mass": q.mass for i, q in enumerate(table.quadrotors)}
+    found = identify(flight, mission, weighed={"vehicle.payload.mass": table.payload.mass, **weighed}, held_back=0.0)
+    return tuple(row for row in (*found.whole, *found.rows) if PROMISED_KEY.fullmatch(row.key))
+
+
+def push_rows(mission: Mission, begin: float, force: float) -> list[dict[str, Any]]:
+    """Pushes to and fro along x, y and z; and across the arm to the outermost quadrotor, amid it, which turns."""
+    outermost = max((q.position for q in mission.vehicle.quadrotors), key=lambda p: math.hypot(p[0], p[1]))
+    x, y, size = 0.5 * outermost[0], 0.5 * outermost[1], 0.5 * math.hypot(outermost[0], outermost[1])
+    ways = [([force * (i == axis) for i in range(3)], [0.0] * 3) for axis in range(3)]
+    if size > 0.0:
+        ways.append(([force * y / size, -force * x / size, 0.0], [x, y, 0.0]))
+    each = [([sign * f + 0.0 for f in way], point) for way, point in ways for sign in (1.0, -1.0)]
+    return [
+        {"force": way, "point": point, "time": begin + PUSH_EVERY * (i + 0.5), "sigma": PUSH_SIGMA}
+        for i, (way, point) in enumerate(each)
+    ]
 
 
 def best_lines(mission: Mission, steady: float, limits: dict[str, float]) -> tuple[list[dict[str, Any]], Array]:
@@ -233,16 +261,17 @@ def reference_lines(time: float, limits: dict[str, float]) -> list[dict[str, Any
     return rows
 
 
-def excited_tables(mission: Mission, time: float, room: Sequence[float]) -> dict[str, Any]:
-    """The tables of the mission: lift, tare, excitation, landing; nothing else happens."""
-    t = {key: table for key, table in tables_of(mission).items() if key not in REMOVED} | {"pushes": []}
+def excited_tables(mission: Mission, time: float, room: Sequence[float], push: float = 0.0) -> dict[str, Any]:
+    """The tables of the mission: lift, tare, excitation, pushes of a force [N], landing; nothing else happens."""
+    t = {key: table for key, table in tables_of(mission).items() if key not in REMOVED}
     p, e = mission.phases, mission.estimator
     begin = p.lift_start + p.lift_duration
     if mission.pilot.push != "truth":
         begin += e.tare_duration if e.tare == "hover" else 0.0
         begin = max(begin, e.tare_start + e.tare_duration if e.tare == "at-time" and e.tare_start is not None else 0.0)
     begin = math.ceil(begin + SETTLES)
-    lands = begin + time + SETTLES
+    t["pushes"] = push_rows(mission, begin + time, push) if push else []
+    lands = begin + time + SETTLES + PUSH_EVERY * len(t["pushes"])
     t["mission"] |= {"name": f"{mission.mission.name}-excited", "duration": lands + p.land_duration + SETTLES}
     t["phases"] |= {"land_start": lands}
     when = {"begin": float(begin), "duration": float(time), "ramp": RAMP}
@@ -251,9 +280,9 @@ def excited_tables(mission: Mission, time: float, room: Sequence[float]) -> dict
 
 
 def used_of(mission: Mission, flight: Flight, limits: dict[str, float]) -> dict[str, tuple[float, float]]:
-    """The largest value during the excitation of each limit's quantity, and the limit."""
-    e = mission.excitation
-    within = (flight.time >= e.begin) & (flight.time <= e.begin + e.duration)
+    """The largest value until the landing of each limit's quantity, and the limit."""
+    lands = mission.phases.land_start
+    within = (flight.time >= mission.excitation.begin) & (flight.time <= (lands or math.inf))
     cosines = np.cos(flight["euler"][within, :2]).prod(axis=1)
     values = [
         float(np.arccos(cosines).max()),

@@ -36,30 +36,28 @@ class VehicleParameter(NamedTuple):
 
     Attributes:
         name: in words.
-        unit: "1" if it is relative, else that of its interval.
-        target: half width of a 95 % interval that identification aims at, in its unit.
+        target: half width of a 95 % interval that identification aims at: relative, of a centre of mass in m, or in s.
         key: of `[plant]`, from which it deviates; "" if the rotors alone have it.
         axis: of that key; None for a number.
     """
 
     name: str
-    unit: str
     target: float
     key: str = ""
     axis: int | None = None
 
 
 PARAMETERS = (
-    VehicleParameter("mass", "1", 0.003, "mass_scale"),
-    VehicleParameter("inertia about x", "1", 0.02, "inertia_scale", 0),
-    VehicleParameter("inertia about y", "1", 0.02, "inertia_scale", 1),
-    VehicleParameter("inertia about z over yaw drag", "1", 0.02, "inertia_scale", 2),  # only the ratio acts in hover
-    VehicleParameter("centre of mass x", "m", 0.002, "center_of_mass_offset", 0),
-    VehicleParameter("centre of mass y", "m", 0.002, "center_of_mass_offset", 1),
-    VehicleParameter("centre of mass z", "m", 0.002, "center_of_mass_offset", 2),
-    VehicleParameter("thrust constant", "1", 0.01),
-    VehicleParameter("lag of rotors", "1", 0.05),
-    VehicleParameter("delay of rotors", "s", 0.001),
+    VehicleParameter("mass", 0.003, "mass_scale"),
+    VehicleParameter("inertia about x", 0.02, "inertia_scale", 0),
+    VehicleParameter("inertia about y", 0.02, "inertia_scale", 1),
+    VehicleParameter("inertia about z over yaw drag", 0.02, "inertia_scale", 2),  # only the ratio acts in hover
+    VehicleParameter("centre of mass x", 0.002, "center_of_mass_offset", 0),
+    VehicleParameter("centre of mass y", 0.002, "center_of_mass_offset", 1),
+    VehicleParameter("centre of mass z", 0.002, "center_of_mass_offset", 2),
+    VehicleParameter("thrust constant", 0.01),
+    VehicleParameter("lag of rotors", 0.05),
+    VehicleParameter("delay of rotors", 0.001),
 )
 WEIGHED = 0.0005  # standard deviation of the mass, weighed beforehand to 0.1 %: else only ratios to it are known
 
@@ -165,12 +163,3 @@ def densities(mission: Mission) -> Array:
             raise InputError(f"sensors.{name} = {noise}: must be above 0: only noise bounds an identification")
         found.append(1.0 / (interval * sigma**2 * scale))
     return np.concatenate(found)
-
-
-def deviations(information: Array) -> Array:
-    """The standard deviations (P) of the parameters that information (P × P) allows, with the mass weighed."""
-    prior = np.zeros(len(PARAMETERS))
-    prior[0] = WEIGHED**-2
-    scale = np.array([parameter.target for parameter in PARAMETERS])
-    whole = (information + np.diag(prior)) * np.outer(scale, scale)
-    return scale * np.sqrt(np.diag(np.linalg.inv(whole)))

@@ -18,14 +18,15 @@ import numpy as np
 
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import Array
-from tandemlift.flight.channels import OTHER, Channel, channel_of
+from tandemlift.flight.channels import FLOWN, OTHER, Channel, channel_of
 from tandemlift.flight.record import Flight
 
-COMMANDS, SPEED_COMMANDS = "rotor_commands", "rotor_speed_commands"
+COMMANDS, SPEED_COMMANDS, FLOWN_COMMANDS = "rotor_commands", "rotor_speed_commands", FLOWN
 IMU = ("measured_specific_force", "measured_rates")
 JOINTS = ("measured_joint_force", "measured_joint_torque")
 MOTION = ("measured_position", "measured_velocity", "measured_attitude")
-STREAMS = (*IMU, *JOINTS, *MOTION, COMMANDS, SPEED_COMMANDS, "push_force")
+PUSH = ("push_force", "push_moment")
+STREAMS = (*IMU, *JOINTS, *MOTION, COMMANDS, SPEED_COMMANDS, *PUSH)
 """The streams that readers know; a log may have others, by names of channels."""
 
 SOON = 1e-6  # s: a stamp that much later than a time still counts as it
@@ -53,6 +54,24 @@ class Stream(NamedTuple):
     def at(self, times: Array) -> Array:
         """The last sample at some times [s]; before the first one, that one."""
         return self.values[np.maximum(np.searchsorted(self.time, times + SOON, side="right") - 1, 0)]
+
+
+def conjugate(q: Array) -> Array:
+    """The conjugates of quaternions (…, 4)."""
+    return q * [1.0, -1.0, -1.0, -1.0]
+
+
+def quaternion_product(a: Array, b: Array) -> Array:
+    """The products of quaternions (…, 4)."""
+    aw, av, bw, bv = a[..., :1], a[..., 1:], b[..., :1], b[..., 1:]
+    w = aw * bw - np.sum(av * bv, axis=-1, keepdims=True)
+    return np.concatenate([w, aw * bv + bw * av + np.cross(av, bv)], axis=-1)
+
+
+def rotated(q: Array, v: Array) -> Array:
+    """Vectors (n, 3) turned by quaternions w, x, y, z (n, 4) of about unit length."""
+    w, r = q[:, :1], q[:, 1:]
+    return np.asarray(v + 2.0 * np.cross(r, np.cross(r, v) + w * v) / np.sum(q * q, axis=1)[:, None])
 
 
 def without_repeats(stream: Stream) -> Stream:
@@ -188,7 +207,7 @@ def log_of(flight: Flight) -> Log:
 
     Readings have the times at which their sensor sampled; in the channels the pilot has them a step later, or more with
     delays. The first reading is the one with which the pilot starts, stamped one interval before the first sample.
-    Thrusts that ideal rotors produce are their commands.
+    Thrusts that ideal rotors produce are their commands. The moment of the push is about the payload's origin.
 
     Raises:
         InputError: the flight has no sensors.
@@ -205,7 +224,10 @@ def log_of(flight: Flight) -> Log:
     k, most = np.array([q.thrust_constant for q in rotors]), np.array([q.max_thrust for q in rotors])
     streams[COMMANDS] = Stream(flight.time, commands)
     streams[SPEED_COMMANDS] = Stream(flight.time, np.sqrt(np.clip(commands, 0.0, most) / k))
-    streams["push_force"] = Stream(flight.time, flight["push_force"])
+    force, moment = (flight[name] for name in PUSH)
+    streams[PUSH[0]] = Stream(flight.time, force)
+    in_body = rotated(conjugate(flight["attitude"]), force)
+    streams[PUSH[1]] = Stream(flight.time, moment + np.cross(flight.vehicle.center_of_mass, in_body))
     return Log(streams, flight.name)
 
 

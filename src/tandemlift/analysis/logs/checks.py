@@ -12,8 +12,8 @@ import math
 
 import numpy as np
 
-from tandemlift.analysis.identification.clocks import SPAN, TOLD, SourceClock, fitted_clock, means_of, turn_windows
-from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION, Log, Stream
+from tandemlift.analysis.logs.clocks import NOTHING_TOLD, SPAN, TOLD, SourceClock, fitted_clock, means_of, turn_windows
+from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream, rotated
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY
 
@@ -28,11 +28,14 @@ GRAVITIES = {
     1.0: 'in g: unit = "g"',
     1e3 * GRAVITY: "in mm/s²: scale = 0.001",
     GRAVITY / 0.3048: "in feet/s²: scale = 0.3048",
+    GRAVITY**2: "in m/s² already: no unit",
 }
 FAR = 2.0  # a ratio beyond this, or below one over it, is no matter of noise
 RATIOS = {
     180.0 / np.pi: 'in deg/s: unit = "deg/s"',
+    np.pi / 180.0: "in rad/s already: no unit",
     1e3: "in millimetres: scale = 0.001",
+    1e-3: "in metres already: no unit or scale",
     -1.0: "of the other sign: scale",
 }
 UNCHANGED = [0, 1, 2, 3], [1.0] * 4
@@ -119,7 +122,7 @@ def _check_rates(log: Log) -> None:
     given = agreement(*AS_GIVEN)
     if given.correlation >= TOLD:
         _check_ratio(log, RATES, 1.0 / given.scale, "the turn of the attitude")
-    if time[-1] - time[0] < SPAN:
+    if given is NOTHING_TOLD or time[-1] - time[0] < SPAN:
         return
     found = {key: agreement(*other).correlation for key, other in OTHERWISE.items()}
     (name, text), best = max(found.items(), key=lambda item: item[1])
@@ -131,10 +134,7 @@ def _check_rates(log: Log) -> None:
 def acceleration(log: Log) -> Stream:
     """The acceleration [m/s²] of the accelerometer, world axes, with the attitude of the log."""
     time, force = log[FORCE]
-    q = log[ATTITUDE].at(time)
-    w, v = q[:, :1], q[:, 1:]
-    turned = force + 2.0 * np.cross(v, np.cross(v, force) + w * force) / np.sum(q * q, axis=1)[:, None]
-    return Stream(time, turned - [0.0, 0.0, GRAVITY])
+    return Stream(time, rotated(log[ATTITUDE].at(time), force) - [0.0, 0.0, GRAVITY])
 
 
 def _check_change(log: Log, name: str, slope: Stream, meaning: str) -> None:

@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.analysis.certification import excitation_design
-from tandemlift.analysis.certification.excitation_design import (
+from tandemlift.analysis.identification import excitation_design
+from tandemlift.analysis.identification.excitation_design import (
     LINES,
+    best_lines,
     best_shares,
-    deviations,
     excite,
     limits_of,
     used_of,
 )
-from tandemlift.analysis.certification.excitation_information import (
+from tandemlift.analysis.identification.excitation_information import (
     PARAMETERS,
     WEIGHED,
     body_response,
@@ -22,6 +22,7 @@ from tandemlift.analysis.certification.excitation_information import (
     readings,
     rotor_response,
 )
+from tandemlift.analysis.identification.identify import reference_rows
 from tandemlift.analysis.linearization.loop_margins import calm_mission
 from tandemlift.missions import check, load_mission, mission_from_text, tables_of
 
@@ -31,7 +32,7 @@ TRUTH = {"pilot.state": "truth", "pilot.push": "truth", "estimator.identify_mass
 
 @pytest.fixture(scope="module")
 def design():
-    return excite("iris", 30.0, room=ROOM)
+    return excite("iris", 30.0, room=ROOM, push=2.0)
 
 
 def test_the_excited_flight_keeps_its_limits_in_both_engines(design):
@@ -48,8 +49,31 @@ def test_the_excited_flight_keeps_its_limits_in_both_engines(design):
 def test_the_file_is_the_mission_with_the_promise_as_comments(design):
     text = design.text()
     assert mission_from_text("excited.toml", text) == design.mission
-    for promise in design.promised:
-        assert f"# {promise.parameter}" in text.replace("#   ", "# ")
+    for row in design.promised:
+        assert f"# {row.key}" in text.replace("#   ", "# ")
+
+
+def test_the_promise_tells_yaw_inertia_and_yaw_drag_apart_and_holds_the_truth(design):
+    truth = reference_rows(design.mission)
+    promised = {row.key: row for row in design.promised}
+    assert len(promised) == 13
+    for key in ("inertia.z", "vehicle.quadrotors.*.torque_per_thrust"):
+        assert promised[key].half < 0.01 * truth[key]
+    for key, row in promised.items():
+        assert abs(row.value - truth[key]) < 2.0 * row.half, key
+
+
+def test_a_person_is_asked_for_doublets_along_all_axes_and_one_that_turns(design):
+    pushes = design.mission.pushes
+    assert len(pushes) == 8
+    for one, back in zip(pushes[::2], pushes[1::2], strict=True):
+        assert np.add(one.force, back.force) == pytest.approx(0.0)
+        assert one.point == back.point
+        assert f"{one.time:g} s: a person pushes" in design.text()
+    assert [np.argmax(np.abs(p.force)) for p in pushes[::2]] == [0, 1, 2, 0]
+    assert np.cross(pushes[6].point, pushes[6].force)[2] != 0.0
+    end = design.mission.excitation.begin + design.mission.excitation.duration
+    assert end < pushes[0].time < pushes[-1].time < design.mission.phases.land_start
 
 
 def calm(tables):
@@ -60,6 +84,7 @@ def calm(tables):
     tables["mission"]["log_interval"] = 0.001
     for q in tables["vehicle"]["quadrotors"]:
         q["lag_up"] = q["lag_down"] = 0.5 * (q["lag_up"] + q["lag_down"])
+    tables["pushes"] = []
     tables["excitation"]["lines"] = [line for line in tables["excitation"]["lines"] if line["axis"] not in "xy"]
     return tables
 
@@ -81,7 +106,7 @@ def phasors(flight, frequencies, steady):
     return found[:, :12], found[:, 12:]
 
 
-def test_the_promised_intervals_are_those_of_differences_of_flights(design):
+def test_the_information_of_the_lines_is_that_of_differences_of_flights(design):
     """∂G/∂θ u = Δy − G Δu, from flights whose body, lag or delay is a little other: in closed loop, with no noise."""
     m = design.mission
     tables = calm(tables_of(m))
@@ -113,8 +138,16 @@ def test_the_promised_intervals_are_those_of_differences_of_flights(design):
         dy, du = (a - b for a, b in zip(phasors(flown(p), f, steady), (y, u), strict=True))
         slopes.append((dy - (G @ du[:, :, None])[:, :, 0]) / (1e-2 if p.name == "lag of rotors" else 1e-3))
     information = 0.5 * steady * np.einsum("ifc,jfc,c->ij", np.conj(slopes), slopes, densities(m)).real
-    found = 1.96 * deviations(information)
-    assert np.array([p.half_width for p in design.promised]) == pytest.approx(found, rel=0.25)
+    plain = load_mission("iris")
+    rows, expected = best_lines(plain, steady, limits_of(plain, ROOM))
+    lowered = lines[0].amplitude / rows[0]["amplitude"]  # until the flight kept its limits
+    scale = np.array([p.target for p in PARAMETERS])
+    prior = np.diag(np.arange(len(scale)) == 0) / WEIGHED**2
+    ours, theirs = (
+        np.sqrt(np.diag(np.linalg.inv((whole + prior) * np.outer(scale, scale))))
+        for whole in (lowered**2 * expected, information)
+    )
+    assert ours == pytest.approx(theirs, rel=0.25)
 
 
 def test_the_shares_are_optimal_by_the_equivalence_theorem(monkeypatch):
@@ -139,6 +172,7 @@ def test_the_shares_are_optimal_by_the_equivalence_theorem(monkeypatch):
     [
         ("iris", {}, {"time": 20.0}, "time = 20: must be at least 21 s"),
         ("iris", {}, {"room": (2.0, 0.1, 1.0)}, "room = .* at least 0.2 m"),
+        ("iris", {}, {"push": -1.0}, "push = -1: must be a force in N"),
         ("paper", {}, {}, "actuators.model"),
         ("iris", {"sensors.model": "none", **TRUTH}, {}, 'sensors.model = "none"'),
         ("iris", {"sensors.gyroscope.noise": 0.0}, {}, "sensors.gyroscope.noise = 0"),

@@ -26,7 +26,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION, Log, Stream
+from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream, conjugate, quaternion_product
 from tandemlift.core.types import Array
 
 GROUPS = {"motion": MOTION, "joints": JOINTS}
@@ -119,10 +119,8 @@ def turn_windows(attitude: Stream) -> Windows:
     """The mean rates [rad/s] of a measured attitude, body axes, by the rotation from begin to end of each window."""
     q = attitude.values / np.linalg.norm(attitude.values, axis=1, keepdims=True)
     first, last = _pairs(attitude.time, WINDOW)
-    (w, *v), (W, *V) = q[first].T, q[last].T
-    v, V = np.array(v).T, np.array(V).T
-    real = w * W + np.sum(v * V, axis=1)
-    turn = w[:, None] * V - W[:, None] * v - np.cross(v, V)
+    change = quaternion_product(conjugate(q[first]), q[last])
+    real, turn = change[:, 0], change[:, 1:]
     size = np.linalg.norm(turn, axis=1)
     angle = 2.0 * np.arctan2(size, np.abs(real)) * np.where(real < 0.0, -1.0, 1.0)
     begin, end = attitude.time[first], attitude.time[last]
@@ -136,13 +134,15 @@ def change_windows(stream: Stream) -> Windows:
     return Windows(begin, end, means_of(stream, SHORT)(begin, end), SHORT)
 
 
-def _pairs(time: Array, span: float) -> tuple[np.ndarray, np.ndarray]:
-    """First and last samples of spans [s] without a gap."""
+def _pairs(time: Array, span: float) -> np.ndarray:
+    """First and last samples of spans [s] without a gap (2, n)."""
+    if len(time) < FEWEST:
+        return np.zeros((2, 0), int)
     samples = max(1, round(span / float(np.median(np.diff(time)))))
     first = np.arange(0, len(time) - samples, max(1, samples // OVERLAP))
     last = first + samples
     whole = _without_gap(time, time[first], time[last])
-    return first[whole], last[whole]
+    return np.array([first[whole], last[whole]])
 
 
 def _without_gap(time: Array, begin: Array, end: Array) -> np.ndarray:
