@@ -12,8 +12,8 @@ from tandemlift.core.files import atomic_write
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.pictures.report.metric_tables import write_metric_tables
-from tandemlift.pictures.report.page import DASH, html, html_figures, versions_of, write_page
-from tandemlift.pictures.report.setup_section import html_setup
+from tandemlift.pictures.report.page import DASH, shown_figures, versions_of, write_page
+from tandemlift.pictures.report.setup_section import setup_table
 
 
 def _ending(found: MissionComparison, flight: Flight) -> str:
@@ -47,8 +47,9 @@ def write_comparison(found: MissionComparison, path: str | os.PathLike[str], fig
         table=found.table,
         best=found.table.best([name for name, flight in found.flights.items() if not flight.failure]),
         endings={e.name: _ending(found, e.flight) if e.flight else e.refusal for e in found.entries},
-        figures=html(html_figures(drawn_figures(found), CAPTIONS, figures)),
-        setup=html(html_setup(first, without=["Pilot"] if controllers else [])),
+        figures=shown_figures(drawn_figures(found), CAPTIONS, figures),
+        verdict=None,
+        setup=setup_table(first, without=["Pilot"] if controllers else []),
         members={
             e.name: (e.summary, format_toml({"controller": e.flight.mission["controller"]}))
             for e in found.entries
