@@ -82,7 +82,9 @@ def _cell(value: float | None, form: str, scale: float = 1.0) -> str:
 
 
 def effort(flight: Flight) -> float | None:
-    """The mean norm of the commanded moments over the logged samples [N m]; None if it is not finite."""
+    """The mean norm of the commanded moments over the logged samples [N m]; None without samples, or if not finite."""
+    if not len(flight.time):
+        return None
     with np.errstate(all="ignore"):  # a diverged flight may have any values
         mean = float(np.linalg.norm(flight["moment"], axis=1).mean())
     return mean if np.isfinite(mean) else None
