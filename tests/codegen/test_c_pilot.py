@@ -54,10 +54,7 @@ def build(source, *options, compiler="gcc"):
     """Compile a self-test with what it tests."""
     folder, program = source.parent, source.with_suffix("")
     part = source.name.removesuffix("_selftest.c") + ".c"
-    subprocess.run(
-        [compiler, *STRICT, *(options or ("-O2",)), source, folder / part, "-o", program, "-lm"],
-        check=True,
-    )
+    subprocess.run([compiler, *STRICT, *(options or ("-O2",)), source, folder / part, "-o", program, "-lm"], check=True)
     return program
 
 

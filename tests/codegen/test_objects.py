@@ -17,10 +17,7 @@ from tandemlift.missions import built_in, changed
 CORTEX = Path(__file__).parent / "cortex_m7"
 CORTEX_M7 = ("-mcpu=cortex-m7", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv5-d16", "--specs=rdimon.specs")
 START = ("-T", str(CORTEX / "newlib.ld"), str(CORTEX / "newlib_start.c"))
-COMPILERS = {
-    "aarch64": ("aarch64-linux-gnu-gcc", "-static"),
-    "cortex-m7": ("arm-none-eabi-gcc", *CORTEX_M7, *START),
-}
+COMPILERS = {"aarch64": ("aarch64-linux-gnu-gcc", "-static"), "cortex-m7": ("arm-none-eabi-gcc", *CORTEX_M7, *START)}
 EMULATORS = {
     "aarch64": ("qemu-aarch64",),
     "cortex-m7": (

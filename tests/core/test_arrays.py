@@ -6,16 +6,7 @@ import scipy.linalg
 
 from tandemlift.compiler.tracer.fused import FUSES
 from tandemlift.compiler.tracer.valued_graph import ValuedGraph
-from tandemlift.core.arrays import (
-    array,
-    distance,
-    eigenvectors,
-    has_symbols,
-    inverse,
-    largest,
-    lengths,
-    square_roots,
-)
+from tandemlift.core.arrays import array, distance, eigenvectors, has_symbols, inverse, largest, lengths, square_roots
 from tandemlift.parts.contact.springs import largest_eigenvalue
 from tandemlift.parts.mechanics.vehicle import condition_number
 

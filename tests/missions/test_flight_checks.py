@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 import pytest
+from warned import warnings_of
 
 import tandemlift as tl
 from tandemlift.core.errors import CLOSE, FAILS, OK, judged
@@ -72,29 +71,23 @@ TOLD = {  # of iris, and what its warnings must say: quantity, limit, key
 }
 
 
-def told(name, changes, controller=None):
-    """The warnings of a mission, in one text."""
-    with warnings.catch_warnings(record=True) as found:
-        warnings.simplefilter("always")
-        load_mission(name, changes, controller=controller)
-    return "\n".join(str(one.message) for one in found)
-
-
 @pytest.mark.parametrize(("changes", "pieces"), TOLD.values(), ids=TOLD)
 def test_what_ends_badly_is_warned_of(changes, pieces):
-    words = told("iris", changes)
+    words = warnings_of("iris", changes)
     assert [piece for piece in pieces if piece not in words] == [], words
 
 
 def test_gains_of_the_paper_on_real_rotors_are_warned_of():
-    assert "the pitch loop oscillates with the rotors' lag of 18.8 ms" in told("paper", {"actuators.model": "rotors"})
+    assert "the pitch loop oscillates with the rotors' lag of 18.8 ms" in warnings_of(
+        "paper", {"actuators.model": "rotors"}
+    )
 
 
 def test_a_start_that_asks_for_more_than_the_rotors_have_is_warned_of():
     real = {"actuators.model": "rotors"}
-    assert told("flight-ready", real) == ""
-    assert "rad of tilt along x" in told("flight-ready", {**real, "initial.velocity": [-2.9, 0.0, 0.0]})
-    assert "N m in yaw; the rotors give" in told("flight-ready", {**real, "initial.rates": [0.0, 0.0, -1.8]})
+    assert warnings_of("flight-ready", real) == ""
+    assert "rad of tilt along x" in warnings_of("flight-ready", {**real, "initial.velocity": [-2.9, 0.0, 0.0]})
+    assert "N m in yaw; the rotors give" in warnings_of("flight-ready", {**real, "initial.rates": [0.0, 0.0, -1.8]})
 
 
 @pytest.mark.parametrize(
@@ -110,35 +103,30 @@ def test_a_start_that_asks_for_more_than_the_rotors_have_is_warned_of():
     ids=["above", "none", "two together", "a low threshold", "turns", "a threshold that changes"],
 )
 def test_a_push_that_moves_the_reference_is_not_called_ignored(changes):
-    assert "it is ignored" not in told("iris", changes)
+    assert "it is ignored" not in warnings_of("iris", changes)
 
 
 def test_a_push_that_is_called_ignored_is_ignored():
     ignored = push(force=[0.29, 0.0, 0.0]) | {"mission.duration": 18.0, "phases.land_start": 60.0}
     flight = tl.fly(load_mission("iris", ignored))
-    assert "it is ignored" in told("iris", ignored)
+    assert "it is ignored" in warnings_of("iris", ignored)
     moved = np.ptp(flight["reference_position"][flight.time > 13.0], axis=0)
     assert moved.max() < 1e-4  # m: of noise that exceeds the last 0.01 N of the threshold
 
 
 def test_a_corridor_is_held_against_the_way_the_vehicle_is_led():
-    assert "with its heading kept" in told("zigzag", {"corridor.width": 2.6})
-    assert "trailing behind its end" in told("narrow", {"corridor.width": 0.7})
-    assert told("narrow", {"corridor.width": 1.2}) == ""
+    assert "with its heading kept" in warnings_of("zigzag", {"corridor.width": 2.6})
+    assert "trailing behind its end" in warnings_of("narrow", {"corridor.width": 0.7})
+    assert warnings_of("narrow", {"corridor.width": 1.2}) == ""
 
 
 def test_a_way_that_is_too_long_for_its_mission_is_warned_of():
-    assert "the person's path of" in told("zigzag", {"mission.duration": 30.0})
-
-
-@pytest.mark.parametrize("name", built_in())
-def test_no_built_in_mission_is_warned_of(name):
-    assert told(name, {}) == ""
+    assert "the person's path of" in warnings_of("zigzag", {"mission.duration": 30.0})
 
 
 @pytest.mark.parametrize("controller", ["geometric", "lqr", "pid", "smc", "super-twisting"])
 def test_no_tuned_controller_is_warned_of(controller):
-    assert told("iris", {}, controller) == ""
+    assert warnings_of("iris", {}, controller) == ""
 
 
 def test_a_lift_down_into_a_floor_is_refused():

@@ -1,11 +1,8 @@
 """Promises and thresholds: what contradicts is refused, what no vehicle can keep is warned of, defaults by guidance."""
 
-import warnings
-
 import pytest
 
 import tandemlift as tl
-from tandemlift.missions import built_in
 from tandemlift.missions.outcomes import promise_of
 
 
@@ -52,11 +49,3 @@ def test_a_promise_that_no_vehicle_can_keep_is_named_before_the_flight(key, valu
     with pytest.warns(tl.FlightWarning, match=rf"{key} = {value} cannot be kept") as found:
         tl.load_mission("iris", {key: value})
     assert any(number in str(warning.message) for warning in found)
-
-
-@pytest.mark.parametrize("name", built_in())
-def test_no_built_in_mission_is_warned_of_its_promise(name):
-    with warnings.catch_warnings(record=True) as found:
-        warnings.simplefilter("always")
-        tl.load_mission(name)
-    assert not [w for w in found if "promise" in str(w.message)]

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 import pytest
 from validation.scenarios import BASE, WINDY
+from warned import warnings_of
 
 import tandemlift as tl
 from tandemlift.missions import load_mission
@@ -15,14 +14,6 @@ from tandemlift.missions.flight_checks import flight_checks
 
 def push(**keys):
     return {"pushes": [{"time": 15.0, "sigma": 0.6, **keys}]}
-
-
-def told(name, changes):
-    """The warnings of a mission, in one text."""
-    with warnings.catch_warnings(record=True) as found:
-        warnings.simplefilter("always")
-        load_mission(name, changes)
-    return "\n".join(str(one.message) for one in found)
 
 
 def gusts(*rows):
@@ -90,7 +81,7 @@ STARTS = {  # missions, changes, and what is said of them; each was flown, and w
 
 @pytest.mark.parametrize(("name", "changes", "pieces"), STARTS.values(), ids=STARTS)
 def test_what_was_loaded_without_a_word_is_warned_of(name, changes, pieces):
-    words = told(name, changes)
+    words = warnings_of(name, changes)
     assert [piece for piece in pieces if piece not in words] == [], words
 
 
@@ -112,7 +103,7 @@ def test_what_was_loaded_without_a_word_is_warned_of(name, changes, pieces):
     ids=str,
 )
 def test_what_flies_well_is_not_warned_of(name, changes):
-    assert told(name, changes) == ""
+    assert warnings_of(name, changes) == ""
 
 
 def test_the_offset_that_is_told_is_the_one_that_is_flown():

@@ -78,11 +78,7 @@ FINE = {
         "estimator.identify_mass": False,
         "sensors.joints.force_bias": 0.0,
     },
-    "the truth and no tare": {
-        "estimator.tare_start": None,
-        "estimator.identify_mass": False,
-        "pilot.push": "truth",
-    },
+    "the truth and no tare": {"estimator.tare_start": None, "estimator.identify_mass": False, "pilot.push": "truth"},
 }
 
 

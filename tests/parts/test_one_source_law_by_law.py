@@ -10,14 +10,7 @@ import pytest
 from law_values import flat, rebuilt, record
 from machine_code import answers
 
-from tandemlift.core.vector import (
-    Absent,
-    Mat3,
-    Quat,
-    Vec3,
-    each,
-    outer,
-)
+from tandemlift.core.vector import Absent, Mat3, Quat, Vec3, each, outer
 from tandemlift.parts.controllers import attitude_reference, equations_of_motion, sliding_surface
 from tandemlift.parts.estimation import wind_compensation
 from tandemlift.parts.estimation.wrench import (

@@ -34,8 +34,7 @@ PUSHES = [(0, 3.0, 0.6), (1, -2.0, 0.8), (2, 1.5, 0.5), (0, 0.31, 0.3), (1, 5.0,
 
 
 @pytest.mark.parametrize(
-    ("gate", "threshold", "tolerance"),
-    [("hard", 0.0, 1e-9), ("soft", 0.3, 1e-6), ("hard", 0.3, 0.3 * STEP / C)],
+    ("gate", "threshold", "tolerance"), [("hard", 0.0, 1e-9), ("soft", 0.3, 1e-6), ("hard", 0.3, 0.3 * STEP / C)]
 )
 def test_each_push_displaces_the_reference_by_its_gated_impulse_over_the_damping(gate, threshold, tolerance):
     changes = {"admittance.gate": gate, "admittance.threshold": threshold}

@@ -167,12 +167,7 @@ def test_a_vehicle_that_cannot_follow_says_why_from_the_end_of_the_lift_on(name,
         assert flight.time[flight["phase"] == 3.0][-1] < 30.0
 
 
-CLEAN_ENDS = [
-    "yaw moment of 3 N m",
-    "rotors 35 % weaker",
-    "30 N downwards",
-    "six times the lag, three times the delay",
-]
+CLEAN_ENDS = ["yaw moment of 3 N m", "rotors 35 % weaker", "30 N downwards", "six times the lag, three times the delay"]
 
 
 @pytest.mark.parametrize("name", CLEAN_ENDS)
@@ -182,8 +177,3 @@ def test_under_supervision_it_lands_in_time_and_says_why(name, flown):
     assert flight.time[flight["phase"] > 0.0][-1] < 25.0
     assert "landed-by-fault" in {finding.kind for finding in flight.findings}
     assert flight["rotor_thrusts"][-1].max() < 1e-6
-
-
-def test_a_lift_into_the_ground_is_refused():
-    with pytest.raises(tl.InputError, match=r"phases\.height = -1\.0: must be 0 or above"):
-        tl.load_mission("iris", {"phases.height": -1.0})

@@ -1,5 +1,7 @@
 """Flights that differ from lane to lane, and the differences between two flights."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -44,3 +46,9 @@ def different(a, b):
     found = [key for key in metrics[0].keys() | metrics[1].keys() if metrics[0].get(key) != metrics[1].get(key)]
     found += [n for n in sorted({*a, *b}) if n not in a or n not in b or a[n].tobytes() != b[n].tobytes()]
     return found + ["ending"] * (str(a.ending) != str(b.ending)) + ["time"] * (not np.array_equal(a.time, b.time))
+
+
+def cut(flight, count, **changes):
+    """The first `count` samples of a flight."""
+    channels = {name: values[:count] for name, values in flight.channels.items()}
+    return replace(flight, time=flight.time[:count], channels=channels, **changes)

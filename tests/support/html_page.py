@@ -24,8 +24,6 @@ class Page(HTMLParser):
             self.rows.append([])
         if tag in ("td", "th"):
             self.rows[-1].append("")
-        if tag == "sup":
-            self.rows[-1][-1] += "^"
         if tag == "br" and self.rows:
             self.rows[-1][-1] += "\n"
         if tag not in VOID:

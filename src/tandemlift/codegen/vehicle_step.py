@@ -28,13 +28,7 @@ def is_of_vehicle(channel: str) -> bool:
 
 @law
 def finish_vehicle(
-    model: FlightModel,
-    output: PilotOutput,
-    acting: Actuation,
-    moved: Any,
-    inputs: StepInputs,
-    t: Number,
-    dt: Number,
+    model: FlightModel, output: PilotOutput, acting: Actuation, moved: Any, inputs: StepInputs, t: Number, dt: Number
 ) -> tuple[FlightState, Sample]:
     """As `finish_sample` without a pilot: (the state after a step, the sample at its start).
 

@@ -86,13 +86,7 @@ KINDS = (
         "the vehicle was farther from its reference than the mission promises: in distance, RMS distance, heading or "
         "tilt",
         "change what disturbs it or the controller's gains; if the deviation is acceptable, change the promise",
-        (
-            "promise.distance",
-            "promise.rms_distance",
-            "promise.heading",
-            "promise.tilt",
-            "promise.settling_time",
-        ),
+        ("promise.distance", "promise.rms_distance", "promise.heading", "promise.tilt", "promise.settling_time"),
     ),
     FindingKind(
         "out-of-reach",

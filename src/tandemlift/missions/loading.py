@@ -206,12 +206,7 @@ class MissionTemplate:
     """
 
     def __init__(
-        self,
-        tables: Tables,
-        layers: Sequence[Layer],
-        changes: Mapping[str, Any] | None = None,
-        *,
-        quiet: bool = False,
+        self, tables: Tables, layers: Sequence[Layer], changes: Mapping[str, Any] | None = None, *, quiet: bool = False
     ) -> None:
         self.changes, self.quiet = dict(changes or {}), quiet
         self._layers, self._own = layers, tables

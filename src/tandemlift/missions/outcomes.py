@@ -147,11 +147,7 @@ def promise_of(p: PromiseTable, guidance: str) -> Promise:
 class FindingsTable(Table):
     """`[findings]`: thresholds of findings; see docs/reference/outcomes.md."""
 
-    ignore: tuple[FindingName, ...] = key(
-        (),
-        None,
-        "kinds of findings that are not reported",
-    )
+    ignore: tuple[FindingName, ...] = key((), None, "kinds of findings that are not reported")
     oscillation_rate: Positive = key(
         0.3,
         "rad/s",

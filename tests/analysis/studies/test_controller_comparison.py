@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,18 +11,10 @@ from html_page import check_page
 
 import tandemlift as tl
 from tandemlift.analysis.studies.comparison import Entry, MissionComparison, with_controllers
-from tandemlift.analysis.studies.comparison_scores import (
-    OF_A_FLIGHT,
-    OF_A_PART,
-    best_of,
-    moving_axes,
-    parts_of,
-    scores,
-)
-from tandemlift.missions import tables_of
+from tandemlift.analysis.studies.comparison_scores import OF_CONTROLLERS, ScoreTable, controller_table
+from tandemlift.flight.record import interruption
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.pictures.report.study.comparison import write_comparison
-from tandemlift.pictures.report.study.comparison_figures import draw_errors, draw_thrusts
 
 SHORT = ("--set", "mission.duration=0.6")
 WILD = ("lambda_1=0", "lambda_2=0", "xi=[4,2,11,0.1,0.1,0.1]")  # of nftsmc
@@ -40,8 +33,7 @@ def test_a_comparison_writes_a_page_and_numbers_and_prints_a_row_each(run, tmp_p
     assert [row["controller"] for row in found["controllers"]] == ["nftsmc", "pid"]
     flight = tl.fly(tl.load_mission("hover", {"mission.duration": 0.6}, controller="pid"))
     row = found["controllers"][1]
-    assert row["from_s"] == 0.0
-    assert row["position_rmse_m"] == pytest.approx(np.sqrt((flight["position_error"] ** 2).mean(axis=0)).tolist())
+    assert row["metrics"]["position_rmse_m"] == flight.metrics()["position_rmse_m"]
     assert row["effort_n_m"] == pytest.approx(np.sqrt((flight["moment"] ** 2).sum(axis=1)).mean(), rel=1e-12)
     assert row["settings"] == flight.mission["controller"]
 
@@ -51,14 +43,14 @@ def test_the_page_needs_nothing_but_itself_and_has_a_row_and_the_settings_of_eac
         run("compare", "hover", *TWO, "--set", "mission.duration=2.0", "--out", "here", "--style", "elsevier")[0] == 0
     )
     figures = sorted(path.name for path in (tmp_path / "here" / "figures").iterdir())
-    assert figures == ["errors.pdf", "errors.png", "thrusts.pdf", "thrusts.png"]
+    assert figures == ["errors.pdf", "errors.png", "inputs.pdf", "inputs.png"]
     (width,) = re.findall(rb"/MediaBox \[ 0 0 ([\d.]+)", (tmp_path / "here" / "figures" / "errors.pdf").read_bytes())
     assert float(width) == pytest.approx(190.0 / 25.4 * 72.0, abs=0.01)
     page = check_page(tmp_path / "here" / "compare.html")
     assert not [a for _, a in page.elements if "href" in a or not a.get("src", "data:").startswith("data:")]
     assert len([tag for tag, _ in page.elements if tag == "img"]) == 2
     for name in ("nftsmc", "pid"):
-        assert len(page.row(name)) == len(OF_A_PART) + len(OF_A_FLIGHT) + 2
+        assert len(page.row(name)) == len(OF_CONTROLLERS) + 4
         assert page.row(name)[-1] == "flown to the end"
         assert f"name = &#34;{name}&#34;" in page.text
     assert "script" not in {tag for tag, _ in page.elements}
@@ -183,108 +175,21 @@ def test_a_controller_of_one_s_own_that_fails_is_told_with_its_line(run, tmp_pat
     assert "controller 'failing' fails: mine.py, line 11: ZeroDivisionError" in err
 
 
-def made(error, push=(), floor=None, moment=1.0, diverged=None):
-    """A flight of samples 0.1 s apart with an error along x [m], a push along x [N] and what the floor carries [N]."""
-    error = np.asarray(error, np.float64)
-    zeros = np.zeros((len(error), 3))
-
-    def along_x(values):
-        return np.column_stack([values, *zeros.T[1:]])
-
-    channels = {
-        "position": zeros,
-        "reference_position": along_x(error),
-        "push_force": along_x(push) if len(push) else zeros,
-        "moment": along_x(np.full(len(error), moment)),
-        "rotor_thrusts": np.full((len(error), 8), 4.0),
-    }
-    channels |= {} if floor is None else {"contact_force": np.column_stack([*zeros.T[:2], floor])}
-    mission = tables_of(tl.load_mission("hover"))
-    results = {"rotor_saturated_share": 0.0, "wall_s": 1.0, "steps": 10}
-    return tl.Flight(0.1 * np.arange(len(error)), channels, mission, results, diverged, {"engine": "compiled"})
+def test_the_least_score_of_a_column_is_the_best_unless_all_have_it():
+    rows = {"a": ["3.000", "0.000", "7"], "b": ["1.000", "0.000", "5"], "c": ["0.500", "0.000", "0"], "d": [""] * 3}
+    table = ScoreTable("errors", (*OF_CONTROLLERS[:2], "findings"), rows)
+    assert table.best("abcd") == {("c", OF_CONTROLLERS[0])}
+    assert table.best("abd") == {("b", OF_CONTROLLERS[0])}  # without one that diverged
 
 
-PUSHED = made([0.3, 0.1, 0.4, -0.3], push=[0.0, 5e-7, 2e-6, 0.0])
-
-
-def test_a_flight_is_scored_from_the_first_push_on_and_before_it():
-    counts, before = parts_of([PUSHED])
-    assert (counts.first, counts.words) == (pytest.approx(0.2), "from the first push on (0.2 s)")
-    assert scores(PUSHED, counts)["position_rmse_m"] == pytest.approx([np.sqrt((0.16 + 0.09) / 2), 0.0, 0.0])
-    assert scores(PUSHED, counts)["position_max_error_m"] == pytest.approx(0.4)
-    assert scores(PUSHED, before)["position_rmse_m"][0] == pytest.approx(np.sqrt((0.09 + 0.01) / 2))
-    assert scores(PUSHED, before)["effort_n_m"] == 1.0
-
-
-def test_the_first_push_of_any_flight_parts_them_all():
-    earlier = made([0.0, 0.0, 0.0, 0.0], push=[0.0, 1.0, 0.0, 0.0])
-    assert [part.first for part in parts_of([PUSHED, earlier])] == [pytest.approx(0.1), 0.0]
-
-
-def test_without_a_push_the_whole_flight_is_scored():
-    flight = made([0.3, 0.1])
-    (whole,) = parts_of([flight])
-    assert whole.words == "over the whole flight"
-    assert scores(flight, whole)["position_max_error_m"] == pytest.approx(0.3)
-
-
-def test_what_stands_on_the_floor_is_not_scored():
-    floor = [34.0, 0.0, 5.0, 0.0, 34.0]  # it touches once in between
-    flight = made([9.0, 0.1, 0.2, 0.3, 9.0], push=[1.0, 0.0, 0.0, 0.0, 0.0], floor=floor)
-    (whole,) = parts_of([flight])
-    assert scores(flight, whole)["position_max_error_m"] == pytest.approx(0.3)
-    standing = made([9.0, 9.0], floor=[34.0, 34.0])
-    assert set(scores(standing, whole).values()) == {None}
-
-
-def test_missions_have_something_to_score_and_one_push_has_its_push():
-    for name in ("paper", "iris", "zigzag", "hover"):
-        flight = tl.fly(tl.load_mission(name))
-        assert any(moving_axes([flight], parts_of([flight])[0])), name
-    flight = tl.fly(tl.load_mission("one-push"))
-    counts, before = parts_of([flight])
-    assert scores(flight, counts)["position_rmse_m"][0] > 1e-3
-    assert not any(moving_axes([flight], before))
-
-
-@pytest.mark.parametrize(
-    ("values", "best"),
-    [
-        ([3.0, 1.0, 2.0], [False, True, False]),
-        ([1e-9, 2e-12, 0.0], [False, False, False]),  # all are zero, physically
-        ([1.0, 1.0 + 5e-7, 2.0], [True, True, False]),
-        ([None, 1.0, 2.0], [False, True, False]),
-        ([None, 1.0], [False, False]),
-        ([None, None], [False, False]),
-    ],
-    ids=str,
-)
-def test_who_wins_a_column_wins_by_what_is_physical(values, best):
-    assert best_of(values, 1e-6) == best
-
-
-def test_the_page_has_no_winner_below_a_micrometre_and_prints_none_of_its_digits(tmp_path):
-    errors = {"a": 3e-8, "b": 1e-9, "c": 0.0}
-    entries = [Entry(name, flight=made([e, e, e])) for name, e in errors.items()]
-    page = check_page(write_comparison(MissionComparison("controllers", entries), tmp_path / "compare.html"))
-    assert "<td><b>" not in page.text
-    assert page.row("a")[1] == page.row("b")[1] == "< 0.001"
-    assert page.row("c")[1] == "0"
-    assert page.text.count("data:image/png") == 1  # thrusts alone: no error moves
-
-
-def test_the_figure_leaves_out_axes_and_parts_in_which_nothing_moves():
-    still = draw_errors({"a": made([0.0, 0.0, 0.2, 0.1], push=[0.0, 0.0, 1.0, 0.0]), "b": made([0.0] * 4)})
-    (ax,) = still.axes
-    assert (ax.get_ylabel(), ax.get_title()) == ("error of $x$ (mm)", "from the first push on")
-    disturbed = draw_errors({"a": PUSHED})
-    assert [ax.get_title() for ax in disturbed.axes] == ["before the first push", "from the first push on"]
-    one = made([0.0, 0.0, 0.2, 0.1], push=[0.0, 0.0, 1.0, 0.0])
-    one.channels["position"][0, 1] = 0.1  # along y before the push alone
-    panels = draw_errors({"a": one}).axes
-    said = ["".join(text.get_text() for text in ax.texts) for ax in panels]
-    assert said == ["$x$ stays within 1 µm", "", "", "$y$ stays within 1 µm"]
-
-
-def test_thrusts_that_hardly_move_are_said_in_numbers():
-    assert draw_thrusts({"a": made([0.0, 0.0])}).axes[0].get_title() == "a: 4 to 4 N"
+def test_long_flights_are_scored_after_ten_seconds_and_one_that_ended_before_does_not_change_that():
+    missions = [tl.load_mission("hover", {"mission.duration": duration}) for duration in (11.0, 2.0)]
+    long, short = (tl.fly(mission) for mission in missions)
+    ended = replace(short, ending=interruption(2.0, "lost"))
+    table = controller_table({"a": long, "b": ended})
+    assert table.what == "position errors after 10 s"
+    assert table.rows["a"][:3] == [f"{1e3 * value:.3f}" for value in long.metrics()["position_rmse_after_10s_m"]]
+    assert table.rows["b"][:4] == [""] * 4
+    table = controller_table({"a": long, "b": short})
+    assert table.what == "position errors over the whole flight"
+    assert table.rows["b"][3] == f"{1e3 * max(short.metrics()['position_max_error_m']):.3f}"

@@ -50,8 +50,7 @@ def test_the_interval_of_a_quantile_is_that_of_the_quantile_test(count, at):
 
 
 @pytest.mark.parametrize(
-    "wrong",
-    [lambda: share(3, 2), lambda: share(-1, 2), lambda: share(1, 2, 1.0), lambda: quantile(np.ones(3), at=0.0)],
+    "wrong", [lambda: share(3, 2), lambda: share(-1, 2), lambda: share(1, 2, 1.0), lambda: quantile(np.ones(3), at=0.0)]
 )
 def test_numbers_that_mean_nothing_are_refused(wrong):
     with pytest.raises(tl.InputError, match="must be"):

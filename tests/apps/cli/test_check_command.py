@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 
 import pytest
-from click.testing import CliRunner
+from verbs import verb
 
-from tandemlift.apps.cli.main import cli
 from tandemlift.core.errors import InputError
 
-
-def call(*arguments):
-    """Exit code, output and exception of the verb."""
-    result = CliRunner().invoke(cli, ["check", *map(str, arguments)])
-    return result.exit_code, result.output, result.exception
+call = partial(verb, "check")
 
 
 def test_a_mission_that_flies_well_is_ok(tmp_path):

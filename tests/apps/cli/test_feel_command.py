@@ -1,19 +1,15 @@
 """`tandemlift feel`: what it prints and writes, and its exit codes."""
 
 import json
+from functools import partial
 
 import pytest
-from click.testing import CliRunner
+from verbs import verb
 
 import tandemlift as tl
-from tandemlift.apps.cli.main import cli
 from tandemlift.core.errors import InputError
 
-
-def call(*arguments):
-    """Exit code, output and exception of the verb."""
-    result = CliRunner().invoke(cli, ["feel", *map(str, arguments)])
-    return result.exit_code, result.output, result.exception
+call = partial(verb, "feel")
 
 
 def test_it_prints_a_table_and_writes_numbers_figure_and_page(tmp_path):

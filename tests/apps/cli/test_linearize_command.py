@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from verbs import verb
 
-from tandemlift.apps.cli.main import cli
 from tandemlift.core.errors import InputError
 
-
-def call(*arguments):
-    """Exit code, output and exception of the verb."""
-    result = CliRunner().invoke(cli, ["linearize", *map(str, arguments)])
-    return result.exit_code, result.output, result.exception
+call = partial(verb, "linearize")
 
 
 def test_modes_kinks_and_assumptions_are_printed_and_files_written(tmp_path):

@@ -1,23 +1,20 @@
 """`tandemlift tune`: what it prints and writes, and its exit codes."""
 
 import json
+from functools import partial
 
 import pytest
-from click.testing import CliRunner
 from html_page import Page
+from verbs import verb
 
 import tandemlift as tl
-from tandemlift.apps.cli.main import cli
 from tandemlift.core.errors import InputError
 
 QUICK = ("--set", "mission.duration=3", "--set", "mission.step=0.005", "--set", "initial.position=[0, 0, 0.1]")
 SMALL = ("--draws", 2, "--holdout", 8, "--budget", 16, *QUICK)
 
 
-def call(*arguments):
-    """Exit code, output and exception of the verb."""
-    result = CliRunner().invoke(cli, ["tune", *map(str, arguments)])
-    return result.exit_code, result.output, result.exception
+call = partial(verb, "tune")
 
 
 def test_it_prints_old_against_new_and_writes_mission_evidence_figures_and_page(tmp_path):

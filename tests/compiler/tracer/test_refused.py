@@ -34,10 +34,7 @@ WRONG = {  # what stands in the law, and why it is refused
     "an assertion": ("assert e.x < 1e9", f"branches on data: {TWO_WAYS}"),
     "a plain number": ("e = e * float(e.x)", NO_NUMBER),
     "a function of math": ("import math; e = e * math.sin(e.x)", NO_NUMBER),
-    "a helper that makes plain numbers": (
-        "import tandemlift.core.types as o; e = e * o.flat(e)[0]",
-        NO_NUMBER,
-    ),
+    "a helper that makes plain numbers": ("import tandemlift.core.types as o; e = e * o.flat(e)[0]", NO_NUMBER),
     "a power": ("e = e * e.x**2", "takes a power by **: write a product, or power(x, p) of tandemlift.core.algebra"),
     "a power of a number": ("e = e * 2.0**e.x", "takes a power by **: write a product, or power(x, p) of tandemlift"),
     "a number taken apart": ("e = e * (sum(e.x) if hasattr(e.x, 'node') else 1.0)", "takes a number apart as if it"),

@@ -21,14 +21,7 @@ from tandemlift.parts.controllers.attitude_reference import (
     shape_reference,
 )
 from tandemlift.parts.controllers.equations_of_motion import GeneralizedVector, euler_dynamics, expanded_dynamics
-from tandemlift.parts.controllers.nftsmc import (
-    NFTSMC,
-    BodyRates,
-    ExactRates,
-    attitude_law,
-    euler_rates,
-    position_law,
-)
+from tandemlift.parts.controllers.nftsmc import NFTSMC, BodyRates, ExactRates, attitude_law, euler_rates, position_law
 from tandemlift.parts.controllers.sliding_surface import Saturation, sliding_surface, switching, wanted_acceleration
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import (

@@ -104,14 +104,7 @@ def test_the_trajectory_is_that_of_the_filtered_admittance_where_no_limit_acts()
     def rate(t, y):
         f, df, g, dg, _x, v = y
         beyond = f - np.clip(f, -0.3, 0.3)
-        return [
-            df,
-            a * a * (push(t) - f) - 2 * a * df,
-            dg,
-            b * b * (beyond - g) - 2 * b * dg,
-            v,
-            (g - C * v) / M,
-        ]
+        return [df, a * a * (push(t) - f) - 2 * a * df, dg, b * b * (beyond - g) - 2 * b * dg, v, (g - C * v) / M]
 
     reference = solve_ivp(rate, (0.0, 4.0), np.zeros(6), rtol=1e-9, atol=1e-12, max_step=0.01, dense_output=True)
     position, velocity, *_ = motion(lambda t: (push(t), 0.0, 0.0), 4.0)

@@ -7,12 +7,7 @@ import tandemlift as tl
 from tandemlift.core.phases import REASONS
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Absent, Vec3, each, vec3
-from tandemlift.parts.guidance.available import (
-    AvailableForce,
-    available_acceleration,
-    needed_force,
-    usable_thrust,
-)
+from tandemlift.parts.guidance.available import AvailableForce, available_acceleration, needed_force, usable_thrust
 from tandemlift.parts.interaction.above_ground import GroundClearance, above_ground
 from tandemlift.parts.interaction.compliance import compliance_step
 from tandemlift.parts.interaction.following import (

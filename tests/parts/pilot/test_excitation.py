@@ -9,13 +9,7 @@ from tandemlift.missions import check, load_mission, tables_of
 from tandemlift.missions.flight_checks import flight_checks
 from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.parts.mechanics.rigid_body import Wrench
-from tandemlift.parts.pilot.excitation import (
-    AXES,
-    ExcitationTable,
-    excited,
-    excited_lead,
-    start_excitation,
-)
+from tandemlift.parts.pilot.excitation import AXES, ExcitationTable, excited, excited_lead, start_excitation
 
 
 def line(axis, frequency, amplitude, phase=0.0):

@@ -93,10 +93,7 @@ def test_a_weak_push_is_told_with_the_axis_that_is_nearest_to_its_threshold():
 
 @pytest.mark.parametrize(
     ("state", "why"),
-    [
-        (moving(at0=[0.5]), "too far from the reference"),
-        (moving(at6=[np.cos(0.5), 0.0, 0.0, np.sin(0.5)]), "heading"),
-    ],
+    [(moving(at0=[0.5]), "too far from the reference"), (moving(at6=[np.cos(0.5), 0.0, 0.0, np.sin(0.5)]), "heading")],
 )
 def test_a_vehicle_that_cannot_follow_says_what_keeps_it_from_that(state, why):
     one = pilot(**{"compliance.following.max_error": 0.2, "compliance.yaw.model": "compliant"})

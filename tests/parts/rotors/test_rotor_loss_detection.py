@@ -127,10 +127,7 @@ def named(rotor, at):
 
 
 def test_a_rotor_that_was_named_but_turns_on_trial_is_restored():
-    assert watched(moved(np.ones((400, 8)), np.zeros((400, 4)), 3), named(4, 0.0))[0] == [
-        (0.0, 5),
-        (check_seen(4), 0),
-    ]
+    assert watched(moved(np.ones((400, 8)), np.zeros((400, 4)), 3), named(4, 0.0))[0] == [(0.0, 5), (check_seen(4), 0)]
 
 
 def check_seen(rotor):

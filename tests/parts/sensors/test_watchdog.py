@@ -22,13 +22,7 @@ from tandemlift.parts.sensors.health import (
     health_after,
 )
 from tandemlift.parts.sensors.readings import ImuReading, MotionReading, Readings
-from tandemlift.parts.sensors.sensor_faults import (
-    SOUND,
-    SensorFaultState,
-    all_faults,
-    apply_faults,
-    sensor_fault,
-)
+from tandemlift.parts.sensors.sensor_faults import SOUND, SensorFaultState, all_faults, apply_faults, sensor_fault
 from tandemlift.parts.sensors.sensor_list import SENSORS
 from tandemlift.parts.sensors.substitutes import PredictedReadings
 from tandemlift.parts.sensors.watchdog import Watchdog, any_invalid, start_watchdog, watchdog_from, watchdog_step

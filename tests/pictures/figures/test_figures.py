@@ -28,12 +28,6 @@ RUNAWAY = {
 }
 
 
-def cut(flight, count, **changes):
-    """The first `count` samples of a flight."""
-    channels = {name: values[:count] for name, values in flight.channels.items()}
-    return dataclasses.replace(flight, time=flight.time[:count], channels=channels, **changes)
-
-
 @pytest.fixture(scope="module")
 def paper():
     return tl.fly(tl.load_mission("paper"))

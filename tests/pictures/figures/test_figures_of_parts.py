@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from flights import cut
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_hex
 from scipy.spatial.transform import Rotation
@@ -23,12 +24,6 @@ WIND = {"wind.model": "air", "wind.velocity": [2.0, 1.0, 0.0], "wind.turbulence"
 AIR = ("wind_velocity", "wind_force")
 KNOWN = ("push_measured", "push_estimate", "push_usable")
 OBSERVED = ("disturbance_force", "disturbance_moment", "disturbance_residual", "disturbance_angular_residual")
-
-
-def cut(flight, count, **changes):
-    """The first `count` samples of a flight."""
-    channels = {name: values[:count] for name, values in flight.channels.items()}
-    return dataclasses.replace(flight, time=flight.time[:count], channels=channels, **changes)
 
 
 def without(flight, *names):

@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from flights import cut
 from matplotlib.colors import to_hex
 
 import tandemlift as tl
@@ -13,12 +14,6 @@ from tandemlift.flight.record import Ending
 
 QUICK = {"mission.duration": 12.0, "mission.log_interval": 0.05}
 AS_DRAWN = {"euler": np.degrees(1.0)}  # angles are drawn in degrees
-
-
-def cut(flight, count, **changes):
-    """The first `count` samples of a flight."""
-    channels = {name: values[:count] for name, values in flight.channels.items()}
-    return dataclasses.replace(flight, time=flight.time[:count], channels=channels, **changes)
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ from colour_contrast import contrast, inverted, on_screen
 
 from tandemlift.pictures.drawing.figure import IEEE, figure_style
 from tandemlift.pictures.figures.registry import captions
-from tandemlift.pictures.report.page import TEMPLATES, html_figure
+from tandemlift.pictures.report.page import TEMPLATES, shown_figure
 
 STYLE = (TEMPLATES / "style.css").read_text("utf-8")
 
@@ -46,8 +46,7 @@ def test_a_colour_keeps_its_hue(name):
 def test_only_drawings_on_white_are_inverted(name, style, turned, tmp_path):
     (tmp_path / "dot.png").write_bytes(DOT)
     with figure_style(style):
-        text = html_figure(1, name, tmp_path / "dot.png", captions()[name])
-    assert ("drawn" in re.search("<img(.*?)width", text)[1]) is turned
+        assert ("drawn" in shown_figure(name, tmp_path / "dot.png", captions()[name]).look.split()) is turned
 
 
 def test_what_is_printed_is_light():

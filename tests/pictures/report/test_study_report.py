@@ -198,7 +198,7 @@ def test_a_saltelli_design_with_holes_says_why_its_metrics_are_not_analysed(tmp_
     study = {**STUDY["study"], "sampling": "saltelli", "draws": 32, "controllers": []}
     found = made_up({**STUDY, "study": study, "cases": []}, tmp_path / "saltelli", measured)
     text = write_study_report(found, tmp_path / "report.html").read_text("utf-8")
-    assert "Sobol&#x27; indices of a Saltelli design, of 192 rows" in text  # of bad outcomes
+    assert "Sobol&#39; indices of a Saltelli design, of 192 rows" in text  # of bad outcomes
     assert "4 of 192 rows have no value, and a Saltelli design must be whole" in text
 
 

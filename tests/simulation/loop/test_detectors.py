@@ -13,13 +13,7 @@ from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.parts.guidance.guidance import ThrustFraction
 from tandemlift.parts.rotors.allocation import mixer_from
-from tandemlift.simulation.loop.detectors import (
-    ASLEEP,
-    FindingLimits,
-    counted,
-    detect,
-    thrust_needed,
-)
+from tandemlift.simulation.loop.detectors import ASLEEP, FindingLimits, counted, detect, thrust_needed
 from tandemlift.simulation.loop.excess import NO_EXCESS, exceed
 from tandemlift.simulation.loop.oscillation import OscillationLimits, Swings
 from tandemlift.simulation.loop.push_detectors import (

@@ -13,12 +13,12 @@ from functools import cached_property
 from typing import Any, Literal, NamedTuple
 
 from tandemlift.analysis.studies.comparison_scores import (
-    Score,
     ScoreTable,
-    controller_tables,
+    controller_table,
+    effort,
     engine_table,
     largest_differences,
-    speed,
+    step_time,
 )
 from tandemlift.analysis.studies.execution.flying import engine_summary, fly_each
 from tandemlift.core.errors import InputError
@@ -27,8 +27,6 @@ from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
 from tandemlift.missions.loading import MissionTemplate
 from tandemlift.parts.controllers import CONTROLLERS, Controller, controller, error_text, file_of
-
-WIDTHS = {"controllers": 9, "engines": 18}  # at least, of a column of text
 
 
 class Entry(NamedTuple):
@@ -78,9 +76,9 @@ class MissionComparison:
         return {e.name: e.flight for e in self.entries if e.flight}
 
     @cached_property
-    def tables(self) -> list[ScoreTable]:
-        """The tables of scores, the decisive one first."""
-        return controller_tables(self.flights) if self.of == "controllers" else [engine_table(self.flights)]
+    def table(self) -> ScoreTable:
+        """The table of scores."""
+        return (controller_table if self.of == "controllers" else engine_table)(self.flights)
 
     def fly(self, progress: Progress | None = None) -> MissionComparison:
         """Fly every entry that has a mission, in the order given.
@@ -102,63 +100,44 @@ class MissionComparison:
         return replace(self, entries=[e._replace(flight=next(flown)) if e.mission else e for e in self.entries])
 
     def lines(self) -> Iterator[str]:
-        """The tables as text, one for each part of the mission; the first also has what failed or was refused."""
-        first = next(iter(self.flights))
-        for place, table in enumerate(self.tables):
-            words = table.part.words
-            if not table.columns:
-                yield f"  {words.capitalize()} every position error is below 1 µm."
-                continue
-            what = f"largest difference from {first}" if self.of == "engines" else f"position errors {words}"
-            yield f"{self.name}: {what}"
-            columns = [c for c in table.columns if c.printed and any(c.name in row for row in table.rows.values())]
-            sizes = [max(WIDTHS[self.of], len(c.printed)) for c in columns]
-            entries = [entry for entry in self.entries if entry.flight or not place]
-            width = max(len(entry.name) for entry in entries) + 2
-            yield "  " + " " * width + "  ".join(c.printed.rjust(n) for c, n in zip(columns, sizes, strict=True))
-            for name, _, _, refusal, flight in entries:
-                cells = [_cell(column, table.rows[name]) for column in columns] if flight else []
-                row = "  ".join(cell.rjust(n) for cell, n in zip(cells, sizes, strict=False))
-                yield f"  {name.ljust(width)}{row}".rstrip()
-                note = flight.failure if flight else f"not flown: {refusal}"
-                if note and not place:
-                    yield f"  {'':{width}}{note}"
+        """The table as text, with what failed or was refused."""
+        table = self.table
+        yield f"{self.name}: {table.what}"
+        sizes = [max(map(len, column)) for column in zip(table.titles, *table.rows.values(), strict=True)]
+        width = max(len(entry.name) for entry in self.entries) + 2
+        yield "  " + " " * width + "  ".join(map(str.rjust, table.titles, sizes))
+        for name, _, _, refusal, flight in self.entries:
+            yield f"  {name.ljust(width)}{'  '.join(map(str.rjust, table.rows.get(name, ()), sizes))}".rstrip()
+            if note := flight.failure if flight else f"not flown: {refusal}":
+                yield f"  {'':{width}}{note}"
 
     def as_json(self) -> dict[str, Any]:
-        """The comparison as JSON, an object for each entry; SI units.
-
-        The scores of a controller are those of the decisive part, from `from_s` on; those of the other part are in
-        `before_first_push`. Differences of engines are from the first.
-        """
+        """The comparison as JSON, an object for each entry; SI units. Differences of engines are from the first."""
         if self.of == "engines":
             first = next(iter(self.flights.values()))
             return {"mission": self.name, "engines": [_engine_json(*one, first) for one in self.flights.items()]}
-        rows = [_controller_json(entry, *self.tables) for entry in self.entries]
+        rows = [_controller_json(entry) for entry in self.entries]
         return {"mission": self.name, "engine": self.entries[0].engine, "controllers": rows}
 
 
-def _cell(column: Score, scores: Mapping[str, Any]) -> str:
-    value = column.value(scores)
-    return "" if value is None else f"{column.scale * value:{column.form}}"
-
-
-def _controller_json(entry: Entry, counts: ScoreTable, *others: ScoreTable) -> dict[str, Any]:
-    row: dict[str, Any] = {"controller": entry.name, "flown": entry.flight is not None, "refused": entry.refusal}
-    if entry.flight:
-        row |= {"from_s": counts.part.first, **counts.rows[entry.name]}
-        if others:
-            row["before_first_push"] = others[0].rows[entry.name]
-        row |= {"findings": [finding.as_table() for finding in entry.flight.findings]}
-        row |= {"settings": entry.flight.mission["controller"], "metrics": entry.flight.metrics()}
+def _controller_json(entry: Entry) -> dict[str, Any]:
+    flight, flown = entry.flight, entry.flight is not None
+    row: dict[str, Any] = {"controller": entry.name, "flown": flown, "refused": entry.refusal}
+    if flight:
+        time, findings = step_time(flight), [finding.as_table() for finding in flight.findings]
+        row |= {"effort_n_m": effort(flight), "step_ns": time and 1e9 * time, "findings": findings}
+        row |= {"failure": flight.failure or None, "settings": flight.mission["controller"]}
+        row |= {"metrics": flight.metrics()}
     return row
 
 
 def _engine_json(name: str, flight: Flight, first: Flight) -> dict[str, Any]:
+    time = step_time(flight)
     return {
         "engine": name,
         "difference": largest_differences(flight, first),
         "final_position_m": flight.metrics()["final_position_m"],
-        "steps_per_s": speed(flight),
+        "steps_per_s": time and 1.0 / time,
         "findings": [finding.as_table() for finding in flight.findings],
         "failure": flight.failure or None,
         "version": flight.version,

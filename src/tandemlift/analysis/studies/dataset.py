@@ -16,9 +16,6 @@ from tandemlift.core.errors import extra
 if TYPE_CHECKING:
     import pyarrow
     import xarray
-if TYPE_CHECKING:
-    import pyarrow
-
 
 WHO = ("mission", "controller", "engine")
 SHAPED = (*WHO, "case", "draw", "seed", "row")  # columns that are given by the dimensions

@@ -187,7 +187,7 @@ def compare(
 
     \b
     Files in the results folder (other files there are left alone):
-      compare.html   table, errors and thrusts on one page that needs no network
+      compare.html   table, errors and inputs on one page that needs no network
       compare.json   the same as numbers in SI units, with all metrics and settings
       engines.html   with --engines: the flights, and their differences from the first
       engines.json   with --engines: the same as numbers in SI units

@@ -34,11 +34,7 @@ def written(function: Callable[..., Any], *likes: Any, lanes: int = 1, rolls_fro
 
 
 def compiled(
-    function: Callable[..., Any],
-    *likes: Any,
-    lanes: int = 1,
-    level: machine.Level = machine.BEST,
-    rolls_from: int = 0,
+    function: Callable[..., Any], *likes: Any, lanes: int = 1, level: machine.Level = machine.BEST, rolls_from: int = 0
 ) -> Callable[[Array], Array]:
     """Machine code of a function of values.
 

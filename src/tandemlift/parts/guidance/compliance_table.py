@@ -31,10 +31,7 @@ class ComplianceTable(Table):
         0.67, "1", "a push ends below this fraction of the threshold", source="chosen: a hysteresis of a third"
     )
     dwell: NonNegative = key(
-        0.016,
-        "s",
-        "time for which a force must exceed the threshold before it counts as a push",
-        source="chosen",
+        0.016, "s", "time for which a force must exceed the threshold before it counts as a push", source="chosen"
     )
     bias_time_constant: Positive = key(
         20.0,
@@ -47,17 +44,9 @@ class ComplianceTable(Table):
     )
     max_acceleration: Positive3 = key((3.0, 3.0, 3.0), "m/s²", "largest acceleration of the reference", source="chosen")
     max_jerk: Positive3 = key((15.0, 15.0, 15.0), "m/s³", "largest jerk of the reference", source="chosen")
-    braking_gain: Positive = key(
-        4.0,
-        "1/s",
-        "braking gain b: acceleration ≤ b · (max_speed − speed)",
-        source="chosen",
-    )
+    braking_gain: Positive = key(4.0, "1/s", "braking gain b: acceleration ≤ b · (max_speed − speed)", source="chosen")
     max_tilt: Tilt = key(
-        0.5,
-        "rad",
-        "largest tilt for accelerations",
-        source="chosen: 29°, where hover needs 14 % more thrust",
+        0.5, "rad", "largest tilt for accelerations", source="chosen: 29°, where hover needs 14 % more thrust"
     )
     thrust_fraction: Fraction = key(
         0.9, "1", "fraction of the largest thrust that accelerations may use", source="chosen: leaves 10 % for control"

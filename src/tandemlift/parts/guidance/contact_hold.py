@@ -219,9 +219,7 @@ def start_reaction() -> ContactReactionState:
     return ContactReactionState(0.0, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, HandWrench(ZERO, ZERO))
 
 
-def start_contact_hold(
-    table: ContactTable,
-) -> tuple[ContactReaction, ContactReactionState] | tuple[Absent, Absent]:
+def start_contact_hold(table: ContactTable) -> tuple[ContactReaction, ContactReactionState] | tuple[Absent, Absent]:
     """The reaction to contacts and its memory before the first sample, or `Absent`."""
     if table.model == "none":
         return Absent(), Absent()

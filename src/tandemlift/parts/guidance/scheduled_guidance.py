@@ -9,14 +9,7 @@ from tandemlift.core.law import Absent, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
-from tandemlift.parts.guidance.guidance import (
-    Guidance,
-    PilotInput,
-    RunningInFlight,
-    checked_input,
-    guide,
-    run,
-)
+from tandemlift.parts.guidance.guidance import Guidance, PilotInput, RunningInFlight, checked_input, guide, run
 from tandemlift.parts.interaction.admittance import (
     Admittance,
     AdmittanceState,

@@ -45,10 +45,7 @@ class YawTable(Table):
         0.9, "N m", "largest moment of the virtual damping", source="chosen: within the moment that the rotors have"
     )
     max_lead_angle: Tilt = key(
-        0.35,
-        "rad",
-        "largest angle by which the reference heading may be ahead of the vehicle's",
-        source="chosen",
+        0.35, "rad", "largest angle by which the reference heading may be ahead of the vehicle's", source="chosen"
     )
 
 

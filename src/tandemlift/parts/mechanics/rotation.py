@@ -116,11 +116,7 @@ def rates_from_euler_rates(e: Euler, euler_rates: Vec3) -> Vec3:
 def euler_rates_from_rates(e: Euler, rates_body: Vec3) -> Vec3:
     """(φ̇, θ̇, ψ̇) from body rates, rad/s: the inverse of omegat_theta_equ, singular at φ = ±90°."""
     yaw_rate = (e.cos_pitch * rates_body.z - e.sin_pitch * rates_body.x) * e.sec_roll
-    return Vec3(
-        e.cos_pitch * rates_body.x + e.sin_pitch * rates_body.z,
-        rates_body.y - e.sin_roll * yaw_rate,
-        yaw_rate,
-    )
+    return Vec3(e.cos_pitch * rates_body.x + e.sin_pitch * rates_body.z, rates_body.y - e.sin_roll * yaw_rate, yaw_rate)
 
 
 @law

@@ -85,11 +85,7 @@ class Quadrotor(Table):
         source="it faces along body x",
     )
     layout: Literal["+", "x"] = key(
-        "x",
-        None,
-        "arrangement of the rotors",
-        example="+",
-        choices={"+": "at +x, +y, -x, -y", "x": "45° further"},
+        "x", None, "arrangement of the rotors", example="+", choices={"+": "at +x, +y, -x, -y", "x": "45° further"}
     )
     arm: Positive | None = key(
         None,
@@ -150,10 +146,7 @@ class Quadrotor(Table):
         source="chosen",
     )
     feet_depth: Length = key(
-        0.18,
-        "m",
-        "distance of the soles below the quadrotor's centre",
-        source="chosen: the beam stays off the floor",
+        0.18, "m", "distance of the soles below the quadrotor's centre", source="chosen: the beam stays off the floor"
     )
     drag_area: Areas = key(
         (0.02, 0.02, 0.05),

@@ -61,9 +61,7 @@ class WindTable(Table):
     )
     velocity: Annotated[Speeds, PerAxis(3)] = key((0.0, 0.0, 0.0), "m/s", "mean velocity, world axes")
     turbulence: Turbulence = key(
-        0.0,
-        "m/s",
-        "mean wind at 20 ft that scales the turbulence: 7.7 is light, 15.4 moderate, 0 none",
+        0.0, "m/s", "mean wind at 20 ft that scales the turbulence: 7.7 is light, 15.4 moderate, 0 none"
     )
     height: Positive = key(
         3.048,

@@ -46,10 +46,7 @@ class DetectionTable(Table):
         60.0, "rad/s", "bandwidth of the second-order low-pass filter on the residual", source="chosen"
     )
     bias_bandwidth: Bandwidth = key(
-        2.0,
-        "rad/s",
-        "bandwidth of the residual's mean, which is subtracted: wind, or a wrong mass",
-        source="chosen",
+        2.0, "rad/s", "bandwidth of the residual's mean, which is subtracted: wind, or a wrong mass", source="chosen"
     )
     scatter_bandwidth: Bandwidth = key(
         3.0,

@@ -40,14 +40,7 @@ SENSORS: dict[str, Sensor] = {
     sensor.name: sensor
     for sensor in (
         Sensor("joints", "imu", ("joint_force", "joint_torque"), "N", "body", "force and torque at each joint", 6),
-        Sensor(
-            "accelerometer",
-            "imu",
-            ("specific_force",),
-            "m/s^2",
-            "body",
-            "specific force at the payload's origin",
-        ),
+        Sensor("accelerometer", "imu", ("specific_force",), "m/s^2", "body", "specific force at the payload's origin"),
         Sensor("gyroscope", "imu", ("rates",), "rad/s", "body", "angular velocity"),
         Sensor("position", "motion", ("position",), "m", "world", "position of the vehicle's centre of mass"),
         Sensor("velocity", "motion", ("velocity",), "m/s", "world", "velocity of the vehicle's centre of mass"),

@@ -21,16 +21,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.clearances import clearances, grips
 from tandemlift.pictures.drawing.figure import Caption, current_style, with_walls
 from tandemlift.pictures.drawing.panels import decimate, drawable, extent, legend_above, line, value_ticks
-from tandemlift.pictures.drawing.style import (
-    BEHIND_TEXT,
-    BLUE,
-    GREY,
-    INK,
-    VERMILLION,
-    journal,
-    page_figure,
-    points,
-)
+from tandemlift.pictures.drawing.style import BEHIND_TEXT, BLUE, GREY, INK, VERMILLION, journal, page_figure, points
 from tandemlift.pictures.drawing.vehicle import skeleton
 from tandemlift.pictures.figures.path import pushes
 

@@ -15,15 +15,7 @@ from matplotlib.lines import Line2D
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.drawing.overlay import over_time
-from tandemlift.pictures.drawing.panels import (
-    START,
-    components,
-    fit,
-    fleet_figure,
-    is_disturbed,
-    line,
-    time_axis,
-)
+from tandemlift.pictures.drawing.panels import START, components, fit, fleet_figure, is_disturbed, line, time_axis
 from tandemlift.pictures.drawing.style import COMPONENTS, GREY, journal
 
 CAPTION = Caption(

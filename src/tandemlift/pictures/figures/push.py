@@ -18,17 +18,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.drawing.overlay import over_time
 from tandemlift.pictures.drawing.panels import fit, legend_above, line, shade, time_axis
-from tandemlift.pictures.drawing.style import (
-    BLUE,
-    GREY,
-    INK,
-    LIGHT_BLUE,
-    PALE,
-    TAN,
-    VERMILLION,
-    journal,
-    page_figure,
-)
+from tandemlift.pictures.drawing.style import BLUE, GREY, INK, LIGHT_BLUE, PALE, TAN, VERMILLION, journal, page_figure
 from tandemlift.pictures.drawing.vehicle import body_to_world, true_payload_mass
 
 CAPTION = Caption(

@@ -10,113 +10,74 @@ import gzip
 import json
 import math
 import os
-from collections.abc import Iterable, Mapping, Sequence
-from html import escape
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from tandemlift.core.files import FLIGHT_FILE, atomic_write
-from tandemlift.core.findings import Finding
 from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
 from tandemlift.pictures.figures.registry import VIEWS, captions, figures_for, save_photographs
 from tandemlift.pictures.report.metric_tables import write_metric_tables
-from tandemlift.pictures.report.page import (
-    DASH,
-    NO_BREAK,
-    html,
-    html_figure,
-    html_table,
-    number,
-    split_unit,
-    with_keys,
-    write_page,
-)
+from tandemlift.pictures.report.page import NO_BREAK, Cell, Verdict, number, shown_figure, split_unit, write_page
 from tandemlift.pictures.report.second_drawer import second_drawer
-from tandemlift.pictures.report.setup_section import html_setup
+from tandemlift.pictures.report.setup_section import setup_table
 
 ARRIVED = 0.5  # m: a vehicle that ends farther from its reference has not arrived
 
 
-def _cells(name: str, value: object, unit: str) -> str:
-    """The table cells of a metric's value: one per axis, or one over all three columns."""
+class MetricCells(NamedTuple):
+    """A metric on the page: its label, its name, a cell for each axis or a single one, and its unit."""
+
+    words: str
+    name: str
+    cells: list[Cell]
+    unit: str
+
+
+def _cells(name: str, value: object, unit: str) -> list[Cell]:
+    """The cells of a metric's value: one per axis, or a single one."""
     if name == "command_at_start" and isinstance(value, (list, tuple)):
-        parts = (
-            f"U{'₁₂₃₄'[i]} = {number(v)} {'N m' if i else 'N'}".replace(" ", NO_BREAK) for i, v in enumerate(value)
-        )
-        return f'<td class="one" colspan="3">{", ".join(parts)}</td>'
+        parts = (f"U{'₁₂₃₄'[i]} = {number(v)} {'N m' if i else 'N'}" for i, v in enumerate(value))
+        return [", ".join(part.replace(" ", NO_BREAK) for part in parts)]
     values = list(value) if isinstance(value, (list, tuple)) and len(value) == 3 else [value]
-    single = len(values) == 1
     texts = [", ".join(map(number, v)) if isinstance(v, (list, tuple)) else number(v) for v in values]
-    if unit == "rad":
-        degrees = [math.degrees(v) if isinstance(v, (int, float)) else None for v in values]
-        texts = [
-            f"{t}<br><small>{number(d)}°</small>" if d is not None else t for t, d in zip(texts, degrees, strict=True)
-        ]
-    return "".join(f'<td class="one" colspan="3">{t}</td>' if single else f"<td>{t}</td>" for t in texts)
+    if unit != "rad":
+        return [*texts]
+    angles = [f"{number(math.degrees(v))}°" if isinstance(v, (int, float)) else "" for v in values]
+    return [(text, angle) if angle else text for text, angle in zip(texts, angles, strict=True)]
 
 
-def _metrics(metrics: Mapping[str, Any]) -> str:
-    """The metrics as a table, a row each."""
-    rows = []
+def _metrics(metrics: Mapping[str, Any]) -> Iterator[MetricCells]:
+    """The metrics that fit in a table, a row each."""
     for name, value in metrics.items():
-        if name in ("outcome", "events", "findings", "failure"):
-            continue
-        words, unit = split_unit(name)
-        head = f'<th scope="row">{escape(words)}<br><code>{escape(name)}</code></th>'
-        rows.append(f"<tr>{head}{_cells(name, value, unit)}<td>{unit}</td></tr>")
-    source = (
-        "From every step, not from the log" if "steps" in metrics else "From the samples of a bag, not from every step"
-    )
-    note = f"{source}. Errors are desired minus actual. A dash ({DASH}): could not be formed."
-    table = html_table(("Metric", "x or φ", "y or θ", "z or ψ", "Unit"), rows, "metrics")
-    return f'<p class="soft">{note}</p>\n{table}{_events(metrics.get("events", []))}'
+        if name not in ("outcome", "events", "findings", "failure"):
+            words, unit = split_unit(name)
+            yield MetricCells(words, name, _cells(name, value, unit), unit)
 
 
-def _events(events: Iterable[tuple[float, str]]) -> str:
-    """The events, a line each; nothing without supervision."""
-    lines = "".join(f"<li>{at:.2f} s: {escape(what)}</li>" for at, what in events)
-    return f"\n<p>Phases and alarms:</p>\n<ul>{lines}</ul>" if lines else ""
-
-
-def _verdict(flight: Flight) -> str:
+def _verdict(flight: Flight) -> Verdict:
     """The final position with its reference, or the reason if the flight was stopped."""
     if flight.failure:
         what, _, why = flight.failure.partition(": ")
-        return f'<p class="verdict failed"><strong>{escape(what).capitalize()}</strong>: {escape(why)}.</p>'
+        return Verdict(what.capitalize(), f": {why}.", "failed")
     how = "Ended" if flight.outcome == "unknown" else flight.outcome.capitalize()
     metrics = flight.metrics()
     end, reference = metrics.get("final_position_m"), metrics.get("final_reference_m")
     if end is None or reference is None:
-        return f'<p class="verdict"><strong>{how}</strong>.</p>'
+        return Verdict(how)
     away = math.dist(end, reference)
     distance = "less than a micrometre" if away < 1e-6 else _length(away)
-    text = f"at {html_place(end)}, {distance} from its reference {html_place(reference)}"
-    if away > ARRIVED:
-        return f'<p class="verdict missed"><strong>{how}</strong> {text}.</p>'
-    return f'<p class="verdict"><strong>{how}</strong> {text}.</p>'
+    text = f" at {place_text(end)}, {distance} from its reference {place_text(reference)}."
+    return Verdict(how, text, "missed" if away > ARRIVED else "")
 
 
 def _length(metres: float) -> str:
     return f"{number(metres * 1e3)} mm" if metres < 1.0 else f"{number(metres)} m"
 
 
-def html_findings(flight: Flight) -> str:
-    """The findings as a list; a sentence if there are none, nothing for a flight that was never searched for any."""
-    if not flight.findings:
-        return '\n<p class="soft">No findings.</p>' if "findings" in flight.results else ""
-    items = "\n".join(f"<li>{_item(finding)}</li>" for finding in flight.findings)
-    return f'\n<h3>Findings</h3>\n<ul class="findings">\n{items}\n</ul>'
-
-
-def _item(finding: Finding) -> str:
-    where = "" if finding.place is None else f", at {html_place(finding.place)}"
-    what = f"<strong>{escape(finding.kind)}</strong> at {finding.time:.2f} s{where}: {escape(finding.text)}."
-    return f'{what}<br><span class="soft">What to do: {with_keys(finding.remedy)}.</span>'
-
-
-def html_place(point: Iterable[float]) -> str:
+def place_text(point: Iterable[float]) -> str:
     """A point of space in metres, to the millimetre."""
     return f"({', '.join(f'{round(v, 3) + 0.0:.3f}'.replace('-', '−') for v in point)}) m"
 
@@ -131,19 +92,9 @@ def _pngs(flight: Flight, figures: str | os.PathLike[str] | Iterable[str | os.Pa
     return {name: found[name] for name in names if name in found and found[name].is_file()}
 
 
-def _engine(flight: Flight) -> str:
-    """The engine of the body, if the flight records it."""
-    name = flight.version.get("engine")
-    return f"Flown in engine <b>{escape(name)}</b>" if name else "Engine unknown"
-
-
-def _again(flight: Flight) -> str:
-    """The command that flies the same mission."""
-    name = flight.name
-    if name in built_in() and tables_of(load_mission(name)) == flight.mission:
-        return f"<pre><code>tandemlift run {escape(name)}</code></pre>"
-    save = "<p>Save the mission above as <code>mission.toml</code> (a run writes it beside this report), and</p>"
-    return f"{save}\n<pre><code>tandemlift run mission.toml</code></pre>"
+def _is_built_in(flight: Flight) -> bool:
+    """Whether a built-in mission was flown unchanged."""
+    return flight.name in built_in() and tables_of(load_mission(flight.name)) == flight.mission
 
 
 def write_report(
@@ -165,19 +116,21 @@ def write_report(
         The path.
     """
     words = captions()
-    shown = [html_figure(i, name, png, words[name]) for i, (name, png) in enumerate(_pngs(flight, figures).items(), 1)]
     return write_page(
         path,
         "flight",
         name=flight.name,
-        about=html(_engine(flight)),
+        engine=flight.version.get("engine"),
         packed=replay and base64.b64encode(gzip.compress(replay.encode(), mtime=0)).decode(),
-        verdict=html(_verdict(flight) + html_findings(flight)),
-        setup=html(html_setup(flight)),
-        figures=html("\n".join(shown)),
-        metrics=html(_metrics(flight.metrics())),
+        verdict=_verdict(flight),
+        flight=flight,
+        place=place_text,
+        setup=setup_table(flight),
+        figures=[shown_figure(name, png, words[name]) for name, png in _pngs(flight, figures).items()],
+        metrics=list(_metrics(flight.metrics())),
+        events=flight.metrics().get("events", []),
         mission=format_toml(flight.mission),
-        again=html(_again(flight)),
+        is_built_in=_is_built_in(flight),
         versions=f"Flown with {', '.join(f'{name} {version}' for name, version in flight.version.items())}.",
     )
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +14,7 @@ from tandemlift.core.files import versions
 from tandemlift.flight.channels import channel_of
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.style import BLUE, GREY, INK, look, page_figure, styled
-from tandemlift.pictures.report.page import DASH, html, html_figures, html_row, html_table, number, write_page
+from tandemlift.pictures.report.page import DASH, Cell, PageTable, code, number, shown_figures, strong, write_page
 
 PAGE = "identification.html"
 CAPTIONS = {
@@ -63,51 +62,40 @@ def write_identification(found: Mapping[str, Any], folder: Path) -> Path:
         "identification",
         name=found["mission"],
         about=f"From {', '.join(found['logs'])}: {used} windows, {left_out} left out, {found['steps']} steps.",
-        verdict="",
+        verdict=None,
         remarks=found["remarks"],
-        parameters=html(_table(found["parameters"])),
-        whole=html(_table(found["whole_vehicle"])),
-        residuals=html(_residuals(found)),
-        figures=html(html_figures(drawn, CAPTIONS)),
+        parameters=_table(found["parameters"]),
+        whole=_table(found["whole_vehicle"]),
+        residuals=_residuals(found),
+        figures=shown_figures(drawn, CAPTIONS),
         versions=f"Identified with {', '.join(f'{name} {version}' for name, version in versions('compiled').items())}.",
     )
 
 
-def _table(rows: Sequence[Mapping[str, Any]]) -> str:
+def _table(rows: Sequence[Mapping[str, Any]]) -> PageTable:
     titles = ("", "Estimate", "95 % from", "to", "Unit", "Mission", "Efficiency")
     lines = [
-        html_row(
-            f"<code>{escape(r['key'])}</code>",
+        [
+            code(r["key"]),
             *[number(r[name]) for name in ("value", "low", "high")],
-            escape(r["unit"]),
+            r["unit"],
             number(r["start"]),
-            f"{r['efficiency']:.2f}" if r["excited"] else "<strong>not excited</strong>",
-        )
+            f"{r['efficiency']:.2f}" if r["excited"] else strong("not excited"),
+        ]
         for r in rows
     ]
-    return html_table(titles, lines, "compared keys")
+    return PageTable("compared keys", titles, lines)
 
 
-def _residuals(found: Mapping[str, Any]) -> str:
-    titles = (
-        "Stream",
-        "Noise",
-        "Autocorrelation up to",
-        "Bound",
-        "White",
-        "Factor of variance",
-        "Held back",
-        "Another flight",
-    )
-    lines = []
+def _residuals(found: Mapping[str, Any]) -> PageTable:
+    titles = ("Stream", "Noise", "Autocorrelation up to", "Bound", "White", "Factor of variance")
+    lines = list[list[Cell]]()
     for name, w in found["whiteness"].items():
         ratios = [found[part].get("ratio", {}).get(name) for part in ("held_back", "predicted")]
-        largest = max(map(abs, w["autocorrelation"]))
-        cells = [number(found["noise"][name]), number(largest), number(w["bound"])]
-        cells += ["yes" if w["white"] else "<strong>no</strong>", number(w["factor"])]
-        cells += [DASH if ratio is None else number(ratio) for ratio in ratios]
-        lines.append(html_row(f"<code>{escape(name)}</code>", *cells))
-    return html_table(titles, lines, "compared")
+        numbers = map(number, (found["noise"][name], max(map(abs, w["autocorrelation"])), w["bound"]))
+        predicted = [DASH if ratio is None else number(ratio) for ratio in ratios]
+        lines.append([code(name), *numbers, "yes" if w["white"] else strong("no"), number(w["factor"]), *predicted])
+    return PageTable("compared", (*titles, "Held back", "Another flight"), lines)
 
 
 @styled

@@ -1,6 +1,6 @@
 """The pages of reports: templates in data/report, each of which becomes one HTML file that needs nothing else.
 
-Numbers, tables and figures as HTML, for all of them.
+Numbers, tables and figures for all of them; parts.html sets them.
 """
 
 from __future__ import annotations
@@ -11,11 +11,10 @@ import os
 import re
 import struct
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
-from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
@@ -34,22 +33,51 @@ if TYPE_CHECKING:
 TEMPLATES = DATA / "report"
 DASH = "–"  # a value that could not be computed
 NO_BREAK = "\u00a0"
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 SCREEN = 0.45  # CSS pixels for a dot of print: figures are read at arm's length
 WIDE = 600  # CSS pixels from where a figure scrolls sideways on a narrow screen instead of shrinking
 
 html = Markup
 """Marks text as HTML; all other text is escaped by the templates."""
 
+Cell = str | tuple[str, str]
+"""A text in a table; of a pair, the second one is small and below the first."""
+
+
+class PageTable(NamedTuple):
+    """A table of a page.
+
+    Attributes:
+        look: its class in style.css.
+        titles: of the columns; none for a table without a head.
+        rows: the title and the cells of each.
+    """
+
+    look: str
+    titles: Sequence[Cell]
+    rows: Iterable[Sequence[Cell]]
+
+
+class Verdict(NamedTuple):
+    """The first words of a page: a strong text, the rest of the sentence, and its class, "missed" or "failed"."""
+
+    head: str
+    text: str = "."
+    look: str = ""
+
 
 @cache
 def _environment() -> Environment:
-    return Environment(
+    made = Environment(
         loader=FileSystemLoader(TEMPLATES, encoding="utf-8"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    made.filters["keys"] = with_keys
+    made.globals |= {"parts": made.get_template("parts.html").module, "bundle": _bundle}
+    return made
 
 
 def write_page(path: str | os.PathLike[str], template: str, **values: object) -> Path:
@@ -63,7 +91,7 @@ def write_page(path: str | os.PathLike[str], template: str, **values: object) ->
     Returns:
         The path.
     """
-    text = _environment().get_template(f"{template}.html").render(values, bundle=_bundle)
+    text = _environment().get_template(f"{template}.html").render(values)
     with atomic_write(Path(path)) as partial:
         partial.write_text(text, "utf-8")
     return Path(path)
@@ -75,18 +103,18 @@ def _bundle(name: str) -> Markup:
 
 
 def number(value: object) -> str:
-    """A metric's value as HTML: four significant digits, or a power of ten; a dash for None."""
+    """A metric's value: four significant digits, or a power of ten; a dash for None."""
     if value is None:
         return DASH
     if not isinstance(value, (int, float)) or isinstance(value, bool) or not math.isfinite(value):
-        return escape(str(value))
+        return str(value)
     if isinstance(value, int) or 1e4 <= abs(value) < 1e7:
         text = f"{value:,.0f}".replace(",", "\u202f")
     elif value == 0 or 1e-3 <= abs(value) < 1e4:
         text = f"{value:#.4g}".rstrip(".") if value else "0"
     else:
         digits, power = f"{value:.2e}".split("e")
-        text = f"{digits} × 10<sup>{int(power)}</sup>"
+        text = f"{digits} × 10{str(int(power)).translate(RAISED)}"
     return text.replace("-", "−")
 
 
@@ -100,42 +128,32 @@ def split_unit(name: str) -> tuple[str, str]:
     return words[:1].upper() + words[1:], unit
 
 
-def html_row(title: str, *cells: str) -> str:
-    """A row of a table: its title and its cells, as HTML."""
-    return f'<tr><th scope="row">{title}</th>{"".join(f"<td>{cell}</td>" for cell in cells)}</tr>'
+class ShownFigure(NamedTuple):
+    """A picture in a page: its name, its caption, its data, its size [CSS pixels], and its classes in style.css."""
+
+    name: str
+    caption: Caption
+    data: str
+    width: int
+    height: int
+    look: str
 
 
-def html_table(titles: Iterable[str], rows: Iterable[str], look: str) -> str:
-    """A table as HTML, that scrolls sideways where it is too wide.
-
-    Args:
-        titles: of the columns; none for a table without a head.
-        rows: each from `html_row`.
-        look: its class in style.css.
-    """
-    cells = "".join(f'<th scope="col">{title}</th>' for title in titles)
-    head = f"<thead><tr>{cells}</tr></thead>\n" if cells else ""
-    body = f"<tbody>\n{chr(10).join(rows)}\n</tbody>"
-    return f'<div class="table">\n<table class="{look}">\n{head}{body}\n</table>\n</div>'
-
-
-def html_figure(place: int, name: str, png: Path, caption: Caption) -> str:
-    """A picture in the page, with its number and caption.
+def shown_figure(name: str, png: Path, caption: Caption) -> ShownFigure:
+    """A picture for a page.
 
     On a dark page, a drawing on white is inverted, and its hues turned back; a photograph is not.
     """
     data = png.read_bytes()
     width, height = (round(SCREEN * dots) for dots in struct.unpack(">II", data[16:24]))  # of the PNG's header
-    source = f"data:image/png;base64,{base64.b64encode(data).decode()}"
     looks = ["wide"] * (width > WIDE) + ["drawn"] * (name != VIEWS and current_style().palette != DARK)
-    look = f' class="{" ".join(looks)}"' if looks else ""
-    image = f'<img{look} width="{width}" height="{height}" alt="{escape(caption.alt)}" src="{source}">'
-    text = f"<b>Figure {place}. {escape(caption.title)}.</b> {escape(caption.text)}"
-    return f'<figure id="{name}">\n<div class="sheet">{image}</div>\n<figcaption>{text}</figcaption>\n</figure>'
+    return ShownFigure(name, caption, base64.b64encode(data).decode(), width, height, " ".join(looks))
 
 
-def html_figures(drawn: Mapping[str, Figure], captions: Mapping[str, Caption], folder: Path | None = None) -> str:
-    """The section of a page with figures, by name, each with the caption of that name.
+def shown_figures(
+    drawn: Mapping[str, Figure], captions: Mapping[str, Caption], folder: Path | None = None
+) -> list[ShownFigure]:
+    """Figures for a page, by name, each with the caption of that name.
 
     They are also written as NAME.png and NAME.pdf into a folder, if one is given; it is made.
     """
@@ -143,12 +161,12 @@ def html_figures(drawn: Mapping[str, Figure], captions: Mapping[str, Caption], f
 
     shown = []
     with tempfile.TemporaryDirectory() as aside:
-        for place, (name, figure) in enumerate(drawn.items(), 1):
+        for name, figure in drawn.items():
             png = save(figure, (folder or Path(aside)) / f"{name}.png")
-            shown.append(html_figure(place, name, png, captions[name]))
+            shown.append(shown_figure(name, png, captions[name]))
             if folder:
                 save(figure, folder / f"{name}.pdf")
-    return f"<section>\n<h2>Figures</h2>\n{chr(10).join(shown)}\n</section>"
+    return shown
 
 
 def versions_of(flight: Flight) -> str:
@@ -156,6 +174,17 @@ def versions_of(flight: Flight) -> str:
     return ", ".join(f"{name} {version}" for name, version in flight.version.items() if name != "engine")
 
 
-def with_keys(text: str) -> str:
-    """A text as HTML whose `keys` are set as code."""
-    return re.sub(r"`([^`]+)`", r"<code>\1</code>", escape(text))
+def code(text: str) -> Markup:
+    """A text set as code."""
+    return Markup("<code>{}</code>").format(text)
+
+
+def strong(text: str) -> Markup:
+    """A text in bold."""
+    return Markup("<strong>{}</strong>").format(text)
+
+
+def with_keys(text: str) -> Markup:
+    """A text whose `keys` are set as code."""
+    parts = text.split("`")
+    return Markup("").join(code(part) if i % 2 else part for i, part in enumerate(parts))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from html import escape
 from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
@@ -12,7 +11,7 @@ from tandemlift.core.errors import InputError, shown
 from tandemlift.flight import Flight
 from tandemlift.missions import Mission
 from tandemlift.pictures.drawing.surroundings import floor_height
-from tandemlift.pictures.report.page import html_row, html_table
+from tandemlift.pictures.report.page import PageTable
 
 Row = tuple[str, str]
 
@@ -109,10 +108,7 @@ def _lag(quadrotors: Any) -> str:
 
 
 def _rotors(flight: Flight) -> Iterator[Row]:
-    actuators, quadrotors = (
-        _table(flight, "actuators"),
-        _table(flight, "vehicle").quadrotors,
-    )
+    actuators, quadrotors = (_table(flight, "actuators"), _table(flight, "vehicle").quadrotors)
     method = _table(flight, "allocation").method
     if actuators.model == "ideal":
         yield "Rotors", f"ideal: every command takes effect at once and exactly; {method} allocation"
@@ -229,7 +225,6 @@ def setup_rows(flight: Flight) -> list[Row]:
     return [row for part in parts for row in part(flight)]
 
 
-def html_setup(flight: Flight, without: Sequence[str] = ()) -> str:
+def setup_table(flight: Flight, without: Sequence[str] = ()) -> PageTable:
     """The set-up of a flight as a table, a row each; without some parts."""
-    rows = (html_row(escape(name), escape(said)) for name, said in setup_rows(flight) if name not in without)
-    return html_table((), rows, "setup")
+    return PageTable("setup", (), [row for row in setup_rows(flight) if row[0] not in without])

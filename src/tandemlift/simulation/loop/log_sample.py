@@ -136,10 +136,7 @@ def actuator_channels(rotors: Rotors, effect: Mixer, command: Wrench, commands: 
 @law(absent="loads")
 def wind_channels(loads: PartLoads, velocity: Vec3) -> WindChannels:
     """The channels of moving air."""
-    return WindChannels(
-        wind_velocity=velocity,
-        wind_force=loads.payload.force + sum_over_set(loads.quadrotors.force),
-    )
+    return WindChannels(wind_velocity=velocity, wind_force=loads.payload.force + sum_over_set(loads.quadrotors.force))
 
 
 @choice(absent="floor")

@@ -200,12 +200,7 @@ def test_one_impossible_draw_among_others_is_no_refusal_of_the_study():
 
 @pytest.mark.parametrize(
     ("text", "said"),
-    [
-        ("[study\n", "not valid TOML"),
-        ("a = " + "[" * 5000, "nested too deeply"),
-        ("", "study"),
-        ("study = 3", "study"),
-    ],
+    [("[study\n", "not valid TOML"), ("a = " + "[" * 5000, "nested too deeply"), ("", "study"), ("study = 3", "study")],
     ids=["broken", "deep", "empty", "number"],
 )
 def test_a_file_that_is_no_study_is_refused_by_name(text, said, tmp_path):

@@ -138,10 +138,7 @@ def test_channels_and_actions_are_views_of_what_the_flights_read_and_write():
 
 ONE = {"lanes": 1}
 REFUSED = [
-    (
-        lambda b: b.step(np.zeros((2, 3))),
-        r"actions are float64 \(2, 3\): must be numbers \(3, 3\) \(N, in world",
-    ),
+    (lambda b: b.step(np.zeros((2, 3))), r"actions are float64 \(2, 3\): must be numbers \(3, 3\) \(N, in world"),
     (lambda b: b.step([["a"] * 3] * 3), r"actions are <U1 \(3, 3\): must be numbers"),
     (lambda b: b.step([[0, 0, 0], [0, np.nan, 0], [0, 0, np.inf]]), r"actions of lane 1 = \[0.0, nan, 0.0\]: must be"),
     (lambda b: b.step(steps=0), "steps = 0: must be a whole number of at least 1"),
@@ -151,10 +148,7 @@ REFUSED = [
     (lambda b: b.reset([0.5]), r"lanes = \[0.5\]: must be numbers of lanes, or 3 truths"),
     (lambda b: b.reset([0, 1], seed=[1]), "seed: 1 given, but 2 lanes are reset"),
     (lambda b: b.reset(seed=-1), "seed = -1: must be a whole number from 0"),
-    (
-        lambda b: b.reset(keys={"mission.step": 0.002}),
-        "mission.step = 0.002: must be the same in all lanes, because",
-    ),
+    (lambda b: b.reset(keys={"mission.step": 0.002}), "mission.step = 0.002: must be the same in all lanes, because"),
     (lambda b: b.reset(keys={"controller.name": "pid"}), 'controller.name = "pid": .* picks the laws of their steps'),
     (lambda b: b.reset(keys={"vehicle.payload.mass": -1.0}), "vehicle.payload.mass"),
     (lambda b: b.reset(keys={"vehicle.payload.mas": 1.0}), "mass"),

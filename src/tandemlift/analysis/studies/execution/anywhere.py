@@ -9,9 +9,9 @@ from contextlib import contextmanager
 
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.execution.dask import cluster_workers, processes_of, scheduler_workers
-from tandemlift.analysis.studies.execution.running import WHOLE, StudyPart, StudyWork, run_chunks
+from tandemlift.analysis.studies.execution.running import WHOLE, StudyPart, StudyWork, Workers, run_chunks
 from tandemlift.analysis.studies.execution.store import StudyFolder
-from tandemlift.analysis.studies.execution.workers import ExecutorWorkers, Workers, thread_workers
+from tandemlift.analysis.studies.execution.workers import ExecutorWorkers, thread_workers
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress
 

@@ -52,7 +52,7 @@ class DaskWorkers:
 
     @property
     def count(self) -> int:
-        """See `Workers`."""
+        """See `ThreadWorkers`."""
         if time.monotonic() - self._counted > COUNTED:
             self._counted = time.monotonic()
             self._mend()
@@ -61,12 +61,12 @@ class DaskWorkers:
         return self._count
 
     def submit(self, task: Task) -> Future[Any]:
-        """See `Workers`."""
+        """See `ThreadWorkers`."""
         with _connected(self._client):
             return self._workers.submit(task)
 
     def columns(self, future: Future[Any]) -> Columns:
-        """See `Workers`."""
+        """See `ThreadWorkers`."""
         try:
             with _connected(self._client):
                 return self._workers.columns(future)
@@ -74,7 +74,7 @@ class DaskWorkers:
             raise _without_package("a worker", error) from None
 
     def is_lost(self, error: BaseException) -> bool:
-        """See `Workers`; also if the scheduler was started anew, and has forgotten the chunk."""
+        """See `ThreadWorkers`; also if the scheduler was started anew, and has forgotten the chunk."""
         from distributed import KilledWorker
 
         return isinstance(error, (KilledWorker, CancelledError))

@@ -10,13 +10,14 @@ from collections import Counter, deque
 from collections.abc import Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from functools import partial
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, TypeAlias
 
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.execution.chunk import chunk_of
+from tandemlift.analysis.studies.execution.dask import DaskWorkers
 from tandemlift.analysis.studies.execution.flying import fly_chunk
 from tandemlift.analysis.studies.execution.store import ChunkFiles
-from tandemlift.analysis.studies.execution.workers import Task, Workers
+from tandemlift.analysis.studies.execution.workers import ExecutorWorkers, Task, ThreadWorkers
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress
 
@@ -33,6 +34,7 @@ class StudyPart(NamedTuple):
 
 
 WHOLE = StudyPart()
+Workers: TypeAlias = ThreadWorkers | ExecutorWorkers | DaskWorkers
 
 
 def part_from(text: str) -> StudyPart:
@@ -47,23 +49,6 @@ def part_from(text: str) -> StudyPart:
     return StudyPart(int(number), int(parts))
 
 
-class Work(Protocol):
-    """Chunks that are flown into files."""
-
-    @property
-    def names(self) -> Sequence[str]:
-        """The names of all chunks; a name depends on all data that determine its rows."""
-        ...
-
-    def size(self, i: int) -> int:
-        """Number of rows of chunk i."""
-        ...
-
-    def task(self, i: int) -> Task:
-        """The function that flies chunk i, on any worker."""
-        ...
-
-
 class StudyWork:
     """The chunks of a study.
 
@@ -76,16 +61,16 @@ class StudyWork:
         self.names, self._plan = names, plan
 
     def size(self, i: int) -> int:
-        """See `Work`."""
+        """Number of rows of chunk i."""
         return min(self._plan.rows_per_chunk, self._plan.count - i * self._plan.rows_per_chunk)
 
     def task(self, i: int) -> Task:
-        """See `Work`."""
+        """The function that flies chunk i, on any worker."""
         return partial(fly_chunk, chunk_of(self._plan, i, self.names[i]))
 
 
 def run_chunks(
-    work: Work, files: ChunkFiles, workers: Workers, part: StudyPart = WHOLE, progress: Progress | None = None
+    work: StudyWork, files: ChunkFiles, workers: Workers, part: StudyPart = WHOLE, progress: Progress | None = None
 ) -> int:
     """Fly all chunks of a part that are not flown yet.
 
@@ -109,7 +94,7 @@ class _Run:
     """A run over the chunks of a part: those to do, those of other processes, and those handed over."""
 
     def __init__(
-        self, work: Work, files: ChunkFiles, workers: Workers, part: StudyPart, progress: Progress | None
+        self, work: StudyWork, files: ChunkFiles, workers: Workers, part: StudyPart, progress: Progress | None
     ) -> None:
         self.work, self.files, self.workers, self.progress = work, files, workers, progress
         self.names = work.names

@@ -12,7 +12,7 @@ import platform
 from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
-from typing import Any, Protocol
+from typing import Any
 
 from tandemlift.analysis.studies.execution.chunk import sources_digest
 from tandemlift.analysis.studies.execution.columns import Columns
@@ -26,44 +26,28 @@ class OtherSources(InputError):
 Task = Callable[[], Columns]  # flies a chunk; can be pickled
 
 
-class Workers(Protocol):
-    """The interface of workers."""
-
-    @property
-    def count(self) -> int:
-        """The number of chunks flown at the same time; at least 1."""
-        ...
-
-    def submit(self, task: Task) -> Future[Any]:
-        """Hand a chunk over."""
-        ...
-
-    def columns(self, future: Future[Any]) -> Columns:
-        """The columns of a chunk that has ended; raises what flying it raised."""
-        ...
-
-    def is_lost(self, error: BaseException) -> bool:
-        """Whether an error means that a worker ended, so that another one can fly its chunk."""
-        ...
-
-
 class ThreadWorkers:
-    """Threads of this process."""
+    """Threads of this process.
+
+    Args:
+        pool: the threads.
+        count: the number of chunks flown at the same time; at least 1.
+    """
 
     def __init__(self, pool: Executor, count: int) -> None:
         self.count, self._pool = count, pool
 
     def submit(self, task: Task) -> Future[Any]:
-        """See `Workers`."""
+        """Hand a chunk over."""
         return self._pool.submit(task)
 
     def columns(self, future: Future[Any]) -> Columns:
-        """See `Workers`."""
+        """The columns of a chunk that has ended; raises what flying it raised."""
         columns: Columns = future.result()
         return columns
 
     def is_lost(self, error: BaseException) -> bool:
-        """See `Workers`."""
+        """Whether an error means that a worker ended, so that another one can fly its chunk."""
         return False
 
 
@@ -79,7 +63,7 @@ class ExecutorWorkers:
         self.count, self._executor = count, executor
 
     def submit(self, task: Task) -> Future[Any]:
-        """See `Workers`.
+        """See `ThreadWorkers`.
 
         Raises:
             InputError: the executor has ended.
@@ -90,7 +74,7 @@ class ExecutorWorkers:
             raise _ended(error) from None
 
     def columns(self, future: Future[Any]) -> Columns:
-        """See `Workers`."""
+        """See `ThreadWorkers`."""
         try:
             columns: Columns = pickle.loads(future.result())
         except BrokenExecutor as error:
@@ -98,7 +82,7 @@ class ExecutorWorkers:
         return columns
 
     def is_lost(self, error: BaseException) -> bool:
-        """See `Workers`."""
+        """See `ThreadWorkers`."""
         return False
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -17,28 +17,6 @@ FIRST_STEP, FAR_STEP = 0.35, 1.0  # of a coordinate: standard deviation of the f
 TOGETHER = 0.7  # correlation of the components of a vector in the first candidates
 PARTS = 6.0  # of a narrow range, or of one that is not logarithmic, that make one unit of its coordinate
 Point = tuple[Any, ...]
-
-
-class Optimiser(Protocol):
-    """Proposes values of parameters, and learns from their costs."""
-
-    @property
-    def size(self) -> int:
-        """The number of candidates that it proposes at a time."""
-
-    @property
-    def ended(self) -> str:
-        """The reason why it proposes no more candidates; "" while it does."""
-
-    @property
-    def centre(self) -> Point | None:
-        """The point about which it proposes candidates, if it has one."""
-
-    def ask(self) -> list[Point]:
-        """The next candidates: a value for each parameter, within its bounds."""
-
-    def tell(self, points: Sequence[Point], costs: Array) -> None:
-        """Receive the costs (candidates, goals) of the last candidates; smaller is better."""
 
 
 class EvolutionStrategy:
@@ -86,7 +64,7 @@ class EvolutionStrategy:
         return self._values(self._strategy.result.xfavorite)
 
     def ask(self) -> list[Point]:
-        """The next candidates."""
+        """The next candidates: a value for each parameter, within its bounds."""
         self._asked = self._strategy.ask()
         return [self._values(point) for point in self._asked]
 

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from tandemlift.analysis.studies.tuning.candidates import Cost, Trial
 from tandemlift.analysis.studies.tuning.draws import Draw
-from tandemlift.analysis.studies.tuning.optimisers import Optimiser
+from tandemlift.analysis.studies.tuning.optimisers import EvolutionStrategy
+from tandemlift.analysis.studies.tuning.optuna_optimiser import ParzenEstimator
 from tandemlift.analysis.studies.tuning.result import FrontPoint
 from tandemlift.analysis.studies.tuning.task import Task, Values
 
 TuneProgress = Callable[[int, int, Cost], None]
 """Called with (candidates tried, candidates in all, the lowest cost so far)."""
+Optimiser: TypeAlias = EvolutionStrategy | ParzenEstimator
+"""Proposes values of parameters, and learns from their costs."""
 SPENT, INTERRUPTED = "budget spent", "interrupted"
 
 

@@ -18,10 +18,18 @@ from tandemlift.analysis.studies.tuning.draws import (
 )
 from tandemlift.analysis.studies.tuning.goals import Goal, goals_from
 from tandemlift.analysis.studies.tuning.holdout import evidence_of
-from tandemlift.analysis.studies.tuning.optimisers import FAR_STEP, FIRST_STEP, EvolutionStrategy, Optimiser
+from tandemlift.analysis.studies.tuning.optimisers import FAR_STEP, FIRST_STEP, EvolutionStrategy
 from tandemlift.analysis.studies.tuning.parameters import Range, Tunable, parameters_of
 from tandemlift.analysis.studies.tuning.result import Tuning, present_values
-from tandemlift.analysis.studies.tuning.search import INTERRUPTED, TIMES, TuneProgress, TuningSearch, choose, front_of
+from tandemlift.analysis.studies.tuning.search import (
+    INTERRUPTED,
+    TIMES,
+    Optimiser,
+    TuneProgress,
+    TuningSearch,
+    choose,
+    front_of,
+)
 from tandemlift.analysis.studies.tuning.task import Task, started
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.progress import progress_or_own

@@ -24,7 +24,7 @@ from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Progress
 from tandemlift.missions import Mission, MissionLike, mission_of
 from tandemlift.pictures.drawing.style import save
-from tandemlift.pictures.report.page import html, html_figures, write_page
+from tandemlift.pictures.report.page import shown_figures, write_page
 from tandemlift.pictures.report.paper_report import check_typesetting, typeset
 from tandemlift.pictures.report.study.certificate_figures import CAPTIONS, certificate_figures
 
@@ -136,9 +136,9 @@ def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
         "certificate",
         name=certificate.mission,
         missed=[_name(claim) for claim in certificate.missed],
-        verdict=html(""),
+        verdict=None,
         tiers=tiers,
-        figures=html(html_figures(figures, CAPTIONS) if figures else ""),
+        figures=shown_figures(figures, CAPTIONS),
         versions=f"Computed with {versions}.",
     )
     files = [page, folder / JSON]

@@ -6,35 +6,14 @@ import json
 import os
 from pathlib import Path
 
-from markupsafe import Markup
-
 from tandemlift.analysis.studies.comparison import MissionComparison
-from tandemlift.analysis.studies.comparison_scores import SETTLED, Score, ScoreTable, best_of
+from tandemlift.analysis.studies.comparison_scores import SETTLED
 from tandemlift.core.files import atomic_write
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.pictures.report.metric_tables import write_metric_tables
-from tandemlift.pictures.report.page import DASH, html, html_figures, number, versions_of, write_page
-from tandemlift.pictures.report.setup_section import html_setup
-
-
-def _shown(column: Score, value: float | None) -> str:
-    """A value [SI] as HTML, in the shown unit."""
-    if value is not None and 0.0 < value < column.least:
-        return f"&lt; {column.scale * column.least:g}"
-    return number(None if value is None else column.scale * value)
-
-
-def _cells(found: MissionComparison, table: ScoreTable) -> dict[str, list[Markup]]:
-    """The cells of each flight; the best values of those that did not fail are bold."""
-    cells: dict[str, list[Markup]] = {name: [] for name in table.rows}
-    for column in table.columns:
-        values = {name: column.value(scores) for name, scores in table.rows.items()}
-        fair = [None if found.flights[name].failure else value for name, value in values.items()]
-        for (name, value), won in zip(values.items(), best_of(fair, column.least), strict=True):
-            text = _shown(column, value)
-            cells[name].append(html(f"<b>{text}</b>" if won else text))
-    return cells
+from tandemlift.pictures.report.page import DASH, shown_figures, versions_of, write_page
+from tandemlift.pictures.report.setup_section import setup_table
 
 
 def _ending(found: MissionComparison, flight: Flight) -> str:
@@ -65,10 +44,12 @@ def write_comparison(found: MissionComparison, path: str | os.PathLike[str], fig
         name=first.name,
         engines=[first.version.get("engine", "")] if controllers else list(found.flights),
         settled=f"{SETTLED:g}",
-        tables=[(table.part.words, table.columns, _cells(found, table)) for table in found.tables],
+        table=found.table,
+        best=found.table.best([name for name, flight in found.flights.items() if not flight.failure]),
         endings={e.name: _ending(found, e.flight) if e.flight else e.refusal for e in found.entries},
-        figures=html(html_figures(drawn_figures(found), CAPTIONS, figures)),
-        setup=html(html_setup(first, without=["Pilot"] if controllers else [])),
+        figures=shown_figures(drawn_figures(found), CAPTIONS, figures),
+        verdict=None,
+        setup=setup_table(first, without=["Pilot"] if controllers else []),
         members={
             e.name: (e.summary, format_toml({"controller": e.flight.mission["controller"]}))
             for e in found.entries

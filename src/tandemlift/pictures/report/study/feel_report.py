@@ -6,7 +6,6 @@ import json
 import math
 import os
 from collections.abc import Iterable
-from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -38,10 +37,10 @@ from tandemlift.pictures.drawing.style import (
 from tandemlift.pictures.report.page import (
     DASH,
     NO_BREAK,
-    html,
-    html_figures,
-    html_row,
-    html_table,
+    PageTable,
+    Verdict,
+    shown_figures,
+    strong,
     versions_of,
     write_page,
 )
@@ -146,21 +145,21 @@ class FeelReport:
         folder.mkdir(parents=True, exist_ok=True)
         files = [folder / f"{FIGURE}.json", folder / f"{FIGURE}.html"]
         _write(files[0], json.dumps(_plain(self.summary()), indent=1, ensure_ascii=False, allow_nan=False))
-        self._write_page(files[1], html_figures({FIGURE: figure}, {FIGURE: CAPTION}))
+        self._write_page(files[1], figure)
         return [*files, *(save(figure, folder / f"{FIGURE}.{kind}") for kind in ("png", "pdf"))]
 
-    def _write_page(self, path: Path, figures: str) -> None:
+    def _write_page(self, path: Path, figure: Figure) -> None:
         tables = {"admittance": tables_of(self.study.mission)["admittance"]}
         write_page(
             path,
             "feel",
             name=self.study.mission.mission.name,
-            verdict=html(_verdict(self.checks)),
-            note=html(NOTE),
-            table=html(_axes(table_of(self.study))),
+            verdict=_verdict(self.checks),
+            note=NOTE,
+            table=PageTable("axes", ("Axis", *HEADS), table_of(self.study)),
             gate=gate_text(self.study),
-            figures=html(figures),
-            checks=html(_checks(self.checks)),
+            figures=shown_figures({FIGURE: figure}, {FIGURE: CAPTION}),
+            checks=_checks(self.checks),
             admittance=format_toml(tables),
             versions=f"Flown with {versions_of(self.study.pushed[0].flight)}.",
         )
@@ -193,29 +192,23 @@ def _plain(value: object) -> object:
     return None if isinstance(value, float) and abs(value) == float("inf") else value
 
 
-def _verdict(checks: Iterable[CheckResult]) -> str:
+def _verdict(checks: Iterable[CheckResult]) -> Verdict:
     failed = [check for check in checks if check.verdict == FAILS]
     if not failed:
-        return '<p class="verdict"><strong>No check fails</strong>.</p>'
+        return Verdict("No check fails")
     named = ", ".join(dict.fromkeys(f"{check.check} {check.subject}".strip() for check in failed))
-    return f'<p class="verdict missed"><strong>{len(failed)} checks fail</strong>: {escape(named)}.</p>'.replace(
-        "<strong>1 checks fail", "<strong>1 check fails"
-    )
+    count = "1 check fails" if len(failed) == 1 else f"{len(failed)} checks fail"
+    return Verdict(count, f": {named}.", "missed")
 
 
-def _axes(rows: Iterable[tuple[str, ...]]) -> str:
-    return html_table(("Axis", *HEADS), (html_row(name, *map(escape, row)) for name, *row in rows), "axes")
-
-
-def _checks(checks: Iterable[CheckResult]) -> str:
+def _checks(checks: Iterable[CheckResult]) -> PageTable:
     rows = []
     for c in checks:
-        shown = [_with_unit(x, c.unit) for x in (c.value, c.limit)]
-        margin = DASH if c.margin is None else f"{100.0 * c.margin:.0f} %"
-        said = f"<strong>{c.verdict}</strong>: {escape(c.text)}" if c.text else c.verdict
-        name = escape(f"{c.check} {c.subject}").replace(" ", NO_BREAK)
-        rows.append(html_row(name, *shown, margin.replace("-", "−"), said))
-    return html_table(("Check", "Value", "Limit", "Margin", "What to do"), rows, "compared")
+        margin = DASH if c.margin is None else f"{100.0 * c.margin:.0f} %".replace("-", "−")
+        said = strong(c.verdict) + f": {c.text}" if c.text else c.verdict
+        name = f"{c.check} {c.subject}".replace(" ", NO_BREAK)
+        rows.append((name, *(_with_unit(x, c.unit) for x in (c.value, c.limit)), margin, said))
+    return PageTable("compared", ("Check", "Value", "Limit", "Margin", "What to do"), rows)
 
 
 def _with_unit(value: float | None, unit: str) -> str:

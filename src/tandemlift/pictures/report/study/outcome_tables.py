@@ -5,9 +5,8 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterator, Sequence
-from html import escape
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,8 +17,8 @@ from tandemlift.analysis.studies.worst import WorstRow, reasons, worst_rows
 from tandemlift.core.files import atomic_write
 from tandemlift.core.phases import OUTCOMES
 from tandemlift.pictures.report.metric_tables import NUMBER, latex_number, latex_table, latex_text
-from tandemlift.pictures.report.page import html_table, number, with_keys
-from tandemlift.pictures.report.study.words import html_row_command, shown_column, shown_quantity
+from tandemlift.pictures.report.page import Cell, number, strong, with_keys
+from tandemlift.pictures.report.study.words import row_command, shown_column, shown_quantity
 
 MOST_GROUPS = 24  # rows of a table to be read
 
@@ -78,31 +77,31 @@ def write_outcomes(rows: StudyRows, folder: Path) -> None:
 MOST_VALUES = 6  # of the varied keys
 
 
-def html_worst(rows: StudyRows) -> str:
-    """The worst rows as a table."""
+class ShownRow(NamedTuple):
+    """A row of the worst ones: its number, why it is among them, what varied, and the command that flies it again."""
+
+    number: int
+    why: str
+    varied: list[Cell]
+    command: str
+
+
+def shown_worst(rows: StudyRows) -> Iterator[ShownRow]:
+    """The worst rows: failed flights first, the soonest stopped first; then the worst of each quantity in turn."""
     worst = worst_rows(rows)
-    if not worst:
-        return "<p>No row flew.</p>"
-    lines = [_line(rows, one, said) for one, said in zip(worst, reasons(rows, worst), strict=True)]
-    titles = ("Row", "Why", "What varied", "Fly it again, with figures")
-    note = "Failed flights first, the soonest stopped first; then the worst values of each quantity in turn."
-    return f'<p class="soft">{note}</p>\n{html_table(titles, lines, "worst")}'
-
-
-def _line(rows: StudyRows, one: WorstRow, said: dict[str, Any]) -> str:
-    row = int(rows.number[one.place])
-    cells = (_why(rows, one, said), _what(rows, one.place, said), html_row_command(rows.study.folder, row))
-    return f'<tr><td class="number">{row}</td>' + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+    for one, said in zip(worst, reasons(rows, worst), strict=True):
+        row = int(rows.number[one.place])
+        yield ShownRow(row, _why(rows, one, said), _varied(rows, one.place, said), row_command(rows.study.folder, row))
 
 
 def _why(rows: StudyRows, one: WorstRow, said: dict[str, Any]) -> str:
-    found = f"; findings: {escape(said['finding_kinds'].replace(',', ', '))}" if said["finding_kinds"] else ""
+    found = f"; findings: {said['finding_kinds'].replace(',', ', ')}" if said["finding_kinds"] else ""
     if one.quantity is None:
-        return f"<strong>{escape(said['outcome'])}</strong>: {with_keys(_cause(said))}{found}"
+        return strong(said["outcome"]) + ": " + with_keys(_cause(said)) + found
     values = rows.values[one.quantity.name]
     shown = shown_quantity(one.quantity, values)
     value, median = (number(float(v) * shown.scale) for v in (values[one.place], np.median(finite(values))))
-    return f"{escape(shown.words)} {value} {shown.unit}".rstrip() + (
+    return f"{shown.words} {value} {shown.unit}".rstrip() + (
         f"; the median of all is {median} {shown.unit}".rstrip() + found
     )
 
@@ -112,17 +111,15 @@ def _cause(said: dict[str, Any]) -> str:
     return str(said["reason"]).removeprefix(said["outcome"]).removeprefix(":").strip() or "no reason was kept"
 
 
-def _what(rows: StudyRows, place: int, said: dict[str, Any]) -> str:
+def _varied(rows: StudyRows, place: int, said: dict[str, Any]) -> list[Cell]:
+    """What varied in a row: the groups it belongs to, keys with their values as pairs, and the seed."""
     telling = [name for name in WHO if len(rows.labels[name].names) > 1]
     parts = [rows.labels[name].names[rows.labels[name].codes[place]] for name in telling]
     names = [name for name in rows.study.varied if name in rows.varied]
-    values = [
-        f'<span class="key"><code>{escape(name)}</code> {_shown(said[name], shown_column(name).unit)}</span>'
-        for name in names[:MOST_VALUES]
-    ]
+    values = [(name, _shown(said[name], shown_column(name).unit)) for name in names[:MOST_VALUES]]
     more = [f"and {len(names) - MOST_VALUES} more"] if len(names) > MOST_VALUES else []
-    return ", ".join([*[escape(part) for part in parts if part], *values, f"seed {said['seed']}", *more])
+    return [*filter(None, parts), *values, f"seed {said['seed']}", *more]
 
 
 def _shown(value: object, unit: str) -> str:
-    return f"{number(value) if isinstance(value, (int, float)) else escape(str(value))} {unit}".rstrip()
+    return f"{number(value) if isinstance(value, (int, float)) else value} {unit}".rstrip()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from html import escape
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +16,7 @@ from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.core.errors import InputError
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.style import BLUE, INK, LIGHT_BLUE, page_figure, points, styled
-from tandemlift.pictures.report.page import DASH, html_row, html_table, number
+from tandemlift.pictures.report.page import DASH, Cell, PageTable, number
 from tandemlift.pictures.report.study.words import compared, shown_quantity
 
 MOST_GROUPS = 3
@@ -103,49 +102,48 @@ def draw_sensitivity(found: Sequence[Analysed]) -> Figure:
     return figure
 
 
-def html_sensitivity(found: Sequence[Analysed]) -> str:
-    """The indices as numbers, the method, and the quantities that could not be analysed."""
-    refused = [one for one in found if one.found is None]
+class ShownIndices(NamedTuple):
+    """Indices as numbers: of which quantity, the method in a sentence, the table, and those of pairs in a sentence."""
+
+    title: str
+    method: str
+    table: PageTable
+    second: str
+
+
+def shown_indices(found: Sequence[Analysed]) -> list[ShownIndices]:
+    """The indices of each quantity that could be analysed, with the method."""
+    return [_indices(title, one.found) for title, one in _titled(found) if one.found is not None]
+
+
+def not_analysed(found: Sequence[Analysed]) -> list[str]:
+    """The quantities that could not be analysed, with the reason."""
+    return [f"{title}: {one.refusal}." for title, one in _titled(found) if one.found is None]
+
+
+def _titled(found: Sequence[Analysed]) -> list[tuple[str, Analysed]]:
     many = len({one.group for one in found}) > 1
-    notes = [f"<li>{escape(_title(one, many))}: {escape(one.refusal)}.</li>" for one in refused]
-    shown = [_table(one, one.found, many) for one in found if one.found is not None]
-    text = f"<details>\n<summary>The indices as numbers</summary>\n{chr(10).join(shown)}\n</details>" if shown else ""
-    said = f'<p class="soft">Not analysed:</p>\n<ul class="soft">{"".join(notes)}</ul>' if notes else ""
-    return "\n".join(part for part in (text, said) if part)
+    return [(f"{one.quantity}, {one.group}" if many else one.quantity, one) for one in found]
 
 
-def _title(one: Analysed, many: bool) -> str:
-    return f"{one.quantity}, {one.group}" if many else one.quantity
-
-
-def _table(one: Analysed, found: Sensitivity, many: bool) -> str:
+def _indices(title: str, found: Sensitivity) -> ShownIndices:
     lines = [
-        html_row(
-            escape(name),
-            _estimate(found.first[name]),
-            _estimate(found.total.get(name)),
-            _rank(found.ranks.get(name, math.nan)),
-        )
+        (name, _estimate(found.first[name]), _estimate(found.total.get(name)), _rank(found.ranks.get(name, math.nan)))
         for name in found.strongest
     ]
-    titles = ("Input", "first order", "total", "rank correlation")
     left_out = f"; {found.left_out} rows without a value are left out" if found.left_out else ""
     pairs = sorted(found.second.items(), key=lambda pair: -pair[1].value)[:MOST_PAIRS]
-    second = ""
-    if pairs:
-        said = "; ".join(f"{escape(a)} with {escape(b)}: {_estimate(e, flat=True)}" for (a, b), e in pairs)
-        second = f'\n<p class="soft">Second order: {said}.</p>'
-    method = (
-        f'<p class="soft">{escape(found.method[:1].upper() + found.method[1:])}, of {found.rows} rows{left_out}.</p>'
-    )
-    return f"<h3>{escape(_title(one, many))}</h3>\n{method}\n{html_table(titles, lines, 'counts')}{second}"
+    second = "; ".join(f"{a} with {b}: {' ('.join(_estimate(e))})" for (a, b), e in pairs)
+    method = f"{found.method[:1].upper() + found.method[1:]}, of {found.rows} rows{left_out}."
+    table = PageTable("counts", ("Input", "first order", "total", "rank correlation"), lines)
+    return ShownIndices(title, method, table, second and f"Second order: {second}.")
 
 
-def _estimate(estimate: IntervalEstimate | None, flat: bool = False) -> str:
+def _estimate(estimate: IntervalEstimate | None) -> Cell:
     if estimate is None:
         return DASH
     value, low, high = (f"{v:.3f}".replace("-", "−") for v in estimate)
-    return f"{value} ({low} to {high})" if flat else f"{value}<br><small>{low} to {high}</small>"
+    return value, f"{low} to {high}"
 
 
 def _rank(value: float) -> str:

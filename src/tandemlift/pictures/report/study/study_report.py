@@ -11,10 +11,10 @@ from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.analysis.studies.table import Study
 from tandemlift.core.errors import InputError
 from tandemlift.missions import format_toml
-from tandemlift.pictures.report.page import html, html_figures, write_page
+from tandemlift.pictures.report.page import PageTable, ShownFigure, shown_figures, write_page
 from tandemlift.pictures.report.study import distributions, maps, sections, sensitivity
-from tandemlift.pictures.report.study.outcome_tables import html_worst, write_outcomes
-from tandemlift.pictures.report.study.words import html_command
+from tandemlift.pictures.report.study.outcome_tables import shown_worst, write_outcomes
+from tandemlift.pictures.report.study.words import command
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from tandemlift.pictures.drawing.figure import Caption
 
 
-def _figures(rows: StudyRows, found: Sequence[sensitivity.Analysed], folder: Path | None) -> str:
-    """The section of the figures, as far as there is something to draw, and the numbers of the last one."""
+def _figures(rows: StudyRows, found: Sequence[sensitivity.Analysed], folder: Path | None) -> list[ShownFigure]:
+    """The figures, as far as there is something to draw."""
     drawn, captions = dict[str, "Figure"](), dict[str, "Caption"]()
     if rows.quantities:
         drawn["distributions"] = distributions.draw_distributions(rows)
@@ -35,8 +35,7 @@ def _figures(rows: StudyRows, found: Sequence[sensitivity.Analysed], folder: Pat
         captions["maps"] = maps.CAPTION if both else maps.CURVE_CAPTION
     if any(one.found for one in found):
         drawn["sensitivity"], captions["sensitivity"] = sensitivity.draw_sensitivity(found), sensitivity.CAPTION
-    shown = html_figures(drawn, captions, folder) if drawn else ""
-    return f"{shown}\n{sensitivity.html_sensitivity(found)}"
+    return shown_figures(drawn, captions, folder)
 
 
 def write_study_report(
@@ -64,19 +63,26 @@ def write_study_report(
     path, rows = Path(path), StudyRows(study, metrics)
     varies = bool(rows.varied)
     found = sensitivity.analysed(rows) if varies else []
-    values = {
-        "name": study.name,
-        "about": f"{sections.count(len(study))} rows",
-        "verdict": html(sections.verdict(rows)),
-        "flown": html(sections.what_was_flown(study)),
-        "outcomes": html(sections.outcomes(rows)),
-        "findings": html(sections.findings(rows)),
-        "measured": html(sections.measured(rows)),
-        "figures": html(_figures(rows, found, figures)),
-        "worst": html(html_worst(rows)),
-        "settings": format_toml(study.settings.model_dump(mode="json", exclude_none=True)),
-        "again": html(html_command("study", study.folder / "study.toml", "--out", study.folder)),
-        "versions": ", ".join(f"{name} {value}" for name, value in study.versions.items()),
-    }
     write_outcomes(rows, path.parent)
-    return write_page(path, "study", **values)
+    return write_page(
+        path,
+        "study",
+        name=study.name,
+        about=f"{sections.count(len(study))} rows",
+        verdict=sections.verdict(rows),
+        flown=PageTable("setup", (), list(sections.what_was_flown(study))),
+        bad_kinds=sections.bad_kinds(rows),
+        outcomes=sections.outcomes(rows),
+        left_out=sections.left_out(rows),
+        refusals=sections.refusals(rows),
+        findings=sections.findings(rows),
+        measured=list(sections.measured(rows)),
+        bad=sections.count(int(rows.bad.sum())),
+        figures=_figures(rows, found, figures),
+        indices=sensitivity.shown_indices(found),
+        not_analysed=sensitivity.not_analysed(found),
+        worst=list(shown_worst(rows)),
+        settings=format_toml(study.settings.model_dump(mode="json", exclude_none=True)),
+        again=command("study", study.folder / "study.toml", "--out", study.folder),
+        versions=", ".join(f"{name} {value}" for name, value in study.versions.items()),
+    )

@@ -12,15 +12,7 @@ from matplotlib.ticker import MaxNLocator
 from tandemlift.analysis.studies.tuning.result import Tuning
 from tandemlift.core.types import Array
 from tandemlift.pictures.drawing.figure import Caption
-from tandemlift.pictures.drawing.style import (
-    BLUE,
-    GREY,
-    LIGHT_BLUE,
-    VERMILLION,
-    column_figure,
-    page_figure,
-    styled,
-)
+from tandemlift.pictures.drawing.style import BLUE, GREY, LIGHT_BLUE, VERMILLION, column_figure, page_figure, styled
 from tandemlift.pictures.report.page import split_unit
 
 CAPTIONS = {

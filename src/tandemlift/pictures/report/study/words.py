@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import shlex
-from html import escape
 from pathlib import Path
 from typing import NamedTuple
 
@@ -63,15 +62,14 @@ def shown_column(column: str) -> QuantityDisplay:
     return QuantityDisplay(column, "" if unit == "1" or " (" in column else unit)
 
 
-def html_command(*words: object) -> str:
-    """A command of `tandemlift` that can be copied."""
-    text = escape(shlex.join(["tandemlift", *map(str, words)]))
-    return f'<div class="command"><code>{text}</code><button type="button" hidden>Copy</button></div>'
+def command(*words: object) -> str:
+    """A command of `tandemlift`."""
+    return shlex.join(["tandemlift", *map(str, words)])
 
 
-def html_row_command(folder: Path, row: int) -> str:
+def row_command(folder: Path, row: int) -> str:
     """The command that flies a row of a study alone."""
-    return html_command("run", "--from", folder, "--row", row)
+    return command("run", "--from", folder, "--row", row)
 
 
 def compared(rows: StudyRows, most: int) -> list[RowGroup]:
