@@ -163,7 +163,10 @@ def test_a_name_that_is_in_the_graph_is_refused(tmp_path):
     environment = beside(DOMAIN + 3)
     flying = node(tmp_path / "node.log", "--version", "2", environment=environment)
     try:
-        code, said = fly(tmp_path, "--version", "2", environment=environment)
+        for _ in range(5):  # a busy machine may take longer than the node waits for others
+            code, said = fly(tmp_path, "--version", "2", environment=environment)
+            if code:
+                break
     finally:
         assert ended(flying) == 0
     assert (

@@ -147,8 +147,9 @@ class RclpyNode:
         """Call a function with the messages of a topic, one after the other."""
         from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 
-        group = MutuallyExclusiveCallbackGroup()
-        self._node.create_subscription(self._message_class(kind), topic, handle, DEPTH, callback_group=group)
+        of, group = self._message_class(kind), MutuallyExclusiveCallbackGroup()
+        if of is not None:
+            self._node.create_subscription(of, topic, handle, DEPTH, callback_group=group)
 
     def serve(self, name: str, answer: Callable[[], Answer]) -> None:
         """Answer `std_srvs/srv/Trigger`."""
