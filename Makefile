@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page docs docs-quick test check quick lint types imports tests examples test-learning test-clients test-pythons test-distributions release test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
+.PHONY: run live page docs docs-quick test check quick lint types imports tests examples test-learning test-clients test-ros2 test-pythons test-distributions release test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -74,6 +74,9 @@ test-clients: .venv/dev  ## FMUs of all missions in FMPy and fmuloader, and for 
 	test -x .venv-clients/bin/python || $(BIN)/python -m venv .venv-clients
 	.venv-clients/bin/pip install --disable-pip-version-check --quiet -e '.[fmu]' -r tools/dev.txt fmpy==0.3.32 fmuloader==0.1.2rc0
 	.venv-clients/bin/pytest -p no:xdist -m clients tests/codegen
+
+test-ros2:       ## our nodes beside one of rclpy, of ROS 2 Jazzy and Kilted; installs them into .venv-jazzy and .venv-kilted (Python 3.12)
+	tools/test-ros2
 
 test-pythons:    ## the fast tests under each installed Python from 3.11 to 3.13
 	tools/test-pythons

@@ -1,8 +1,9 @@
-"""The ROS front in real time: `python benchmarks/ros.py [--seconds 30] [--versions 12]`, which prints Markdown.
+"""The ROS front in real time: `python benchmarks/ros.py [--seconds 30] [--versions 1,2-dds]`, which prints Markdown.
 
-Flies `zigzag` as `tandemlift ros` does, in ROS 1 beside a `rosmaster` of its own and in ROS 2 by DDS; listens to one
-topic, and to all of them; and tells how many samples a second arrive, how old they are then, and what the node takes of
-a processor. Needs Linux; for ROS 1 rospy, for ROS 2 the extra `ros2`.
+Flies `zigzag` as `tandemlift ros` does, in ROS 1 beside a `rosmaster` of its own, in ROS 2 by DDS and, for version 2,
+by rclpy; listens to one topic, and to all of them; and tells how many samples a second arrive, how many were lost, how
+old they are then, and what the node takes of a processor. Needs Linux; for ROS 1 rospy, for ROS 2 by DDS the extra
+`ros2`, and a Python with rclpy.
 """
 
 from __future__ import annotations
@@ -28,7 +29,8 @@ from waiting import PATIENCE, ended
 TOPIC, KIND = "/tandemlift/odometry", "nav_msgs/Odometry"
 SETTLE = 5.0  # s
 TICKS = os.sysconf("SC_CLK_TCK")
-NAMES = {"1": "ROS 1, rospy", "2": "ROS 2, DDS"}
+NAMES = {"1": "ROS 1, rospy", "2": "ROS 2, rclpy", "2-dds": "ROS 2, DDS"}
+PERIOD = 10_000_000  # ns, from one sample to the next
 
 
 def processor_time(pid: int) -> float:
@@ -57,13 +59,14 @@ class Listener:
     """Notes when messages came, and how old they were."""
 
     def __init__(self) -> None:
-        self.ages, self.others = list[float](), 0
+        self.ages, self.stamps, self.others = list[float](), list[int](), 0
 
     def hear(self, message: Any) -> None:
         """A message with a stamp."""
         stamp = message.header.stamp
         sec, nanosec = (stamp.secs, stamp.nsecs) if hasattr(stamp, "secs") else (stamp.sec, stamp.nanosec)
         self.ages.append(time.time() - sec - nanosec * 1e-9)
+        self.stamps.append(sec * 10**9 + nanosec)
 
     def hear_other(self, message: Any) -> None:
         """Any other."""
@@ -72,11 +75,10 @@ class Listener:
 
 def listen(version: str, *, everything: bool) -> Listener:
     """Listen to odometry, or to every topic."""
-    if version == "1":
-        from tandemlift.apps.ros.ros1 import Ros1 as Ros
-    else:
-        from tandemlift.apps.ros.ros2 import Ros2 as Ros
-    listener, middleware = Listener(), Ros(["__name:=listener"]) if version == "1" else Ros()
+    from tandemlift.apps.ros import rclpy_node, ros1, ros2
+
+    makers = {"1": lambda: ros1.Ros1(["__name:=listener"]), "2": lambda: rclpy_node.RclpyNode(name="listener")}
+    listener, middleware = Listener(), makers.get(version, ros2.Ros2)()
     middleware.subscribe(TOPIC, KIND, listener.hear)
     if everything:
         for name, kind in topics().items():
@@ -88,16 +90,13 @@ def topics() -> dict[str, str]:
     """Every topic that has a message for each sample, but odometry."""
     from tandemlift.apps.export.topics import recipes_for
     from tandemlift.apps.live.session.session import Session
-    from tandemlift.apps.ros.sample_queue import SampleQueue, as_flight
+    from tandemlift.apps.ros.sample_queue import SampleBatch, as_flight
     from tandemlift.missions import load_mission
     from tandemlift.parts.mechanics.vehicle import Vehicle
 
-    session, feed = Session(load_mission("zigzag")), SampleQueue(1, lambda step: 0)
+    session = Session(load_mission("zigzag"))
     session.prepare()
-    feed.note(session.flight)
-    taken = feed.take(0.0)
-    assert taken
-    flight = as_flight(taken, session.flight, {})
+    flight = as_flight(SampleBatch([0], [0], session.flight.sample[None]), session.flight, {})
     vehicle = Vehicle.from_settings(session.flight.now.vehicle)
     session.stop()
     return {r.name: r.kind for r in recipes_for(flight, vehicle) if r.name != TOPIC} | {"/tf": "tf2_msgs/TFMessage"}
@@ -109,9 +108,10 @@ def listening(version: str, everything: bool, seconds: float) -> dict[str, float
     time.sleep(SETTLE)
     first, others, began = len(listener.ages), listener.others, time.monotonic()
     time.sleep(seconds)
-    span, ages = time.monotonic() - began, 1e3 * np.array(listener.ages[first:])
+    span, ages, stamps = time.monotonic() - began, 1e3 * np.array(listener.ages[first:]), listener.stamps[first:]
     return {
         "rate": len(ages) / span,
+        "lost": round((stamps[-1] - stamps[0]) / PERIOD) + 1 - len(stamps),
         "others": (listener.others - others) / span,
         "median": float(np.median(ages)),
         "most": float(np.quantile(ages, 0.99)),
@@ -139,6 +139,7 @@ def measure(version: str, seconds: float, environment: Mapping[str, str]) -> Ite
         yield [
             f"{NAMES[version]}: {what}",
             f"{t['rate']:.1f}",
+            f"{t['lost']}",
             f"{t['median']:.1f}",
             f"{t['most']:.1f}",
             f"{100 * share:.0f} %",
@@ -151,7 +152,7 @@ def surroundings(version: str) -> Iterator[Mapping[str, str]]:
     with socket.socket() as one:
         one.bind(("127.0.0.1", 0))
         port = one.getsockname()[1]
-    if version == "2":
+    if version != "1":
         yield os.environ | {"ROS_DOMAIN_ID": str(100 + port % 100)}
         return
     with tempfile.TemporaryDirectory() as folder:
@@ -166,7 +167,7 @@ def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=float, default=30.0)
-    parser.add_argument("--versions", default="12")
+    parser.add_argument("--versions", default="1,2-dds")
     parser.add_argument("--listen", help=argparse.SUPPRESS)
     parser.add_argument("--all", action="store_true", help=argparse.SUPPRESS)
     given = parser.parse_args()
@@ -175,12 +176,12 @@ def main() -> None:
         sys.stdout.flush()
         os._exit(0)
     machine, rows = describe(["tandemlift", "cyclonedds", "numpy"]), list[list[str]]()
-    for version in given.versions:
+    for version in given.versions.split(","):
         with surroundings(version) as environment:
             rows += measure(version, given.seconds, environment)
     print(heading(machine))
     print(f"\n`zigzag`, {given.seconds:g} s each.\n")
-    print(table(["listening to", "odometry/s", "age [ms], median", "99 %", "node, of one core"], rows))
+    print(table(["listening to", "odometry/s", "lost", "age [ms], median", "99 %", "node, of one core"], rows))
 
 
 if __name__ == "__main__":

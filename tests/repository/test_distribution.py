@@ -21,7 +21,7 @@ COMES_WITH = {  # an import's package, where it has another name
 }
 NOT_IN_ALL = {"torch"}  # 5 GB
 OF_NOTEBOOKS = {"IPython"}  # imported only where it runs
-OF_ROS_1 = {"rosgraph", "rospy"}  # from Debian
+OF_ROS = {"rosgraph", "rospy", "rclpy", "rcl_interfaces", "std_srvs"}  # from Debian; from an installed ROS 2
 
 
 def names(requirements):
@@ -56,7 +56,7 @@ def imports(node, extra=None, types=False):
 def optional_imports():
     """Each optional package of a package file, with the extra that is named where it is missing, or None."""
     needed = names(PROJECT["dependencies"])
-    elsewhere = {*sys.stdlib_module_names, "tandemlift", *OF_ROS_1, *OF_NOTEBOOKS}
+    elsewhere = {*sys.stdlib_module_names, "tandemlift", *OF_ROS, *OF_NOTEBOOKS}
 
     def package_of(module):
         root = module.partition(".")[0]

@@ -35,7 +35,7 @@ class Channel:
 
 class Middleware:
     def __init__(self):
-        self.types = MessageTypes(message_class, numbered=False)
+        self.types, self.name = MessageTypes(message_class, numbered=False), "a ROS of dictionaries"
         self.channels, self.kinds, self.latched = defaultdict(Channel), {}, set()
         self.heeding, self.services, self.set, self.kept, self.over, self.logged = {}, {}, {}, {}, False, []
 
@@ -49,6 +49,9 @@ class Middleware:
 
     def serve(self, name, answer):
         self.services[name] = answer
+
+    def declare(self, facts, change):
+        self.facts, self.change = facts, change
 
     def parameters(self):
         found, self.set = self.set, {}

@@ -121,6 +121,27 @@ def test_an_event_is_in_ros_s_log(types):
     assert found[0].stamp.sec > 0
 
 
+def test_a_topic_announces_the_name_of_its_type_and_no_type_information(types):
+    from cyclonedds.builtin import BuiltinDataReader, BuiltinTopicDcpsPublication
+    from cyclonedds.domain import DomainParticipant
+    from cyclonedds.sub import DataReader
+    from cyclonedds.topic import Topic
+
+    ros, other, kind = Ros2(domain=98), DomainParticipant(98), "nav_msgs/Odometry"
+    publisher = ros.advertise("/pose", kind)
+    reader = DataReader(other, Topic(other, "rt/pose", types[kind]), _qos(False, 10))
+    endpoints, seen, found = BuiltinDataReader(other, BuiltinTopicDcpsPublication), [], []
+    until(lambda: seen.extend(e for e in endpoints.take(100) if e.topic_name == "rt/pose") or seen, "the topic")
+    until(lambda: publisher.wanted, "the reader")
+    message = types[kind](child_frame_id="base_link")
+    message.pose.covariance[7] = 0.25
+    publisher.publish(message)
+    until(lambda: found.extend(reader.take(1)) or found, "the message")
+    ros.shutdown()
+    assert (seen[0].type_name, seen[0].type_id) == ("nav_msgs::msg::dds_::Odometry_", None)
+    assert found == [message]
+
+
 # beside Fast DDS
 
 

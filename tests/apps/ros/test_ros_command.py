@@ -22,7 +22,8 @@ from tandemlift.apps.live.session.pacing import MOST_BEHIND
 from tandemlift.apps.live.session.session import Session
 from tandemlift.apps.ros.dds_types import PACKAGES
 from tandemlift.apps.ros.node import FlightNode
-from tandemlift.apps.ros.ros1 import folder
+from tandemlift.apps.ros.rclpy_node import RclpyNode
+from tandemlift.apps.ros.ros1 import VIEWS, folder
 from tandemlift.apps.ros.sample_queue import Clock
 from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
@@ -48,7 +49,6 @@ TABLES = "".join(
         (["hover", "--rate", "0"], "--rate 0: must be from 0.1 to 1000 Hz"),
         (["hover", "--rate", "2000"], "--rate 2000: must be from 0.1 to 1000 Hz"),
         (["hover", "--engine", "compild"], "unknown engine 'compild'"),
-        (["hover", "--version", "2", "--rviz"], "--rviz: needs ROS 1, not --version 2"),
         (["hover", "--set", "admittance.mass"], "must be KEY=VALUE"),
     ],
 )
@@ -68,10 +68,31 @@ def test_the_files_of_ros_s_tools_are_a_package_whose_node_can_be_run():
     assert os.access(folder() / "node", os.X_OK)
 
 
-def test_rviz_shows_topics_that_there_are(trial):
-    lines = (folder() / "tandemlift.rviz").read_text("utf-8").splitlines()
-    shown = {line.split()[-1] for line in lines if line.strip().startswith(("Topic:", "Marker Topic:"))}
-    assert shown
+def test_the_launch_file_of_ros_2_starts_our_command_with_options_that_it_has_and_a_view_that_is_there():
+    launch = ElementTree.parse(folder() / "launch" / "tandemlift.launch.xml").getroot()
+    values = {arg.get("name"): arg.get("default") for arg in launch.findall("arg")}
+    node, rviz = (executable.get("cmd") for executable in launch.findall("executable"))
+    command = re.sub(r"\$\(var (\w+)\)", lambda found: values.pop(found[1]), node).split()
+    assert values == {"rviz": "false"}
+    with cli.get_command(None, "ros").make_context("ros", command[2:]) as context:
+        assert context.params["words"] == ("zigzag",)
+        assert (context.params["version"], context.params["rate"]) == ("2", 100.0)
+    assert (folder() / "launch" / rviz.split("$(dirname)/")[1]).is_file()
+
+
+def test_what_follows_ros_args_is_no_option_of_ours():
+    words = ["hover", "--rate", "50", "--ros-args", "-r", "__node:=beam", "--params-file", "x"]
+    with cli.get_command(None, "ros").make_context("ros", list(words)) as context:
+        assert context.meta["--ros-args"] == words[3:]
+        assert context.params["words"] == ("hover",)
+
+
+@pytest.mark.parametrize("view", VIEWS.values())
+def test_rviz_shows_topics_that_there_are(trial, view):
+    lines = (folder() / view).read_text("utf-8").splitlines()
+    named = ("Topic:", "Marker Topic:", "Value: /")
+    shown = {last for line in lines if line.strip().startswith(named) and (last := line.split()[-1])[0] == "/"}
+    assert len(shown) > 5
     assert shown <= set(trial.middleware.kinds)
 
 
@@ -160,9 +181,10 @@ def test_without_rospy_it_is_told_what_to_install(somewhere):
 
 @pytest.fixture
 def machine(monkeypatch, somewhere):
-    """Make this machine one with rospy, or with what ROS 2 needs, or not; nothing is connected to."""
+    """Make this machine one with rospy, with rclpy, or with what ROS 2 needs, or not; nothing is connected to."""
 
-    def make(*, rospy, dds):
+    def make(*, rospy, dds, rclpy=False):
+        monkeypatch.setattr("tandemlift.apps.ros.node.has_rclpy", lambda: rclpy)
         monkeypatch.setattr("tandemlift.engines.rospy.FOLDERS", (str(somewhere),) if rospy else ())
         if not rospy:
             monkeypatch.setitem(sys.modules, "rospy", None)  # wherever else it may be
@@ -177,6 +199,7 @@ def machine(monkeypatch, somewhere):
 
     monkeypatch.setattr("tandemlift.apps.ros.ros1.Ros1", connect("1"))
     monkeypatch.setattr("tandemlift.apps.ros.ros2.Ros2", connect("2"))
+    monkeypatch.setattr("tandemlift.apps.ros.rclpy_node.RclpyNode", connect("2 by rclpy"))
     return make
 
 
@@ -188,13 +211,41 @@ def machine(monkeypatch, somewhere):
         (False, True, [], "2"),
         (True, True, ["--version", "2"], "2"),
         (False, True, ["--version", "1"], "1"),
-        (False, True, ["--rviz"], "1"),
+        (True, True, ["--version", "2-dds"], "2"),
+        (False, True, ["--rviz"], "2"),
     ],
 )
 def test_the_ros_that_is_there_is_taken_unless_one_is_asked_for(rospy, dds, arguments, taken, machine):
     machine(rospy=rospy, dds=dds)
     result = CliRunner().invoke(cli, ["ros", "hover", *arguments])
     assert str(result.exception).startswith(f"connected to ROS {taken}")
+
+
+@pytest.mark.parametrize(
+    ("rospy", "arguments", "taken"),
+    [
+        (False, [], "2 by rclpy"),
+        (True, [], "2 by rclpy"),
+        (True, ["--version", "2"], "2 by rclpy"),
+        (True, ["--version", "1"], "1"),
+        (False, ["--version", "2-dds"], "2"),
+    ],
+)
+def test_an_installed_rclpy_is_taken_unless_another_is_asked_for(rospy, arguments, taken, machine):
+    machine(rospy=rospy, dds=True, rclpy=True)
+    result = CliRunner().invoke(cli, ["ros", "hover", *arguments])
+    assert str(result.exception) == f"connected to ROS {taken}"
+
+
+def test_a_rclpy_that_cannot_be_used_is_named_and_dds_taken(machine, monkeypatch, tmp_path):
+    machine(rospy=False, dds=True, rclpy=True)
+    (tmp_path / "rclpy.py").write_text("raise ImportError('built for another Python')\n")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
+    monkeypatch.setattr("tandemlift.apps.ros.rclpy_node.RclpyNode", RclpyNode)
+    result = CliRunner().invoke(cli, ["ros", "hover"])
+    assert str(result.exception) == "connected to ROS 2"
+    why = "rclpy is installed but cannot be used, so the node speaks DDS itself: ImportError: built for another Python"
+    assert why in result.output
 
 
 def test_without_any_ros_the_command_that_installs_one_is_named(machine, monkeypatch, capsys):
@@ -215,19 +266,6 @@ def test_a_ros_1_that_does_not_run_is_told_with_the_other_if_nobody_asked_for_it
     assert "--version 2" not in str(CliRunner().invoke(cli, ["ros", "hover", "--version", "1"]).exception)
     machine(rospy=True, dds=False)
     assert "--version 2" not in str(CliRunner().invoke(cli, ["ros", "hover"]).exception)
-
-
-def test_the_start_in_ros_2_names_the_file_without_which_kilted_gets_little(machine, monkeypatch, tmp_path):
-    machine(rospy=True, dds=True)
-    middleware = Middleware()
-    middleware.over = True
-    monkeypatch.setattr("tandemlift.apps.ros.ros2.Ros2", lambda: middleware)
-    said = CliRunner().invoke(cli, ["ros", "hover", "--version", "2"]).output
-    file = Path(re.search(r"Kilted gets no odometry, .*FASTDDS_DEFAULT_PROFILES_FILE=(\S+)", said)[1])
-    (values,) = [[element.text for element in found] for found in ElementTree.parse(file).getroot().iter("property")]
-    assert values == ["fastdds.type_propagation", "disabled"]
-    monkeypatch.setattr("tandemlift.apps.ros.ros1.Ros1", lambda _: middleware)
-    assert "Kilted" not in CliRunner().invoke(cli, ["ros", "hover", "--version", "1"]).output
 
 
 def test_the_extra_installs_what_ros_2_needs():

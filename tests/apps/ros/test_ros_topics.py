@@ -40,9 +40,13 @@ def test_topics_are_those_of_bags_and_a_few_besides(flown):
         "/tandemlift/markers/moving": "visualization_msgs/MarkerArray",
         "/tandemlift/path": "nav_msgs/Path",
         "/tandemlift/reference/path": "nav_msgs/Path",
+        "/tandemlift/robot_description": "std_msgs/String",
+        "/clock": "rosgraph_msgs/Clock",
     }
     assert flown.middleware.kinds == bags | more
-    assert flown.middleware.latched == {"/tf_static", "/tandemlift/mission", "/tandemlift/markers/still"}
+    assert flown.middleware.latched == {
+        *("/tf_static", "/tandemlift/mission", "/tandemlift/markers/still", "/tandemlift/robot_description")
+    }
 
 
 def test_every_sample_is_published_with_the_flight_s_numbers_evenly_apart(flown):

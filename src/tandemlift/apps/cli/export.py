@@ -26,7 +26,7 @@ CAMERAS = "follow, overview, front, side, top, or AZIMUTH,ELEVATION[,DISTANCE] i
 
 @click.command()
 @click.argument("flight_or_mission", shell_complete=FLIGHTS_AND_MISSIONS)
-@click.option("--out", metavar="FILE", required=True, help="FILE.mcap, FILE.bag, FILE.csv, FILE.sdf or FILE.xml.")
+@click.option("--out", metavar="FILE", required=True, help="FILE.mcap, .bag, .csv, .sdf, .xml or .urdf.")
 @set_option
 @click.option("--plugin", metavar="PORT|ros", help="For FILE.sdf: connect a pilot by a plugin.")
 def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: str | None) -> None:
@@ -34,7 +34,7 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
 
     \b
     A flight:               .mcap  ROS 2 bag     .bag  ROS 1 bag     .csv  table
-    A flight or a mission:  .sdf   Gazebo world  .xml  MuJoCo model
+    A flight or a mission:  .sdf   Gazebo world  .xml  MuJoCo model  .urdf  robot of ROS
 
     The ending of FILE selects the format. FLIGHT_OR_MISSION is a saved flight (flight.npz or its folder) or a mission.
     Bags need rosbags (pip install 'tandemlift[export]'), MuJoCo models mujoco. docs/reference/export.md has the files.
@@ -55,7 +55,7 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
     _, saved = flight_file(flight_or_mission)
     if settings and (saved or not model):
         raise InputError(
-            "--set is for a mission that is written to FILE.sdf or FILE.xml; a saved flight cannot be changed"
+            "--set is for a mission that is written to FILE.sdf, .xml or .urdf; a saved flight cannot be changed"
         )
     if not saved and not model:
         raise InputError(f"{flight_or_mission} is no saved flight: give flight.npz or the folder of a run")

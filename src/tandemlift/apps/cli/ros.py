@@ -27,16 +27,31 @@ from tandemlift.apps.cli.run import write_results
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
 
+ROS_ARGUMENTS = "--ros-args"
 
-@click.command()
+
+class RosCommand(click.Command):
+    """A command that takes what follows `--ros-args`, by which launch files of ROS 2 name, remap and set, as it is."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Keep it from the options."""
+        at = args.index(ROS_ARGUMENTS) if ROS_ARGUMENTS in args else len(args)
+        ctx.meta[ROS_ARGUMENTS] = args[at:]
+        return super().parse_args(ctx, args[:at])
+
+
+@click.command(cls=RosCommand)
 @click.argument("words", nargs=-1, metavar="[MISSION] [NAME:=VALUE]...", shell_complete=MISSIONS)
 @engine_option
 @click.option(
-    "--version", type=click.Choice(["1", "2"]), help="ROS version.  [default: 1 if rospy is installed, else 2]"
+    "--version",
+    type=click.Choice(["1", "2", "2-dds"]),
+    help="ROS version; 2: by rclpy where that is, else by DDS, as 2-dds.  [default: 1 if there is only rospy, else 2]",
 )
 @click.option("--rate", type=float, default=100.0, show_default=True, help="Rate at which samples are published [Hz].")
 @click.option("--save", metavar="DIR", help="Save the flight in this folder at its end; `run` can fly it again.")
-@click.option("--rviz", is_flag=True, help="Also start RViz (ROS 1), which shows the vehicle and its surroundings.")
+@click.option("--bag", metavar="DIR", help="Record all topics in this folder while it flies, as a bag of ROS 2 (MCAP).")
+@click.option("--rviz", is_flag=True, help="Also start RViz, which shows the vehicle and its surroundings.")
 @click.option("--folder", is_flag=True, help="Only print the folder of the launch file and of the RViz configuration.")
 @set_option
 def ros(
@@ -45,6 +60,7 @@ def ros(
     version: str | None,
     rate: float,
     save: str | None,
+    bag: str | None,
     rviz: bool,
     folder: bool,
     settings: tuple[str, ...],
@@ -53,20 +69,22 @@ def ros(
 
     MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file. The default is zigzag, the
     paper's corridor. The mission's own pushes and person are omitted: messages on /tandemlift/push push the vehicle.
-    ROS 1 needs rospy and a running roscore. ROS 2 needs no installed ROS, only pip install 'tandemlift[ros2]'.
-    docs/how-to/ros.md describes topics, services and parameters. Ctrl-C ends the flight.
+    ROS 1 needs rospy and a running roscore. ROS 2 needs no installed ROS, only pip install 'tandemlift[ros2]'; where
+    rclpy is installed, the node is one of rclpy, with services and parameters. docs/how-to/ros.md describes topics,
+    services and parameters. Ctrl-C ends the flight.
 
     \b
     Examples:
       tandemlift ros
       tandemlift ros zigzag --rviz --save out/mine
       tandemlift ros hover --set admittance.mass=2 --rate 50
-      tandemlift ros zigzag --version 2
+      tandemlift ros zigzag --version 2 --bag out/push
 
     Exit code 3: crashed, diverged or interrupted, or ROS 1's master is gone; --save saves the flight so far.
     """
     from tandemlift.apps.live.server import Session
-    from tandemlift.apps.ros import ros1, ros2
+    from tandemlift.apps.ros import ros1
+    from tandemlift.apps.ros.middleware import recorded
     from tandemlift.apps.ros.node import fly_and_save, middleware_for, shut_down, version_for
     from tandemlift.apps.ros.sample_queue import steps_between_samples
     from tandemlift.engines.registry import engine_named
@@ -74,21 +92,18 @@ def ros(
     if folder:
         echo(str(ros1.folder()))
         return
-    if rviz and version == "2":
-        raise InputError("--rviz: needs ROS 1, not --version 2")
     mission, arguments = _split_arguments(words)
     engine_named(engine)
     loaded = load(mission, settings)
     steps_between_samples(rate, loaded.mission.step)
-    spoken = version_for("1" if rviz else version)
-    middleware = middleware_for(spoken, arguments, asked=rviz or version is not None)
+    arguments += click.get_current_context().meta[ROS_ARGUMENTS]
+    middleware = middleware_for(version_for(version), arguments, echo, asked=version is not None)
     try:
-        session = Session(loaded, engine, OUT)
-        session.prepare()
-        session.flight.optimise()
-        if spoken == "2":
-            echo(ros2.KILTED)
-        failures = fly_and_save(session, middleware, rate, f"{mission} in ROS {spoken}", save, echo, rviz=rviz)
+        with recorded(middleware, bag) as heard:
+            session = Session(loaded, engine, OUT)
+            session.prepare()
+            session.flight.optimise()
+            failures = fly_and_save(session, heard, rate, f"{mission} in {middleware.name}", save, echo, rviz=rviz)
     finally:
         gone = shut_down(middleware)
     for failure in (*failures, *gone):

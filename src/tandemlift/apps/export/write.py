@@ -107,14 +107,14 @@ def write_mcap(flight: Flight, path: Path) -> None:
         bag.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
         with bag:
             connections = [
-                bag.add_connection(s.topic, modern(s.kind), typestore=store, offered_qos_profiles=_qos(s.latched))
+                bag.add_connection(s.topic, modern(s.kind), typestore=store, offered_qos_profiles=qos_of(s.latched))
                 for s in streams
             ]
             _write(bag, streams, connections, lambda m, kind: store.serialize_cdr(m, modern(kind)))
         (Path(folder) / NAME / f"{NAME}.mcap").replace(path)
 
 
-def _qos(latched: bool) -> list[Any]:
+def qos_of(latched: bool) -> list[Any]:
     """The quality of service of a ROS 2 player: reliable; late subscribers get the last message if latched."""
     from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 
@@ -159,9 +159,9 @@ def _write(bag: Any, streams: list[TopicStream], connections: list[Any], pack: C
 
 
 FORMATS: dict[str, Callable[[Flight, Path], None]] = {".mcap": write_mcap, ".bag": write_bag, ".csv": write_csv}
-WORLD, MODEL = ".sdf", ".xml"
+WORLD, MODEL, ROBOT = ".sdf", ".xml", ".urdf"
 OF_FLIGHT = ".mcap (ROS 2 bag), .bag (ROS 1 bag) or .csv (table)"
-OF_MISSION = ".sdf (Gazebo world) or .xml (MuJoCo model)"
+OF_MISSION = ".sdf (Gazebo world), .xml (MuJoCo model) or .urdf (robot description of ROS)"
 ENDINGS = f"must end in {OF_FLIGHT}, or for a mission in {OF_MISSION}"
 
 
@@ -201,9 +201,9 @@ def is_model(path: Path) -> bool:
         InputError: its ending belongs to no known format.
     """
     ending = path.suffix.lower()
-    if ending not in (*FORMATS, WORLD, MODEL):
+    if ending not in (*FORMATS, WORLD, MODEL, ROBOT):
         raise InputError(f"{path}: {ENDINGS}")
-    return ending in (WORLD, MODEL)
+    return ending not in FORMATS
 
 
 def _writer(what: Flight | Mission, path: Path, plugin: int | str | None) -> Callable[[Path], object]:
@@ -220,6 +220,10 @@ def _writer(what: Flight | Mission, path: Path, plugin: int | str | None) -> Cal
             from tandemlift.engines.models.sdf import world
 
             text = world(mission, plugin)
+        elif ending == ROBOT:
+            from tandemlift.engines.models.urdf import urdf
+
+            text = urdf(Vehicle.from_settings(mission.vehicle), mission.mission.name)
         else:
             from tandemlift.engines.models.mjcf import model_text
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import signal
 import sys
 import threading
@@ -176,8 +177,8 @@ def fly_in_ros(session: Session, middleware: Middleware, rate: float, begun: Cal
     """
     from tandemlift.apps.ros.ros1 import start_rviz
 
-    beside = start_rviz() if rviz else None
     node = FlightNode(session, middleware, rate)
+    beside = start_rviz("rviz" if middleware.types.numbered else "rviz2") if rviz else None
     for number in (signal.SIGINT, signal.SIGTERM):  # roslaunch may have set them to be ignored
         signal.signal(number, signal.default_int_handler)
     try:
@@ -239,20 +240,27 @@ def _save(session: Session, save: str | None, say: Callable[[str], None]) -> Non
 
 # ---- Which ROS it speaks
 
-VERSIONS = ("1", "2")
+VERSIONS = ("1", "2", "2-dds")
+
+
+def has_rclpy() -> bool:
+    """Whether this Python has rclpy; nothing is imported."""
+    return importlib.util.find_spec("rclpy") is not None
 
 
 def version_for(asked: str | None) -> str:
-    """The version of ROS to speak: 1 if there is rospy, else 2 if there is its DDS, unless one is chosen.
+    """The version of ROS to speak: 2 if there is rclpy, else 1 if there is rospy, else 2 by DDS, unless one is chosen.
 
     Args:
         asked: one of `VERSIONS`, or None to take what is there.
 
     Raises:
-        InputError: none is chosen, and there is neither; the text names the package to install.
+        InputError: none is chosen, and there is none; the text names the package to install.
     """
     if asked is not None:
         return asked
+    if has_rclpy():
+        return "2"
     if has_rospy():
         return "1"
     if not missing_packages():
@@ -263,25 +271,29 @@ def version_for(asked: str | None) -> str:
     )
 
 
-def middleware_for(version: str, arguments: Sequence[str], *, asked: bool) -> Middleware:
+def middleware_for(version: str, arguments: Sequence[str], say: Callable[[str], None], *, asked: bool) -> Middleware:
     """Connect to a ROS.
 
     Args:
-        version: one of `VERSIONS`.
-        arguments: remappings NAME:=VALUE of ROS 1, as roslaunch gives them.
+        version: one of `VERSIONS`; 2 is by rclpy where that can be used, else by DDS.
+        arguments: remappings NAME:=VALUE, or `--ros-args` and what follows, as a launch file gives them.
+        say: told why rclpy is not used although it is there.
         asked: whether a person chose this version; if not, the error names the other if there is one.
 
     Raises:
         InputError: what it needs is not installed, or does not run.
     """
-    if version == "2":
-        from tandemlift.apps.ros.ros2 import Ros2
+    from tandemlift.apps.ros import rclpy_node, ros1, ros2
 
-        return Ros2()
-    from tandemlift.apps.ros.ros1 import Ros1
-
+    if version == "2" and has_rclpy():
+        try:
+            return rclpy_node.RclpyNode(arguments)
+        except rclpy_node.UnusableRclpyError as error:
+            say(f"rclpy is installed but cannot be used, so the node speaks DDS itself: {error}")
+    if version != "1":
+        return ros2.Ros2()
     try:
-        return Ros1(arguments)
+        return ros1.Ros1(arguments)
     except InputError as error:
         if asked or missing_packages():
             raise

@@ -7,6 +7,7 @@ controller calls them, and mean the same; the ratio is D/(2 √(M K)) of each ax
 from __future__ import annotations
 
 import math
+import threading
 from collections.abc import Iterator
 from typing import Any
 
@@ -14,9 +15,10 @@ from pydantic import ValidationError
 
 from tandemlift.apps.live.session.page_messages import SetMessage
 from tandemlift.apps.live.session.parameters import parameters_of
+from tandemlift.apps.live.session.server_messages import SceneParameter
 from tandemlift.apps.live.session.session import Session
 from tandemlift.apps.ros.diagnostics import Notify
-from tandemlift.apps.ros.middleware import Middleware
+from tandemlift.apps.ros.middleware import Middleware, ParameterFacts
 from tandemlift.core.errors import InputError, shown, unknown
 from tandemlift.core.keys import Triple
 from tandemlift.missions import tables_of
@@ -37,25 +39,34 @@ class Parameters:
 
     def __init__(self, session: Session, middleware: Middleware, notify: Notify) -> None:
         self._session, self._middleware, self._notify = session, middleware, notify
-        self._first = tables_of(session.flight.now)
+        self._first, self._known = tables_of(session.flight.now), session.flight.now
+        self._turn = threading.RLock()  # what is kept is never older than a change
+        facts = {parameter["key"]: _facts(parameter) for parameter in self._all()}
+        ratio = ParameterFacts("damping ratio D/(2 √(M K)) of each axis with stiffness, else 0")
+        middleware.declare(facts | {RATIO: ratio}, self.change)
 
     def exchange(self) -> bool:
-        """Apply what has been set since the last time, and set all to the present values; whether anything changed."""
-        wishes, before = self._middleware.parameters(), self._session.flight.now
+        """Apply what has been set, and set all to the present values; whether anything changed since the last time."""
+        wishes, before = self._middleware.parameters(), self._known
         for key in sorted(wishes, key=lambda key: (key in LAST, key)):
-            self._set(key, wishes[key])
-        self._middleware.keep(dict(self._values()))
-        return self._session.flight.now is not before
+            self.change(key, wishes[key])
+        with self._turn:
+            self._middleware.keep(dict(self._values()))
+        self._known = self._session.flight.now
+        return self._known is not before
+
+    def _all(self) -> Iterator[SceneParameter]:
+        found = parameters_of(tables_of(self._session.flight.now), self._first)
+        return (parameter for parameter in found if parameter["key"] not in SPRING)
 
     def _values(self) -> Iterator[tuple[str, Any]]:
-        now = self._session.flight.now
-        for parameter in parameters_of(tables_of(now), self._first):
-            if parameter["key"] not in SPRING:
-                yield parameter["key"], parameter["value"]
-        a = now.admittance
+        for parameter in self._all():
+            yield parameter["key"], parameter["value"]
+        a = self._session.flight.now.admittance
         yield RATIO, damping_ratio(a.mass, a.damping, a.stiffness)
 
-    def _set(self, key: str, value: object) -> None:
+    def change(self, key: str, value: object) -> str:
+        """Set a parameter; return the reason if it is refused, else an empty text."""
         known = dict(self._values())
         try:
             if key not in known:
@@ -63,9 +74,18 @@ class Parameters:
             if key == RATIO:
                 a = self._session.flight.now.admittance
                 key, value = DAMPING, damping_of(value, a.mass, a.damping, a.stiffness)
-            self._session.apply(_message(key, value))
+            with self._turn:
+                self._session.apply(_message(key, value))
         except InputError as error:
             self._notify(f"parameter refused: {error}")
+            return str(error)
+        return ""
+
+
+def _facts(parameter: SceneParameter) -> ParameterFacts:
+    if choices := parameter.get("choices"):
+        return ParameterFacts(f"{parameter['label']}: one of {', '.join(choices)}")
+    return ParameterFacts(f"{parameter['label']} [{parameter['unit']}]", parameter["min"], parameter["max"])
 
 
 def _message(key: str, value: Any) -> SetMessage:

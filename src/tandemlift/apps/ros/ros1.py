@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import shutil
 import subprocess
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -10,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.apps.export.messages import MessageTypes
-from tandemlift.apps.ros.middleware import Answer, TopicPublisher
+from tandemlift.apps.ros.middleware import Answer, ParameterFacts, TopicPublisher
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import DATA
 from tandemlift.engines.gazebo_ros import PLACES
@@ -18,7 +19,7 @@ from tandemlift.engines.rospy import import_rospy, message_type
 
 NAME = "tandemlift"
 FOLDER = DATA / "ros"
-SHOWN = "tandemlift.rviz"
+VIEWS = {"rviz": "tandemlift.rviz", "rviz2": "tandemlift_ros2.rviz"}
 OF_GAZEBO = {place.rpartition("/")[2] for place in PLACES}  # parameters of Gazebo's own below those of a node `NAME`
 OLD = {"builtin_interfaces/Time": "Time"}  # types without a message in ROS 1: of the package genpy
 
@@ -41,7 +42,7 @@ class Ros1:
         if not rosgraph.is_master_online():
             raise InputError(f"no ROS master at {self._uri}: start roscore, or set ROS_MASTER_URI")
         rospy.init_node(NAME, argv=["tandemlift", *arguments], disable_signals=True)
-        self.types = MessageTypes(self._class_of, numbered=True)
+        self.types, self.name = MessageTypes(self._class_of, numbered=True), "ROS 1"
         self._seen: dict[str, Any] = {}
         self._kept: dict[str, Any] = {}
         self._own: set[str] = set()  # parameters that only this node has set
@@ -57,7 +58,8 @@ class Ros1:
     def advertise(self, topic: str, kind: str, *, latched: bool = False, depth: int = 1) -> TopicPublisher:
         """A topic to publish on, without Nagle's delay."""
         make, of = self._rospy.Publisher, message_type(kind)
-        return _Publisher(make(topic, of, queue_size=depth, latch=latched, tcp_nodelay=True), latched)
+        publisher = make(topic, of, queue_size=depth, latch=latched, tcp_nodelay=True)
+        return TopicPublisher(publisher.publish, publisher.get_num_connections, latched=latched)
 
     def subscribe(self, topic: str, kind: str, handle: Callable[[Any], object]) -> None:
         """Call a function with the messages of a topic; if several wait, with the last."""
@@ -67,6 +69,9 @@ class Ros1:
         """Answer `std_srvs/Trigger`."""
         Trigger, Response = message_type("std_srvs/Trigger"), message_type("std_srvs/TriggerResponse")
         self._rospy.Service(name, Trigger, lambda request: Response(*answer()))
+
+    def declare(self, facts: Mapping[str, ParameterFacts], change: Callable[[str, object], str]) -> None:
+        """Nothing: the parameter server knows no more than values."""
 
     def parameters(self) -> dict[str, Any]:
         """The parameters of the node's private namespace that differ from the kept values; not those of a Gazebo there.
@@ -97,6 +102,11 @@ class Ros1:
         """Write an event to the log of ROS, which is `/rosout` too: as a warning, if it gives a reason."""
         (self._rospy.logwarn if ": " in what else self._rospy.loginfo)("%s", what)
 
+    def encoded(self, message: Any) -> bytes:
+        """A message as a ROS 1 bag has it."""
+        message.serialize(buffer := io.BytesIO())
+        return buffer.getvalue()
+
     def shutdown(self) -> None:
         """Unregister from the master, and remove values that the next flight would read as its parameters."""
         try:
@@ -113,19 +123,6 @@ class Ros1:
             yield
         except OSError as error:
             raise ConnectionError(f"the ROS master at {self._uri} is gone: {error.strerror or error}") from None
-
-
-class _Publisher:
-    """A topic of rospy."""
-
-    def __init__(self, publisher: Any, latched: bool) -> None:
-        self._publisher, self._latched = publisher, latched
-        self.publish = publisher.publish
-
-    @property
-    def wanted(self) -> bool:
-        """Whether the topic has subscribers, or is latched for late ones."""
-        return self._latched or self._publisher.get_num_connections() > 0
 
 
 def _private(key: str) -> str:
@@ -147,13 +144,14 @@ def folder() -> Path:
     return FOLDER
 
 
-def start_rviz() -> subprocess.Popen[bytes]:
-    """Start RViz of ROS 1 with all displays.
+def start_rviz(name: str) -> subprocess.Popen[bytes]:
+    """Start `rviz` of ROS 1 or `rviz2` with all displays.
 
     Raises:
         InputError: it is not installed.
     """
-    program = shutil.which("rviz")
+    program = shutil.which(name)
     if program is None:
-        raise InputError("--rviz: rviz is not installed: on Debian apt-get install rviz")
-    return subprocess.Popen([program, "-d", str(FOLDER / SHOWN)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        raise InputError(f"--rviz: {name} is not installed: on Debian apt-get install rviz; in ROS 2 its package rviz2")
+    command = [program, "-d", str(FOLDER / VIEWS[name])]
+    return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

@@ -16,9 +16,8 @@ from typing import Any
 
 from tandemlift.apps.export.messages import MessageTypes
 from tandemlift.apps.export.topics import ROOT, OtherTopic
-from tandemlift.apps.ros.dds_types import DdsTypes, check_installed
-from tandemlift.apps.ros.middleware import Answer, TopicPublisher
-from tandemlift.apps.ros.ros1 import FOLDER
+from tandemlift.apps.ros.dds_types import DdsTypes, UntypedWriter, check_installed, encoded
+from tandemlift.apps.ros.middleware import Answer, ParameterFacts, TopicPublisher
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.files import toml_tables
 
@@ -29,13 +28,8 @@ ANSWER = OtherTopic(f"{ROOT}/answer", TEXT, "result of a request; published by t
 ONLY_ROS2 = (REQUEST, PARAMETER, ANSWER)
 ROSOUT, LOG, TIME, NAME = "/rosout", "rcl_interfaces/Log", "builtin_interfaces/Time", "tandemlift"
 INFO, WARN = 20, 30  # levels of the log
-KILTED = (
-    "an installed ROS 2 Kilted gets no odometry, joints, IMU, path, diagnostics or markers, unless its processes have "
-    f"FASTDDS_DEFAULT_PROFILES_FILE={FOLDER / 'fastdds.xml'}"
-)
-DEPTH = 10  # length of the message queue, the default of ROS 2
+DEPTH = 100  # messages that may wait: a second of samples
 NAP = 0.1  # s, timeout of a read, after which the loop checks whether to continue
-AGAIN = 0.2  # s, interval between checks for subscribers
 DOMAINS = 232  # the greatest domain whose ports there are
 
 log = logging.getLogger(__name__)
@@ -57,7 +51,7 @@ class Ros2:
         from cyclonedds.domain import DomainParticipant
 
         self._participant = DomainParticipant(_domain() if domain is None else domain)
-        self.types, self.over = MessageTypes(DdsTypes(), numbered=False), False
+        self.types, self.name, self.over = MessageTypes(DdsTypes(), numbered=False), "ROS 2 by DDS", False
         self._handlers: list[tuple[Any, Callable[[Any], object]]] = []
         self._services: dict[str, Callable[[], Answer]] = {}
         self._set: dict[str, Any] = {}
@@ -70,24 +64,28 @@ class Ros2:
         self._listener.start()
 
     def advertise(self, topic: str, kind: str, *, latched: bool = False, depth: int = 1) -> TopicPublisher:
-        """A topic to publish on: reliable, ten or more may wait; late subscribers get the last if latched."""
-        from cyclonedds.pub import DataWriter
-
+        """A topic to publish on: reliable, a hundred may wait; late subscribers get the last if latched."""
         qos = _qos(latched, 1 if latched else max(depth, DEPTH))
-        return _Writer(DataWriter(self._participant, self._topic(topic, kind), qos), latched)
+        writer = UntypedWriter(self._participant, f"rt{topic}", self.types[kind], qos)
+        return TopicPublisher(writer.write, writer.subscribers, latched=latched)
 
     def subscribe(self, topic: str, kind: str, handle: Callable[[Any], object]) -> None:
         """Call a function with the messages of a topic."""
         from cyclonedds.core import InstanceState, ReadCondition, SampleState, ViewState
         from cyclonedds.sub import DataReader
+        from cyclonedds.topic import Topic
 
-        reader = DataReader(self._participant, self._topic(topic, kind), _qos(False, DEPTH))
+        where = Topic(self._participant, f"rt{topic}", self.types[kind])
+        reader = DataReader(self._participant, where, _qos(False, DEPTH))
         self._handlers.append((reader, handle))
         self._some.attach(ReadCondition(reader, SampleState.NotRead | ViewState.Any | InstanceState.Alive))
 
     def serve(self, name: str, answer: Callable[[], Answer]) -> None:
         """Answer the last word of a service's name, as it comes on the topic of requests."""
         self._services[name.rpartition("/")[2]] = answer
+
+    def declare(self, facts: Mapping[str, ParameterFacts], change: Callable[[str, object], str]) -> None:
+        """Nothing: parameters come on their topic."""
 
     def parameters(self) -> dict[str, Any]:
         """The new values from the topic of parameters."""
@@ -107,6 +105,8 @@ class Ros2:
         stamp = self.types[TIME](seconds, rest)
         self._rosout.publish(self.types[LOG](stamp, WARN if ": " in what else INFO, NAME, what, "", "", 0))
 
+    encoded = staticmethod(encoded)
+
     def shutdown(self) -> None:
         """Leave the domain."""
         self.over = True
@@ -114,11 +114,6 @@ class Ros2:
         self._worker.shutdown()
         self._handlers.clear()
         del self._some, self._participant
-
-    def _topic(self, name: str, kind: str) -> Any:
-        from cyclonedds.topic import Topic
-
-        return Topic(self._participant, f"rt{name}", self.types[kind])
 
     def _listen(self) -> None:
         """Hand messages on as they come."""
@@ -139,32 +134,6 @@ class Ros2:
         answer = self._services.get(what)
         done, words = answer() if answer else (False, str(unknown("request", what, self._services)))
         self._answer.publish(self.types[TEXT](f"{'done' if done else 'refused'}: {words}"))
-
-
-class _Writer:
-    """A topic of DDS."""
-
-    def __init__(self, writer: Any, latched: bool) -> None:
-        self._writer, self._latched = writer, latched
-        self._looked, self._wanted = 0.0, False
-
-    @property
-    def wanted(self) -> bool:
-        """Whether the topic has subscribers, or is latched for late ones."""
-        now = time.monotonic()
-        if not self._latched and now - self._looked > AGAIN:
-            self._looked, self._wanted = now, bool(self._writer.get_matched_subscriptions())
-        return self._latched or self._wanted
-
-    def publish(self, message: object) -> None:
-        """Publish a message; it is dropped if subscribers are too slow."""
-        from cyclonedds.core import DDSException
-
-        try:
-            self._writer.write(message)
-        except DDSException as error:
-            if error.code != DDSException.DDS_RETCODE_TIMEOUT:
-                raise
 
 
 def _qos(latched: bool, depth: int) -> Any:

@@ -10,12 +10,13 @@ import numpy as np
 
 from tandemlift import Flight, Vehicle
 from tandemlift.apps.export.coordinate_frames import ALIGNED, BASE, WORLD, fixed, quaternions
-from tandemlift.apps.export.messages import Maker, MessageTypes, Transforms, message_maker
+from tandemlift.apps.export.messages import SECOND, Maker, MessageTypes, Transforms, message_maker
 from tandemlift.apps.export.recipes import POSE, Recipe, Source, Topic
 from tandemlift.apps.export.topics import MISSION, ROOT, TF, TF_STATIC, OtherTopic, recipes_for
 from tandemlift.apps.ros import scenery
 from tandemlift.apps.ros.middleware import Middleware, TopicPublisher
 from tandemlift.apps.ros.scenery import MARKERS
+from tandemlift.engines.models.urdf import urdf
 from tandemlift.missions import format_toml
 
 PATH = "nav_msgs/Path"
@@ -28,7 +29,13 @@ MOVING = OtherTopic(
     "push as an arrow of 0.22 m/N; reference, where it is more than 2 cm off; 20 times a second",
     (ALIGNED, WORLD),
 )
-ONLY_LIVE = (FLOWN, ASKED, STILL, MOVING)
+ROBOT = OtherTopic(
+    f"{ROOT}/robot_description", "std_msgs/String", "the vehicle as URDF, with these frames; latched", (BASE,)
+)
+CLOCK = OtherTopic(
+    "/clock", "rosgraph_msgs/Clock", "stamp of each sample, for nodes with `use_sim_time`; only in ROS 2", ()
+)
+ONLY_LIVE = (FLOWN, ASKED, STILL, MOVING, ROBOT, CLOCK)
 SHOWN, APART = 60.0, 0.2  # s of a path that is shown, and between its points
 
 
@@ -56,6 +63,9 @@ class SampleTopics:
             for r in recipes_for(flight, vehicle)
         ]
         self._transform, self._tf = Transforms(types).moving, middleware.advertise(TF.name, TF.kind, depth=100)
+        self._types, self._clock = types, None  # in ROS 1, a clock is Gazebo's
+        if not types.numbered:
+            self._clock = middleware.advertise(CLOCK.name, CLOCK.kind)
 
     def publish(self, flight: Flight, stamps: list[int]) -> None:
         """Publish samples on the topics that have subscribers."""
@@ -64,9 +74,14 @@ class SampleTopics:
         if self._tf.wanted:
             places = np.hstack([flight["position"], flight["attitude"]])
             wanted.append((self._tf, self._transform, places.tolist()))
+        if self._clock and self._clock.wanted:
+            wanted.append((self._clock, self._tick, stamps))
         for k, stamp in enumerate(stamps):  # one sample after another, so that none of a topic overtakes the one before
             for channel, make, rows in wanted:
                 channel.publish(make(stamp, rows[k]))
+
+    def _tick(self, stamp: int, _: object) -> object:
+        return self._types[CLOCK.kind](self._types["builtin_interfaces/Time"](*divmod(stamp, SECOND)))
 
 
 class LatchedTopics:
@@ -82,6 +97,7 @@ class LatchedTopics:
         self._mission = middleware.advertise(MISSION.name, MISSION.kind, latched=True)
         self._static = middleware.advertise(TF_STATIC.name, TF_STATIC.kind, latched=True)
         self._still = middleware.advertise(STILL.name, STILL.kind, latched=True)
+        self._robot = middleware.advertise(ROBOT.name, ROBOT.kind, latched=True)
 
     def publish_mission(self, tables: Mapping[str, Any]) -> None:
         """Publish the mission as it is now."""
@@ -90,6 +106,7 @@ class LatchedTopics:
     def publish_vehicle(self, scene: Mapping[str, Any], vehicle: Vehicle, stamp: int) -> None:
         """Publish where the vehicle's parts are, and what it and its surroundings look like."""
         self._static.publish(Transforms(self._types).fixed(stamp, list(fixed(vehicle))))
+        self._robot.publish(self._types[ROBOT.kind](urdf(vehicle, ROOT.strip("/"))))
         self._drawn = scenery.still(self._types, scene, vehicle)
         self.draw()
 
