@@ -123,7 +123,7 @@ CHANNELS = {  # of each field: the channels that it may come from, the best firs
     "contact_force": ("contact_force",),
     "thrusts": ("rotor_thrusts",),
 }
-USED = {"reference_euler", "phase"}.union(*CHANNELS.values())
+USED = {"reference_euler", "phase", "rates"}.union(*CHANNELS.values())  # rates: of `apps.clients`
 
 Components = tuple[Any, ...]  # of a channel or of a field: numbers, arrays (T,) or symbols
 
