@@ -23,7 +23,7 @@ from tandemlift.apps.clients.setpoints import (
 )
 
 GRAVITY = 9.81
-APART = 2.5  # between the bandwidths of a loop and of the one inside; chosen: some 60° of phase margin each
+APART = 2.0  # between the bandwidths of a loop and of the one inside, so that each is damped by about 0.7
 LARGEST_RATE_GAIN = 40.0  # 1/s; chosen: the firmware's is above it, with rotors faster than those modelled here
 # platform_defaults_cf21bl.h: gains there, and their size in SI units
 ATTITUDE_GAIN = 6.0  # 1/s; PID_ROLL_KP

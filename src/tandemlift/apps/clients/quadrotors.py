@@ -131,6 +131,16 @@ class Quadrotors:
 
     # what clients do
 
+    @property
+    def now(self) -> float:
+        """The time that the flight has reached [s]."""
+        return self._now
+
+    @property
+    def has_states(self) -> bool:
+        """Whether the flight has begun."""
+        return bool(self._states)
+
     def state(self, i: int) -> QuadrotorState:
         """The state of quadrotor `i`, from 0 on, at the last control step."""
         return self._states[i]
