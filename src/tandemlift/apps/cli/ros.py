@@ -8,6 +8,7 @@ from __future__ import annotations
 import sys
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -36,6 +37,9 @@ from tandemlift.apps.cli.live import (
 from tandemlift.apps.cli.run import write_results
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
+
+if TYPE_CHECKING:
+    from tandemlift.apps.clients.quadrotors import Control
 
 
 @click.command()
@@ -206,7 +210,7 @@ def crazyflie(
     mission: str,
     udp_port: int,
     host: str,
-    control: str,
+    control: Control,
     engine: str,
     port: int,
     no_browser: bool,

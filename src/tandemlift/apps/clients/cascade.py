@@ -37,6 +37,10 @@ MAX_SPEED = 1.0  # m/s; PID_POS_VEL_X_MAX
 MAX_RATE_SHARE = 0.2  # of the largest moment, by the integrator; PID_ROLL_RATE_INTEGRATION_LIMIT times its K_i
 # chosen: setpoints beyond are clipped
 MAX_COMMANDED_TILT, MAX_COMMANDED_RATE, MAX_COMMANDED_SPEED = math.radians(60.0), 20.0, 10.0  # rad, rad/s, m/s
+MOMENT_SHARES = (0.8, 0.8, 0.4)  # of the largest moments, which are left to each axis beside the lift; chosen
+SATURATES = 0.3  # rad/s, an error of rates that asks for the largest moment; chosen
+BRAKING, RATE_AT_YAW = 0.5, 0.02  # of the angular acceleration in yaw; rad/s; chosen
+MAX_LEAD = 3.0  # rad, of the commanded yaw before the actual one: it must not change sides
 MAX_INTEGRAL = 3.0  # m/s², by the integrators of velocity
 
 
@@ -173,8 +177,12 @@ class OuterLoops:
 
     def _turned(self, s: QuadrotorState, yaw: float | None, rate: float, dt: float) -> float:
         """The yaw that is commanded now: the given one, or the last one turned at a rate."""
-        before = s.euler[2] if self._yaw is None else self._yaw
-        self._yaw = wrapped(before + clip(rate, MAX_COMMANDED_RATE) * dt if yaw is None else yaw)
+        now = s.euler[2]
+        before = now if self._yaw is None else self._yaw
+        wanted = before + clip(rate, MAX_COMMANDED_RATE) * dt if yaw is None else yaw
+        self._yaw = (
+            wrapped(wanted) if yaw is not None else now + clip(wrapped(before - now) + wanted - before, MAX_LEAD)
+        )
         return self._yaw
 
 
@@ -182,7 +190,7 @@ class InnerLoops:
     """Attitude and rates of one rigid body, or of one quadrotor's share of it.
 
     Args:
-        gains: of the loops.
+        gains: of the loops; those about an axis with little moment are smaller.
         inertia: about x, y and z [kg m²].
         max_moment: of the rotors about x, y and z [N m].
 
@@ -191,7 +199,12 @@ class InnerLoops:
     """
 
     def __init__(self, gains: Gains, inertia: Vector, max_moment: Vector) -> None:
-        self._gains, self._inertia, self._max = gains, inertia, max_moment
+        self._inertia = inertia
+        self._max = [share * most for share, most in zip(MOMENT_SHARES, max_moment, strict=True)]
+        accelerations = [most / J for most, J in zip(self._max, inertia, strict=True)]
+        self._rate = [min(gains.rate, a / SATURATES) for a in accelerations]
+        self._attitude = [min(gains.attitude, k / APART) for k in self._rate]
+        self._yaw_brake = BRAKING * accelerations[2]
         self.reset()
 
     def reset(self) -> None:
@@ -202,15 +215,14 @@ class InnerLoops:
     def moment(self, s: QuadrotorState, demand: Demand, dt: float) -> Vector:
         """The moment about x, y and z [N m], `dt` [s] after the last one."""
         rates = self._rates(s, demand, dt) if demand.rates is None else demand.rates
-        k, integrals, moments = self._gains.rate, list[float](), list[float]()
-        for wanted, rate, inertia, most, integral in zip(
-            rates, s.rates, self._inertia, self._max, self.rate_integral, strict=True
-        ):
-            error = k * inertia * (wanted - rate)
-            integrals.append(clip(integral + RATE_INTEGRAL * error * dt, MAX_RATE_SHARE * most))
-            moments.append(error + integrals[-1])
-        self.rate_integral = (integrals[0], integrals[1], integrals[2])
-        return moments[0], moments[1], moments[2]
+        along = zip(self._rate, self._inertia, rates, s.rates, strict=True)
+        errors = [k * J * (wanted - rate) for k, J, wanted, rate in along]
+        x, y, z = (
+            clip(integral + RATE_INTEGRAL * error * dt, MAX_RATE_SHARE * most)
+            for integral, error, most in zip(self.rate_integral, errors, self._max, strict=True)
+        )
+        self.rate_integral = (x, y, z)
+        return clip(errors[0] + x, self._max[0]), clip(errors[1] + y, self._max[1]), clip(errors[2] + z, self._max[2])
 
     def _rates(self, s: QuadrotorState, demand: Demand, dt: float) -> Vector:
         """The rates that bring an attitude about [rad/s, body]."""
@@ -218,8 +230,8 @@ class InnerLoops:
         error = (demand.roll - roll, demand.pitch - pitch, wrapped(demand.yaw - yaw))
         x, y, z = (clip(i + e * dt, MAX_ATTITUDE_INTEGRAL) for i, e in zip(self._tilt, error, strict=True))
         self._tilt = (x, y, z)
-        k = self._gains.attitude
-        a, b, c = (k * (e + ATTITUDE_INTEGRAL * i) for e, i in zip(error, self._tilt, strict=True))
+        a, b, c = (k * (e + ATTITUDE_INTEGRAL * i) for k, e, i in zip(self._attitude, error, self._tilt, strict=True))
+        c = clip(c, math.sqrt(2.0 * self._yaw_brake * abs(error[2])) + RATE_AT_YAW)  # yaw is weak: it has to stop there
         sin_roll, cos_roll, cos_pitch = math.sin(roll), math.cos(roll), math.cos(pitch)
         return (
             clip(a - math.sin(pitch) * c, MAX_COMMANDED_RATE),

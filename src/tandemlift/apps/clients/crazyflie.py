@@ -13,9 +13,9 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 from tandemlift.apps.clients.cascade import GRAVITY
-from tandemlift.apps.clients.crtp_setpoints import GENERIC, attitude_or_rates, position_of
+from tandemlift.apps.clients.crtp_setpoints import GENERIC, attitude_setpoint
 from tandemlift.apps.clients.crtp_tables import NO_ENTRY, LogService, Parameter, ParameterService
-from tandemlift.apps.clients.high_level import MEMORY, HighLevelCommander
+from tandemlift.apps.clients.high_level import MEMORY, HighLevelCommander, Plan
 from tandemlift.apps.clients.quadrotors import Quadrotors, Supervision
 from tandemlift.apps.clients.setpoints import Setpoint, Stop
 
@@ -23,6 +23,7 @@ PROTOCOL, NAME, FIRMWARE, DEVICE = 12, b"Bitcraze Crazyflie", b"tandemlift", b"C
 LONGEST = 31  # bytes of a packet: header and 30
 TRAJECTORIES = 0x12  # type of the only memory
 WATCHDOG = 1.0  # s; crazyflie-firmware, supervisor.c: DEFAULT_EMERGENCY_STOP_WATCHDOG_TIMEOUT
+PRIORITY = 2.0  # s, for which a setpoint keeps high-level commands away; commander.h: COMMANDER_WDT_TIMEOUT_SHUTDOWN
 VOLTAGE, VARIANCE = 4.1, 1e-6  # V, of a charged battery; m², of the estimate
 DEG = 180.0 / math.pi
 MALFORMED = (struct.error, IndexError, ValueError)  # of packets that are shorter than they should be, or no text
@@ -39,6 +40,7 @@ class Crazyflie:
         channels: of the flight, by name.
 
     Attributes:
+        parameters: by name.
         log: what is logged.
         refused: packets that were malformed, unknown or not allowed.
     """
@@ -51,14 +53,19 @@ class Crazyflie:
         channels: dict[str, Channel] | None = None,
     ) -> None:
         self._all, self._i = quadrotors, number
-        self._high, self._low_level, self._locked_thrust = HighLevelCommander(), False, True
+        self._high, self._low_level, self._locked_thrust = HighLevelCommander(), -math.inf, True
         self._watchdog: float | None = None
         self._external = [0.0] * 7
         self._full = 4.0 * quadrotors.vehicle.quadrotors[number].max_thrust
-        self._own = self._parameters()
-        self._parameter = ParameterService(self._own | (parameters or {}))
+        self.parameters = self._parameters() | (parameters or {})
+        self._parameter = ParameterService(self.parameters)
         self.log = LogService(self._variables() | (channels or {}))
         self.refused = 0
+
+    @property
+    def plan(self) -> Plan | None:
+        """The path of the high-level commander, if it follows one."""
+        return self._high.plan
 
     # packets
 
@@ -83,8 +90,6 @@ class Crazyflie:
                 return NAME.ljust(LONGEST - 1, b"\0")
             case 15, 3:
                 return b""  # the null packet, by which a client scans
-            case 13, 0:
-                return self._platform(data)
             case 13, 1:
                 return self._version(data)
             case 2, _:
@@ -108,29 +113,23 @@ class Crazyflie:
         """Take a setpoint, or an external position."""
         match port, channel:
             case 3, 0:
-                mode = {name: bool(self._own[f"flightmode.stabMode{name}"].value) for name in ("Roll", "Pitch", "Yaw")}
-                setpoint = attitude_or_rates(
-                    data, self._full, rates=not (mode["Roll"] or mode["Pitch"]), yaw_angle=mode["Yaw"]
-                )
                 self._locked_thrust = self._locked_thrust and data[12:14] != b"\0\0"
-                self._command(Stop() if self._locked_thrust else setpoint)
+                self._command(Stop() if self._locked_thrust else attitude_setpoint(data, self._full))
             case 7, 0 if data[0] in GENERIC:
                 self._command(GENERIC[data[0]](data[1:], self._full))
             case 7, 1 if data[0] == 0:
-                self._low_level = False
+                self._low_level = -math.inf
             case 6, 0:
-                self._external[:3] = position_of(data)
+                self._external[:3] = struct.unpack("<fff", data)
             case 6, 1 if data[0] == 8:
                 self._external[:] = struct.unpack("<7f", data[1:])
-            case 6, 1 if data[0] in (3, 4):
-                self._supervisor(bytes([data[0]]))
             case _:
                 self.refused += 1
 
     def _command(self, setpoint: Setpoint) -> None:
         """Take a setpoint of a client, before which high-level commands give way."""
         if self._all.command(self._i, setpoint):
-            self._low_level = True
+            self._low_level = self._all.now
             self._high.stop()
         else:
             self.refused += 1
@@ -148,7 +147,7 @@ class Crazyflie:
             self._all.lock(self._i)
         if not self._all.is_armed(self._i):
             self._locked_thrust = True
-        setpoint = None if self._low_level else self._high.setpoint(now)
+        setpoint = None if now - self._low_level < PRIORITY else self._high.setpoint(now)
         if setpoint is not None:
             self._all.command(self._i, setpoint)
         for data in self.log.due(now):
@@ -157,15 +156,10 @@ class Crazyflie:
     def restart(self) -> None:
         """Time begins anew."""
         self._high.stop()
-        self._watchdog, self._low_level = None, False
+        self._watchdog, self._low_level = None, -math.inf
         self.log.restart()
 
     # platform, supervisor, memory
-
-    def _platform(self, data: bytes) -> bytes | None:
-        if data[0] == 1:  # as clients before version 12 arm
-            self._supervisor(bytes([1, data[1]]))
-        return data
 
     def _version(self, data: bytes) -> bytes | None:
         answers = {0: bytes([PROTOCOL]), 1: FIRMWARE, 2: DEVICE}
@@ -201,10 +195,7 @@ class Crazyflie:
         i, quads = self._i, self._all
         match data[0]:
             case 1:
-                if data[1]:
-                    quads.arm(i)
-                else:
-                    quads.disarm(i)
+                (quads.arm if data[1] else quads.disarm)(i)
                 armed = quads.is_armed(i)
                 return bytes([0x81, armed == bool(data[1]), armed])
             case 2:
@@ -292,8 +283,6 @@ class Crazyflie:
             "ring.effect": Parameter("B", 0, persistent=True),
             "activeMarker.back": Parameter("B", 3, persistent=True),
         }
-        for name, value in (("Roll", 1), ("Pitch", 1), ("Yaw", 0)):
-            found[f"flightmode.stabMode{name}"] = Parameter("B", value)
         gains = {
             "roll": (6.0, 3.0, 0.0),
             "pitch": (6.0, 3.0, 0.0),

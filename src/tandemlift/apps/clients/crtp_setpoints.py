@@ -17,7 +17,6 @@ from tandemlift.apps.clients.setpoints import (
     RateSetpoint,
     Setpoint,
     Stop,
-    Vector,
     VelocitySetpoint,
     euler_of,
 )
@@ -27,28 +26,19 @@ RAD = math.pi / 180.0
 Decoder = Callable[[bytes, float], Setpoint]
 
 
-def attitude_or_rates(data: bytes, full: float, *, rates: bool, yaw_angle: bool) -> Setpoint:
-    """A setpoint of port 3: roll, pitch, yaw and thrust, as the parameters `flightmode` say.
-
-    Args:
-        data: of the packet.
-        full: largest thrust of the quadrotor [N].
-        rates: whether roll and pitch are rates.
-        yaw_angle: whether yaw is an angle; its rate is positive clockwise.
-    """
-    roll, pitch, yaw, thrust = struct.unpack("<fffH", data)
-    return _manual(roll, pitch, -yaw, thrust, full, rates=rates, yaw=yaw * RAD if yaw_angle else None)
+def attitude_setpoint(data: bytes, full: float) -> Setpoint:
+    """A setpoint of port 3: roll, pitch, rate of yaw (clockwise) and thrust; `full`: the largest thrust [N]."""
+    roll, pitch, rate, thrust = struct.unpack("<fffH", data)
+    return _manual(roll, pitch, -rate, thrust, full, rates=False)
 
 
-def _manual(
-    roll: float, pitch: float, yaw_rate: float, thrust: int, full: float, *, rates: bool, yaw: float | None = None
-) -> Setpoint:
+def _manual(roll: float, pitch: float, yaw_rate: float, thrust: int, full: float, *, rates: bool) -> Setpoint:
     if thrust < MIN_THRUST:
         return Stop()
     force = full * thrust / FULL_THRUST
     if rates:
         return RateSetpoint((roll * RAD, -pitch * RAD, yaw_rate * RAD), force)
-    return AttitudeSetpoint(roll * RAD, -pitch * RAD, force, yaw, yaw_rate * RAD)
+    return AttitudeSetpoint(roll * RAD, -pitch * RAD, force, yaw_rate=yaw_rate * RAD)
 
 
 def _velocity(data: bytes, _: float) -> Setpoint:
@@ -64,18 +54,6 @@ def _z_distance(data: bytes, _: float) -> Setpoint:
 def _hover(data: bytes, _: float) -> Setpoint:
     x, y, rate, height = struct.unpack("<ffff", data)
     return VelocitySetpoint((x, y, 0.0), yaw_rate=rate * RAD, height=height, heading=True)
-
-
-def _clockwise(decode: Decoder) -> Decoder:
-    """The decoder of a legacy type, whose yaw rate is positive clockwise."""
-    return lambda data, full: decode(
-        data[:8] + struct.pack("<f", -struct.unpack_from("<f", data, 8)[0]) + data[12:], full
-    )
-
-
-def _clockwise_velocity(data: bytes, full: float) -> Setpoint:
-    *_, rate = struct.unpack("<ffff", data)
-    return _velocity(data[:12] + struct.pack("<f", -rate), full)
 
 
 def _full_state(data: bytes, _: float) -> Setpoint:
@@ -95,11 +73,8 @@ def _manual_type(data: bytes, full: float) -> Setpoint:
     return _manual(roll, pitch, rate, thrust, full, rates=bool(rates))
 
 
-GENERIC: dict[int, Decoder] = {  # by the type of port 7, channel 0
+GENERIC: dict[int, Decoder] = {  # by the type of port 7, channel 0; types 1 to 5 are of older clients
     0: lambda data, _: Stop(),
-    1: _clockwise_velocity,
-    2: _clockwise(_z_distance),
-    5: _clockwise(_hover),
     6: _full_state,
     7: _position,
     8: _velocity,
@@ -123,9 +98,3 @@ def unpacked_quaternion(packed: int) -> tuple[float, float, float, float]:
     found[largest] = math.sqrt(max(1.0 - square, 0.0))
     x, y, z, w = found
     return w, x, y, z
-
-
-def position_of(data: bytes) -> Vector:
-    """An external position [m]: port 6, channel 0."""
-    x, y, z = struct.unpack("<fff", data)
-    return x, y, z

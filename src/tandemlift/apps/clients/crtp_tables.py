@@ -75,7 +75,7 @@ class Block:
 
     variables: list[tuple[int, str]] = field(default_factory=list)
     period: float = 0.0
-    due: float = 0.0
+    due: float = -math.inf
 
 
 class LogService:
@@ -129,7 +129,7 @@ class LogService:
     def _start(self, number: int, data: bytes) -> int:
         if number not in self.blocks or not data[0]:
             return NO_ENTRY
-        self.blocks[number].period, self.blocks[number].due = data[0] * 0.01, 0.0
+        self.blocks[number].period, self.blocks[number].due = data[0] * 0.01, -math.inf
         return 0
 
     def _stop(self, number: int, _: bytes) -> int:
@@ -142,14 +142,16 @@ class LogService:
         """The packets that are due at a time [s]."""
         for number, block in self.blocks.items():
             if block.period and now >= block.due - 1e-6:
-                block.due = max(block.due + block.period, now)
+                block.due += block.period
+                if block.due < now:  # it has just begun
+                    block.due = now + block.period
                 values = b"".join(packed(letter, self.table.entries[entry][2]()) for entry, letter in block.variables)
                 yield struct.pack("<I", number | (round(now * 1000.0) & 0xFFFFFF) << 8) + values
 
     def restart(self) -> None:
         """Time begins anew."""
         for block in self.blocks.values():
-            block.due = 0.0
+            block.due = -math.inf
 
 
 @dataclass
@@ -221,8 +223,6 @@ class ParameterService:
             return head + bytes([NO_ENTRY])
         one = self.table.entries[number][2]
         match data[0]:
-            case 2:
-                return head + bytes([PERSISTENT * one.persistent])
             case 3 | 4 | 5 if not one.persistent:
                 return head + bytes([NO_ENTRY])
             case 3:
@@ -236,8 +236,6 @@ class ParameterService:
             case 5:
                 one.stored = None
                 return head + b"\0"
-            case 6:
-                return head + packed(one.letter, one.default)
             case 7:
                 return head + bytes([0, PERSISTENT * one.persistent])
             case 8:

@@ -2,7 +2,7 @@
 
 Take-off, landing and go-to are polynomials of the 7th degree that begin with the position, velocity and acceleration of
 now, end at rest, and have no jerk at either end; trajectories are uploaded polynomials (crazyflie-firmware, planner.c,
-pptraj.c).
+pptraj.c). Refused: straight paths, spirals, trajectories that are compressed or backwards.
 """
 
 from __future__ import annotations
@@ -58,14 +58,6 @@ def piece_between(start: Moment, end: Sequence[float], duration: float) -> Piece
         row[:3] = p, v, a / 2.0
         row[4:] = END @ (goal - p - v - a / 2.0, -v - a, -a, 0.0)
         row *= scale
-    return Piece(found, duration)
-
-
-def straight(start: Moment, end: Sequence[float], duration: float) -> Piece:
-    """The path at a constant velocity."""
-    found = np.zeros((4, 8))
-    found[:, 0] = start.place
-    found[:, 1] = (np.array(end) - start.place) / duration
     return Piece(found, duration)
 
 
@@ -149,15 +141,13 @@ class HighLevelCommander:
         if kind in (7, 8):
             height, wanted, keeps, duration = struct.unpack("<ff?f", data)
             return self._go(start, (x, y, height, yaw if keeps else wanted), duration, now, lands=kind == 8)
-        if kind in (4, 12):
-            relative, linear = data[0], data[1] if kind == 12 else 0
-            dx, dy, dz, turn, duration = struct.unpack("<fffff", data[1 if kind == 4 else 2 :])
-            goal = (x + dx, y + dy, z + dz, yaw + turn) if relative else (dx, dy, dz, turn)
-            return self._go(start, goal, duration, now, linear=bool(linear))
-        if kind in (5, 13):
-            flags, (number, scale) = data[: 2 if kind == 5 else 3], struct.unpack("<Bf", data[2 if kind == 5 else 3 :])
-            turned = bool(flags[1]) if kind == 13 else False
-            return self._follow(number, scale, start, now, moved=bool(flags[0]), turned=turned, back=bool(flags[-1]))
+        if kind == 12 and not data[1]:
+            dx, dy, dz, turn, duration = struct.unpack("<fffff", data[2:])
+            goal = (x + dx, y + dy, z + dz, yaw + turn) if data[0] else (dx, dy, dz, turn)
+            return self._go(start, goal, duration, now)
+        if kind == 13 and not data[2]:
+            moved, turned, _, number, scale = struct.unpack("<???Bf", data)
+            return self._follow(number, scale, start, now, moved=moved, turned=turned)
         return NO_COMMAND
 
     def _start(self, state: QuadrotorState) -> Moment:
@@ -166,35 +156,22 @@ class HighLevelCommander:
             return self.plan.at(state.time)
         return Moment((*state.position, state.euler[2]), (*state.velocity, 0.0), (0.0,) * 4)
 
-    def _go(
-        self,
-        start: Moment,
-        goal: Sequence[float],
-        duration: float,
-        now: float,
-        *,
-        lands: bool = False,
-        linear: bool = False,
-    ) -> int:
+    def _go(self, start: Moment, goal: Sequence[float], duration: float, now: float, *, lands: bool = False) -> int:
         if not all(map(math.isfinite, (*goal, duration))) or not SHORTEST <= duration <= LONGEST:
             return NO_COMMAND
         turn = math.remainder(goal[3] - start.place[3], 2.0 * math.pi)
         goal = (*goal[:3], start.place[3] + turn)
-        self.plan = Plan(((straight if linear else piece_between)(start, goal, duration),), now, lands)
+        self.plan = Plan((piece_between(start, goal, duration),), now, lands)
         return 0
 
-    def _follow(
-        self, number: int, scale: float, start: Moment, now: float, *, moved: bool, turned: bool, back: bool
-    ) -> int:
-        """Follow an uploaded trajectory: moved to where it begins, turned to the yaw there, or backwards."""
+    def _follow(self, number: int, scale: float, start: Moment, now: float, *, moved: bool, turned: bool) -> int:
+        """Follow an uploaded trajectory; moved to where it begins, and turned to the yaw there, if so asked."""
         if number not in self._defined:
             return NO_ENTRY
         offset, count = self._defined[number]
         pieces = [_read(bytes(self.memory[offset + i * PIECE.size :][: PIECE.size]), scale) for i in range(count)]
         if not all(SHORTEST <= p.duration <= LONGEST and np.isfinite(p.coefficients).all() for p in pieces):
             return NO_COMMAND
-        if back:
-            pieces = [_reversed(piece) for piece in pieces[::-1]]
         first = pieces[0].at(0.0).place
         turn = start.place[3] - first[3] if turned else 0.0
         for piece in pieces:
@@ -216,12 +193,3 @@ def _read(data: bytes, scale: float) -> Piece:
     if not (math.isfinite(scale) and scale > 0.0):
         return Piece(np.zeros((4, 8)), math.nan)
     return Piece(np.reshape(numbers, (4, 8)) * scale ** -np.arange(8.0), duration * scale)
-
-
-def _reversed(piece: Piece) -> Piece:
-    """A piece, backwards: p(T − t)."""
-    found = np.zeros((4, 8))
-    for n in range(8):
-        for k in range(n + 1):
-            found[:, k] += piece.coefficients[:, n] * math.comb(n, k) * piece.duration ** (n - k) * (-1.0) ** k
-    return Piece(found, piece.duration)
