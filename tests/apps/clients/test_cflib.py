@@ -6,7 +6,6 @@ import re
 import struct
 import subprocess
 import sys
-import time
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -133,7 +132,6 @@ def test_an_example_of_cflib_0_1_34_runs_unmodified(example, crazyflies, folder,
         assert min(seen) > 0.0  # it never fell
         last = [line.split() for line in run(look, crazyflies[0], folder).splitlines()]
         assert float(last[-1][1]) == pytest.approx(0.0306, abs=0.01)  # it has landed
-    time.sleep(2.1)  # another client takes over once this one is silent
 
 
 def test_logs_have_our_channels_under_the_client_s_types(crazyflies, folder, look):
@@ -169,7 +167,7 @@ def test_every_entry_of_the_log_table_is_read_by_the_client_s_parser(device):
 
     found = [LogTocElement(number, data) for number, data in entries(device, 5)]
     names = [f"{one.group}.{one.name}" for one in found]
-    assert len(set(names)) == len(names) > 50
+    assert len(set(names)) == len(names) > 40
     assert {"stabilizer.roll", "kalman.varPX", "supervisor.info", "pm.vbat"} <= set(names)
     assert {one.ctype for one in found} <= {"float", "uint16_t", "uint8_t", "int8_t"}
 

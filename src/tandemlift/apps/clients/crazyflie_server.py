@@ -1,6 +1,6 @@
 """The Crazyflies of a vehicle over UDP, a port each from 19850 on: one datagram is one CRTP packet.
 
-One client at a time flies a Crazyflie; another one is answered when it scans, and takes over once the first is silent.
+One client at a time flies a Crazyflie. Another one finds it by scanning, and is let in once the first is silent.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from tandemlift.apps.clients.quadrotors import Quadrotors
 from tandemlift.apps.live.session.page_messages import SetMessage
 
 PORT = 19850  # cflib, crtp/udpdriver.py: scans ten ports from here
-SILENT = 2.0  # s without a packet, after which another client may take over; cflib sends ten a second
+SILENT = 1.0  # s without a packet, after which another client may take over; cflib sends ten a second
 NULL = 0xFF  # header of the null packet
 WAIT = 0.2  # s, between looks at whether to stop
 Address = tuple[str, int]
@@ -33,6 +33,7 @@ class Endpoint:
     def __init__(self, device: Crazyflie, listening: socket.socket) -> None:
         self.device, self.socket, self.lock = device, listening, threading.RLock()
         self._client: Address | None = None
+        self._waiting: tuple[bytes, Address] | None = None
         self._heard = 0.0
 
     def receive(self) -> None:
@@ -41,16 +42,28 @@ class Endpoint:
             packet, address = self.socket.recvfrom(2048)
         except OSError:  # some systems tell here that an earlier answer was not taken
             return
-        scans = len(packet) == 1 and packet[0] == NULL
-        now = time.monotonic()
+        if len(packet) == 1 and packet[0] == NULL:  # it scans
+            self._send(packet, address)
+        elif address == self._client or self._client is None or self._is_silent():
+            self._take(packet, address)
+        else:
+            self._waiting = packet, address
+
+    def take_waiting(self) -> None:
+        """Let a client in that waits, once the other one is silent: cflib asks only once."""
+        if self._waiting and self._is_silent():
+            self._take(*self._waiting)
+
+    def _is_silent(self) -> bool:
+        return time.monotonic() - self._heard > SILENT
+
+    def _take(self, packet: bytes, address: Address) -> None:
+        """Answer a packet of the client that flies from now on."""
         with self.lock:
-            if not scans:
-                if address != self._client:
-                    if self._client is not None and now - self._heard < SILENT:
-                        return
-                    self._client = address
-                    self.device.log.blocks.clear()
-                self._heard = now
+            if address != self._client:
+                self._client, self._waiting = address, None
+                self.device.log.blocks.clear()
+            self._heard = time.monotonic()
             for answer in self.device.receive(packet):
                 self._send(answer, address)
 
@@ -58,7 +71,7 @@ class Endpoint:
         """Go on to a time of the flight [s]."""
         with self.lock:
             for packet in self.device.tick(flight_time):
-                if self._client is not None and time.monotonic() - self._heard < SILENT:
+                if self._client is not None and not self._is_silent():
                     self._send(packet, self._client)
 
     def _send(self, packet: bytes, address: Address) -> None:
@@ -133,6 +146,8 @@ class CrazyflieServer:
             while not self._stopping.is_set():
                 for key, _ in selector.select(WAIT):
                     key.data.receive()
+                for one in self._endpoints:
+                    one.take_waiting()
 
     def _tick(self, now: float) -> None:
         """Go on to a time of the flight [s]; an earlier one than before begins a new flight."""

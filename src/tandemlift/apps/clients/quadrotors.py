@@ -26,6 +26,7 @@ from tandemlift.apps.clients.setpoints import (
     Vector,
     VelocitySetpoint,
     is_finite,
+    mean_attitude,
     plus,
 )
 
@@ -288,7 +289,7 @@ class Quadrotors:
             self._inner[0].reset()
             return
         self._agree(flown)
-        body, share = self._states[flown[0]], self.count / len(flown)
+        body, share = mean_attitude([self._states[i] for i in flown]), self.count / len(flown)
         moment = self._inner[0].moment(body, self._together(flown, demands), self._dt)
         turning = tuple(self.supervision[i] is not Supervision.LOCKED for i in range(self.count))
         wrench = (share * sum(d.thrust for d in demands), *moment)

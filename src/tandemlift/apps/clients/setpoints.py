@@ -7,6 +7,7 @@ Ry(pitch) Rx(roll), so a positive pitch lowers the nose. Protocols with other si
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 Vector = tuple[float, float, float]
@@ -129,6 +130,14 @@ def euler_of(q: Quaternion) -> Vector:
     roll = math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
     pitch = math.asin(max(-1.0, min(1.0, 2.0 * (w * y - z * x))))
     return roll, pitch, math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+
+def mean_attitude(states: Sequence[QuadrotorState]) -> QuadrotorState:
+    """The first of some states that differ little, with the mean of all quaternions and rates."""
+    w, x, y, z = (sum(along) for along in zip(*(s.quaternion for s in states), strict=True))
+    p, q, r = (sum(along) / len(states) for along in zip(*(s.rates for s in states), strict=True))
+    size = math.hypot(w, x, y, z)
+    return states[0]._replace(quaternion=(w / size, x / size, y / size, z / size), rates=(p, q, r))
 
 
 def is_finite(setpoint: Setpoint) -> bool:
