@@ -15,7 +15,13 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from tandemlift import InputError, Vehicle
-from tandemlift.apps.clients.cascade import GRAVITY, Demand, InnerLoops, OuterLoops, gains_for
+from tandemlift.apps.clients.cascade import GRAVITY, Demand, Gains, InnerLoops, OuterLoops, gains_for
+from tandemlift.apps.clients.one_body import (
+    rotation,
+    tilt,
+    together,
+    vector,
+)
 from tandemlift.apps.clients.setpoints import (
     AttitudeSetpoint,
     EstimateError,
@@ -23,11 +29,9 @@ from tandemlift.apps.clients.setpoints import (
     RateSetpoint,
     Setpoint,
     Stop,
-    Vector,
     VelocitySetpoint,
     is_finite,
     mean_attitude,
-    plus,
 )
 
 Control = Literal["own", "shared"]
@@ -61,6 +65,37 @@ class Supervision(Enum):
     ARMED = "armed"
     WARNING = "levels out, as no setpoint comes"
     LOCKED = "locked until the flight is reset"
+
+
+class Group:
+    """Quadrotors that share inner loops and an allocation: all of a vehicle, or one.
+
+    Attributes:
+        members: their numbers.
+        inner: their loops of attitude and rates.
+        rotors: the place of their rotors among all.
+    """
+
+    def __init__(self, vehicle: Vehicle, gains: Gains, members: range, most: float) -> None:
+        self.members, self.rotors = members, slice(4 * members.start, 4 * members.stop)
+        self._effect = vehicle.effect[:, self.rotors].copy()
+        if len(members) == 1:  # moments about its own centre, where its own sensors are
+            x, y, _ = vehicle.lever_arms[members.start]
+            self._effect[1:3] += [[-y], [x]]
+        inertia = vehicle.inertia.diagonal() * len(members) / vehicle.count
+        self.inner = InnerLoops(gains, vector(inertia), vector(np.abs(self._effect[1:]).sum(axis=1) * (0.5 * most)))
+        self._inverses = dict[tuple[bool, ...], np.ndarray]()
+
+    def thrusts(self, wrench: Sequence[float], turning: tuple[bool, ...], most: np.ndarray) -> np.ndarray:
+        """Thrusts of least squares that give a wrench, within their limits, if quadrotors may turn their rotors or not.
+
+        Moments come before lift, as in crazyflie-firmware, power_distribution.
+        """
+        if turning not in self._inverses:
+            self._inverses[turning] = np.linalg.pinv(self._effect * np.repeat(turning, 4))
+        thrusts, most = self._inverses[turning] @ wrench, most * np.repeat(turning, 4)
+        over = max(float(np.max(thrusts - most, initial=0.0, where=most > 0.0)), 0.0)
+        return np.clip(thrusts - over, 0.0, most)
 
 
 class Quadrotors:
@@ -98,19 +133,13 @@ class Quadrotors:
         gains = gains_for(lag + self._dt)
         each, self._arms = [q.max_thrust for q in vehicle.quadrotors], vehicle.lever_arms.tolist()
         self._outer = [OuterLoops(gains, vehicle.mass / vehicle.count, 4.0 * most) for most in each]
-        inertia, effect = vehicle.inertia.diagonal(), vehicle.effect
-        if control == "shared":
-            self._inner = [InnerLoops(gains, _vector(inertia), _largest(effect, max(each)))]
-            self._allocations = list[np.ndarray]()
-        else:
-            mixers = [_about_its_centre(effect[:, 4 * i : 4 * i + 4], arm) for i, arm in enumerate(self._arms)]
-            self._inner = [
-                InnerLoops(gains, _vector(inertia / self.count), _largest(mixer, most))
-                for mixer, most in zip(mixers, each, strict=True)
-            ]
-            self._allocations = [np.linalg.inv(mixer) for mixer in mixers]
+        everyone = range(self.count)
+        self._groups = [
+            Group(vehicle, gains, members, max(each))
+            for members in ([everyone] if control == "shared" else [range(i, i + 1) for i in everyone])
+        ]
         self.ticks = list[Callable[[float], None]]()
-        self._max, self._by_turning = np.repeat(each, 4), dict[tuple[bool, ...], np.ndarray]()
+        self._max = np.repeat(each, 4)
         self._begin()
 
     def _begin(self) -> None:
@@ -122,13 +151,10 @@ class Quadrotors:
         self._levels: list[Setpoint] = [Stop()] * self.count
         self._states: list[QuadrotorState] = []
         self._thrusts, self._k, self._now = np.zeros(4 * self.count), 0, 0.0
-        self._reset_loops()
-
-    def _reset_loops(self) -> None:
         for outer in self._outer:
             outer.reset()
-        for inner in self._inner:
-            inner.reset()
+        for group in self._groups:
+            group.inner.reset()
 
     # what clients do
 
@@ -180,7 +206,7 @@ class Quadrotors:
 
     def is_tumbled(self, i: int) -> bool:
         """Whether quadrotor `i` is tilted by more than a right angle."""
-        return bool(self._states) and _tilt(self._states[i]) > TUMBLED
+        return bool(self._states) and tilt(self._states[i].quaternion) > TUMBLED
 
     # what the flight does
 
@@ -204,41 +230,37 @@ class Quadrotors:
         return self._thrusts
 
     def _states_at(self, time: float, numbers: Iterable[float]) -> list[QuadrotorState]:
-        x, y, z, vx, vy, vz, w, i, j, k, p, q, r = map(float, numbers)
-        R = (
-            (1.0 - 2.0 * (j * j + k * k), 2.0 * (i * j - w * k), 2.0 * (i * k + w * j)),
-            (2.0 * (i * j + w * k), 1.0 - 2.0 * (i * i + k * k), 2.0 * (j * k - w * i)),
-            (2.0 * (i * k - w * j), 2.0 * (j * k + w * i), 1.0 - 2.0 * (i * i + j * j)),
-        )
-        found = []
-        for n, (a, b, c) in enumerate(self._arms):
-            arm, swing = (a, b, c), (q * c - r * b, r * a - p * c, p * b - q * a)  # ω × arm, body
-            velocity = plus((vx, vy, vz), _apply(R, swing))
-            before = self._states[n].velocity if self._states else velocity
-            ax, ay, az = ((now - then) / self._dt for now, then in zip(velocity, before, strict=True))
-            force = _apply(tuple(zip(*R, strict=True)), (ax, ay, az + GRAVITY))
-            thrusts = tuple(self._thrusts[4 * n : 4 * n + 4].tolist())
-            place = plus((x, y, z), _apply(R, arm))
-            state = QuadrotorState(time, place, velocity, (w, i, j, k), (p, q, r), force, thrusts)
-            found.append(self._errors[n].of(state))
-        return found
+        position, velocity, attitude, rates = np.split(np.fromiter(numbers, float, 13), (3, 6, 10))
+        R, arms = rotation(attitude), self.vehicle.lever_arms
+        places, velocities = position + arms @ R.T, velocity + np.cross(rates, arms) @ R.T
+        before = [s.velocity for s in self._states] or velocities
+        forces = ((velocities - before) / self._dt + (0.0, 0.0, GRAVITY)) @ R
+        thrusts = np.split(self._thrusts, self.count)
+        rows = zip(places, velocities, forces, thrusts, self._errors, strict=True)
+        q, w = tuple(attitude.tolist()), vector(rates)
+        return [
+            error.of(QuadrotorState(time, vector(p), vector(v), q, w, vector(f), tuple(u.tolist())))
+            for p, v, f, u, error in rows
+        ]
 
     def _supervise(self, now: float) -> None:
         """Find the setpoint of each quadrotor that is flown now, and lock those that must not fly on."""
         self._flown = [None] * self.count
-        last = [0.0 if at is None else at[1] for at in self._setpoints]
-        for i, commanded in enumerate(self._setpoints):
-            if self.is_armed(i) and self.is_tumbled(i):
-                self.lock(i)
-            if not self.is_armed(i) or commanded is None or isinstance(commanded[0], Stop):
-                continue
-            age = now - (max(last) if self.control == "shared" else last[i])
-            if age <= self._fail_safe.level:
-                self.supervision[i] = Supervision.ARMED
-                if now - last[i] <= self._fail_safe.level:  # else it is carried, by what the others are commanded
-                    self._flown[i] = commanded[0]
-            elif self.is_flying(i):
-                self._flown[i] = self._without_setpoint(i, commanded[0], age)
+        for group in self._groups:
+            last = {i: at for i in group.members if (commanded := self._setpoints[i]) for at in [commanded[1]]}
+            for i in group.members:
+                if self.is_armed(i) and self.is_tumbled(i):
+                    self.lock(i)
+                commanded = self._setpoints[i]
+                if not self.is_armed(i) or commanded is None or isinstance(commanded[0], Stop):
+                    continue
+                age = now - max(last.values())
+                if age <= self._fail_safe.level:
+                    self.supervision[i] = Supervision.ARMED
+                    if now - last[i] <= self._fail_safe.level:  # else it is carried, by what the others are commanded
+                        self._flown[i] = commanded[0]
+                elif self.is_flying(i):
+                    self._flown[i] = self._without_setpoint(i, commanded[0], age)
 
     def _without_setpoint(self, i: int, last: Setpoint, age: float) -> Setpoint | None:
         """What quadrotor `i` does as no setpoint has come after the `last` one, for a time [s]."""
@@ -270,103 +292,23 @@ class Quadrotors:
             elif outer or self._demands[i] is None:
                 self._demands[i] = self._outer[i].demand(self._states[i], setpoint, OUTER_EVERY)
         self._thrusts = np.zeros(4 * self.count)
-        if self.control == "shared":
-            self._share()
-            return
-        for i, demand in enumerate(self._demands):
-            if demand is None:
-                self._inner[i].reset()
+        for group in self._groups:
+            flown = [(i, demand) for i in group.members if (demand := self._demands[i])]
+            if not flown:
+                group.inner.reset()
                 continue
-            moment = self._inner[i].moment(self._states[i], demand, self._dt)
-            rotors = slice(4 * i, 4 * i + 4)
-            self._thrusts[rotors] = _within(self._allocations[i] @ (demand.thrust, *moment), self._max[rotors])
+            numbers, demands = zip(*flown, strict=True)
+            self._agree(numbers)
+            demand = together(demands, [self._arms[i] for i in numbers])
+            moment = group.inner.moment(mean_attitude([self._states[i] for i in numbers]), demand, self._dt)
+            wrench = (demand.thrust * len(group.members) / len(flown), *moment)
+            turning = tuple(self.supervision[i] is not Supervision.LOCKED for i in group.members)
+            self._thrusts[group.rotors] = group.thrusts(wrench, turning, self._max[group.rotors])
 
-    def _share(self) -> None:
-        """One body: thrusts add up, attitudes are averaged, and all rotors that may turn produce the wrench."""
-        flown = [i for i, demand in enumerate(self._demands) if demand is not None]
-        demands = [demand for demand in self._demands if demand is not None]
-        if not demands:
-            self._inner[0].reset()
-            return
-        self._agree(flown)
-        body, share = mean_attitude([self._states[i] for i in flown]), self.count / len(flown)
-        moment = self._inner[0].moment(body, self._together(flown, demands), self._dt)
-        turning = tuple(self.supervision[i] is not Supervision.LOCKED for i in range(self.count))
-        wrench = (share * sum(d.thrust for d in demands), *moment)
-        self._thrusts = _within(self._allocation(turning) @ wrench, self._max * np.repeat(turning, 4))
-
-    def _agree(self, flown: list[int]) -> None:
-        """Let the integrators of the quadrotors agree: on one body they cannot be satisfied apart."""
+    def _agree(self, flown: Sequence[int]) -> None:
+        """Let the integrators of quadrotors with shared loops agree: on one body they cannot be satisfied apart."""
         integrals = [self._outer[i].integral for i in flown]
         mean, part = [sum(along) / len(flown) for along in zip(*integrals, strict=True)], self._dt / AGREEMENT
         for i, own in zip(flown, integrals, strict=True):
             x, y, z = (a + part * (m - a) for a, m in zip(own, mean, strict=True))
             self._outer[i].integral = (x, y, z)
-
-    def _together(self, flown: list[int], demands: list[Demand]) -> Demand:
-        """The demand on the body: rates only if all ask for rates, else the mean attitude."""
-        count = len(demands)
-        rates = [d.rates for d in demands if d.rates is not None]
-        if len(rates) == count:
-            x, y, z = (sum(along) / count for along in zip(*rates, strict=True))
-            return Demand(0.0, rates=(x, y, z))
-        level = [d for d in demands if d.rates is None]
-        roll, pitch = sum(d.roll for d in level) / len(level), sum(d.pitch for d in level) / len(level)
-        yaw = math.atan2(sum(math.sin(d.yaw) for d in level), sum(math.cos(d.yaw) for d in level))
-        targets = [(i, d.target) for i, d in zip(flown, demands, strict=True) if d.target is not None]
-        if len(targets) > 1:
-            yaw = self._yaw_through(targets)
-        return Demand(0.0, roll, pitch, yaw)
-
-    def _yaw_through(self, targets: list[tuple[int, Vector]]) -> float:
-        """The yaw with which the quadrotors are nearest to their targets, in the plane (least squares)."""
-        centre = [sum(target[axis] for _, target in targets) / len(targets) for axis in (0, 1)]
-        middle = [sum(self._arms[i][axis] for i, _ in targets) / len(targets) for axis in (0, 1)]
-        sine = cosine = 0.0
-        for i, target in targets:
-            x, y = target[0] - centre[0], target[1] - centre[1]
-            a, b = self._arms[i][0] - middle[0], self._arms[i][1] - middle[1]
-            sine, cosine = sine + a * y - b * x, cosine + a * x + b * y
-        return math.atan2(sine, cosine)
-
-    def _allocation(self, turning: tuple[bool, ...]) -> np.ndarray:
-        """The thrusts (4N × 4) of least squares that give a wrench, without the rotors that must stand."""
-        if turning not in self._by_turning:
-            self._by_turning[turning] = np.linalg.pinv(self.vehicle.effect * np.repeat(turning, 4))
-        return self._by_turning[turning]
-
-
-def _apply(rows: tuple[Vector, ...], v: Vector) -> Vector:
-    """A matrix, by its rows, times a vector."""
-    x, y, z = (row[0] * v[0] + row[1] * v[1] + row[2] * v[2] for row in rows)
-    return x, y, z
-
-
-def _vector(values: np.ndarray) -> Vector:
-    x, y, z = map(float, values)
-    return x, y, z
-
-
-def _largest(effect: np.ndarray, thrust: float) -> Vector:
-    """The largest moments of rotors with that thrust each [N m]; `effect` (4 × n): thrust and moments of each."""
-    return _vector(np.abs(effect[1:]).sum(axis=1) * (0.5 * thrust))
-
-
-def _about_its_centre(effect: np.ndarray, arm: Sequence[float]) -> np.ndarray:
-    """Thrust and moments (4 × 4) of a quadrotor's rotors about its own centre, from those about the body's."""
-    own = effect.copy()
-    own[1] -= arm[1]
-    own[2] += arm[0]
-    return own
-
-
-def _within(thrusts: np.ndarray, most: np.ndarray) -> np.ndarray:
-    """Thrusts within their limits, where moments come before lift, as in crazyflie-firmware, power_distribution."""
-    over = max(float(np.max(thrusts - most, initial=0.0, where=most > 0.0)), 0.0)
-    return np.clip(thrusts - over, 0.0, most)
-
-
-def _tilt(state: QuadrotorState) -> float:
-    """The angle of a quadrotor's thrust to the vertical [rad]."""
-    _, x, y, _ = state.quaternion
-    return math.acos(max(-1.0, 1.0 - 2.0 * (x * x + y * y)))
