@@ -101,10 +101,10 @@ def own_moments(vehicle: tl.Vehicle) -> np.ndarray:
 
 def rows(flights: list[Hover]) -> Iterator[str]:
     """A table in Markdown."""
-    yield "| loops | farthest, after 20 s | against each other, at the end | thrusts at a limit | end |"
+    yield "| loops | farthest, after 20 s | against each other, at most | thrusts at a limit | end |"
     yield "|---|---|---|---|---|"
     for one in flights:
-        moment = 1000.0 * float(np.mean(one.against[-50:]))
+        moment = 1000.0 * float(one.against.max())
         limited = 100.0 * float(np.mean(one.limited))
         yield f"| {one.control} | {100.0 * one.worst:.1f} cm | {moment:.2f} mN m | {limited:.0f} % | {one.ending} |"
 
@@ -126,7 +126,8 @@ def draw(flights: list[Hover], path: Path) -> None:
     axes[0].set_ylabel("from the setpoint (cm)")
     axes[1].set_ylabel("moment against each other (mN m)")
     axes[1].set_xlabel("time (s)")
-    axes[0].legend(frameon=False)
+    axes[0].legend(frameon=False, loc="center right")
+    axes[0].set_xlim(0.0, min(120.0, flights[0].times[-1]))
     for axis in axes:
         axis.grid(alpha=0.3)
     figure.savefig(path, dpi=130)

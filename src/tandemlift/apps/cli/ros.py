@@ -1,14 +1,10 @@
-"""Flights for robots' software: `tandemlift ros`, in real time as a node, and `gazebo`, with its window and cameras.
-
-And for the clients of real quadrotors: `crazyflie`.
-"""
+"""Flights for robots' software: `tandemlift ros`, a node in real time, `gazebo`, and `crazyflie`, for its clients."""
 
 from __future__ import annotations
 
 import sys
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
@@ -37,9 +33,6 @@ from tandemlift.apps.cli.live import (
 from tandemlift.apps.cli.run import write_results
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
-
-if TYPE_CHECKING:
-    from tandemlift.apps.clients.quadrotors import Control
 
 
 @click.command()
@@ -194,52 +187,35 @@ def gazebo(
 @click.command()
 @click.argument("mission", default="crazyflie-stick", shell_complete=MISSIONS)
 @click.option("--udp-port", type=int, default=19850, show_default=True, help="UDP port of the first Crazyflie.")
-@click.option("--host", default="127.0.0.1", show_default=True, help="Address on which the Crazyflies listen.")
-@click.option(
-    "--control",
-    type=click.Choice(["shared", "own"]),
-    default="shared",
-    show_default=True,
-    help="Rate loops and allocation: shared by all quadrotors, or of each quadrotor, whose integrators then fight.",
-)
+@click.option("--own-loops", is_flag=True, help="Each quadrotor has its own rate loops, whose integrators fight.")
 @engine_option
 @port_option
 @no_browser_option
 @set_option
 def crazyflie(
-    mission: str,
-    udp_port: int,
-    host: str,
-    control: Control,
-    engine: str,
-    port: int,
-    no_browser: bool,
-    settings: tuple[str, ...],
+    mission: str, udp_port: int, own_loops: bool, engine: str, port: int, no_browser: bool, settings: tuple[str, ...]
 ) -> None:
-    """Fly MISSION in real time with a Crazyflie in place of each quadrotor, for the clients of real ones.
+    """Fly MISSION in real time, each quadrotor as a Crazyflie.
 
-    Bitcraze's cflib finds them by scanning, or as udp://127.0.0.1:19850, :19851 and so on, and flies them by its own
-    scripts, unchanged. The live page shows the same flight, and pushes it. The mission's own pushes, person and pilot
-    are omitted. docs/how-to/fly-with-crazyflie-clients.md lists what is simulated. Ctrl-C ends the flight.
+    Bitcraze's cflib finds them by scanning, or as udp://127.0.0.1:19850, :19851 and so on; scripts for real ones fly
+    them unchanged. The live page shows the same flight, and pushes it. The mission's own pushes, person and pilot are
+    omitted. docs/how-to/fly-with-crazyflie-clients.md lists what is simulated. Ctrl-C ends the flight.
 
     \b
     Examples:
       tandemlift crazyflie
       tandemlift crazyflie crazyflie-stick --set wind.velocity=[1,0,0]
-      CFLIB_URI=udp://127.0.0.1:19850 python motion_commander_demo.py
     """
     check_live_installed()
     from tandemlift.apps.clients.crazyflie_server import CrazyflieServer
     from tandemlift.apps.clients.flight import PILOT_ASIDE, RealTimeFlight, quadrotors_of
     from tandemlift.apps.live.page_files import page_files
     from tandemlift.apps.live.server import PageServer
-    from tandemlift.engines.registry import engine_named
 
-    engine_named(engine)
     flown = load(mission, (*PILOT_ASIDE, *settings))
-    quadrotors = quadrotors_of(flown, control)
+    quadrotors = quadrotors_of(flown, "own" if own_loops else "shared")
     flight = RealTimeFlight(flown, quadrotors, engine, OUT)
-    with CrazyflieServer(quadrotors, flight, host, udp_port) as server:
+    with CrazyflieServer(quadrotors, flight, port=udp_port) as server:
         echo(f"Crazyflies: {', '.join(server.addresses)}")
         page = PageServer(page_files(), flight.session, port=port)
         serve_until_interrupt(page, f"{mission}, flown by clients", browser=not no_browser)

@@ -15,8 +15,9 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from tandemlift import InputError, Vehicle
-from tandemlift.apps.clients.cascade import GRAVITY, Demand, Gains, InnerLoops, OuterLoops, gains_for
+from tandemlift.apps.clients.cascade import GRAVITY, Demand, OuterLoops, gains_for
 from tandemlift.apps.clients.one_body import (
+    Group,
     rotation,
     tilt,
     together,
@@ -65,37 +66,6 @@ class Supervision(Enum):
     ARMED = "armed"
     WARNING = "levels out, as no setpoint comes"
     LOCKED = "locked until the flight is reset"
-
-
-class Group:
-    """Quadrotors that share inner loops and an allocation: all of a vehicle, or one.
-
-    Attributes:
-        members: their numbers.
-        inner: their loops of attitude and rates.
-        rotors: the place of their rotors among all.
-    """
-
-    def __init__(self, vehicle: Vehicle, gains: Gains, members: range, most: float) -> None:
-        self.members, self.rotors = members, slice(4 * members.start, 4 * members.stop)
-        self._effect = vehicle.effect[:, self.rotors].copy()
-        if len(members) == 1:  # moments about its own centre, where its own sensors are
-            x, y, _ = vehicle.lever_arms[members.start]
-            self._effect[1:3] += [[-y], [x]]
-        inertia = vehicle.inertia.diagonal() * len(members) / vehicle.count
-        self.inner = InnerLoops(gains, vector(inertia), vector(np.abs(self._effect[1:]).sum(axis=1) * (0.5 * most)))
-        self._inverses = dict[tuple[bool, ...], np.ndarray]()
-
-    def thrusts(self, wrench: Sequence[float], turning: tuple[bool, ...], most: np.ndarray) -> np.ndarray:
-        """Thrusts of least squares that give a wrench, within their limits, if quadrotors may turn their rotors or not.
-
-        Moments come before lift, as in crazyflie-firmware, power_distribution.
-        """
-        if turning not in self._inverses:
-            self._inverses[turning] = np.linalg.pinv(self._effect * np.repeat(turning, 4))
-        thrusts, most = self._inverses[turning] @ wrench, most * np.repeat(turning, 4)
-        over = max(float(np.max(thrusts - most, initial=0.0, where=most > 0.0)), 0.0)
-        return np.clip(thrusts - over, 0.0, most)
 
 
 class Quadrotors:
