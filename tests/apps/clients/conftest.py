@@ -3,7 +3,7 @@
 import pytest
 
 import tandemlift as tl
-from tandemlift.apps.clients.crazyflie import Crazyflie
+from tandemlift.apps.clients.crazyflie.device import Crazyflie
 from tandemlift.apps.clients.flight import SteppedFlight, quadrotors_of
 
 ASIDE = {"pushes": [], "pilot.push": "truth", "pilot.state": "truth", "phases.land_start": 1e6}

@@ -13,7 +13,7 @@ import pytest
 from patience import PATIENCE, completed, ended, said
 
 import tandemlift as tl
-from tandemlift.apps.clients.crazyflie import Crazyflie
+from tandemlift.apps.clients.crazyflie.device import Crazyflie
 from tandemlift.apps.clients.flight import quadrotors_of
 
 pytestmark = [pytest.mark.clients, pytest.mark.filterwarnings("ignore")]
@@ -189,7 +189,7 @@ def test_quaternions_are_unpacked_as_the_client_packs_them():
     import numpy as np
     from cflib.utils.encoding import compress_quaternion
 
-    from tandemlift.apps.clients.crtp_setpoints import unpacked_quaternion
+    from tandemlift.apps.clients.crazyflie.commander import unpacked_quaternion
 
     for q in np.random.default_rng(1).normal(size=(1000, 4)):
         q /= np.linalg.norm(q)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import BPoly
 
-from tandemlift.apps.clients.crtp_setpoints import GENERIC
-from tandemlift.apps.clients.quadrotors import Supervision
+from tandemlift.apps.clients.crazyflie.commander import GENERIC
+from tandemlift.apps.clients.quadrotors import ArmingState
 
 
 def header(port, channel):
@@ -120,13 +120,13 @@ def test_arming_and_its_state_are_told(pair):
 def test_a_client_that_vanishes_is_levelled_out_after_half_a_second_and_stopped_after_two(pair):
     pair.seconds(5.0, lambda: pair.both(hover(vx=0.5, height=0.5)))
     pair.seconds(0.3)
-    assert pair.quads.supervision[0] is Supervision.ARMED
+    assert pair.quads.supervision[0] is ArmingState.ARMED
     pair.seconds(0.8)
-    assert pair.quads.supervision[0] is Supervision.WARNING
+    assert pair.quads.supervision[0] is ArmingState.WARNING
     assert np.abs(pair.state().euler[:2]).max() < 0.02
     assert pair.state().position[2] == pytest.approx(0.5, abs=0.05)
     pair.seconds(0.9)
-    assert pair.quads.supervision == [Supervision.LOCKED] * 2
+    assert pair.quads.supervision == [ArmingState.LOCKED] * 2
     assert bits(pair.devices[0]) & 0x40
 
 
@@ -143,7 +143,7 @@ def test_a_watchdog_that_is_not_fed_stops_the_rotors(pair):
     pair.seconds(2.0, lambda: pair.both(hover(height=0.2)) + pair.both(WATCHDOG))
     assert pair.quads.is_flying(0)
     pair.seconds(1.2, lambda: pair.both(hover(height=0.2)))
-    assert pair.quads.supervision[0] is Supervision.LOCKED
+    assert pair.quads.supervision[0] is ArmingState.LOCKED
 
 
 # high-level commander
@@ -268,7 +268,7 @@ def test_ten_thousand_hostile_packets_of_each_kind_do_not_disturb_a_hover(pair):
         kind = int(rng.choice([*GENERIC][1:]))
         device.receive(header(7, 0) + bytes([kind]) + rng.bytes(int(rng.integers(0, 13))))
     device.parameters["stabilizer.stop"].value = 0.0
-    pair.quads.supervision = [Supervision.ARMED] * 2  # one may have set stabilizer.stop, which is a parameter
+    pair.quads.supervision = [ArmingState.ARMED] * 2  # one may have set stabilizer.stop, which is a parameter
     pair.seconds(1.0, lambda: pair.both(hover()))
     assert pair.state().position[2] == pytest.approx(0.5, abs=0.05)
     assert device.refused > 15_000

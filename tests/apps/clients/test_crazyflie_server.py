@@ -7,8 +7,8 @@ import pytest
 from patience import until
 
 import tandemlift as tl
-from tandemlift.apps.clients import crazyflie_server
-from tandemlift.apps.clients.crazyflie_server import CrazyflieServer
+from tandemlift.apps.clients.crazyflie import server as crazyflie_server
+from tandemlift.apps.clients.crazyflie.server import CrazyflieServer
 from tandemlift.apps.clients.flight import PILOT_ASIDE, RealTimeFlight, quadrotors_of
 from tandemlift.core.files import parse_setting
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from two_flight_controllers import ERROR, HEIGHT, errors_of, hover
 
-from tandemlift.apps.clients.quadrotors import FailSafe, Supervision
+from tandemlift.apps.clients.quadrotors import ArmingState, FailSafe
 from tandemlift.apps.clients.setpoints import EstimateError, PositionSetpoint, QuadrotorState
 
 
@@ -45,7 +45,7 @@ def test_a_fail_safe_that_sinks_lands_and_disarms(pairs):
     pair.seconds(6.0, both)
     assert pair.state().position[2] == pytest.approx(0.6, abs=0.03)
     pair.seconds(8.0)
-    assert pair.quads.supervision == [Supervision.DISARMED] * 2
+    assert pair.quads.supervision == [ArmingState.DISARMED] * 2
     assert pair.flight.simulation.ending is None
     assert abs(pair.state().velocity[2]) < 1e-3
     assert HEIGHT > 0.6 > pair.state().position[2]

@@ -207,7 +207,7 @@ def crazyflie(
       tandemlift crazyflie crazyflie-stick --set wind.velocity=[1,0,0]
     """
     check_live_installed()
-    from tandemlift.apps.clients.crazyflie_server import CrazyflieServer
+    from tandemlift.apps.clients.crazyflie.server import CrazyflieServer
     from tandemlift.apps.clients.flight import PILOT_ASIDE, RealTimeFlight, quadrotors_of
     from tandemlift.apps.live.page_files import page_files
     from tandemlift.apps.live.server import PageServer

@@ -44,7 +44,7 @@ MAX_LEAD = 3.0  # rad, of the commanded yaw before the actual one: it must not c
 MAX_INTEGRAL = 3.0  # m/s², by the integrators of velocity
 
 
-class Gains(NamedTuple):
+class LoopGains(NamedTuple):
     """Bandwidths of the loops from inside out [1/s]."""
 
     rate: float
@@ -55,7 +55,7 @@ class Gains(NamedTuple):
     height: float
 
 
-def gains_for(lag: float) -> Gains:
+def gains_for(lag: float) -> LoopGains:
     """The gains with rotors that respond after a time [s]: lag and delay.
 
     A rate loop K/(s (τ s + 1)) with K = 1/(2 τ) is damped by 0.7.
@@ -64,7 +64,7 @@ def gains_for(lag: float) -> Gains:
     attitude = min(rate / APART, ATTITUDE_GAIN)
     velocity = min(attitude / APART, VELOCITY_GAIN)
     climb = min(rate / APART, CLIMB_GAIN)
-    return Gains(
+    return LoopGains(
         rate, attitude, velocity, min(velocity / APART, POSITION_GAIN), climb, min(climb / APART, POSITION_GAIN)
     )
 
@@ -95,7 +95,7 @@ class OuterLoops:
         integral: of the velocity's error [m/s², world].
     """
 
-    def __init__(self, gains: Gains, mass: float, max_thrust: float) -> None:
+    def __init__(self, gains: LoopGains, mass: float, max_thrust: float) -> None:
         self._gains, self._mass, self._max_thrust = gains, mass, max_thrust
         self.reset()
 
@@ -198,7 +198,7 @@ class InnerLoops:
         rate_integral: the moment of the integrators of the rate loops [N m].
     """
 
-    def __init__(self, gains: Gains, inertia: Vector, max_moment: Vector) -> None:
+    def __init__(self, gains: LoopGains, inertia: Vector, max_moment: Vector) -> None:
         self._inertia = inertia
         self._max = [share * most for share, most in zip(MOMENT_SHARES, max_moment, strict=True)]
         accelerations = [most / J for most, J in zip(self._max, inertia, strict=True)]

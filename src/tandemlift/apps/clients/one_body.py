@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tandemlift import Vehicle
-from tandemlift.apps.clients.cascade import Demand, Gains, InnerLoops
+from tandemlift.apps.clients.cascade import Demand, InnerLoops, LoopGains
 from tandemlift.apps.clients.setpoints import Vector
 
 
@@ -36,7 +36,7 @@ def tilt(quaternion: Sequence[float]) -> float:
     return math.acos(max(-1.0, 1.0 - 2.0 * (x * x + y * y)))
 
 
-class Group:
+class LoopGroup:
     """Quadrotors that share inner loops and an allocation: all of a vehicle, or one.
 
     Attributes:
@@ -45,7 +45,7 @@ class Group:
         rotors: the place of their rotors among all.
     """
 
-    def __init__(self, vehicle: Vehicle, gains: Gains, members: range, most: float) -> None:
+    def __init__(self, vehicle: Vehicle, gains: LoopGains, members: range, most: float) -> None:
         self.members, self.rotors = members, slice(4 * members.start, 4 * members.stop)
         self._effect = vehicle.effect[:, self.rotors].copy()
         if len(members) == 1:  # moments about its own centre, where its own sensors are

@@ -17,7 +17,7 @@ import numpy as np
 from tandemlift import InputError, Vehicle
 from tandemlift.apps.clients.cascade import GRAVITY, Demand, OuterLoops, gains_for
 from tandemlift.apps.clients.one_body import (
-    Group,
+    LoopGroup,
     rotation,
     tilt,
     together,
@@ -59,7 +59,7 @@ class FailSafe(NamedTuple):
 CRAZYFLIE = FailSafe()
 
 
-class Supervision(Enum):
+class ArmingState(Enum):
     """The state of a quadrotor: what its rotors may do."""
 
     DISARMED = "disarmed"
@@ -105,7 +105,7 @@ class Quadrotors:
         self._outer = [OuterLoops(gains, vehicle.mass / vehicle.count, 4.0 * most) for most in each]
         everyone = range(self.count)
         self._groups = [
-            Group(vehicle, gains, members, max(each))
+            LoopGroup(vehicle, gains, members, max(each))
             for members in ([everyone] if control == "shared" else [range(i, i + 1) for i in everyone])
         ]
         self.ticks = list[Callable[[float], None]]()
@@ -114,7 +114,7 @@ class Quadrotors:
 
     def _begin(self) -> None:
         """Begin a flight: nothing is armed or commanded."""
-        self.supervision = [Supervision.DISARMED] * self.count
+        self.supervision = [ArmingState.DISARMED] * self.count
         self._setpoints: list[tuple[Setpoint, float] | None] = [None] * self.count
         self._demands: list[Demand | None] = [None] * self.count
         self._flown: list[Setpoint | None] = [None] * self.count
@@ -151,23 +151,23 @@ class Quadrotors:
 
     def arm(self, i: int) -> bool:
         """Arm quadrotor `i`; whether it is."""
-        if self.supervision[i] is Supervision.DISARMED and not self.is_tumbled(i):
-            self._setpoints[i], self.supervision[i] = None, Supervision.ARMED
+        if self.supervision[i] is ArmingState.DISARMED and not self.is_tumbled(i):
+            self._setpoints[i], self.supervision[i] = None, ArmingState.ARMED
         return self.is_armed(i)
 
     def disarm(self, i: int) -> None:
         """Stop the rotors of quadrotor `i`, until it is armed again."""
-        if self.supervision[i] is not Supervision.LOCKED:
-            self.supervision[i] = Supervision.DISARMED
+        if self.supervision[i] is not ArmingState.LOCKED:
+            self.supervision[i] = ArmingState.DISARMED
         self._setpoints[i] = None
 
     def lock(self, i: int) -> None:
         """Stop the rotors of quadrotor `i` for good."""
-        self.supervision[i], self._setpoints[i] = Supervision.LOCKED, None
+        self.supervision[i], self._setpoints[i] = ArmingState.LOCKED, None
 
     def is_armed(self, i: int) -> bool:
         """Whether the rotors of quadrotor `i` may turn."""
-        return self.supervision[i] in (Supervision.ARMED, Supervision.WARNING)
+        return self.supervision[i] in (ArmingState.ARMED, ArmingState.WARNING)
 
     def is_flying(self, i: int) -> bool:
         """Whether the rotors of quadrotor `i` lift something."""
@@ -226,7 +226,7 @@ class Quadrotors:
                     continue
                 age = now - max(last.values())
                 if age <= self._fail_safe.level:
-                    self.supervision[i] = Supervision.ARMED
+                    self.supervision[i] = ArmingState.ARMED
                     if now - last[i] <= self._fail_safe.level:  # else it is carried, by what the others are commanded
                         self._flown[i] = commanded[0]
                 elif self.is_flying(i):
@@ -243,13 +243,13 @@ class Quadrotors:
         elif age > safe.stop:
             self.lock(i)
             return None
-        elif self.supervision[i] is Supervision.WARNING:
+        elif self.supervision[i] is ArmingState.WARNING:
             level = self._levels[i]
         elif isinstance(last, AttitudeSetpoint | RateSetpoint):
             level = AttitudeSetpoint(0.0, 0.0, last.thrust, height=getattr(last, "height", None))
         else:
             level = AttitudeSetpoint(0.0, 0.0, 0.0, height=state.position[2])
-        self.supervision[i], self._levels[i] = Supervision.WARNING, level
+        self.supervision[i], self._levels[i] = ArmingState.WARNING, level
         return level
 
     def _control(self) -> None:
@@ -272,7 +272,7 @@ class Quadrotors:
             demand = together(demands, [self._arms[i] for i in numbers])
             moment = group.inner.moment(mean_attitude([self._states[i] for i in numbers]), demand, self._dt)
             wrench = (demand.thrust * len(group.members) / len(flown), *moment)
-            turning = tuple(self.supervision[i] is not Supervision.LOCKED for i in group.members)
+            turning = tuple(self.supervision[i] is not ArmingState.LOCKED for i in group.members)
             self._thrusts[group.rotors] = group.thrusts(wrench, turning, self._max[group.rotors])
 
     def _agree(self, flown: Sequence[int]) -> None:

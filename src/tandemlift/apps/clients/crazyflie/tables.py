@@ -42,7 +42,7 @@ def fits(group: str, name: str) -> bool:
     return len(group) + len(name) + 6 <= MOST_DATA and group.isascii() and name.isascii()
 
 
-class Table(Generic[T]):
+class CrtpTable(Generic[T]):
     """Entries by number, with their names and types.
 
     Args:
@@ -70,7 +70,7 @@ class Table(Generic[T]):
 
 
 @dataclass
-class Block:
+class LogBlock:
     """Variables that are sent together: number and format of each; every `period` steps of 10 ms, 0 while stopped."""
 
     variables: list[tuple[int, str]] = field(default_factory=list)
@@ -86,8 +86,8 @@ class LogService:
     """
 
     def __init__(self, variables: dict[str, tuple[str, Callable[[], float]]]) -> None:
-        self.table = Table((name, LOG_TYPES[letter], read) for name, (letter, read) in variables.items())
-        self.blocks: dict[int, Block] = {}
+        self.table = CrtpTable((name, LOG_TYPES[letter], read) for name, (letter, read) in variables.items())
+        self.blocks: dict[int, LogBlock] = {}
 
     def control(self, data: bytes) -> bytes:
         """Carry out a command about blocks: the answer."""
@@ -103,7 +103,7 @@ class LogService:
             return EXISTS
         if len(self.blocks) >= MOST_BLOCKS:
             return NO_MEMORY
-        self.blocks[number] = Block()
+        self.blocks[number] = LogBlock()
         error = self._append(number, data)
         if error:
             del self.blocks[number]
@@ -155,7 +155,7 @@ class LogService:
 
 
 @dataclass
-class Parameter:
+class CrtpParameter:
     """A parameter: format and value; what is called with a new value, which may refuse it; whether it can be stored."""
 
     letter: str
@@ -194,9 +194,9 @@ class ParameterService:
         parameters: by name `group.name`.
     """
 
-    def __init__(self, parameters: dict[str, Parameter]) -> None:
+    def __init__(self, parameters: dict[str, CrtpParameter]) -> None:
         self._by_name = parameters
-        self.table = Table((name, one.kind, one) for name, one in parameters.items())
+        self.table = CrtpTable((name, one.kind, one) for name, one in parameters.items())
 
     def answer(self, channel: int, data: bytes) -> bytes | None:
         """The answer to a packet on a channel."""

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.apps.clients.crtp_tables import NO_COMMAND, NO_ENTRY
+from tandemlift.apps.clients.crazyflie.tables import NO_COMMAND, NO_ENTRY
 from tandemlift.apps.clients.setpoints import FullStateSetpoint, QuadrotorState, Setpoint, Stop
 
 MEMORY = 4096  # bytes of uploaded trajectories; crazyflie-firmware, TRAJECTORY_MEMORY_SIZE

@@ -13,10 +13,10 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 from tandemlift.apps.clients.cascade import GRAVITY
-from tandemlift.apps.clients.crtp_setpoints import GENERIC, attitude_setpoint
-from tandemlift.apps.clients.crtp_tables import NO_ENTRY, LogService, Parameter, ParameterService
-from tandemlift.apps.clients.high_level import MEMORY, HighLevelCommander, Plan
-from tandemlift.apps.clients.quadrotors import Quadrotors, Supervision
+from tandemlift.apps.clients.crazyflie.commander import GENERIC, attitude_setpoint
+from tandemlift.apps.clients.crazyflie.high_level import MEMORY, HighLevelCommander, Plan
+from tandemlift.apps.clients.crazyflie.tables import NO_ENTRY, CrtpParameter, LogService, ParameterService
+from tandemlift.apps.clients.quadrotors import ArmingState, Quadrotors
 from tandemlift.apps.clients.setpoints import Setpoint, Stop
 
 PROTOCOL, NAME, FIRMWARE, DEVICE = 12, b"Bitcraze Crazyflie", b"tandemlift", b"CF21BL"
@@ -49,7 +49,7 @@ class Crazyflie:
         self,
         quadrotors: Quadrotors,
         number: int,
-        parameters: dict[str, Parameter] | None = None,
+        parameters: dict[str, CrtpParameter] | None = None,
         channels: dict[str, Channel] | None = None,
     ) -> None:
         self._all, self._i = quadrotors, number
@@ -171,14 +171,14 @@ class Crazyflie:
         i, quads, now = self._i, self._all, self._all.now
         supervision, tumbled = quads.supervision[i], quads.is_tumbled(i)
         bits = (
-            supervision is Supervision.DISARMED and not tumbled,
+            supervision is ArmingState.DISARMED and not tumbled,
             quads.is_armed(i),
             False,  # it arms only when it is told to
             quads.is_armed(i),
             quads.is_flying(i),
             tumbled,
-            supervision is Supervision.LOCKED,
-            tumbled and supervision is Supervision.LOCKED,
+            supervision is ArmingState.LOCKED,
+            tumbled and supervision is ArmingState.LOCKED,
             self._high.plan is not None,
             self._high.is_finished(now),
             self._high.plan is None,
@@ -267,21 +267,21 @@ class Crazyflie:
     def _bit(self, n: int) -> float:
         return self.supervision >> n & 1
 
-    def _parameters(self) -> dict[str, Parameter]:
+    def _parameters(self) -> dict[str, CrtpParameter]:
         """Parameters, under the names that the firmware has."""
         found = {
-            "stabilizer.controller": Parameter("B", 1),
-            "stabilizer.estimator": Parameter("B", 2),
-            "stabilizer.stop": Parameter("B", 0, self._stop_all),
-            "kalman.resetEstimation": Parameter("B", 0),
-            "commander.enHighLevel": Parameter("B", 1),
-            "deck.bcFlow2": Parameter("B", 1, read_only=True),
-            "cpu.flash": Parameter("H", 1024, read_only=True),
-            "firmware.revision0": Parameter("I", 0, read_only=True),
-            "firmware.revision1": Parameter("H", 0, read_only=True),
-            "led.bitmask": Parameter("B", 0),
-            "ring.effect": Parameter("B", 0, persistent=True),
-            "activeMarker.back": Parameter("B", 3, persistent=True),
+            "stabilizer.controller": CrtpParameter("B", 1),
+            "stabilizer.estimator": CrtpParameter("B", 2),
+            "stabilizer.stop": CrtpParameter("B", 0, self._stop_all),
+            "kalman.resetEstimation": CrtpParameter("B", 0),
+            "commander.enHighLevel": CrtpParameter("B", 1),
+            "deck.bcFlow2": CrtpParameter("B", 1, read_only=True),
+            "cpu.flash": CrtpParameter("H", 1024, read_only=True),
+            "firmware.revision0": CrtpParameter("I", 0, read_only=True),
+            "firmware.revision1": CrtpParameter("H", 0, read_only=True),
+            "led.bitmask": CrtpParameter("B", 0),
+            "ring.effect": CrtpParameter("B", 0, persistent=True),
+            "activeMarker.back": CrtpParameter("B", 3, persistent=True),
         }
         gains = {
             "roll": (6.0, 3.0, 0.0),
@@ -290,7 +290,7 @@ class Crazyflie:
         }  # platform_defaults_cf21bl.h
         for angle, values in gains.items():
             for gain, number in zip(("kp", "ki", "kd"), values, strict=True):
-                found[f"pid_attitude.{angle}_{gain}"] = Parameter("f", number)
+                found[f"pid_attitude.{angle}_{gain}"] = CrtpParameter("f", number)
         return found
 
     def _stop_all(self, value: float) -> bool:

@@ -14,8 +14,8 @@ from contextlib import suppress
 from typing import Any, Self
 
 from tandemlift import InputError
-from tandemlift.apps.clients.crazyflie import Channel, Crazyflie
-from tandemlift.apps.clients.crtp_tables import Parameter, fits
+from tandemlift.apps.clients.crazyflie.device import Channel, Crazyflie
+from tandemlift.apps.clients.crazyflie.tables import CrtpParameter, fits
 from tandemlift.apps.clients.flight import RealTimeFlight
 from tandemlift.apps.clients.quadrotors import Quadrotors
 from tandemlift.apps.live.session.page_messages import SetMessage
@@ -164,9 +164,9 @@ def channels_of(flight: RealTimeFlight) -> dict[str, Channel]:
     return {f"{group}.{name}": ("f", read) for group, name, read in flight.channels() if fits(group, name)}
 
 
-def parameters_of(flight: RealTimeFlight) -> dict[str, Parameter]:
+def parameters_of(flight: RealTimeFlight) -> dict[str, CrtpParameter]:
     """The numbers of a mission that can be changed in flight and whose names fit into a table, lists by component."""
-    found: dict[str, Parameter] = {}
+    found: dict[str, CrtpParameter] = {}
     for shown in flight.session.scene["parameters"]:
         group, _, rest = shown["key"].partition(".")
         value = shown["value"]
@@ -177,7 +177,7 @@ def parameters_of(flight: RealTimeFlight) -> dict[str, Parameter]:
             name = rest.replace(".", "_") + (f"_{n + 1}" if len(numbers) > 1 else "")
             if fits(group, name):
                 change = _changer(flight, shown["key"], numbers if len(numbers) > 1 else None, n, shown)
-                found[f"{group}.{name}"] = Parameter("f", number, change)
+                found[f"{group}.{name}"] = CrtpParameter("f", number, change)
     return found
 
 
