@@ -37,9 +37,9 @@ MAX_SPEED = 1.0  # m/s; PID_POS_VEL_X_MAX
 MAX_RATE_SHARE = 0.2  # of the largest moment, by the integrator; PID_ROLL_RATE_INTEGRATION_LIMIT times its K_i
 # chosen: setpoints beyond are clipped
 MAX_COMMANDED_TILT, MAX_COMMANDED_RATE, MAX_COMMANDED_SPEED = math.radians(60.0), 20.0, 10.0  # rad, rad/s, m/s
-MOMENT_SHARES = (0.8, 0.8, 0.4)  # of the largest moments, which are left to each axis beside the lift; chosen
+MOMENT_SHARES = (0.35, 0.35, 0.3)  # of the largest moments, which are left to each axis beside the lift; chosen
 SATURATES = 0.3  # rad/s, an error of rates that asks for the largest moment; chosen
-BRAKING, RATE_AT_YAW = 0.5, 0.02  # of the angular acceleration in yaw; rad/s; chosen
+BRAKING, RATE_AT_GOAL = 0.5, 0.02  # of the angular acceleration, to stop at an angle; rad/s; chosen
 MAX_LEAD = 3.0  # rad, of the commanded yaw before the actual one: it must not change sides
 MAX_INTEGRAL = 3.0  # m/s², by the integrators of velocity
 
@@ -204,7 +204,7 @@ class InnerLoops:
         accelerations = [most / J for most, J in zip(self._max, inertia, strict=True)]
         self._rate = [min(gains.rate, a / SATURATES) for a in accelerations]
         self._attitude = [min(gains.attitude, k / APART) for k in self._rate]
-        self._yaw_brake = BRAKING * accelerations[2]
+        self._brakes = [BRAKING * a for a in accelerations]
         self.reset()
 
     def reset(self) -> None:
@@ -231,7 +231,10 @@ class InnerLoops:
         x, y, z = (clip(i + e * dt, MAX_ATTITUDE_INTEGRAL) for i, e in zip(self._tilt, error, strict=True))
         self._tilt = (x, y, z)
         a, b, c = (k * (e + ATTITUDE_INTEGRAL * i) for k, e, i in zip(self._attitude, error, self._tilt, strict=True))
-        c = clip(c, math.sqrt(2.0 * self._yaw_brake * abs(error[2])) + RATE_AT_YAW)  # yaw is weak: it has to stop there
+        a, b, c = (
+            clip(rate, math.sqrt(2.0 * brake * abs(e)) + RATE_AT_GOAL)
+            for rate, brake, e in zip((a, b, c), self._brakes, error, strict=True)
+        )
         sin_roll, cos_roll, cos_pitch = math.sin(roll), math.cos(roll), math.cos(pitch)
         return (
             clip(a - math.sin(pitch) * c, MAX_COMMANDED_RATE),
