@@ -26,6 +26,7 @@ from tandemlift.apps.clients.setpoints import EstimateError, PositionSetpoint
 from tandemlift.core.errors import without_flight_warnings
 
 HEIGHT, SETTLED, EVERY = 1.0, 20.0, 0.1  # m; s, from when on errors count; s, between setpoints
+GONE = 10.0  # m from the setpoint, where a flight is given up
 ERROR = EstimateError(
     (math.radians(1.0), math.radians(1.0), math.radians(1.0)), (0.005, 0.005, 0.005), (0.01, 0.01, 0.01)
 )
@@ -46,6 +47,11 @@ class Hover:
     moments: list[np.ndarray] = field(default_factory=list)
     limited: list[float] = field(default_factory=list)
     ending: str = "hovers"
+
+    @property
+    def far(self) -> float:
+        """The last distance from the setpoint [m]."""
+        return float(np.linalg.norm(self.places[-1] - [0.0, 0.0, HEIGHT]))
 
     @property
     def off(self) -> np.ndarray:
@@ -87,6 +93,9 @@ def hover(control: Control, seconds: float, size: float = 1.0) -> Hover:
         seen.places.append(flight.simulation.state[:3])
         seen.moments.append(thrusts @ own_moments(quads.vehicle).T)
         seen.limited.append(float(np.mean((thrusts <= 0.0) | (thrusts >= most))))
+        if seen.far > GONE:
+            seen.ending = f"drifts away: {GONE:g} m after {seen.times[-1]:.0f} s"
+            return seen
     if flight.simulation.ending or flight.simulation.state[2] < HEIGHT / 2.0:
         seen.ending = str(flight.simulation.ending or "lies on the floor")
     return seen

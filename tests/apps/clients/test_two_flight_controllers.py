@@ -16,12 +16,12 @@ def test_shared_loops_hold_a_hover_within_5_cm_for_ten_minutes():
     assert np.mean(flight.limited) == 0.0
 
 
-def test_own_loops_wind_up_against_each_other_until_they_fall():
+def test_own_loops_wind_up_against_each_other_until_the_vehicle_is_lost():
     flight = hover("own", 40.0)
-    assert flight.worst > 0.9  # it is on the floor
-    grows = flight.against[10:80:10]
-    assert np.all(np.diff(grows) > 0.0)
-    assert np.max(flight.limited) > 0.0
+    assert flight.far > 1.0
+    assert flight.ending != "hovers"
+    assert np.all(np.diff(flight.against[10:50:10]) > 0.0)  # integrators grow, second by second
+    assert flight.against.max() > 1e-3
 
 
 def test_an_error_of_an_estimate_is_that_rotation():
