@@ -135,7 +135,7 @@ def draw(flights: list[Hover], path: Path) -> None:
     axes[0].set_ylabel("from the setpoint (cm)")
     axes[1].set_ylabel("against each other (mN m)")
     axes[1].set_xlabel("time (s)")
-    axes[0].legend(frameon=False, loc="lower right")
+    axes[0].legend(frameon=False, loc="upper center")
     axes[0].set_xlim(0.0, min(120.0, flights[0].times[-1]))
     for axis in axes:
         axis.grid(alpha=0.3)
