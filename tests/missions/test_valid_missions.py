@@ -17,7 +17,18 @@ from tandemlift.missions.changes import value_at
 from tandemlift.missions.keys import allowed
 
 BUILT_IN = [
-    *("doorway", "flight-ready", "four", "gusts", "heavy-payload", "hover", "iris", "narrow-zigzag", "narrow"),
+    *(
+        "crazyflie-stick",
+        "doorway",
+        "flight-ready",
+        "four",
+        "gusts",
+        "heavy-payload",
+        "hover",
+        "iris",
+        "narrow-zigzag",
+        "narrow",
+    ),
     *("off-centre-push", "one-push", "paper", "rotor-loss", "zigzag"),
 ]
 

@@ -101,13 +101,13 @@ class FlightSetup(NamedTuple):
     body: EngineBody | None
 
 
-def setup_flight(mission: Mission, engine: str = "compiled") -> FlightSetup:
-    """Assemble a flight without compiling it.
+def setup_flight(mission: Mission, engine: str = "compiled", *, interactive: bool = False) -> FlightSetup:
+    """Assemble a flight without compiling it; `interactive`: `advance` takes the inputs of a caller.
 
     Raises:
         InputError: the engine is not known, or the mission cannot be built.
     """
-    plan = FlightPlan(mission, engine)
+    plan = FlightPlan(mission, engine, interactive=interactive)
     return FlightSetup(plan, body_of(plan))
 
 
@@ -210,8 +210,8 @@ class RecordedFlight:
         """The last input of the hand."""
         return unflat(self._stepper.a[self._stepper.hand], HAND_RELEASED)
 
-    def advance(self) -> None:
-        """Take a step; if the engine is lost, the flight is over.
+    def advance(self, external: Array | None = None) -> None:
+        """Take a step, with the numbers of a `CallerInput` if it is interactive; if the engine is lost, it is over.
 
         Raises:
             EngineLost: the engine took no step at all.
@@ -223,7 +223,7 @@ class RecordedFlight:
         if k == p.late_step:
             (self._early,) = take_metrics(stepper.a, stepper.p.model, 1)
         try:
-            stepper.step(k)
+            stepper.step(k, external=external)
         except EngineLost as error:
             if k == 0:
                 raise

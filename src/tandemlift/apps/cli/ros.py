@@ -1,4 +1,4 @@
-"""Flights for robots' software: `tandemlift ros`, in real time as a node, and `gazebo`, with its window and cameras."""
+"""Flights for robots' software: `tandemlift ros`, a node in real time, `gazebo`, and `crazyflie`, for its clients."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 
 from tandemlift.apps.cli.completion import MISSIONS
-from tandemlift.apps.cli.console import echo, progress_bar
+from tandemlift.apps.cli.console import echo, exit_now, progress_bar
 from tandemlift.apps.cli.flying import (
     FAILED,
     FILES,
@@ -22,7 +22,14 @@ from tandemlift.apps.cli.flying import (
     strict_option,
     with_after_crash,
 )
-from tandemlift.apps.cli.live import DEFAULT, OUT
+from tandemlift.apps.cli.live import (
+    DEFAULT,
+    OUT,
+    check_live_installed,
+    no_browser_option,
+    port_option,
+    serve_until_interrupt,
+)
 from tandemlift.apps.cli.run import write_results
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
@@ -182,3 +189,41 @@ def gazebo(
         recording = None if by_hand else loaded.person.recording
         write_results(flight, folder, began, recording, figures=not no_figures, photographs=photographs)
     exit_if_amiss({flight.name: flight}, strict=strict)
+
+
+@click.command()
+@click.argument("mission", default="crazyflie-stick", shell_complete=MISSIONS)
+@click.option("--udp-port", type=int, default=19850, show_default=True, help="UDP port of the first Crazyflie.")
+@click.option("--own-loops", is_flag=True, help="Each quadrotor has its own rate loops, whose integrators fight.")
+@engine_option
+@port_option
+@no_browser_option
+@set_option
+def crazyflie(
+    mission: str, udp_port: int, own_loops: bool, engine: str, port: int, no_browser: bool, settings: tuple[str, ...]
+) -> None:
+    """Fly MISSION in real time, each quadrotor as a Crazyflie.
+
+    Bitcraze's cflib finds them by scanning, or as udp://127.0.0.1:19850, :19851 and so on; scripts for real ones fly
+    them unchanged. The live page shows the same flight, and pushes it. The mission's own pushes, person and pilot are
+    omitted. docs/how-to/fly-with-crazyflie-clients.md lists what is simulated. Ctrl-C ends the flight.
+
+    \b
+    Examples:
+      tandemlift crazyflie
+      tandemlift crazyflie crazyflie-stick --set wind.velocity=[1,0,0]
+    """
+    check_live_installed()
+    from tandemlift.apps.clients.crazyflie.server import CrazyflieServer
+    from tandemlift.apps.clients.flight import PILOT_ASIDE, RealTimeFlight, quadrotors_of
+    from tandemlift.apps.live.page_files import page_files
+    from tandemlift.apps.live.server import PageServer
+
+    flown = load(mission, (*PILOT_ASIDE, *settings))
+    quadrotors = quadrotors_of(flown, "own" if own_loops else "shared")
+    flight = RealTimeFlight(flown, quadrotors, engine, OUT)
+    with CrazyflieServer(quadrotors, flight, port=udp_port) as server:
+        echo(f"Crazyflies: {', '.join(server.addresses)}")
+        page = PageServer(page_files(), flight.session, port=port)
+        serve_until_interrupt(page, f"{mission}, flown by clients", browser=not no_browser)
+    exit_now(0)  # a thread may still be compiling

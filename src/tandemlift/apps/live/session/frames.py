@@ -7,7 +7,7 @@ session, and traced for a page that flies without a server (`apps.live.page_mani
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -128,10 +128,10 @@ USED = {"reference_euler", "phase"}.union(*CHANNELS.values())
 Components = tuple[Any, ...]  # of a channel or of a field: numbers, arrays (T,) or symbols
 
 
-def channel_columns(layout: object) -> dict[str, NDArray[np.intp]]:
-    """The columns of a sample that hold each channel which `field_values` reads; `layout`: of the sample."""
+def channel_columns(layout: object, names: Container[str] | None = USED) -> dict[str, NDArray[np.intp]]:
+    """The columns of a sample that hold each channel in `names`, of all if None; `layout`: of the sample."""
     row = np.arange(leaves(layout), dtype=np.float64)[None, :]
-    return {name: at.astype(np.intp).ravel() for name, at in channels_of(layout, row) if name in USED}
+    return {name: at.astype(np.intp).ravel() for name, at in channels_of(layout, row) if names is None or name in names}
 
 
 def components_of(channel: Array) -> Components:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import logging
 import threading
 from collections.abc import Callable
-from functools import singledispatchmethod
+from functools import partial, singledispatchmethod
 from pathlib import Path
 from typing import Any
 
@@ -34,12 +34,14 @@ from tandemlift.apps.live.session.server_messages import (
 from tandemlift.apps.live.session.status import FlightFindings, Preparation, phase_of, refusals_now, status_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import Refusals
+from tandemlift.core.types import Array
 from tandemlift.core.vector import ZERO, Quat
 from tandemlift.missions import Mission, tables_of
 from tandemlift.simulation.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.simulation.results import channels_of
 
 log = logging.getLogger(__name__)
+Inputs = Callable[[RecordedFlight], Array]
 
 
 class Session:
@@ -49,6 +51,7 @@ class Session:
         mission: the flown one, without its pushes and its person.
         engine: name of the body's engine.
         out: folder of saved flights, each in a folder of its name.
+        inputs: before each step, the numbers of a `CallerInput`; such a flight cannot be flown again or saved.
 
     Attributes:
         generation: grows with every reset, after which `scene` is a new one.
@@ -60,8 +63,11 @@ class Session:
         InputError: the mission cannot be flown interactively, or cannot be built.
     """
 
-    def __init__(self, mission: Mission, engine: str = "compiled", out: Path = Path("out/live")) -> None:
+    def __init__(
+        self, mission: Mission, engine: str = "compiled", out: Path = Path("out/live"), inputs: Inputs | None = None
+    ) -> None:
         self._mission, self._engine, self._out = interactive_mission(mission), engine, out
+        self._inputs, self._setup = inputs, partial(setup_flight, engine=engine, interactive=inputs is not None)
         self._lock, self.pacer = threading.RLock(), Pacer(mission.mission.step)
         self._thread = RealTimeThread(self.pacer, self._lock, self._is_prepared, self._fly)
         self._parameters = ParameterControl(tables_of(self._mission), self._lock)
@@ -70,7 +76,7 @@ class Session:
         self._flight: RecordedFlight
         self._hand: HandControl
         self._preparation, self.is_ready = Preparation(), False
-        self._first = setup_flight(self._mission, engine)
+        self._first = self._setup(self._mission)
         self._frames = FrameBuilder(self._first.plan)
 
     def prepare(self) -> None:
@@ -124,7 +130,7 @@ class Session:
         try:
             while self._flight.step < before + steps and not self._flight.over and not self._failed:
                 self._hand.expire_requests()
-                self._flight.advance()
+                self._flight.advance(self._inputs and self._inputs(self._flight))
                 if self._flight.interruption:
                     break
                 for watch in self.watchers:
@@ -135,8 +141,6 @@ class Session:
             self._failed = True  # until a reset
             log.exception("the flight ended by an error")
         return self._flight.step - before
-
-    # displayed values
 
     @property
     def scene(self) -> FlightScene:
@@ -177,8 +181,6 @@ class Session:
     def _values(self) -> dict[str, Any]:
         return self._frames.values(*self._flight.moment)
 
-    # messages
-
     def apply(self, message: page.PageMessage) -> list[Answer]:
         """Apply a message; return the answers.
 
@@ -187,6 +189,8 @@ class Session:
         """
         if not self.is_ready:
             raise InputError(self._preparation.refusal)
+        if self._inputs and isinstance(message, page.RewindMessage | page.SaveMessage | page.FlyMessage):
+            raise InputError(f"{message.type}: not while clients fly the quadrotors")
         if isinstance(message, page.BeamMessage):
             with self._lock:
                 self._hand.seq = message.seq
@@ -226,18 +230,16 @@ class Session:
 
     @_handle.register
     def _pause(self, m: page.PauseMessage) -> None:
-        with self._lock:
-            self.pacer.paused = m.on
+        self.pacer.paused = m.on
 
     @_handle.register
     def _set_speed(self, m: page.SpeedMessage) -> None:
-        with self._lock:
-            self.pacer.speed = m.factor
+        self.pacer.speed = m.factor
 
     @_handle.register
     def _reset(self, m: page.ResetMessage) -> None:
         with self._parameters.turn:
-            setup = setup_flight(with_whole_rotors(self._flight.now, self._mission), self._engine)
+            setup = self._setup(with_whole_rotors(self._flight.now, self._mission))
             self._begin(setup, FrameBuilder(setup.plan))
             self.generation += 1
 
@@ -258,7 +260,7 @@ class Session:
     def _fly_another(self, m: page.FlyMessage) -> list[Answer]:
         with self._parameters.turn:
             mission = other_mission(m)
-            setup = setup_flight(mission, self._engine)
+            setup = self._setup(mission)
             self._begin(setup, FrameBuilder(setup.plan), mission)
             self.generation += 1
         self._flight.optimise()

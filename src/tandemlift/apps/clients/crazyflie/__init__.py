@@ -1,0 +1,1 @@
+"""Quadrotors as Crazyflies: the protocol CRTP over UDP."""

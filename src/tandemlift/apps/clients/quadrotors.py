@@ -1,0 +1,284 @@
+"""The quadrotors of one rigid vehicle, each armed, commanded and read by itself, as a client of a real one does.
+
+Each has a cascade of its own (`control = "own"`), whose integrators fight through the beam; or all share one pair of
+inner loops and one allocation ("shared"): thrusts add up, attitudes and yaws are averaged, and integrators agree. A
+supervisor stops a quadrotor whose setpoints no longer come, as the firmware does.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from enum import Enum
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from tandemlift import InputError, Vehicle
+from tandemlift.apps.clients.cascade import GRAVITY, Demand, OuterLoops, gains_for
+from tandemlift.apps.clients.one_body import (
+    LoopGroup,
+    rotation,
+    tilt,
+    together,
+    vector,
+)
+from tandemlift.apps.clients.setpoints import (
+    AttitudeSetpoint,
+    EstimateError,
+    QuadrotorState,
+    RateSetpoint,
+    Setpoint,
+    Stop,
+    VelocitySetpoint,
+    is_finite,
+    mean_attitude,
+)
+
+Control = Literal["own", "shared"]
+INNER_EVERY, OUTER_EVERY = 0.002, 0.01  # s; crazyflie-firmware, stabilizer_types.h: ATTITUDE_RATE, POSITION_RATE
+AGREEMENT = 1.0  # s, in which integrators of quadrotors on one body agree; chosen
+TUMBLED = math.radians(90.0)  # beyond this tilt rotors stop
+SETTLING = 1.0  # s, after which a vehicle that sinks no more has landed
+IDLE = 0.05  # of the weight: more thrust than this is a flight
+
+
+class FailSafe(NamedTuple):
+    """What happens without a new setpoint: after `level` [s] the quadrotor levels out, after `stop` [s] it stops.
+
+    With a `sink` [m/s], it sinks at this speed from `level` on, and stops once it stands.
+
+    The times of the Crazyflie are in crazyflie-firmware, commander.h: COMMANDER_WDT_TIMEOUT_STABILIZE, _SHUTDOWN.
+    """
+
+    level: float = 0.5
+    stop: float = 2.0
+    sink: float = 0.0
+
+
+CRAZYFLIE = FailSafe()
+
+
+class ArmingState(Enum):
+    """The state of a quadrotor: what its rotors may do."""
+
+    DISARMED = "disarmed"
+    ARMED = "armed"
+    WARNING = "levels out, as no setpoint comes"
+    LOCKED = "locked until the flight is reset"
+
+
+class Quadrotors:
+    """All quadrotors of a vehicle, between their clients and the flight.
+
+    Commands may come from any thread. `update` is called by the flight.
+
+    Args:
+        vehicle: that they carry.
+        lag: time that rotors take to respond, with delay [s].
+        step: of the flight [s].
+        control: who closes the inner loops.
+        fail_safe: without setpoints.
+        errors: of each quadrotor's estimate; none if empty.
+
+    Attributes:
+        ticks: called with the time [s] before each control step, in the flight's thread.
+    """
+
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        lag: float,
+        step: float,
+        control: Control = "shared",
+        fail_safe: FailSafe = CRAZYFLIE,
+        errors: Sequence[EstimateError] = (),
+    ) -> None:
+        if control not in ("own", "shared"):
+            raise InputError(f"control = {control!r}: must be 'own' or 'shared'")
+        self.vehicle, self.count, self.control = vehicle, vehicle.count, control
+        self._errors = errors or [EstimateError()] * self.count
+        self._fail_safe, self._every = fail_safe, max(round(INNER_EVERY / step), 1)
+        self._outer_every, self._dt = max(round(OUTER_EVERY / INNER_EVERY), 1), self._every * step
+        gains = gains_for(lag + self._dt)
+        each, self._arms = [q.max_thrust for q in vehicle.quadrotors], vehicle.lever_arms.tolist()
+        self._outer = [OuterLoops(gains, vehicle.mass / vehicle.count, 4.0 * most) for most in each]
+        everyone = range(self.count)
+        self._groups = [
+            LoopGroup(vehicle, gains, members, max(each))
+            for members in ([everyone] if control == "shared" else [range(i, i + 1) for i in everyone])
+        ]
+        self.ticks = list[Callable[[float], None]]()
+        self._max = np.repeat(each, 4)
+        self._begin()
+
+    def _begin(self) -> None:
+        """Begin a flight: nothing is armed or commanded."""
+        self.supervision = [ArmingState.DISARMED] * self.count
+        self._setpoints: list[tuple[Setpoint, float] | None] = [None] * self.count
+        self._demands: list[Demand | None] = [None] * self.count
+        self._flown: list[Setpoint | None] = [None] * self.count
+        self._levels: list[Setpoint] = [Stop()] * self.count
+        self._states: list[QuadrotorState] = []
+        self._thrusts, self._k, self._now = np.zeros(4 * self.count), 0, 0.0
+        for outer in self._outer:
+            outer.reset()
+        for group in self._groups:
+            group.inner.reset()
+
+    # what clients do
+
+    @property
+    def now(self) -> float:
+        """The time that the flight has reached [s]."""
+        return self._now
+
+    @property
+    def has_states(self) -> bool:
+        """Whether the flight has begun."""
+        return bool(self._states)
+
+    def state(self, i: int) -> QuadrotorState:
+        """The state of quadrotor `i`, from 0 on, at the last control step."""
+        return self._states[i]
+
+    def command(self, i: int, setpoint: Setpoint) -> bool:
+        """Command a setpoint to quadrotor `i`; False, and the one before stays, if a number is not finite."""
+        if not is_finite(setpoint):
+            return False
+        self._setpoints[i] = setpoint, self._now
+        return True
+
+    def arm(self, i: int) -> bool:
+        """Arm quadrotor `i`; whether it is."""
+        if self.supervision[i] is ArmingState.DISARMED and not self.is_tumbled(i):
+            self._setpoints[i], self.supervision[i] = None, ArmingState.ARMED
+        return self.is_armed(i)
+
+    def disarm(self, i: int) -> None:
+        """Stop the rotors of quadrotor `i`, until it is armed again."""
+        if self.supervision[i] is not ArmingState.LOCKED:
+            self.supervision[i] = ArmingState.DISARMED
+        self._setpoints[i] = None
+
+    def lock(self, i: int) -> None:
+        """Stop the rotors of quadrotor `i` for good."""
+        self.supervision[i], self._setpoints[i] = ArmingState.LOCKED, None
+
+    def is_armed(self, i: int) -> bool:
+        """Whether the rotors of quadrotor `i` may turn."""
+        return self.supervision[i] in (ArmingState.ARMED, ArmingState.WARNING)
+
+    def is_flying(self, i: int) -> bool:
+        """Whether the rotors of quadrotor `i` lift something."""
+        share = self.vehicle.weight / self.count
+        return bool(self.is_armed(i) and float(self._thrusts[4 * i : 4 * i + 4].sum()) > IDLE * share)
+
+    def is_tumbled(self, i: int) -> bool:
+        """Whether quadrotor `i` is tilted by more than a right angle."""
+        return bool(self._states) and tilt(self._states[i].quaternion) > TUMBLED
+
+    # what the flight does
+
+    def update(self, time: float, numbers: Iterable[float]) -> np.ndarray:
+        """The commanded thrusts of all rotors (4N,) [N] at a time [s].
+
+        Args:
+            time: since the start; an earlier one than before begins a new flight.
+            numbers: state (13,) of the vehicle: position, velocity, quaternion, rates, as `Simulation.state`.
+        """
+        if time < self._now:
+            self._begin()
+        self._now = time
+        if self._k % self._every == 0:
+            self._states = self._states_at(time, numbers)
+            for tick in self.ticks:
+                tick(time)
+            self._supervise(time)
+            self._control()
+        self._k += 1
+        return self._thrusts
+
+    def _states_at(self, time: float, numbers: Iterable[float]) -> list[QuadrotorState]:
+        position, velocity, attitude, rates = np.split(np.fromiter(numbers, float, 13), (3, 6, 10))
+        R, arms = rotation(attitude), self.vehicle.lever_arms
+        places, velocities = position + arms @ R.T, velocity + np.cross(rates, arms) @ R.T
+        before = [s.velocity for s in self._states] or velocities
+        forces = ((velocities - before) / self._dt + (0.0, 0.0, GRAVITY)) @ R
+        thrusts = np.split(self._thrusts, self.count)
+        rows = zip(places, velocities, forces, thrusts, self._errors, strict=True)
+        q, w = tuple(attitude.tolist()), vector(rates)
+        return [
+            error.of(QuadrotorState(time, vector(p), vector(v), q, w, vector(f), tuple(u.tolist())))
+            for p, v, f, u, error in rows
+        ]
+
+    def _supervise(self, now: float) -> None:
+        """Find the setpoint of each quadrotor that is flown now, and lock those that must not fly on."""
+        self._flown = [None] * self.count
+        for group in self._groups:
+            last = {i: at for i in group.members if (commanded := self._setpoints[i]) for at in [commanded[1]]}
+            for i in group.members:
+                if self.is_armed(i) and self.is_tumbled(i):
+                    self.lock(i)
+                commanded = self._setpoints[i]
+                if not self.is_armed(i) or commanded is None or isinstance(commanded[0], Stop):
+                    continue
+                age = now - max(last.values())
+                if age <= self._fail_safe.level:
+                    self.supervision[i] = ArmingState.ARMED
+                    if now - last[i] <= self._fail_safe.level:  # else it is carried, by what the others are commanded
+                        self._flown[i] = commanded[0]
+                elif self.is_flying(i):
+                    self._flown[i] = self._without_setpoint(i, commanded[0], age)
+
+    def _without_setpoint(self, i: int, last: Setpoint, age: float) -> Setpoint | None:
+        """What quadrotor `i` does as no setpoint has come after the `last` one, for a time [s]."""
+        safe, state = self._fail_safe, self._states[i]
+        if safe.sink:
+            if age > safe.level + SETTLING and abs(state.velocity[2]) < 0.2 * safe.sink:  # it stands
+                self.disarm(i)
+                return None
+            level: Setpoint = VelocitySetpoint((0.0, 0.0, -safe.sink))
+        elif age > safe.stop:
+            self.lock(i)
+            return None
+        elif self.supervision[i] is ArmingState.WARNING:
+            level = self._levels[i]
+        elif isinstance(last, AttitudeSetpoint | RateSetpoint):
+            level = AttitudeSetpoint(0.0, 0.0, last.thrust, height=getattr(last, "height", None))
+        else:
+            level = AttitudeSetpoint(0.0, 0.0, 0.0, height=state.position[2])
+        self.supervision[i], self._levels[i] = ArmingState.WARNING, level
+        return level
+
+    def _control(self) -> None:
+        """Close the loops: the setpoints that are flown, to thrusts."""
+        outer = self._k // self._every % self._outer_every == 0
+        for i, setpoint in enumerate(self._flown):
+            if setpoint is None:
+                self._demands[i] = None
+                self._outer[i].reset()
+            elif outer or self._demands[i] is None:
+                self._demands[i] = self._outer[i].demand(self._states[i], setpoint, OUTER_EVERY)
+        self._thrusts = np.zeros(4 * self.count)
+        for group in self._groups:
+            flown = [(i, demand) for i in group.members if (demand := self._demands[i])]
+            if not flown:
+                group.inner.reset()
+                continue
+            numbers, demands = zip(*flown, strict=True)
+            self._agree(numbers)
+            demand = together(demands, [self._arms[i] for i in numbers])
+            moment = group.inner.moment(mean_attitude([self._states[i] for i in numbers]), demand, self._dt)
+            wrench = (demand.thrust * len(group.members) / len(flown), *moment)
+            turning = tuple(self.supervision[i] is not ArmingState.LOCKED for i in group.members)
+            self._thrusts[group.rotors] = group.thrusts(wrench, turning, self._max[group.rotors])
+
+    def _agree(self, flown: Sequence[int]) -> None:
+        """Let the integrators of quadrotors with shared loops agree: on one body they cannot be satisfied apart."""
+        integrals = [self._outer[i].integral for i in flown]
+        mean, part = [sum(along) / len(flown) for along in zip(*integrals, strict=True)], self._dt / AGREEMENT
+        for i, own in zip(flown, integrals, strict=True):
+            x, y, z = (a + part * (m - a) for a, m in zip(own, mean, strict=True))
+            self._outer[i].integral = (x, y, z)

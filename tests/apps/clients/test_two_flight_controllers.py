@@ -1,0 +1,64 @@
+"""Two flight controllers on one body fight by their integrators; shared loops hover for ten minutes."""
+
+import numpy as np
+import pytest
+from two_flight_controllers import ERROR, HEIGHT, errors_of, hover
+
+from tandemlift.apps.clients.quadrotors import ArmingState, FailSafe
+from tandemlift.apps.clients.setpoints import EstimateError, PositionSetpoint, QuadrotorState
+
+
+def test_shared_loops_hold_a_hover_within_5_cm_for_ten_minutes():
+    flight = hover("shared", 600.0)
+    assert flight.times[-1] == pytest.approx(600.0, abs=0.2)
+    assert flight.worst < 0.05
+    assert flight.against.max() < 1e-9  # one allocation never lets the quadrotors work against each other
+    assert np.mean(flight.limited) == 0.0
+
+
+def test_own_loops_wind_up_against_each_other_until_the_vehicle_is_lost():
+    flight = hover("own", 40.0)
+    assert flight.far > 1.0
+    assert flight.ending != "hovers"
+    assert np.all(np.diff(flight.against[10:50:10]) > 0.0)  # integrators grow, second by second
+    assert flight.against.max() > 1e-3
+
+
+def test_an_error_of_an_estimate_is_that_rotation():
+    state = QuadrotorState(0.0, (1.0, 2.0, 3.0), (0.0,) * 3, (1.0, 0.0, 0.0, 0.0), (0.0,) * 3, (0.0,) * 3, (0.0,) * 4)
+    estimate = ERROR.of(state)
+    assert estimate.euler == pytest.approx(ERROR.rotation, abs=4e-4)  # of the second order
+    assert np.linalg.norm(estimate.quaternion) == pytest.approx(1.0)
+    assert estimate.position == pytest.approx((1.01, 2.01, 3.01))
+    assert EstimateError().of(state) == state
+    assert errors_of(1.0)[1].rates == pytest.approx([-0.5 * x for x in ERROR.rates])
+
+
+def test_a_fail_safe_that_sinks_lands_and_disarms(pairs):
+    pair = pairs("shared", FailSafe(level=1.0, sink=0.3))
+    targets = [(x, y, 0.6) for x, y, _ in pair.quads.vehicle.lever_arms.tolist()]
+
+    def both():
+        for i, target in enumerate(targets):
+            pair.quads.command(i, PositionSetpoint(target, 0.0))
+
+    pair.seconds(6.0, both)
+    assert pair.state().position[2] == pytest.approx(0.6, abs=0.03)
+    pair.seconds(8.0)
+    assert pair.quads.supervision == [ArmingState.DISARMED] * 2
+    assert pair.flight.simulation.ending is None
+    assert abs(pair.state().velocity[2]) < 1e-3
+    assert HEIGHT > 0.6 > pair.state().position[2]
+
+
+def test_a_vehicle_whose_quadrotors_have_own_loops_hovers_where_nothing_is_off(pairs):
+    pair = pairs("own")
+    targets = [(x, y, 0.6) for x, y, _ in pair.quads.vehicle.lever_arms.tolist()]
+
+    def both():
+        for i, target in enumerate(targets):
+            pair.quads.command(i, PositionSetpoint(target, 0.0))
+
+    pair.seconds(8.0, both)
+    for i, target in enumerate(targets):
+        assert pair.state(i).position == pytest.approx(target, abs=0.02)
