@@ -155,7 +155,11 @@ def assemble(mission: Mission) -> AssembledFlight:
     grip = Absent() if isinstance(plant.floor, Absent) else _grip(plant.floor, state)
     weights, over = mission.allocation.weights, plant.floor.height if mission.ground.effect else None
     rotors, spinning, thrusts = start_rotors(
-        mission.actuators, mission.faults, vehicle, step, weights=weights, floor=over, delayed=bool(delays[2])
+        *(mission.actuators, mission.faults, vehicle, step),
+        weights=weights,
+        floor=over,
+        delayed=bool(delays[2]),
+        scale=mission.plant.thrust_scale,
     )
     wind, wind_state = start_wind(mission.wind, vehicle, step, chance)
     near, hand = near_walls_from(plant.walls), push_kind(mission.pushes, mission.person)
