@@ -1,6 +1,6 @@
 """Tracking of mission iris over five seeds, with the true state: calm, wind, slow rotors, and a wrong model.
 
-python evidence/tracking_seeds.py
+python evidence/tracking_seeds.py [MISSION]
 
 The flights start in the air, hovering, rolled by 0.15 rad and pitched by −0.15 rad, without ground. Sensors have noise,
 but neither bias nor drift, and the joints' sensors are aligned; the pilot gets the true state. RMSE after 10 s, median
@@ -11,6 +11,7 @@ largest error of the height from 5 s after the lift to the landing.
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 import numpy as np
@@ -50,12 +51,13 @@ def highest(flight: Flight) -> float:
 
 def main() -> None:
     """Fly all scenes with all seeds, and print a table."""
+    mission = sys.argv[1] if len(sys.argv) > 1 else "iris"
     print(
         "| | RMSE x / y / z (mm) | x / y against the unfiltered admittance (mm) | largest z (mm) |\n|---|---|---|---|"
     )
     for name, scene in SCENES.items():
         flights = fly_each(
-            (load_mission("iris", {**BASE, **scene, "mission.seed": seed}) for seed in SEEDS), keep="flights"
+            (load_mission(mission, {**BASE, **scene, "mission.seed": seed}) for seed in SEEDS), keep="flights"
         )
         own, hand = median(flights, lambda flight: rms(errors(flight))), median(flights, admittance_error)
         print(f"| {name} | {triple(own, 2)} | {triple(hand)} | {median(flights, highest):.2f} |", flush=True)

@@ -63,7 +63,7 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from sensors.additional_checks(s)
     yield from sensors.first_sample_checks(s, step)
     yield from reading_checks(m.pilot, s.model)
-    yield from estimator.tare_checks(m.estimator, s.interval, step)
+    yield from estimator.tare_checks(m.estimator, s.interval, step, uses_mass=m.compliance.mass_feedforward)
     yield from estimator.wrench_checks(m.estimator, s, rotors, m.allocation.method, m.contact.model, m.hover.mass, step)
     yield from compensation_checks(m.estimator.wind_compensation, m.vehicle.quadrotors)
     yield from observer_checks(m.observer, m.allocation.method)

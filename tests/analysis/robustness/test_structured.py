@@ -58,7 +58,7 @@ def unstable(values):
 def test_no_corner_of_the_guaranteed_box_is_unstable_when_the_mission_is_linearized_there():
     rng, factor = np.random.default_rng(3), 0.98 * claim("guaranteed factor").value
     for _ in range(12):
-        signs = {name: rng.choice((-1.0, 1.0)) for name in BOX} | {"thrust": rng.choice((-1.0, 0.0)), "lag": 1.0}
+        signs = {name: rng.choice((-1.0, 1.0)) for name in BOX} | {"lag": 1.0}
         values = {name: factor * sign * BOX[name] for name, sign in signs.items()}
         assert not unstable(values | {"delay": math.floor(factor * 5.0) * 1e-3})
 
@@ -98,7 +98,8 @@ def test_the_worst_of_a_mission_that_is_not_built_in_is_written_whole():
     worst = mission_from_text("iris-worst.toml", text)
     assert worst.admittance == mission.admittance
     assert worst.plant.inertia_scale == (1.0, 1.3, 1.0)
-    assert len(worst.faults) == 8
+    assert worst.plant.thrust_scale == pytest.approx(0.8)
+    assert worst.faults == ()
     assert worst.actuators.delay == pytest.approx(0.014)
 
 
@@ -110,6 +111,8 @@ def test_the_worst_of_a_mission_that_is_not_built_in_is_written_whole():
         {"thrust": -1.0},
         {"mass": 1.0, "thrust": -1.0, "lag": 1.0, "delay": 1.0},
         {"mass": -1.0, "thrust": -1.0, "lag": 1.0, "delay": 1.0, "inertia_y": 1.0},
+        {"thrust": 1.0},
+        {"mass": -1.0, "thrust": 1.0, "lag": 1.0, "delay": 1.0},
     ],
 )
 def test_the_model_of_all_parameters_loses_stability_where_the_mission_linearized_there_does(signs):
@@ -119,12 +122,15 @@ def test_the_model_of_all_parameters_loses_stability_where_the_mission_linearize
     assert unstable({name: 1.06 * p for name, p in values.items()})
 
 
-def test_weaker_rotors_are_flown_as_faults_and_the_rest_by_its_keys():
+def test_the_strongest_rotor_sets_the_scale_weaker_ones_have_faults_and_the_rest_its_keys():
     tables = tables_of(iris())
     off = uncertain_tables(tables, {"thrust": -0.1, "rotor.3": -0.5, "mass": 0.2, "lag": 1.0, "delay": 0.003})
-    faults = check({**off, "pushes": []}).faults
-    assert [fault.efficiency for fault in faults] == pytest.approx([0.9, 0.9, 0.45, *[0.9] * 5])
-    assert (faults[2].quadrotor, faults[2].rotor) == (1, 3)
+    (fault,) = check({**off, "pushes": []}).faults
+    assert (fault.quadrotor, fault.rotor, fault.efficiency) == (1, 3, 0.5)
+    assert off["plant"]["thrust_scale"] == pytest.approx(0.9)
+    one = check({**uncertain_tables(tables, {"thrust": 0.1, "rotor.2": 0.25}), "pushes": []})
+    assert one.plant.thrust_scale == pytest.approx(1.1 * 1.25)
+    assert [fault.efficiency for fault in one.faults] == pytest.approx([0.8] * 7)
     assert off["plant"]["mass_scale"] == pytest.approx(1.2)
     assert off["vehicle"]["quadrotors"][1]["lag_down"] == pytest.approx(2.0 * iris().vehicle.quadrotors[1].lag_down)
     assert off["actuators"]["delay"] == pytest.approx(0.013)

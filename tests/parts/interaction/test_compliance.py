@@ -14,10 +14,12 @@ from tandemlift.parts.interaction.compliance import (
     QUIET_TIME,
     DeadBand,
     DeadBandState,
+    compensated_push,
     compliance_step,
     dead_band,
 )
 from tandemlift.parts.interaction.energy_tank import EnergyTank, EnergyTankState, passivity_damping
+from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.trajectories import SmoothStep
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
@@ -214,3 +216,32 @@ def test_damping_that_was_added_decays_exponentially_once_the_tank_is_full():
         damping, full = passivity_damping(tank, full, ZERO, ZERO, 0.0, H)
         assert damping == pytest.approx(40.0 * np.exp(-0.5 * i * H), rel=2e-3)
     assert full.energy == 2.0
+
+
+def test_leads_along_z_are_those_of_x_and_y_until_they_have_their_own():
+    m = guided()[1].compliance._replace(filtered=LowPassState(Vec3(1.0, 1.0, 1.0), Vec3(2.0, 2.0, 2.0)))
+    lead = {"compliance.force_lead": 0.1, "compliance.reference_lead": 0.2}
+    alike = guided(lead)[0].compliance
+    assert compensated_push(alike, m) == pytest.approx((1.2, 1.2, 1.2))
+    own = guided({**lead, "compliance.vertical_force_lead": 0.03, "compliance.vertical_reference_lead": 0.0})[
+        0
+    ].compliance
+    assert compensated_push(own, m) == pytest.approx((1.2, 1.2, 1.06))
+    assert own.reference_lead == (0.2, 0.2, 0.0)
+    assert alike.reference_lead == 0.2
+
+
+def test_an_identified_mass_is_accelerated_with_the_reference():
+    """A heavier vehicle than assumed follows a push along x more closely, once tared."""
+    changes = {"plant.mass_scale": 1.12, "pilot.state": "truth", "mission.duration": 26.0, "phases.land_start": 60.0}
+    error = {}
+    for known in (False, True):
+        flight = tl.fly(tl.load_mission("iris", {**changes, "compliance.mass_feedforward": known}))
+        off = (flight["reference_position"] - flight["position"])[flight.time > 20.0, 0]
+        error[known] = np.sqrt(np.mean(off**2))
+    assert error[True] < 0.85 * error[False]
+
+
+def test_a_mass_that_nobody_identifies_is_not_accelerated():
+    with pytest.raises(tl.InputError, match=r"compliance\.mass_feedforward = true.*estimator\.identify_mass = true"):
+        tl.load_mission("iris", {"compliance.mass_feedforward": True, "estimator.identify_mass": False})

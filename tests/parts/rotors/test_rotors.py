@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
+import tandemlift as tl
 from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.missions import load_mission
 from tandemlift.parts.mechanics.rigid_body import State
@@ -130,3 +131,27 @@ def test_each_rotor_of_a_tilted_vehicle_gains_by_its_own_height():
 def test_ideal_rotors_give_any_thrust_at_once():
     command = EIGHT(-3.0, 0.0, 100.0, *(1.0,) * 5)
     assert rotors_step(Absent(), Absent(), command, LEVEL, 0.0) == (command, Absent())
+
+
+@pytest.mark.parametrize("scale", [0.8, 1.3])
+def test_rotors_of_another_strength_hover_under_the_command_that_is_theirs(scale):
+    still = {"pushes": [], "plant.thrust_scale": scale, "mission.duration": 20.0, "phases.land_start": 40.0}
+    flight = tl.fly(load_mission("iris", still))
+    late = flight.time > 15.0
+    commanded = flight["rotor_commands"][late].sum(axis=1).mean()
+    assert commanded == pytest.approx(VEHICLE.weight / scale, rel=0.03)  # noise: rotors speed up sooner
+    assert flight["position"][late, 2] == pytest.approx(flight["reference_position"][late, 2], abs=5e-3)
+
+
+def test_ideal_rotors_have_no_strength_of_their_own():
+    with pytest.raises(tl.InputError, match=r"plant\.thrust_scale = 1\.1: must be 1, or actuators\.model"):
+        load_mission("paper", {"plant.thrust_scale": 1.1})
+
+
+def test_stronger_rotors_lift_what_the_pilots_could_not():
+    heavy = {"plant.mass_scale": 1.7}
+    with pytest.raises(tl.InputError, match="rotors lift 56"):
+        load_mission("iris", heavy)
+    hover = load_mission("iris", heavy | {"plant.thrust_scale": 1.2}).hover
+    assert hover.lift == pytest.approx(1.2 * 8 * MOST)
+    assert hover.share == pytest.approx(1.7 * VEHICLE.weight / hover.lift)

@@ -158,6 +158,9 @@ def _changed_limit(mission: Mission, name: str, bound: str, found: LinearLimit) 
     if name == "mass" and at > lifted:
         at, found = lifted, found._replace(frequency=math.nan)
         text = "times the pilot's value: all that the rotors lift"
+    if name == "mass" and at < 1.0 and mission.pilot.guidance == "interactive":
+        least = min(mission.admittance.threshold)
+        text += f"; a push of more than {least:g} N, the threshold, may start an oscillation before: of the admittance"
     return Claim(f"{bound} {kind}", axis, at, "1", None, text, found.frequency, parameter=name, limit=at)
 
 

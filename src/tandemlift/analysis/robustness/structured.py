@@ -29,7 +29,6 @@ from tandemlift.analysis.robustness.uncertainty import (
     largest_factor,
     parameters_of,
     uncertain_tables,
-    weakens,
 )
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.missions import Mission, built_in, check, format_toml, load_mission, tables_of
@@ -83,11 +82,11 @@ def structured_tier(mission: Mission, box: Mapping[str, float] = DEFAULT_BOX) ->
     if growing(mission, {})[0] > ON_CIRCLE:
         return Tier(NAME, TITLE, said, reason="the hover is not stable with all parameters as they are")
     most = largest_factor(widths)
-    factor, signs = found_factor(deviations, most, flyable=False)
+    factor, signs = found_factor(deviations, most)
     found = deviations.along(signs, factor)
     frequency = deviations.frequency(found) if found else math.nan
     proven, w, bounds = proven_factor(hovers, deviations, frequency)
-    worst = worst_of(mission, deviations, most)
+    worst = worst_of(mission, deviations, (factor, signs), most)
     curves, files = {"frequency": w, "upper_bound": bounds, "widths": widths}, dict[str, str]()
     claims = [*factors_of(proven, Worst(factor, found, frequency), most)]
     if worst is not None:
@@ -104,12 +103,12 @@ def structured_tier(mission: Mission, box: Mapping[str, float] = DEFAULT_BOX) ->
     return Tier(NAME, TITLE, said, tuple(claims), curves, files)
 
 
-def worst_of(mission: Mission, deviations: DeviatingLoop, most: float) -> Worst | None:
-    """The parameters that can be flown in the smallest box at which the mission, linearized there, oscillates.
+def worst_of(mission: Mission, deviations: DeviatingLoop, found: tuple[float, Values], most: float) -> Worst | None:
+    """The parameters in the smallest box at which the mission, linearized there, oscillates.
 
-    None if there are none up to a factor `most`.
+    `found`: the factor at which the model does, and the direction. None if there are none up to a factor `most`.
     """
-    factor, signs = found_factor(deviations, most, flyable=True)
+    factor, signs = found
     if math.isinf(factor):
         return None
     step = mission.mission.step
@@ -185,7 +184,7 @@ def factors_of(proven: float, found: Worst, most: float) -> Iterator[Claim]:
 def alone(mission: Mission, deviations: DeviatingLoop, name: str) -> Claim:
     """The nearest deviation of one parameter at which the loop oscillates, as the mission linearized there confirms."""
     unit, width = UNITS[name], deviations.widths[name]
-    ends = {} if weakens(name) else {1.0: (LONGEST if name == "delay" else FARTHEST) / width}
+    ends = {1.0: (LONGEST if name == "delay" else FARTHEST) / width}
     ends |= {} if name in ("lag", "delay") else {-1.0: LARGEST / width}
     factors = {sign: deviations.limit({name: sign}, end) for sign, end in ends.items()}
     sign = min(factors, key=lambda sign: factors[sign])
@@ -224,11 +223,6 @@ def assumptions(mission: Mission, box: Mapping[str, float], widths: Mapping[str,
         said.append(
             "What mass and thrust change by another hover comes from models at three values of each, and both together "
             "from either alone."
-        )
-    if any(map(weakens, widths)):
-        said.append(
-            "No key changes the thrust constant of the vehicle without that of its pilot: weaker rotors are flown as "
-            "faults that the pilot does not know; stronger ones are in the guarantee, but cannot be flown."
         )
     J = mission.hover.vehicle.real_inertia(mission.plant)
     if np.abs(J - np.diag(np.diag(J))).max() > 1e-6 * J.max() and set(INERTIAS) & set(widths):

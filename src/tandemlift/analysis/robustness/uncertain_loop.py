@@ -31,7 +31,6 @@ from tandemlift.analysis.robustness.uncertainty import (
     box_at,
     family_at,
     largest_factor,
-    weakens,
 )
 from tandemlift.core.errors import extra
 from tandemlift.core.types import Array
@@ -236,17 +235,14 @@ def bounds_of(family: Family, widths: Mapping[str, float]) -> list[Bound]:
     return bounds
 
 
-def found_factor(deviations: DeviatingLoop, most: float, *, flyable: bool) -> tuple[float, Values]:
+def found_factor(deviations: DeviatingLoop, most: float) -> tuple[float, Values]:
     """(the smallest factor of the box at which a search loses stability, in which direction), infinite up to `most`.
 
     From each start, one parameter after the other changes its sign while that makes the factor smaller; at the end,
-    those that do not matter are 0. `flyable`: without rotors that are stronger than the pilot assumes.
+    those that do not matter are 0.
     """
     rng, best, found = np.random.default_rng(SEED), math.inf, dict[str, float]()
-    choices = {
-        name: (0.0, 1.0) if name == "delay" else (-1.0, 0.0) if flyable and weakens(name) else (-1.0, 0.0, 1.0)
-        for name in deviations.widths
-    }
+    choices = {name: (0.0, 1.0) if name == "delay" else (-1.0, 0.0, 1.0) for name in deviations.widths}
     for _ in range(STARTS):
         signs = {name: 1.0 if name == "lag" else float(rng.choice(choices[name])) for name in choices}
         factor, improved = min(deviations.limit(signs, most), most), True

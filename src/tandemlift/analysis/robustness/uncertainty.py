@@ -91,38 +91,33 @@ def largest_factor(widths: Mapping[str, float]) -> float:
     return min((LONGEST if name == "delay" else LARGEST) / width for name, width in widths.items())
 
 
-def weakens(name: str) -> bool:
-    """Whether a parameter is a gain of rotors, which can be flown below 1 alone."""
-    return name == "thrust" or name.startswith("rotor.")
-
-
 def uncertain_tables(tables: Mapping[str, Any], values: Values) -> dict[str, Any]:
     """The tables of a mission whose vehicle deviates from them, and its pilot does not.
 
-    Vehicle and pilot share the key of the thrust constant, so that it has no effect. Weaker rotors are flown by faults
-    that the pilot does not know.
+    `plant.thrust_scale` is the gain of the strongest rotor; weaker ones have faults that the pilot does not know.
 
     Args:
         tables: of the mission.
-        values: deviations; no rotor is stronger.
+        values: deviations.
     """
     fleet, plant = tables["vehicle"]["quadrotors"], tables["plant"]
-    thrust, slow = 1.0 + values.get("thrust", 0.0), 1.0 + values.get("lag", 0.0)
-    gains = [thrust * (1.0 + values.get(f"rotor.{i + 1}", 0.0)) for i in range(4 * len(fleet))]
+    slow, gains = 1.0 + values.get("lag", 0.0), [1.0 + values.get(f"rotor.{i + 1}", 0.0) for i in range(4 * len(fleet))]
+    strongest = max(gains)
+    thrust = plant["thrust_scale"] * (1.0 + values.get("thrust", 0.0)) * strongest
     inertia = [x * (1.0 + values.get(name, 0.0)) for x, name in zip(plant["inertia_scale"], INERTIAS, strict=True)]
     mass = plant["mass_scale"] * (1.0 + values.get("mass", 0.0))
     return {
         **tables,
-        "plant": {**plant, "mass_scale": mass, "inertia_scale": inertia},
+        "plant": {**plant, "mass_scale": mass, "inertia_scale": inertia, "thrust_scale": thrust},
         "vehicle": {
             **tables["vehicle"],
             "quadrotors": [{**q, "lag_up": slow * q["lag_up"], "lag_down": slow * q["lag_down"]} for q in fleet],
         },
         "actuators": {**tables["actuators"], "delay": tables["actuators"]["delay"] + values.get("delay", 0.0)},
         "faults": [
-            {"quadrotor": i // 4 + 1, "rotor": i % 4 + 1, "time": 0.0, "efficiency": gain}
+            {"quadrotor": i // 4 + 1, "rotor": i % 4 + 1, "time": 0.0, "efficiency": gain / strongest}
             for i, gain in enumerate(gains)
-            if gain != 1.0
+            if gain != strongest
         ],
     }
 
@@ -207,7 +202,7 @@ def hovers_of(mission: Mission, widths: Mapping[str, float]) -> Hovers:
     Raises:
         InputError: the controller is plain Python, or a flight is lost.
     """
-    off = {"mass": (-1.0, 1.0), "thrust": (-1.0, -0.5)}
+    off = {"mass": (-1.0, 1.0), "thrust": (-1.0, 1.0)}
     at = {name: [end * widths[name] for end in ends] for name, ends in off.items() if name in widths}
     models = {name: tuple((p, calm_model(mission, {name: p}, real=False)) for p in ps) for name, ps in at.items()}
     return Hovers(mission, calm_model(mission, {}, real=False), models)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from tandemlift.core.keys import TRIAL, Bandwidth, Delay, Fraction, NonNegative, Positive, Positive3, Table, Tilt, key
-from tandemlift.core.vector import Vec3, vec3
+from tandemlift.core.vector import Absent, Vec3, vec3
 from tandemlift.parts.guidance.yaw_compliance import YawTable
 from tandemlift.parts.interaction.admittance import Admittance
-from tandemlift.parts.interaction.compliance import Compliance, MotionLimits, PushFilters
+from tandemlift.parts.interaction.compliance import AssumedPayload, Compliance, MotionLimits, PushFilters
 from tandemlift.parts.interaction.energy_tank import TankTable
 from tandemlift.parts.interaction.following import FollowingTable
 from tandemlift.parts.interaction.policy import PolicyTable, start_policy
@@ -56,6 +56,13 @@ class ComplianceTable(Table):
     )
     moment_lead: Delay = key(0.06, "s", "lead time of the compensated push's moment", source=TRIAL)
     reference_lead: Delay = key(0.11, "s", "lead time of the reference's acceleration", source=TRIAL)
+    vertical_force_lead: Delay | None = key(
+        None, "s", "force_lead along z, where no tilt delays the thrust", unset="that of x and y"
+    )
+    vertical_reference_lead: Delay | None = key(None, "s", "reference_lead along z", unset="that of x and y")
+    mass_feedforward: bool = key(
+        False, None, "whether the mass that a tare identifies is accelerated, too, with the reference", source="off"
+    )
     touchdown_depth: NonNegative = key(
         0.03, "m", "depth below the ground at which a landing's reference ends, so that the feet press", source="chosen"
     )
@@ -80,8 +87,10 @@ def push_filters(c: ComplianceTable, step: float) -> PushFilters:
     return PushFilters(before, after, c.release_fraction, c.dwell, c.bias_time_constant)
 
 
-def compliance_from(c: ComplianceTable, push: PushFilters, admittance: Admittance, threshold: Vec3) -> Compliance:
-    """The compliance around an admittance; pushes below the threshold [N] are ignored."""
+def compliance_from(
+    c: ComplianceTable, push: PushFilters, admittance: Admittance, threshold: Vec3, payload: float
+) -> Compliance:
+    """The compliance around an admittance; pushes below the threshold [N] are ignored. `payload`: assumed mass [kg]."""
     limits = MotionLimits(vec3(c.max_speed), vec3(c.max_acceleration), vec3(c.max_jerk), c.braking_gain)
     return Compliance(
         input_filter=push.input,
@@ -89,7 +98,13 @@ def compliance_from(c: ComplianceTable, push: PushFilters, admittance: Admittanc
         output_filter=push.output,
         admittance=admittance,
         limits=limits,
-        force_lead=c.force_lead,
-        reference_lead=c.reference_lead,
+        force_lead=_lead(c.force_lead, c.vertical_force_lead),
+        reference_lead=_lead(c.reference_lead, c.vertical_reference_lead),
+        payload=AssumedPayload(payload) if c.mass_feedforward else Absent(),
         policy=start_policy(c.policy, admittance.damping),
     )
+
+
+def _lead(lead: float, vertical: float | None) -> float | Vec3:
+    """A lead time [s], or one for each axis."""
+    return lead if vertical is None else Vec3(lead, lead, vertical)

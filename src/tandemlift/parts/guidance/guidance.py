@@ -15,6 +15,7 @@ from tandemlift.core.law import Absent, choice, law
 from tandemlift.core.types import NEVER, Number, PerRotor
 from tandemlift.core.vector import Vec3
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
+from tandemlift.parts.interaction.compliance import AssumedPayload
 from tandemlift.parts.interaction.requests import (
     NO_REQUEST,
     UNKNOWN_STATUS,
@@ -122,7 +123,7 @@ class Guidance(NamedTuple):
     The gated force [N, world axes]; T_r with its derivatives; the reference; the push that the controller compensates:
     force [N, world axes] and moment [N·m, body axes]; the fraction of the thrusts that is commanded; 1 in flight, else
     0; 1 while observers may learn, else 0, as where the feet may press on the ground; the channels. `wall`: load of a
-    wall, a `LoadOfWall`, or `Absent`.
+    wall, a `LoadOfWall`, or `Absent`. `inertial`: force [N] of an identified mass beyond the assumed one, or `Absent`.
     """
 
     force: Vec3
@@ -135,6 +136,24 @@ class Guidance(NamedTuple):
     learning: Number
     channels: object
     wall: LoadOfWall | Absent = Absent()
+    inertial: Vec3 | Absent = Absent()
+
+
+@choice(absent="nominal")
+def identified_payload(sensed: object, nominal: Number) -> Number:
+    """The mass of the payload [kg] that the tare identified; `nominal` before it, and where none is estimated."""
+
+
+@law(absent=Absent())
+def inertial_force(assumed: AssumedPayload, sensed: object, acceleration: Vec3) -> Vec3:
+    """−(m̂ − m_L) a [N]: what a payload of another mass m̂ than assumed resists an acceleration a [m/s²] with."""
+    return acceleration * (assumed.mass - identified_payload(sensed, assumed.mass))
+
+
+@law(absent="push")
+def with_force(force: Vec3, push: Vec3) -> Vec3:
+    """A push [N] with a further force."""
+    return push + force
 
 
 @choice

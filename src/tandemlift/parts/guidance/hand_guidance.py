@@ -23,7 +23,15 @@ from tandemlift.parts.guidance.contact_hold import (
     turning_out,
     without_wall,
 )
-from tandemlift.parts.guidance.guidance import Guidance, PilotInput, ThrustFraction, checked_input, guide
+from tandemlift.parts.guidance.guidance import (
+    Guidance,
+    PilotInput,
+    ThrustFraction,
+    checked_input,
+    guide,
+    inertial_force,
+    with_force,
+)
 from tandemlift.parts.guidance.phases import (
     PhaseOutput,
     PhaseSettings,
@@ -266,13 +274,16 @@ def _by_hand(
     shown, memory = finish_supervision(g.supervision, memory, phase, target.position, contact_code(boundary), t)
     lead = after.jerk * g.compliance.reference_lead
     reference = Reference(target, heading.angle, heading.rate, heading.acceleration, lead)
+    known = compensated_push(g.compliance, after) * allowed.compensating
     load = disturbance.force + after.filtered.value * allowed.compensating
     following = following_step(g, m.following, phase, state, load, reference, (t, dt))
+    payload, sensed = g.compliance.payload, pilot_input.sensed
     guidance = Guidance(
         force=after.output.value,
         admittance=motion,
         reference=reference,
-        push=compensated_push(g.compliance, after) * allowed.compensating,
+        push=with_force(inertial_force(payload, sensed, after.acceleration + lead), known),
+        inertial=inertial_force(payload, sensed, after.acceleration),
         moment=(moment.value + moment.rate * g.moment_lead) * allowed.compensating,
         running=ThrustFraction(allowed.running),
         flying=allowed.flying * (1.0 - blind),

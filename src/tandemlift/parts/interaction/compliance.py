@@ -76,11 +76,18 @@ class MotionLimits(NamedTuple):
     braking_gain: Number
 
 
+class AssumedPayload(NamedTuple):
+    """The payload of the pilot's model: what is identified beyond its `mass` [kg] is accelerated, too."""
+
+    mass: Number
+
+
 class Compliance(NamedTuple):
     """Low-pass of the push, dead-band, low-pass after it, M, C, K and T_d, limits.
 
     `force_lead` [s]: lead time of the push that the controller compensates. `reference_lead` [s]: lead time of the
-    reference's acceleration. `policy`: of the damping, or `Absent`.
+    reference's acceleration; each one number, or one for each axis. `payload`: the assumed one, or `Absent`.
+    `policy`: of the damping, or `Absent`.
     """
 
     input_filter: LowPass
@@ -88,8 +95,9 @@ class Compliance(NamedTuple):
     output_filter: LowPass
     admittance: Admittance
     limits: MotionLimits
-    force_lead: Number
-    reference_lead: Number
+    force_lead: Number | Vec3
+    reference_lead: Number | Vec3
+    payload: AssumedPayload | Absent
     policy: Policy | Absent
 
 

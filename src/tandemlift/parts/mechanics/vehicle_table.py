@@ -54,6 +54,13 @@ class PlantTable(Table):
         source="the model is right",
         example=[0.0, 0.02, 0.0],
     )
+    thrust_scale: Scale = key(
+        1.0,
+        "1",
+        "real thrust over the modelled one, of each rotor at any speed, the largest too",
+        source="the model is right",
+        rule="1 for ideal rotors",
+    )
 
 
 class Quadrotor(Table):

@@ -72,7 +72,7 @@ class PushFeedback(NamedTuple):
 
     Attributes:
         mass_error: error of the mass in the measured push [kg].
-        force_lead: lead time of the force [s].
+        force_lead: lead time of the force along z [s].
         moment_lead: lead time of the moment [s].
         bandwidth: bandwidth of their low-pass [rad/s].
     """
@@ -144,7 +144,8 @@ def push_feedback(
         return None
     unknown = hover.vehicle.payload.mass - hover.payload_mass
     error = -disturbance.force[2] / GRAVITY if estimator.identify_mass else unknown
-    return PushFeedback(error, c.force_lead, c.moment_lead, c.input_bandwidth)
+    lead = c.force_lead if c.vertical_force_lead is None else c.vertical_force_lead
+    return PushFeedback(error, lead, c.moment_lead, c.input_bandwidth)
 
 
 def loop_delays(loop: ControlLoop) -> Iterator[LoopDelay]:

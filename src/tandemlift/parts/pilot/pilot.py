@@ -21,7 +21,16 @@ from tandemlift.parts.estimation.disturbance_observer import (
     last_known,
     observer_step,
 )
-from tandemlift.parts.guidance.guidance import Guidance, PilotInput, checked_input, guide, running, untouched, with_wall
+from tandemlift.parts.guidance.guidance import (
+    Guidance,
+    PilotInput,
+    checked_input,
+    guide,
+    running,
+    untouched,
+    with_force,
+    with_wall,
+)
 from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
 from tandemlift.parts.interaction.admittance import AdmittanceState
@@ -106,7 +115,7 @@ def control_input(p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t
     guidance, guidance_memory = guide(p.guidance, m.guidance, pilot_input, before, failed, t, dt)
     thrusts = last_thrusts(m.allocation)
     flying, learning = guidance.flying, guidance.learning
-    known = with_wall(guidance.wall, pilot_input)
+    known = with_wall(guidance.wall, pilot_input._replace(push=with_force(guidance.inertial, pilot_input.push)))
     estimate, observer_memory = observer_step(p.observer, m.observer, known, thrusts, flying, learning, dt)
     watched = flying * learning * untouched(guidance.wall)
     detection_memory = detection_step(p.detection, m.detection, pilot_input, thrusts, watched, t, dt)

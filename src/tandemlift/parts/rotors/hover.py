@@ -49,13 +49,17 @@ class HoverFacts(NamedTuple):
     @property
     def lift(self) -> float:
         """The largest thrust of all rotors together [N]."""
-        return self.vehicle.max_thrust
+        return self.vehicle.max_thrust * self.plant.thrust_scale
+
+    @property
+    def most(self) -> Array:
+        """The largest thrust of a rotor of each quadrotor [N] (N)."""
+        return np.array([q.max_thrust for q in self.vehicle.quadrotors]) * self.plant.thrust_scale
 
     @property
     def faulty_lift(self) -> float:
         """The largest thrust of all rotors together with all faults of the flight [N]."""
-        fleet = self.vehicle.quadrotors
-        return self.lift - sum(fleet[f.quadrotor - 1].max_thrust * (1.0 - f.efficiency) for f in self.faults)
+        return self.lift - sum(float(self.most[f.quadrotor - 1]) * (1.0 - f.efficiency) for f in self.faults)
 
     @property
     def lag(self) -> float:
@@ -71,7 +75,7 @@ class HoverFacts(NamedTuple):
     @property
     def share(self) -> float:
         """The thrust of the most loaded rotor, of the largest that it can give."""
-        return float(np.max(self.thrusts / [[q.max_thrust] for q in self.vehicle.quadrotors]))
+        return float(np.max(self.thrusts / self.most[:, None]))
 
     def largest_payload(self, share: float) -> float:
         """The largest mass of such a payload [kg] with which no rotor exceeds a share of its thrust; 0 if none."""
@@ -90,7 +94,7 @@ class HoverFacts(NamedTuple):
         of (f_max − f₀)/a and f₀/(−a).
         """
         inverse = self.vehicle.allocation(self.allocation.weights)
-        most = np.repeat([q.max_thrust for q in self.vehicle.quadrotors], 4)
+        most = np.repeat(self.most, 4)
         hover = self.thrusts.ravel()
         up, down = np.maximum(most - hover, 0.0)[:, None], np.maximum(hover, 0.0)[:, None]
         column = inverse[:, 1:]

@@ -9,8 +9,10 @@ from tandemlift.parts.rotors.hover import HoverFacts
 
 
 def lift_checks(hover: HoverFacts) -> Iterator[CheckResult]:
-    """Check for real rotors that cannot lift the vehicle."""
-    scale = hover.plant.mass_scale
+    """Check for real rotors that cannot lift the vehicle, and for ideal ones with a thrust of their own."""
+    scale, stronger = hover.plant.mass_scale, hover.plant.thrust_scale
+    if hover.actuators.model != "rotors" and stronger != 1.0:
+        yield refused(f'plant.thrust_scale = {stronger:g}: must be 1, or actuators.model "rotors", not "ideal"')
     if hover.actuators.model == "rotors" and hover.weight > hover.lift:
         yield refused(
             f'actuators.model = "rotors": the vehicle weighs {hover.weight:.4g} N'
@@ -30,12 +32,10 @@ def ideal_lift_warnings(hover: HoverFacts) -> Iterator[CheckResult]:
 
 def hover_warnings(hover: HoverFacts) -> Iterator[CheckResult]:
     """Check for rotors that cannot give their thrusts in hover."""
-    for i, (q, own) in enumerate(zip(hover.vehicle.quadrotors, hover.thrusts, strict=True), 1):
-        worst = max(own, key=lambda f: max(-f, f - q.max_thrust))
-        if not 0.0 <= worst <= q.max_thrust:
-            yield warned(
-                f"in hover a rotor of quadrotor {i} would give {worst:.4g} N and can give 0 to {q.max_thrust:.4g} N"
-            )
+    for i, (most, own) in enumerate(zip(hover.most.tolist(), hover.thrusts, strict=True), 1):
+        worst = max(own, key=lambda f: max(-f, f - most))
+        if not 0.0 <= worst <= most:
+            yield warned(f"in hover a rotor of quadrotor {i} would give {worst:.4g} N and can give 0 to {most:.4g} N")
 
 
 def payload_warnings(hover: HoverFacts) -> Iterator[CheckResult]:

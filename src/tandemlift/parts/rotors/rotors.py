@@ -50,6 +50,7 @@ class ActuatorsTable(Table):
 class Rotors(NamedTuple):
     """Limits [N], k [N/(rad/s)²], 1/k and lags as sets; faults, ground effect; `delayed`: 1 if commands are, else 0.
 
+    `constant` is the real k; limits and 1/k are the pilot's, which turn a commanded thrust into a speed.
     `wrench_scale`: one over the size of each component of the wrench.
     """
 
@@ -109,13 +110,14 @@ def rotors_from(
     faults: RotorFaults | Absent,
     surface: GroundEffect | Absent,
     wrench_scale: Wrench,
+    scale: Number = 1.0,
 ) -> Rotors:
-    """The real rotors of a vehicle, for steps of `step` [s]."""
+    """The real rotors of a vehicle, for steps of `step` [s]; `scale`: real over modelled thrust."""
     each_rotor = [q for q in vehicle.quadrotors for _ in range(4)]
     cls = each(len(each_rotor))
     return Rotors(
         max_thrust=cls(*[q.max_thrust for q in each_rotor]),
-        constant=cls(*[q.thrust_constant for q in each_rotor]),
+        constant=cls(*[q.thrust_constant * scale for q in each_rotor]),
         per_constant=cls(*[1.0 / q.thrust_constant for q in each_rotor]),
         up=lag([q.lag_up for q in each_rotor], step),
         down=lag([q.lag_down for q in each_rotor], step),
@@ -135,6 +137,7 @@ def start_rotors(
     weights: tuple[tuple[float, ...], ...],
     floor: Number | None,
     delayed: bool,
+    scale: Number,
 ) -> tuple[Rotors, RotorState, PerRotor] | tuple[Absent, Absent, PerRotor]:
     """The rotors, their state and thrusts [N] at t = 0.
 
@@ -146,17 +149,23 @@ def start_rotors(
         weights: of the allocation, which distribute the hover thrust.
         floor: height z [m] of a floor with ground effect, or None.
         delayed: whether commands arrive late.
+        scale: real over modelled thrust.
     """
     hover = hover_thrusts(vehicle, weights)
     if table.model == "ideal":
         return Absent(), Absent(), hover
-    rotors = _real_rotors(vehicle, step, delayed, faults, floor)
-    return rotors, *_start(hover, rotors, table.start == "hover")
+    rotors = _real_rotors(vehicle, step, delayed, faults, floor, scale)
+    return rotors, *_start(hover, rotors, table.start == "hover", scale)
 
 
 @cached
 def _real_rotors(
-    vehicle: Vehicle, step: float, delayed: bool, faults: tuple[FaultTable, ...], floor: Number | None
+    vehicle: Vehicle,
+    step: float,
+    delayed: bool,
+    faults: tuple[FaultTable, ...],
+    floor: Number | None,
+    scale: Number,
 ) -> Rotors:
     """The rotors of a vehicle with faults and, over a floor at z = `floor` [m], with ground effect."""
     return rotors_from(
@@ -166,13 +175,14 @@ def _real_rotors(
         faults=real_faults(faults, vehicle),
         surface=Absent() if floor is None else ground_effect_from(vehicle, floor),
         wrench_scale=wrench_scale(vehicle.effect),
+        scale=scale,
     )
 
 
 @cached
-def _start(hover: PerRotor, rotors: Rotors, hovers: bool) -> tuple[RotorState, PerRotor]:
-    """The state of rotors and their thrusts at t = 0: those of hover, or none."""
+def _start(hover: PerRotor, rotors: Rotors, hovers: bool, scale: Number) -> tuple[RotorState, PerRotor]:
+    """The state of rotors and their real thrusts at t = 0: under the commands of hover, or none."""
     cls, share = type(hover), 1.0 if hovers else 0.0
     start = cls(*[share * minimum(maximum(f, 0.0), most) for f, most in zip(hover, rotors.max_thrust, strict=True)])
     speed = cls(*[(f * c) ** 0.5 for f, c in zip(start, rotors.per_constant, strict=True)])
-    return RotorState(speed, start), start
+    return RotorState(speed, start), cls(*[f * scale for f in start])

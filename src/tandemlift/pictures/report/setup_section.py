@@ -60,6 +60,8 @@ def _vehicle(flight: Flight) -> Iterator[Row]:
         unknown.append(f"its mass is {describe(plant.mass_scale * mass, 'kg')}")
     if plant.inertia_scale != (1.0, 1.0, 1.0):
         unknown.append(f"its inertia is {_vector(plant.inertia_scale, 'times as large')}")
+    if plant.thrust_scale != 1.0:
+        unknown.append(f"its rotors give {describe(plant.thrust_scale, '%', 100.0)} of the thrust")
     if any(plant.center_of_mass_offset):
         unknown.append(f"its centre of mass is off by {_vector(plant.center_of_mass_offset, 'm')}")
     if any(push.force):

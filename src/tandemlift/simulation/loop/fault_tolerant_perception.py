@@ -13,6 +13,7 @@ from tandemlift.parts.estimation.contact_detection import ContactEstimate, Known
 from tandemlift.parts.estimation.navigation import centre_of_mass
 from tandemlift.parts.estimation.push_confirmation import refuted_push
 from tandemlift.parts.estimation.push_estimate import PushEstimate
+from tandemlift.parts.guidance.guidance import identified_payload
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
 from tandemlift.parts.guidance.preflight_checks import SensorStatus, sensor_status
 from tandemlift.parts.mechanics.loads import PerfectReadings
@@ -193,6 +194,11 @@ def _refuted(known: CheckedEstimates) -> Vec3:
 @sensor_status.register(PerceptionData)
 def _senses(what: PerceptionData, payload: Number) -> SensorStatus:
     return reported_by(what.known)
+
+
+@identified_payload.register(PerceptionData)
+def _identified(what: PerceptionData, nominal: Number) -> Number:
+    return what.known.push.payload_mass
 
 
 def with_faults(faults: SensorFaults, devices: Any, sensing: Any) -> tuple[Any, Any]:

@@ -154,9 +154,8 @@ def assemble(mission: Mission) -> AssembledFlight:
     state, plant = start_state(mission), plant_from(mission, vehicle)
     grip = Absent() if isinstance(plant.floor, Absent) else _grip(plant.floor, state)
     weights, over = mission.allocation.weights, plant.floor.height if mission.ground.effect else None
-    rotors, spinning, thrusts = start_rotors(
-        mission.actuators, mission.faults, vehicle, step, weights=weights, floor=over, delayed=bool(delays[2])
-    )
+    given: Any = {"weights": weights, "floor": over, "delayed": bool(delays[2]), "scale": mission.plant.thrust_scale}
+    rotors, spinning, thrusts = start_rotors(mission.actuators, mission.faults, vehicle, step, **given)
     wind, wind_state = start_wind(mission.wind, vehicle, step, chance)
     near, hand = near_walls_from(plant.walls), push_kind(mission.pushes, mission.person)
     at_rest = lambda: readings_at_rest(plant, state, grip, near, thrusts, hand)  # noqa: E731

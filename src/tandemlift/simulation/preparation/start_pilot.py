@@ -115,7 +115,9 @@ def start_hand_guidance(
     max_tilt = c.max_tilt if of_controller is None else minimum(c.max_tilt, of_controller)
     guided = HandGuidance(
         phasing=phase_settings(mission.phases, c, mission.requests),
-        compliance=compliance_from(c, push, admittance_from(mission.admittance), vec3(mission.admittance.threshold)),
+        compliance=compliance_from(
+            *(c, push, admittance_from(mission.admittance), vec3(mission.admittance.threshold)), vehicle.payload.mass
+        ),
         tank=tank,
         heading=heading,
         moment=push.input,
