@@ -182,7 +182,7 @@ def page(
     from tandemlift.apps.live.page_files import page_files, with_script
 
     files = with_script(page_files(), script)
-    with progress_bar("Compiling", "missions", shown=sys.stderr.isatty()) as progress:
+    with progress_bar("Compiling", "missions") as progress:
         flights = page_modules.packed_flights(missions or page_modules.MISSIONS, controller, progress)
     for line in pages.write_page(flights, Path(out) if out else None, one_file, files):
         echo(line)
@@ -215,7 +215,7 @@ def score(folder: Path, mission: str, free: tuple[str, ...], settings: tuple[str
     """
     from tandemlift.apps.live.ranking import ranked
 
-    with progress_bar("Flying", "flights", shown=sys.stderr.isatty()) as progress:
+    with progress_bar("Flying", "flights") as progress:
         table, refused = ranked(folder, load(mission, settings), free, progress)
     for line in table:
         echo(line)
