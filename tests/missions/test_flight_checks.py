@@ -164,7 +164,7 @@ def test_the_authority_is_where_the_first_rotor_meets_a_limit_and_no_more_than_w
     linprog = pytest.importorskip("scipy.optimize").linprog
     mission = load_mission("iris")
     vehicle, authority = mission.hover.vehicle, mission.hover.authority
-    most = mission.vehicle.quadrotors[0].max_thrust
+    most = mission.vehicle.quadrotors[0].thrust_limit
     for i in range(3):
         wrench = np.array([mission.hover.weight, 0.0, 0.0, 0.0])
         ends = [
@@ -266,7 +266,7 @@ def test_a_push_of_that_size_brings_the_first_rotor_to_its_limit(place, way):
     balance = np.array([hover.weight - limit * way[2], *-np.cross(place, limit * way)])
     thrusts = vehicle.allocation(mission.allocation.weights) @ balance
     assert vehicle.effect @ thrusts == pytest.approx(balance, abs=1e-9)
-    most = vehicle.quadrotors[0].max_thrust
+    most = vehicle.quadrotors[0].thrust_limit
     assert min(np.abs(thrusts).min(), np.abs(thrusts - most).min()) < 1e-9
     assert thrusts.min() > -1e-9
     assert thrusts.max() < most + 1e-9

@@ -48,7 +48,7 @@ def _largest_thrust(flight: Flight) -> str:
     if "rotor_thrusts" not in flight or "vehicle" not in flight.mission:
         return ""
     thrusts = flight["rotor_thrusts"]
-    most = np.repeat([q.max_thrust for q in flight.vehicle.quadrotors], 4)
+    most = np.repeat([q.thrust_limit for q in flight.vehicle.quadrotors], 4)
     if thrusts.shape[-1] != len(most) or not np.isfinite(thrusts).any():
         return ""
     largest = np.nanmax(thrusts, axis=0)

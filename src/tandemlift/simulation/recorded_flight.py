@@ -247,15 +247,20 @@ class RecordedFlight:
             self._hand.pop()
         self._hand.append((self.step, numbers))
 
-    def repeat(self, past: RecordedFlight, steps: int) -> None:
-        """Fly so many steps with hand and changes of another flight of the same mission, bit-identically."""
+    def repeat(self, past: RecordedFlight, steps: int, *, pending: bool = False) -> None:
+        """Fly so many steps with hand and changes of another flight of the same mission, bit-identically.
+
+        `pending`: those of the next step, too.
+        """
         hands = dict(past._hand)
-        while self.step < steps:
-            for c in [c for c in past._changes if round(c["time"] / self.dt) == self.step]:
+        while self.step < steps or pending:
+            for c in [c for c in past._changes[len(self._changes) :] if round(c["time"] / self.dt) == self.step]:
                 key, value, duration = c["key"], c["value"], c["duration"]
                 self.change(self.prepare(key, value, duration), key, value, duration)
             if self.step in hands:
                 self.hold(unflat(hands[self.step], HAND_RELEASED))
+            if self.step >= steps:
+                return
             self.advance()
 
     def prepare(self, key: str, value: Any, duration: float = 0.0) -> ScheduledChange:

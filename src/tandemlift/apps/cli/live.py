@@ -77,10 +77,11 @@ def live(
     check_live_installed()
     engine_named(engine)
     from tandemlift.apps.live.page_files import page_files, with_script
-    from tandemlift.apps.live.server import PageServer, Session
+    from tandemlift.apps.live.server import PageServer
+    from tandemlift.apps.live.two_flights import TwoFlights
 
     files = with_script(page_files(), script)
-    session = Session(load(mission, settings, controller), engine, Path(out))
+    session = TwoFlights(load(mission, settings, controller), engine, Path(out))
     serve_until_interrupt(PageServer(files, session, host, port), f"{mission}, live", browser=not no_browser)
     exit_now(0)  # a thread may still be compiling
 

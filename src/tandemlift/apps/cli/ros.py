@@ -69,7 +69,7 @@ def ros(
       2   bad input: one message, nothing is flown
       3   crashed, diverged or interrupted, or ROS 1's master is gone: the flight so far is saved with --save
     """
-    from tandemlift.apps.live.server import Session
+    from tandemlift.apps.live.two_flights import TwoFlights
     from tandemlift.apps.ros import ros1, ros2
     from tandemlift.apps.ros.node import fly_and_save, middleware_for, shut_down, version_for
     from tandemlift.apps.ros.sample_queue import steps_between_samples
@@ -87,7 +87,7 @@ def ros(
     spoken = version_for("1" if rviz else version)
     middleware = middleware_for(spoken, arguments, asked=rviz or version is not None)
     try:
-        session = Session(loaded, engine, OUT)
+        session = TwoFlights(loaded, engine, OUT)
         session.prepare()
         session.flight.optimise()
         if spoken == "2":

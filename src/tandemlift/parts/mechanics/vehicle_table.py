@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import AfterValidator, Field, model_validator
@@ -20,6 +20,7 @@ from tandemlift.core.keys import (
     Size,
     Table,
     Triple,
+    is_number,
     key,
     must,
 )
@@ -31,6 +32,7 @@ Corner = Annotated[tuple[Metre, Metre], PerAxis(2, single=False)]
 Turns = Literal[-1, 1]
 Heading = Annotated[float, Field(ge=-6.2832, le=6.2832)]  # rad, within a whole turn either way
 COINCIDING = 1e-3  # m
+NOMINAL_SPEED = 1000.0  # rad/s, of rotors of which only the thrust is known: it scales their speeds, not their flight
 
 
 class DisturbanceTable(Table):
@@ -115,6 +117,13 @@ class Quadrotor(Table):
     )
     thrust_constant: Positive = key(..., "N/(rad/s)²", "thrust of a rotor over its speed squared", example=5.84e-6)
     max_speed: Positive = key(..., "rad/s", "largest speed of a rotor", example=1100.0)
+    max_thrust: Positive | None = key(
+        None,
+        "N",
+        "largest thrust of a rotor, in place of thrust_constant, of max_speed, or of both (then of 1000 rad/s)",
+        unset="thrust_constant · max_speed²",
+        example=7.07,
+    )
     torque_per_thrust: Positive = key(..., "m", "reaction torque of a rotor over its thrust", example=0.06)
     lag_up: NonNegative = key(..., "s", "time constant of a rotor that speeds up", example=0.0125)
     lag_down: NonNegative = key(..., "s", "time constant of a rotor that slows down", example=0.025)
@@ -162,6 +171,28 @@ class Quadrotor(Table):
         source="chosen: a body of 0.2 m by 0.1 m, and rotor discs that are mostly open",
     )
     drag_coefficient: Size = key(1.0, "1", "drag coefficient", source="chosen: a bluff body")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _speeds_of_thrust(cls, data: Any) -> Any:
+        """Put constant and speed in the place of a largest thrust: what one of them lacks, the thrust says."""
+        thrust = data.get("max_thrust") if isinstance(data, dict) else None
+        constant, speed = (data.get(name) if thrust else None for name in ("thrust_constant", "max_speed"))
+        if not all(value is None or (is_number(value) and value > 0.0) for value in (thrust, constant, speed)):
+            return data  # each is refused by itself
+        if thrust is None:
+            return data
+        if constant is None:
+            speed = NOMINAL_SPEED if speed is None else speed
+            constant = thrust / speed**2
+        fits = math.sqrt(thrust / constant)
+        if speed is not None and not math.isclose(speed, fits, rel_tol=1e-3):
+            raise must(
+                "quadrotor",
+                f"have a max_thrust that is thrust_constant · max_speed², here {constant * speed**2:.4g} N and not "
+                f"{thrust:g} N: leave one of the three out, or set max_speed = {fits:.5g}",
+            )
+        return {**data, "max_thrust": None, "thrust_constant": constant, "max_speed": speed or fits}
 
     @model_validator(mode="after")
     def _arms(self) -> Quadrotor:
@@ -222,7 +253,7 @@ class Quadrotor(Table):
         return (self.position[0], self.position[1], 0.0) if self.joint is None else self.joint
 
     @property
-    def max_thrust(self) -> float:
+    def thrust_limit(self) -> float:
         """Largest thrust of one rotor [N]."""
         return self.thrust_constant * self.max_speed**2
 

@@ -55,7 +55,7 @@ class HoverFacts(NamedTuple):
     def faulty_lift(self) -> float:
         """The largest thrust of all rotors together with all faults of the flight [N]."""
         fleet = self.vehicle.quadrotors
-        return self.lift - sum(fleet[f.quadrotor - 1].max_thrust * (1.0 - f.efficiency) for f in self.faults)
+        return self.lift - sum(fleet[f.quadrotor - 1].thrust_limit * (1.0 - f.efficiency) for f in self.faults)
 
     @property
     def lag(self) -> float:
@@ -71,7 +71,7 @@ class HoverFacts(NamedTuple):
     @property
     def share(self) -> float:
         """The thrust of the most loaded rotor, of the largest that it can give."""
-        return float(np.max(self.thrusts / [[q.max_thrust] for q in self.vehicle.quadrotors]))
+        return float(np.max(self.thrusts / [[q.thrust_limit] for q in self.vehicle.quadrotors]))
 
     def largest_payload(self, share: float) -> float:
         """The largest mass of such a payload [kg] with which no rotor exceeds a share of its thrust; 0 if none."""
@@ -103,7 +103,7 @@ class HoverFacts(NamedTuple):
 
     def _room(self, column: Array) -> Array:
         """How much of some thrusts per unit (R × n) [N] the rotors can add in hover (n)."""
-        most = np.repeat([q.max_thrust for q in self.vehicle.quadrotors], 4)
+        most = np.repeat([q.thrust_limit for q in self.vehicle.quadrotors], 4)
         hover = self.thrusts.ravel()
         up, down = np.maximum(most - hover, 0.0)[:, None], np.maximum(hover, 0.0)[:, None]
         return (np.where(column > 0.0, up, down) / np.maximum(np.abs(column), 1e-12)).min(axis=0)

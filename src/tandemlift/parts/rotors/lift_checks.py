@@ -31,10 +31,10 @@ def ideal_lift_warnings(hover: HoverFacts) -> Iterator[CheckResult]:
 def hover_warnings(hover: HoverFacts) -> Iterator[CheckResult]:
     """Check for rotors that cannot give their thrusts in hover."""
     for i, (q, own) in enumerate(zip(hover.vehicle.quadrotors, hover.thrusts, strict=True), 1):
-        worst = max(own, key=lambda f: max(-f, f - q.max_thrust))
-        if not 0.0 <= worst <= q.max_thrust:
+        worst = max(own, key=lambda f: max(-f, f - q.thrust_limit))
+        if not 0.0 <= worst <= q.thrust_limit:
             yield warned(
-                f"in hover a rotor of quadrotor {i} would give {worst:.4g} N and can give 0 to {q.max_thrust:.4g} N"
+                f"in hover a rotor of quadrotor {i} would give {worst:.4g} N and can give 0 to {q.thrust_limit:.4g} N"
             )
 
 
