@@ -113,7 +113,7 @@ class TwoFlights(Session):
         if ghost is None:
             return own
         seen = scene_at(self._frames.scene, ghost.now, self._mission)
-        parts = {name: seen[name] for name in ("mission", "controller", "parameters")}  # type: ignore[literal-required]
+        parts = {name: seen[name] for name in ("mission", "controller", "parameters")}
         return cast("FlightScene", {**own, "ghost": {**parts, "begun": self._begun, "swaps": self._swaps}})
 
     def status(self) -> FlightStatus:

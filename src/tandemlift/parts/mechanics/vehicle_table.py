@@ -20,7 +20,6 @@ from tandemlift.core.keys import (
     Size,
     Table,
     Triple,
-    is_number,
     key,
     must,
 )
@@ -32,7 +31,6 @@ Corner = Annotated[tuple[Metre, Metre], PerAxis(2, single=False)]
 Turns = Literal[-1, 1]
 Heading = Annotated[float, Field(ge=-6.2832, le=6.2832)]  # rad, within a whole turn either way
 COINCIDING = 1e-3  # m
-NOMINAL_SPEED = 1000.0  # rad/s, of rotors of which only the thrust is known: it scales their speeds, not their flight
 
 
 class DisturbanceTable(Table):
@@ -120,9 +118,9 @@ class Quadrotor(Table):
     max_thrust: Positive | None = key(
         None,
         "N",
-        "largest thrust of a rotor, in place of thrust_constant, of max_speed, or of both (then of 1000 rad/s)",
+        "largest thrust, in place of one of these or of both",
         unset="thrust_constant · max_speed²",
-        example=7.07,
+        example=7.0,
     )
     torque_per_thrust: Positive = key(..., "m", "reaction torque of a rotor over its thrust", example=0.06)
     lag_up: NonNegative = key(..., "s", "time constant of a rotor that speeds up", example=0.0125)
@@ -175,24 +173,15 @@ class Quadrotor(Table):
     @model_validator(mode="before")
     @classmethod
     def _speeds_of_thrust(cls, data: Any) -> Any:
-        """Put constant and speed in the place of a largest thrust: what one of them lacks, the thrust says."""
-        thrust = data.get("max_thrust") if isinstance(data, dict) else None
-        constant, speed = (data.get(name) if thrust else None for name in ("thrust_constant", "max_speed"))
-        if not all(value is None or (is_number(value) and value > 0.0) for value in (thrust, constant, speed)):
-            return data  # each is refused by itself
-        if thrust is None:
-            return data
-        if constant is None:
-            speed = NOMINAL_SPEED if speed is None else speed
-            constant = thrust / speed**2
-        fits = math.sqrt(thrust / constant)
-        if speed is not None and not math.isclose(speed, fits, rel_tol=1e-3):
-            raise must(
-                "quadrotor",
-                f"have a max_thrust that is thrust_constant · max_speed², here {constant * speed**2:.4g} N and not "
-                f"{thrust:g} N: leave one of the three out, or set max_speed = {fits:.5g}",
-            )
-        return {**data, "max_thrust": None, "thrust_constant": constant, "max_speed": speed or fits}
+        """Put constant and speed in the place of a largest thrust."""
+        f, k, w = (isinstance(data, dict) and data.get(n) for n in ("max_thrust", "thrust_constant", "max_speed"))
+        if not f or not all(one is None or (type(one) in (int, float) and one > 0.0) for one in (f, k, w)):
+            return data  # what is no such number is refused by itself
+        k = f / (w or 1000.0) ** 2 if k is None else k  # a speed that scales those of the rotor, not its flight
+        if w and not math.isclose(k * w**2, f, rel_tol=1e-3):
+            text = f"have a max_thrust that is thrust_constant · max_speed², here {k * w**2:.4g} N and not {f:g} N: "
+            raise must("quadrotor", f"{text}leave one of the three out, or set max_speed = {math.sqrt(f / k):.5g}")
+        return {**data, "max_thrust": None, "thrust_constant": k, "max_speed": w or math.sqrt(f / k)}
 
     @model_validator(mode="after")
     def _arms(self) -> Quadrotor:
