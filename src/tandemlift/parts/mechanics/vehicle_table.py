@@ -118,7 +118,7 @@ class Quadrotor(Table):
     max_thrust: Positive | None = key(
         None,
         "N",
-        "largest thrust, in place of one of these or of both",
+        "in place of thrust_constant, max_speed or both",
         unset="thrust_constant · max_speed²",
         example=7.0,
     )
