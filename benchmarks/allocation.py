@@ -107,7 +107,7 @@ def smooth(v: Vehicle, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray
     t = np.arange(20 * CALLS)[:, None] * 1e-3
     waves = [rng.standard_normal(4) * np.sin(6.28 * f * t + rng.uniform(0.0, 6.28, 4)) for f in (0.3, 0.7, 1.1, 2.3, 5)]
     wanted = np.array([v.weight, 0.0, 0.0, 0.0]) + SIZE * sum(waves)
-    return wanted, np.full((len(wanted), v.rotor_count), v.quadrotors[0].max_thrust)
+    return wanted, np.full((len(wanted), v.rotor_count), v.quadrotors[0].thrust_limit)
 
 
 def unrelated(v: Vehicle, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
@@ -115,7 +115,7 @@ def unrelated(v: Vehicle, rng: np.random.Generator) -> tuple[np.ndarray, np.ndar
     n = 20 * CALLS
     wanted = rng.standard_normal((n, 4)) * SIZE * rng.choice([0.5, 1.0, 4.0], (n, 1)) + [v.weight, 0.0, 0.0, 0.0]
     share = np.where(rng.random((n, 1)) < 0.2, rng.uniform(0.0, 1.0, (n, v.rotor_count)), 1.0)
-    return wanted, v.quadrotors[0].max_thrust * share * (rng.random((n, v.rotor_count)) > 0.1)
+    return wanted, v.quadrotors[0].thrust_limit * share * (rng.random((n, v.rotor_count)) > 0.1)
 
 
 def measured(v: Vehicle, warm: bool, rounds: int) -> dict[str, float]:

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from law_values import BEAM, HEIGHT, paper_vehicle, quadrotor, random_vehicle, seeds
 
+import tandemlift as tl
 from tandemlift.core.errors import InputError
 from tandemlift.parts.mechanics.vehicle import Vehicle, mixer, mixer_inverse
 
@@ -198,3 +199,22 @@ def test_the_iris_lifts_1_65_times_the_papers_weight():
     assert v.weight / v.rotor_count == pytest.approx(4.292, abs=5e-4)
     assert mixer(v.quadrotors[0]).sum(axis=1) == pytest.approx([4.0, 0.0, 0.0, 0.0], abs=1e-15)
     assert v.lever_arms[0][2] == pytest.approx(HEIGHT - v.center_of_mass[2])
+
+
+ROTOR = {"thrust_constant": 1.2e-5, "max_speed": 1000.0, "max_thrust": 12.0}
+
+
+@pytest.mark.parametrize(
+    "left_out", [("max_thrust",), ("max_speed",), ("thrust_constant",), ("thrust_constant", "max_speed")]
+)
+def test_a_largest_thrust_says_what_is_left_out_of_constant_and_speed(left_out):
+    iris = tl.load_mission("iris").vehicle.quadrotors[0]
+    given = {name: value for name, value in (iris.model_dump() | ROTOR).items() if name not in left_out}
+    rotor = type(iris).model_validate(given)
+    assert rotor.thrust_limit == pytest.approx(12.0)
+    assert rotor.thrust_constant * rotor.max_speed**2 == pytest.approx(12.0)
+
+
+def test_a_largest_thrust_that_contradicts_constant_and_speed_is_refused_with_the_speed_that_suits():
+    with pytest.raises(tl.InputError, match=r"here 7\.066 N and not 5 N: .* set max_speed = 925\.29"):
+        tl.load_mission("iris", {"vehicle.quadrotors.0.max_thrust": 5.0})

@@ -262,7 +262,7 @@ def model_predictive(
 def start(s: Settings, vehicle: Any, step: float) -> tuple[Model, Plan]:
     """Model predictive control of all thrusts (real-time iteration; PIQP)."""
     rotors = vehicle.rotor_count
-    limits = np.zeros(rotors), np.repeat([q.max_thrust for q in vehicle.quadrotors], 4)
+    limits = np.zeros(rotors), np.repeat([q.thrust_limit for q in vehicle.quadrotors], 4)
     hover = vehicle.allocation() @ [vehicle.weight, 0.0, 0.0, 0.0]
     weights = s.position_weight, s.velocity_weight, s.attitude_weight, s.rates_weight
     model = Model(

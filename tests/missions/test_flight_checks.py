@@ -152,7 +152,7 @@ def test_the_authority_is_where_the_first_rotor_meets_a_limit_and_no_more_than_w
     linprog = pytest.importorskip("scipy.optimize").linprog
     mission = load_mission("iris")
     vehicle, authority = mission.hover.vehicle, mission.hover.authority
-    most = mission.vehicle.quadrotors[0].max_thrust
+    most = mission.vehicle.quadrotors[0].thrust_limit
     for i in range(3):
         wrench = np.array([mission.hover.weight, 0.0, 0.0, 0.0])
         ends = [
@@ -243,3 +243,18 @@ def test_the_share_left_for_control_is_where_flights_begin_to_saturate():
 
 def test_the_lag_is_the_mean_up_and_down():
     assert load_mission("iris").hover.lag == pytest.approx(0.5 * (0.0125 + 0.025))
+
+
+@pytest.mark.parametrize(("place", "way"), [((0, 1, 0), (1, 0, 0)), ((0, -1, 0), (0, 0, 1)), ((0, 0, 0), (0, 0, -1))])
+def test_a_push_of_that_size_brings_the_first_rotor_to_its_limit(place, way):
+    mission = load_mission("iris")
+    hover, vehicle = mission.hover, mission.hover.vehicle
+    place, way = np.array(place, float), np.array(way, float)
+    limit = hover.largest_push(place, way)
+    balance = np.array([hover.weight - limit * way[2], *-np.cross(place, limit * way)])
+    thrusts = vehicle.allocation(mission.allocation.weights) @ balance
+    assert vehicle.effect @ thrusts == pytest.approx(balance, abs=1e-9)
+    most = vehicle.quadrotors[0].thrust_limit
+    assert min(np.abs(thrusts).min(), np.abs(thrusts - most).min()) < 1e-9
+    assert thrusts.min() > -1e-9
+    assert thrusts.max() < most + 1e-9

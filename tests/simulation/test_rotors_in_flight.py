@@ -93,7 +93,7 @@ def test_a_pilot_that_knows_of_a_fault_asks_for_what_is_left_of_it_from_then_on(
 def test_no_command_and_no_thrust_ever_leaves_its_limits():
     for mission in storms(6):
         flight = tl.fly(mission)
-        most = mission.vehicle.quadrotors[0].max_thrust
+        most = mission.vehicle.quadrotors[0].thrust_limit
         assert flight["rotor_commands"].min() >= 0.0
         assert flight["rotor_commands"].max() <= most * (1.0 + 1e-12)
         assert flight["rotor_thrusts"].min() >= 0.0

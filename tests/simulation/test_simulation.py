@@ -213,7 +213,7 @@ def test_a_pilot_outside_flies_the_body_as_the_pilot_inside_does():
 def test_real_rotors_follow_the_thrusts_given_with_their_delay_and_lag_and_within_their_limits():
     sim = tl.Simulation(load("iris", **{"ground.effect": False}))
     q = tl.Vehicle.from_settings(sim.mission.vehicle).quadrotors[0]
-    given, lag, late = np.full(8, 1.2 * q.max_thrust), q.lag_up, round(sim.mission.actuators.delay / sim.dt)
+    given, lag, late = np.full(8, 1.2 * q.thrust_limit), q.lag_up, round(sim.mission.actuators.delay / sim.dt)
     for _ in range(300):
         sim.step(thrusts=np.zeros(8))
     assert sim["rotor_thrusts"].max() < 1e-6
@@ -224,7 +224,7 @@ def test_real_rotors_follow_the_thrusts_given_with_their_delay_and_lag_and_withi
             assert sim["rotor_thrusts"].max() < 1e-6
             continue
         squares = quad(lambda s, k=k: (1.0 - math.exp(-(k * sim.dt + s) / lag)) ** 2, 0.0, sim.dt, epsabs=1e-14)[0]
-        np.testing.assert_allclose(sim["rotor_thrusts"], q.max_thrust * squares / sim.dt, rtol=1e-4)
+        np.testing.assert_allclose(sim["rotor_thrusts"], q.thrust_limit * squares / sim.dt, rtol=1e-4)
     np.testing.assert_array_equal(sim["rotor_commands"], given)
 
 

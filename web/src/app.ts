@@ -16,6 +16,7 @@ import { FrameRate, type Graphics, type GraphicsChoice, suitableGraphics } from 
 import { Label } from "./view/labels.ts";
 import { setPalette, type Theme } from "./view/palette.ts";
 import { type Labels, Picture } from "./view/picture.ts";
+import { Rest } from "./view/rest.ts";
 import { Stage } from "./view/stage.ts";
 import { beamAxis } from "./view/vehicle.ts";
 import type { Frame } from "./wire/frames.ts";
@@ -48,6 +49,7 @@ export class App implements FlightListener, ShellPage {
   private readonly force: ForceInput;
   private readonly shell: Shell;
   private readonly remarks = new Remarks();
+  private readonly rest = new Rest((now) => this.tick(now));
   private readonly labels: Labels = { push: label("push"), moment: label("moment"), wind: label("wind"), refusal: label("refusal"), ending: label("ending"), contact: label("contact") };
   private picture: Picture | null = null;
   private choice: GraphicsChoice = "auto";
@@ -83,7 +85,7 @@ export class App implements FlightListener, ShellPage {
 
   start(): void {
     this.source.start(this);
-    requestAnimationFrame(this.tick);
+    this.rest.start();
   }
 
   /** Shows a sentence that stays. */
@@ -161,6 +163,7 @@ export class App implements FlightListener, ShellPage {
     if (!this.current) this.picture?.center.set(...frame.vector("position"));
     this.current = frame;
     this.shell.frame(frame);
+    this.rest.look(this.drawn, frame, this.mayRest);
   }
 
   status(status: FlownStatus): void {
@@ -199,16 +202,24 @@ export class App implements FlightListener, ShellPage {
     this.shell.connected();
   }
 
-  private readonly tick = (now: number): void => {
-    requestAnimationFrame(this.tick);
+  /** Whether a vehicle that only turns its rotors may be drawn rarely. */
+  private get mayRest(): boolean {
+    return this.graphics === "light" && !this.replay;
+  }
+
+  private tick(now: number): void {
+    const { current, drawn } = this;
+    const busy = !current || this.shell.recording || this.moved();
+    const resting = !busy && this.rest.suits(drawn, current, this.mayRest);
+    this.rest.next(resting);
     const passed = Math.min((now - this.last) / 1000, 0.1);
     this.last = now;
     this.source.tick?.(now);
     if (this.current && this.picture) this.draw(this.current, this.picture, now, passed);
     this.shell.tick(now);
-    const slow = this.frameRate.tick(now, this.drawnAt === now);
+    const slow = this.frameRate.tick(now, this.drawnAt === now, resting);
     if (slow && this.choice === "auto" && !this.shell.recording) this.rebuild("light");
-  };
+  }
 
   private draw(frame: Frame, picture: Picture, now: number, passed: number): void {
     picture.update(frame, this.grab.hand, this.shown, this.remarks.now(frame));

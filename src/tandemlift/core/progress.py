@@ -58,7 +58,8 @@ def shown_progress(label: str, unit: str = "rows", stream: TextIO | None = None)
         columns, lines = shutil.get_terminal_size()
         look |= {"file": out, "ncols": columns, "nrows": lines}
     else:
-        look |= {"file": _Lines(out), "mininterval": BETWEEN_LINES, "miniters": 1, "delay": BETWEEN_LINES, "ncols": 0}
+        look |= {"file": _Lines(out), "mininterval": BETWEEN_LINES, "miniters": 1, "delay": BETWEEN_LINES}
+        look["bar_format"] = "{desc}: {n_fmt} of {total_fmt}{unit}, {remaining} left"
     with tqdm(total=0, **look) as bar:
 
         def update(done: int, total: int) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from tandemlift.core.types import Array
 from tandemlift.flight.channels import FLOWN
 from tandemlift.flight.record import Flight
@@ -23,6 +25,7 @@ def summary_lines(flight: Flight) -> Iterator[str]:
         (f"largest position error, {when}", _list(m[f"position_max_error{late}_m"], 2, 1e3), "mm"),
         ("attitude RMSE", _list(m["attitude_rmse_rad"], 2, 57.29577951308232), "deg"),
         ("thrust after 10 s", _list([m["thrust_min_after_10s_n"], m["thrust_max_after_10s_n"]], 2), "N (min, max)"),
+        ("largest thrust", _largest_thrust(flight), ""),
         ("human work", *((NOT_KNOWN, "") if m["human_work_j"] is None else (_list([m["human_work_j"]], 2), "J"))),
     ]
     yield f"{flight.name}: {flight.outcome}; {m['steps']} steps, flown in {m['wall_s'] * 1e3:.1f} ms"
@@ -38,6 +41,22 @@ def summary_lines(flight: Flight) -> Iterator[str]:
             yield f"  {label:36}{value} {unit}".rstrip()
     for at, what in m["events"]:
         yield f"  {at:.2f} s: {what}"
+
+
+def _largest_thrust(flight: Flight) -> str:
+    """The largest thrust of a rotor beside its limit; '' of a flight without rotors or vehicle."""
+    if "rotor_thrusts" not in flight or "vehicle" not in flight.mission:
+        return ""
+    thrusts = flight["rotor_thrusts"]
+    most = np.repeat([q.thrust_limit for q in flight.vehicle.quadrotors], 4)
+    if thrusts.shape[-1] != len(most) or not np.isfinite(thrusts).any():
+        return ""
+    largest = np.nanmax(thrusts, axis=0)
+    k = int(np.argmax(largest / most))
+    if flight.mission["actuators"]["model"] != "rotors":
+        return f"{largest[k]:8.2f} N, of ideal rotors without a limit"
+    share = f"{largest[k]:8.2f} N of {most[k]:.2f} N ({largest[k] / most[k]:.0%})"
+    return f"{share}, rotor {k % 4 + 1} of quadrotor {k // 4 + 1}"
 
 
 def _rms(values: Array) -> float:

@@ -77,6 +77,15 @@ CHECKS = (
         "`disturbance.moment`, `pushes.*.point`, `allocation.weights`",
     ),
     FlightCheck(
+        "push",
+        "3 N of a hand: down at the middle; level, and upright, above the outermost quadrotor. Beyond the limit it is "
+        "close, and no failure",
+        "push at which the first rotor reaches a limit in hover",
+        "N",
+        f"{ROTORS}, interactive guidance",
+        "`vehicle.quadrotors`, `vehicle.payload`, `allocation.weights`",
+    ),
+    FlightCheck(
         "start",
         "speed and rates; moment and tilt that the controller commands at the start by the pseudo-inverse",
         "5 m/s (of ideal rotors 10 m/s); 20 rad/s, and what the rotors stop in the air within 0.35 rad (yaw: 2 rad); 4 "

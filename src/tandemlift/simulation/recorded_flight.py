@@ -72,9 +72,8 @@ class FlightSnapshot:
 
     def alone(self) -> Flight:
         """The flight by itself, with a mission of the same length that has neither hand nor changes."""
-        duration = self.flown.step * self.start.mission.step
         with without_flight_warnings():
-            p = FlightPlan(changed(self.start, "mission.duration", duration))
+            p = FlightPlan(changed(self.start, "mission.duration", self.flown.step * self.start.mission.step))
         return flight_of(p, self.flown, self.engine)
 
     def _toml(self, name: str) -> str:
@@ -247,16 +246,17 @@ class RecordedFlight:
             self._hand.pop()
         self._hand.append((self.step, numbers))
 
-    def repeat(self, past: RecordedFlight, steps: int) -> None:
-        """Fly so many steps with hand and changes of another flight of the same mission, bit-identically."""
+    def repeat(self, past: RecordedFlight, steps: int, *, pending: bool = False) -> None:
+        """Fly so many steps with hand and changes of another flight, to the bit; `pending`: those due next, too."""
         hands = dict(past._hand)
-        while self.step < steps:
-            for c in [c for c in past._changes if round(c["time"] / self.dt) == self.step]:
-                key, value, duration = c["key"], c["value"], c["duration"]
-                self.change(self.prepare(key, value, duration), key, value, duration)
+        while self.step < steps or pending:
+            for c in [c for c in past._changes[len(self._changes) :] if round(c["time"] / self.dt) == self.step]:
+                self.change(self.prepare(*(args := (c["key"], c["value"], c["duration"]))), *args)
             if self.step in hands:
                 self.hold(unflat(hands[self.step], HAND_RELEASED))
-            self.advance()
+            pending = pending and self.step < steps
+            if self.step < steps:
+                self.advance()
 
     def prepare(self, key: str, value: Any, duration: float = 0.0) -> ScheduledChange:
         """Prepare a change, which may take long; the flight may continue meanwhile.

@@ -76,7 +76,7 @@ def test_vehicles_of_any_weight_move_alike_under_pushes_that_suit_them(model, fl
 @pytest.mark.parametrize("model", MODELS)
 def test_what_is_told_of_thrusts_is_what_a_flight_shows(model, flown):
     mission, _, flight, told = flown[model]
-    hover, limits = (flight.time > 9.0) & (flight.time < 13.0), [q.max_thrust for q in mission.vehicle.quadrotors]
+    hover, limits = (flight.time > 9.0) & (flight.time < 13.0), [q.thrust_limit for q in mission.vehicle.quadrotors]
     thrusts = flight["rotor_thrusts"][hover].mean(axis=0)
     share, over = (float(re.search(rf"{words} +([\d.]+)", told)[1]) for words in ("in hover", "over weight"))
     assert np.max(thrusts / np.repeat(limits, 4)) == pytest.approx(share / 100.0, abs=0.02)

@@ -118,7 +118,7 @@ def reachable(v: Vehicle, weights, axis: int) -> float:
     """The largest moment about an axis at hover with every rotor within its limits."""
     A = v.allocation(weights)
     hover, slope = A[:, 0] * v.weight, A[:, axis]
-    limit = v.quadrotors[0].max_thrust
+    limit = v.quadrotors[0].thrust_limit
     slope = np.where(np.abs(slope) < 1e-12, 1e-12, slope)
     return float(np.min(np.where(slope > 0.0, (limit - hover) / slope, -hover / slope)))
 
@@ -173,7 +173,7 @@ def test_the_pilot_of_the_real_iris_allocates_what_makes_the_wrench(method):
             moment += np.cross(np.add(q.position, [x, y, 0.0]), [0.0, 0.0, f])
             moment[2] += 0.06 * spin * f
     assert [total, *moment] == pytest.approx(wanted, abs=1e-12)
-    assert np.all((thrusts > 0.0) & (thrusts < vehicle.quadrotors[0].max_thrust))
+    assert np.all((thrusts > 0.0) & (thrusts < vehicle.quadrotors[0].thrust_limit))
 
 
 def test_a_failed_rotor_is_commanded_nothing_whatever_it_is_allotted():

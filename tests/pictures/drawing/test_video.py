@@ -11,7 +11,7 @@ from click.testing import CliRunner
 
 import tandemlift as tl
 from tandemlift.apps.cli.export import render as command
-from tandemlift.pictures.drawing import video
+from tandemlift.pictures.drawing import second_studio, video
 from tandemlift.pictures.drawing.film import Animation, Shot, render
 
 SIZE = (160, 90)
@@ -122,3 +122,22 @@ def test_an_ffmpeg_that_fails_leaves_nothing_and_its_words_are_told(script, flig
     with pytest.raises(tl.InputError, match=r"failed: (exit code 3|no space left)"):
         render(flight, tmp_path / "there" / "a.mp4", SHOT)
     assert list((tmp_path / "there").iterdir()) == []
+
+
+@pytest.mark.parametrize("dies", [False, True])
+def test_a_second_process_draws_the_same_bytes_and_the_first_one_all_if_it_dies(flight, monkeypatch, dies):
+    drawn = [image.tobytes() for image in Animation(flight, SHOT)]
+    monkeypatch.setattr(second_studio, "WORTH", 1)
+    monkeypatch.setattr(second_studio.os, "cpu_count", lambda: 2)
+    take = second_studio._Shared.take
+    if dies:
+        monkeypatch.setattr(second_studio.pickle, "dumps", lambda _: b"nothing that can be drawn")
+    else:  # the first process takes none
+        monkeypatch.setattr(
+            second_studio._Shared, "take", lambda s, ahead=None: None if ahead is None else take(s, ahead)
+        )
+    both, asked = Animation(flight, SHOT), set[int]()
+    one = both.picture
+    monkeypatch.setattr(both, "picture", lambda index: asked.add(index) or one(index))
+    assert [image.tobytes() for image in both] == drawn
+    assert asked == (set(range(len(both))) if dies else set())

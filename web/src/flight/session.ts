@@ -193,6 +193,7 @@ export class Session {
       tare: (message) => this.refuse(message),
       fly: (message) => this.refuse(message),
       turn: (message) => this.refuse(message),
+      compare: ({ what }) => this.compare(what),
       ping: () => undefined,
       pause: ({ on }) => (this.pacer.paused = on),
       speed: ({ factor }) => (this.pacer.speed = factor),

@@ -8,7 +8,6 @@ import { worded } from "./numbers.ts";
 
 const KEEP = "keep these settings as a ghost";
 const SAME = "The ghost has the same settings: change one, and see.";
-const NO_GHOST = "not here: only a page without a server (tandemlift page) flies two";
 
 export class Comparison {
   readonly menu = el("select", { title: "Fly a second flight under the same hand", "aria-label": "Compare" });
@@ -16,7 +15,7 @@ export class Comparison {
   private readonly text = el("span");
   private readonly ended = el("span");
 
-  constructor(private readonly compare: Compare | undefined) {
+  constructor(compare: Compare | undefined) {
     this.menu.addEventListener("change", () => {
       const mission = this.menu.value;
       this.menu.selectedIndex = 0;
@@ -33,7 +32,7 @@ export class Comparison {
     const entries = companions.map(({ name, title }) =>
       el("option", { value: name, title }, `with ${name}, from the start`),
     );
-    const keep = el("option", { value: "", disabled: !this.compare }, this.compare ? KEEP : NO_GHOST);
+    const keep = el("option", { value: "" }, KEEP);
     this.menu.replaceChildren(el("option", { hidden: true }, "Compare \u2026"), keep, ...entries);
   }
 

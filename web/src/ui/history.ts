@@ -8,6 +8,7 @@ import type { Stretch } from "./time_window.ts";
 export const GHOST = "ghost "; // begins the names of a ghost's columns
 const RATE = 20; // samples/s that are kept
 const FIRST_SIZE = 1024; // samples, doubled when they are taken
+const MOST = 16 * FIRST_SIZE; // samples, of which the older half is then thinned
 const LOST = 2; // s without a frame, as after a lost connection: what is older is forgotten
 
 export class History {
@@ -93,7 +94,17 @@ export class History {
     return indexOf(this.columns.get("time")!.subarray(0, this.length), time);
   }
 
+  /** Keeps every second sample of the older half: an hour takes the memory of a quarter of it. */
+  private thin(): void {
+    for (const column of this.columns.values()) {
+      for (let i = 0; i < MOST / 4; i++) column[i] = column[2 * i];
+      column.copyWithin(MOST / 4, MOST / 2);
+    }
+    this.length = (3 / 4) * MOST;
+  }
+
   private write(frame: Frame): void {
+    if (this.length === MOST) this.thin();
     for (const [name, column] of this.columns) {
       const roomy = this.length < column.length ? column : grown(column);
       roomy[this.length] = valueOf(frame, name);

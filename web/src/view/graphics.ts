@@ -24,8 +24,8 @@ export class FrameRate {
   private since = 0;
   private slow = 0; // s
 
-  /** The browser was ready for a picture at `now` [ms]; true if it has been too slow for `PATIENCE`. */
-  tick(now: number, drawn: boolean): boolean {
+  /** The browser was ready for a picture at `now` [ms]; true if it has been too slow for `PATIENCE` and not at rest. */
+  tick(now: number, drawn: boolean, resting: boolean): boolean {
     this.count += 1;
     if (drawn) this.drawn += 1;
     const passed = (now - this.since) / 1000;
@@ -33,7 +33,7 @@ export class FrameRate {
     if (passed < 2) {
       // a longer pause is a hidden page, not a slow one
       this.rate = this.drawn / passed;
-      this.slow = this.count / passed < SLOW ? this.slow + passed : 0;
+      this.slow = this.count / passed < SLOW && !resting ? this.slow + passed : 0;
     }
     this.since = now;
     this.count = this.drawn = 0;

@@ -25,8 +25,7 @@ import { placeOf } from "./shapes.ts";
 const TURN = 26; // rad/s as shown at full thrust; the true speed would be a blur
 const TALL = 0.45; // m, length of the arrow at full thrust
 const STOPPED = 0.01; // fraction of full thrust below which the blades stand still
-const CALM = new Color("#1f9d76");
-const HARD = new Color("#d5281b");
+const [CALM, HARD] = ["#1f9d76", "#d5281b"];
 const AXIS = new Vector3(0, 0, 1);
 const FRONT = "#e8641b"; // of parts in front (engines/models/visuals.py)
 
@@ -53,6 +52,8 @@ export class Rotors {
   private readonly discs: InstancedMesh;
   private readonly shafts: InstancedMesh;
   private readonly heads: InstancedMesh;
+  private readonly calm = new Color(CALM);
+  private readonly hard = new Color(HARD);
 
   constructor(scene: FlightScene, graphics: Graphics) {
     const rotors = scene.vehicle.quadrotors.flatMap((quadrotor) => quadrotor.rotors);
@@ -97,7 +98,7 @@ export class Rotors {
     const foot = hub.clone().addScaledVector(AXIS, 0.1 * radius);
     this.shafts.setMatrixAt(i, stretched(foot, width, shaft));
     this.heads.setMatrixAt(i, stretched(foot.addScaledVector(AXIS, shaft), 2.6 * width, head));
-    const color = CALM.clone().lerp(HARD, Math.min(Math.max((share - 0.6) / 0.35, 0), 1));
+    const color = this.calm.clone().lerp(this.hard, Math.min(Math.max((share - 0.6) / 0.35, 0), 1));
     this.shafts.setColorAt(i, color);
     this.heads.setColorAt(i, color);
   }

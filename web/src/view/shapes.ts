@@ -32,7 +32,10 @@ export function together(parts: BufferGeometry[]): BufferGeometry {
   return whole;
 }
 
-function geometry({ kind, size }: SceneShape, sides: number): BufferGeometry {
+const THIN = 0.025; // m, radius below which half the sides look as round
+
+function geometry({ kind, size }: SceneShape, most: number): BufferGeometry {
+  const sides = kind !== "box" && size[0] < THIN ? Math.max(Math.ceil(most / 2), 4) : most;
   if (kind === "box") return new BoxGeometry(...size);
   if (kind === "hull") return facets(size);
   if (kind === "sphere") return new SphereGeometry(size[0], sides, Math.ceil(sides / 2));

@@ -2,7 +2,7 @@
 
 import { Layout } from "./frames.ts";
 import type { ServerMessage, PageMessage } from "./messages.generated.ts";
-import type { FlightListener, FlightSource } from "./source.ts";
+import type { Comparing, FlightListener, FlightSource } from "./source.ts";
 
 const FIRST_WAIT = 500; // ms
 const LONGEST_WAIT = 5000;
@@ -27,6 +27,10 @@ export class Connection implements FlightSource {
     this.seq += 1;
     this.socket.send(JSON.stringify({ ...message, seq: this.seq }));
     return this.seq;
+  }
+
+  compare(what: Comparing): void {
+    if (what !== "fly") this.send({ type: "compare", what });
   }
 
   retry(): void {

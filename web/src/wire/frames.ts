@@ -24,9 +24,9 @@ export class Layout {
     return this.places.get(name) ?? { start: 0, length: 0 };
   }
 
-  /** The frame in a message; null if its size is another one, as when it was sent before a new scene. */
+  /** The frame in a message, and its ghost's; null if its size is another one, as when it was sent before a new scene. */
   decode(bytes: ArrayBuffer): Frame | null {
-    return bytes.byteLength === 4 * this.size ? new Frame(this, floats(bytes)) : null;
+    return [4, 8].includes(bytes.byteLength / this.size) ? new Frame(this, floats(bytes)) : null;
   }
 
   /** The fields that may be interpolated between two frames. */

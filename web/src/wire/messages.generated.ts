@@ -383,6 +383,12 @@ export interface FlyMessage {
   toml?: string; // content of the file; the message must begin with `{"type":"fly",`
 }
 
+/** Keep the flight as it is as a ghost under the same hand, change places with the ghost, or end it. */
+export interface CompareMessage {
+  type: "compare";
+  what: "keep" | "swap" | "end";
+}
+
 /** Save what was flown so far. */
 export interface SaveMessage {
   type: "save";
@@ -425,6 +431,7 @@ export type PageMessage =
   | ResetMessage
   | RewindMessage
   | FlyMessage
+  | CompareMessage
   | SaveMessage
   | TurnMessage
   | PingMessage;

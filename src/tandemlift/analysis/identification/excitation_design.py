@@ -195,7 +195,7 @@ def line_frequencies(steady: float) -> Array:
 def limits_of(mission: Mission, room: Sequence[float]) -> dict[str, float]:
     """The limits of an excited flight: tilt [rad], rotor thrust [N], speed [m/s], room along each axis [m]."""
     tilt = getattr(mission.controller, "max_tilt", None) or mission.compliance.max_tilt
-    strongest = min(q.max_thrust for q in mission.hover.vehicle.quadrotors)
+    strongest = min(q.thrust_limit for q in mission.hover.vehicle.quadrotors)
     return {"tilt": tilt, "rotor thrust": strongest, "speed": SPEED} | {
         f"room along {axis}": float(size) for axis, size in zip("xyz", room, strict=True)
     }

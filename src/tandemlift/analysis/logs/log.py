@@ -221,7 +221,7 @@ def log_of(flight: Flight) -> Log:
         streams[name] = Stream(steps[rows] * flight.mission["mission"]["step"], flight[name][rows])
     commands = flight[COMMANDS if COMMANDS in flight else "rotor_thrusts"]
     rotors = [q for q in flight.vehicle.quadrotors for _ in range(4)]
-    k, most = np.array([q.thrust_constant for q in rotors]), np.array([q.max_thrust for q in rotors])
+    k, most = np.array([q.thrust_constant for q in rotors]), np.array([q.thrust_limit for q in rotors])
     streams[COMMANDS] = Stream(flight.time, commands)
     streams[SPEED_COMMANDS] = Stream(flight.time, np.sqrt(np.clip(commands, 0.0, most) / k))
     force, moment = (flight[name] for name in PUSH)

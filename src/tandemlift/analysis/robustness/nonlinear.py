@@ -189,7 +189,7 @@ def box_of(half: Array) -> tuple[Array, Array]:
 def _box_claims(mission: Mission) -> Iterator[Claim]:
     pilot = pilot_at_start(mission)
     thrusts, sizes = commanded_thrusts(pilot.parameters, pilot.memory), np.repeat([*BOX.values()], 3)
-    most = np.array([q.max_thrust for q in mission.vehicle.quadrotors for _ in range(4)])
+    most = np.array([q.thrust_limit for q in mission.vehicle.quadrotors for _ in range(4)])
 
     def within(half: Array) -> bool:
         low, high = bounds(thrusts, *box_of(half))

@@ -85,7 +85,7 @@ class PushedAxis(NamedTuple):
         """The share of samples with a rotor at its limit, of real rotors; 0 of ideal ones."""
         if self.flight.mission["actuators"]["model"] != "rotors":
             return 0.0
-        most = np.repeat([q.max_thrust for q in self.flight.vehicle.quadrotors], 4)
+        most = np.repeat([q.thrust_limit for q in self.flight.vehicle.quadrotors], 4)
         share = self.flight["rotor_thrusts"][self.kept] / most
         return float(np.mean(np.any((share < AT_LIMIT) | (share > 1.0 - AT_LIMIT), axis=1)))
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from tandemlift.core.types import Progress
 
 COLOURS = {CLOSE: "yellow", FAILS: "red", REFUSED: "red"}  # of the verdicts of checks
+CLOSEST = 3  # checks that are named above the table
 AGAIN = 0.02  # s, until an interrupt that Python has swallowed is raised again
 
 
@@ -49,7 +50,11 @@ def progress_bar(label: str, unit: str, *, shown: bool = True) -> Iterator[Progr
 
 
 def print_checks(results: Sequence[CheckResult]) -> None:
-    """Print the table of checks, their texts and their counts, each in the colour of its verdict."""
+    """Print the closest checks, the table of all, their texts and their counts, each in the colour of its verdict."""
+    tight = sorted((r.margin, f"{r.check} {r.subject}".rstrip()) for r in results if r.margin is not None)
+    if len(tight) > CLOSEST:
+        echo("closest to their limits: " + ", ".join(f"{name} ({100 * left:.0f} %)" for left, name in tight[:CLOSEST]))
+        echo("")
     for verdict, line in check_lines(results):
         echo(click.style(line, fg=COLOURS.get(verdict)) if verdict else line)
 

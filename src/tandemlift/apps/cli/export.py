@@ -6,7 +6,6 @@ animation, drawn without a display.
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -155,7 +154,7 @@ def render(
     view = film.camera_of(camera)
     shot = film.Shot(time, start, end, fps or 20.0, speed, film.size_of(size), view)
     flight = Flight.load(saved) if saved else _fly(flight_or_mission, settings, engine)
-    with progress_bar("Drawing", "pictures", shown=path.suffix.lower() != ".png" and sys.stderr.isatty()) as progress:
+    with progress_bar("Drawing", "pictures", shown=path.suffix.lower() != ".png") as progress:
         film.render(flight, path, shot, progress)
     echo(f"{flight.name}: {path}")
 
@@ -166,5 +165,5 @@ def _fly(mission: str, settings: tuple[str, ...], engine: str) -> Flight:
 
     engine_named(engine)
     loaded = load(mission, settings)
-    with progress_bar("Flying", "steps", shown=sys.stderr.isatty()) as progress:
+    with progress_bar("Flying", "steps") as progress:
         return fly(loaded, engine, progress=progress)

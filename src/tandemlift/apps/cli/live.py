@@ -68,13 +68,14 @@ def live(
       tandemlift live hover --script lecture.toml
     """
     from tandemlift.apps.live.page_files import page_files, with_script
-    from tandemlift.apps.live.server import PageServer, Session, serve_until_interrupt
+    from tandemlift.apps.live.server import PageServer, serve_until_interrupt
+    from tandemlift.apps.live.two_flights import TwoFlights
     from tandemlift.engines.registry import engine_named
 
     engine_named(engine)
 
     files = with_script(page_files(), script)
-    session = Session(load(mission, settings, controller), engine, Path(out))
+    session = TwoFlights(load(mission, settings, controller), engine, Path(out))
     serve_until_interrupt(PageServer(files, session, host, port), f"{mission}, live", echo, browser=not no_browser)
     exit_now(0)  # a thread may still be compiling
 
@@ -145,7 +146,7 @@ def page(
     from tandemlift.apps.live.page_files import page_files, with_script
 
     files = with_script(page_files(), script)
-    with progress_bar("Compiling", "missions", shown=sys.stderr.isatty()) as progress:
+    with progress_bar("Compiling", "missions") as progress:
         flights = page_modules.packed_flights(missions or page_modules.MISSIONS, controller, progress)
     for line in pages.write_page(flights, Path(out) if out else None, one_file, files):
         echo(line)
@@ -178,7 +179,7 @@ def score(folder: Path, mission: str, free: tuple[str, ...], settings: tuple[str
     """
     from tandemlift.apps.live.ranking import ranked
 
-    with progress_bar("Flying", "flights", shown=sys.stderr.isatty()) as progress:
+    with progress_bar("Flying", "flights") as progress:
         table, refused = ranked(folder, load(mission, settings), free, progress)
     for line in table:
         echo(line)

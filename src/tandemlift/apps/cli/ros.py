@@ -89,7 +89,7 @@ def ros(
 
     Exit code 3: crashed, diverged or interrupted, or ROS 1's master is gone; --save saves the flight so far.
     """
-    from tandemlift.apps.live.server import Session
+    from tandemlift.apps.live.two_flights import TwoFlights
     from tandemlift.apps.ros import ros1
     from tandemlift.apps.ros.middleware import recorded
     from tandemlift.apps.ros.node import fly_and_save, middleware_for, shut_down, version_for
@@ -107,7 +107,7 @@ def ros(
     middleware = middleware_for(version_for(version), arguments, echo, asked=version is not None)
     try:
         with recorded(middleware, bag) as heard:
-            session = Session(loaded, engine, OUT)
+            session = TwoFlights(loaded, engine, OUT)
             session.prepare()
             session.flight.optimise()
             failures = fly_and_save(session, heard, rate, f"{mission} in {middleware.name}", save, echo, rviz=rviz)

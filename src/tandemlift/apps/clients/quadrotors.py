@@ -101,7 +101,7 @@ class Quadrotors:
         self._fail_safe, self._every = fail_safe, max(round(INNER_EVERY / step), 1)
         self._outer_every, self._dt = max(round(OUTER_EVERY / INNER_EVERY), 1), self._every * step
         gains = gains_for(lag + self._dt)
-        each, self._arms = [q.max_thrust for q in vehicle.quadrotors], vehicle.lever_arms.tolist()
+        each, self._arms = [q.thrust_limit for q in vehicle.quadrotors], vehicle.lever_arms.tolist()
         self._outer = [OuterLoops(gains, vehicle.mass / vehicle.count, 4.0 * most) for most in each]
         everyone = range(self.count)
         self._groups = [

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from tandemlift.apps.live.session.page_messages import (
+    CompareMessage,
     FlyMessage,
     GrabMessage,
     KillMessage,
@@ -41,6 +42,7 @@ SLOW = (
     ResetMessage,
     RewindMessage,
     FlyMessage,
+    CompareMessage,
     SaveMessage,
 )  # may compile or write
 

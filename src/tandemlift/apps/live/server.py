@@ -63,6 +63,7 @@ class PageServer:
         self._dispatcher = Dispatcher(flight, self.viewers) if flight else None
         self._watched = asyncio.Event()  # set once there is a viewer
         self._generation = self._dismissed = 0
+        self._frame = b""  # the last one
         self._access: AccessControl
         self._sockets: SocketServer
 
@@ -131,7 +132,10 @@ class PageServer:
             self._generation = flight.generation
             self._let_go()
             self.viewers.send(SceneMessage(type="scene", **flight.scene))
-        self.viewers.send_frame(flight.frame())
+        frame, before = flight.frame(), self._frame
+        if frame != before or tick % STATUS_EVERY == 0:  # a flight that stands still is told rarely
+            self.viewers.send_frame(frame)
+        self._frame = frame
         if self.viewers.is_hung():
             self._let_go()
         if tick % STATUS_EVERY == 0:

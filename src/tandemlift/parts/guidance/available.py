@@ -64,6 +64,6 @@ def start_available(
         mass=vehicle.mass,
         max_thrust=vehicle.max_thrust * thrust_fraction,
         tangent=tan(max_tilt),
-        limits=rotors(*[q.max_thrust for q in vehicle.quadrotors for _ in range(4)]),
+        limits=rotors(*[q.thrust_limit for q in vehicle.quadrotors for _ in range(4)]),
         known=known,
     )

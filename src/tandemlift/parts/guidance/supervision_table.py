@@ -123,7 +123,7 @@ def start_supervision(
     supervision = Supervision(
         mass=vehicle.mass,
         payload=vehicle.payload.mass,
-        limits=rotors(*[q.max_thrust for q in vehicle.quadrotors for _ in range(4)]),
+        limits=rotors(*[q.thrust_limit for q in vehicle.quadrotors for _ in range(4)]),
         known=known,
         checks=_checks(s.checks, vehicle),
         fence=Fence(vec3(s.fence.low), vec3(s.fence.high), s.fence.margin, s.fence.braking_gain),

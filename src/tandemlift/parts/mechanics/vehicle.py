@@ -262,7 +262,7 @@ class Vehicle:
     @property
     def max_thrust(self) -> float:
         """Largest total thrust of all rotors [N]."""
-        return sum(4.0 * q.max_thrust for q in self.quadrotors)
+        return sum(4.0 * q.thrust_limit for q in self.quadrotors)
 
     @property
     def weight(self) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import AfterValidator, Field, model_validator
@@ -118,6 +118,13 @@ class Quadrotor(Table):
     )
     thrust_constant: Positive = key(..., "N/(rad/s)²", "thrust of a rotor over its speed squared", example=5.84e-6)
     max_speed: Positive = key(..., "rad/s", "largest speed of a rotor", example=1100.0)
+    max_thrust: Positive | None = key(
+        None,
+        "N",
+        "in place of thrust_constant, max_speed or both",
+        unset="thrust_constant · max_speed²",
+        example=7.0,
+    )
     torque_per_thrust: Positive = key(..., "m", "reaction torque of a rotor over its thrust", example=0.06)
     lag_up: NonNegative = key(..., "s", "time constant of a rotor that speeds up", example=0.0125)
     lag_down: NonNegative = key(..., "s", "time constant of a rotor that slows down", example=0.025)
@@ -162,6 +169,19 @@ class Quadrotor(Table):
         source="chosen: a body of 0.2 m by 0.1 m, and rotor discs that are mostly open",
     )
     drag_coefficient: Size = key(1.0, "1", "drag coefficient", source="chosen: a bluff body")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _speeds_of_thrust(cls, data: Any) -> Any:
+        """Put constant and speed in the place of a largest thrust."""
+        f, k, w = (isinstance(data, dict) and data.get(n) for n in ("max_thrust", "thrust_constant", "max_speed"))
+        if not f or not all(one is None or (type(one) in (int, float) and one > 0.0) for one in (f, k, w)):
+            return data  # what is no such number is refused by itself
+        k = f / (w or 1000.0) ** 2 if k is None else k  # a speed that scales those of the rotor, not its flight
+        if w and not math.isclose(k * w**2, f, rel_tol=1e-3):
+            text = f"have a max_thrust that is thrust_constant · max_speed², here {k * w**2:.4g} N and not {f:g} N: "
+            raise must("quadrotor", f"{text}leave one of the three out, or set max_speed = {math.sqrt(f / k):.5g}")
+        return {**data, "max_thrust": None, "thrust_constant": k, "max_speed": w or math.sqrt(f / k)}
 
     @model_validator(mode="after")
     def _arms(self) -> Quadrotor:
@@ -222,7 +242,7 @@ class Quadrotor(Table):
         return (self.position[0], self.position[1], 0.0) if self.joint is None else self.joint
 
     @property
-    def max_thrust(self) -> float:
+    def thrust_limit(self) -> float:
         """Largest thrust of one rotor [N]."""
         return self.thrust_constant * self.max_speed**2
 

@@ -240,7 +240,7 @@ def excitation_checks(table: ExcitationTable, hover: HoverFacts, max_tilt: float
         return
     wrench = np.array([over_time(table, axis) for axis in WRENCH])
     change = hover.vehicle.allocation(hover.allocation.weights) @ wrench
-    most = np.repeat([q.max_thrust for q in hover.vehicle.quadrotors], 4)
+    most = np.repeat([q.thrust_limit for q in hover.vehicle.quadrotors], 4)
     rest = hover.thrusts.ravel()
     share = max(float((change.max(axis=1) / (most - rest)).max()), float((-change.min(axis=1) / rest).max()))
     text = (

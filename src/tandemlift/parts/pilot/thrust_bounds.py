@@ -50,7 +50,7 @@ def rotor_axes(table: VehicleTable, weights: tuple[tuple[float, ...], ...]) -> R
     vehicle = Vehicle.from_settings(table)
     rms = np.sqrt(np.mean(np.square(vehicle.effect), axis=1))
     hover = np.array(hover_thrusts(vehicle, weights))
-    most = np.array([q.max_thrust for q in vehicle.quadrotors for _ in range(4)])
+    most = np.array([q.thrust_limit for q in vehicle.quadrotors for _ in range(4)])
     room = np.minimum(hover, most - hover)
     return RotorAxes(vehicle.effect / rms[:, None], vehicle.allocation(weights) * rms, room, hover, most)
 

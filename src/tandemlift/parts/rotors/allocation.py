@@ -234,6 +234,6 @@ def start_allocation(
         return inverse, Absent()
     rows, weights = _weighted(vehicle, table.priorities)
     rotors = each(vehicle.rotor_count)
-    limits = rotors(*[q.max_thrust for q in vehicle.quadrotors for _ in range(4)])
+    limits = rotors(*[q.thrust_limit for q in vehicle.quadrotors for _ in range(4)])
     none = rotors(*(0.0,) * vehicle.rotor_count)
     return ConstrainedAllocation(inverse, rows, weights, limits, known), AllocationState(none, none)

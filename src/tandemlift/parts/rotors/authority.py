@@ -9,7 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 
-from tandemlift.core.errors import CheckResult, judged
+import numpy as np
+
+from tandemlift.core.errors import CLOSE, FAILS, CheckResult, judged
 from tandemlift.core.types import Array
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.hover import HoverFacts
@@ -17,6 +19,7 @@ from tandemlift.parts.rotors.hover_loads import ALWAYS, VehicleLoads
 
 AXES = ("roll", "pitch", "yaw")
 CONTROL = 0.15  # of the largest moment, reserved for control, as supervision.checks.thrust_fraction does for the thrust
+PUSH = 3.0  # N, of a hand that is not gentle
 CLOCKED = 0.95  # of the largest thrust that a flight with scheduled guidance may need
 
 
@@ -40,6 +43,8 @@ def authority_checks(
     if thrust.value is None or thrust.value < hover.faulty_lift:
         yield tilt_check(hover, loads, tilt)
     yield from moment_checks(hover.authority, loads)
+    if by_hand is not None:
+        yield from push_checks(hover)
     if lifting is not None:
         yield supervised_check(hover.vehicle, lifting)
 
@@ -103,3 +108,23 @@ def moment_checks(authority: Array, loads: Sequence[VehicleLoads]) -> Iterator[C
             "the vehicle overturns or rotates away; lower disturbance.moment, the wind, or the push and its lever arm"
         )
         yield judged("moment", value, limit, "N m", text, subject=axis, near=0.3)
+
+
+def push_checks(hover: HoverFacts) -> Iterator[CheckResult]:
+    """Compare a push of a few newtons with the one at which a rotor saturates: a warning to a hand, of no flight."""
+    x, y, _ = max(hover.vehicle.lever_arms, key=lambda arm: math.hypot(arm[0], arm[1]))
+    far = math.hypot(x, y)
+    up = np.array([0.0, 0.0, 1.0])
+    ways = {"down at the middle": (np.zeros(3), [-up])}
+    if far > 0.0:
+        across = np.array([-y, x, 0.0]) / far
+        ways["level at an end"] = (np.array([x, y, 0.0]), [across, -across])
+        ways["upright at an end"] = (np.array([x, y, 0.0]), [up, -up])
+    for subject, (place, directions) in ways.items():
+        limit = min(hover.largest_push(place, way) for way in directions)
+        text = (
+            f"a push of {PUSH:g} N {subject} of the vehicle saturates a rotor, one of {limit:.2g} N does not yet: then "
+            "it follows late, or turns away; push gently there, or nearer the middle"
+        )
+        result = judged("push", PUSH, limit, "N", text, subject=subject)
+        yield result._replace(verdict=CLOSE) if result.verdict == FAILS else result

@@ -54,7 +54,7 @@ class HoverFacts(NamedTuple):
     @property
     def most(self) -> Array:
         """The largest thrust of a rotor of each quadrotor [N] (N)."""
-        return np.array([q.max_thrust for q in self.vehicle.quadrotors]) * self.plant.thrust_scale
+        return np.array([q.thrust_limit for q in self.vehicle.quadrotors]) * self.plant.thrust_scale
 
     @property
     def faulty_lift(self) -> float:
@@ -93,11 +93,21 @@ class HoverFacts(NamedTuple):
         With thrusts f₀ in hover and the moment's column a of the inverse, the first rotor reaches a limit at the least
         of (f_max − f₀)/a and f₀/(−a).
         """
-        inverse = self.vehicle.allocation(self.allocation.weights)
+        column = self.vehicle.allocation(self.allocation.weights)[:, 1:]
+        return np.minimum(self._room(column), self._room(-column))
+
+    def largest_push(self, place: Array, way: Array) -> float:
+        """The push [N] along a unit vector at a place from the centre of mass [m] with which a rotor saturates.
+
+        The allocation's pseudo-inverse counters its vertical part and its moment in hover; the rest takes tilt, which
+        needs a thrust that is larger by the square of a small angle only. Body axes.
+        """
+        counter = -np.array([way[2], *np.cross(place, way)])
+        return float(self._room((self.vehicle.allocation(self.allocation.weights) @ counter)[:, None])[0])
+
+    def _room(self, column: Array) -> Array:
+        """How much of some thrusts per unit (R × n) [N] the rotors can add in hover (n)."""
         most = np.repeat(self.most, 4)
         hover = self.thrusts.ravel()
         up, down = np.maximum(most - hover, 0.0)[:, None], np.maximum(hover, 0.0)[:, None]
-        column = inverse[:, 1:]
-        size = np.maximum(np.abs(column), 1e-12)
-        one, other = np.where(column > 0.0, up, down) / size, np.where(column > 0.0, down, up) / size
-        return np.minimum(one.min(axis=0), other.min(axis=0))
+        return (np.where(column > 0.0, up, down) / np.maximum(np.abs(column), 1e-12)).min(axis=0)

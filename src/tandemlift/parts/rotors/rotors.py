@@ -116,7 +116,7 @@ def rotors_from(
     each_rotor = [q for q in vehicle.quadrotors for _ in range(4)]
     cls = each(len(each_rotor))
     return Rotors(
-        max_thrust=cls(*[q.max_thrust for q in each_rotor]),
+        max_thrust=cls(*[q.thrust_limit for q in each_rotor]),
         constant=cls(*[q.thrust_constant * scale for q in each_rotor]),
         per_constant=cls(*[1.0 / q.thrust_constant for q in each_rotor]),
         up=lag([q.lag_up for q in each_rotor], step),

@@ -6,7 +6,7 @@ import os
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,7 @@ from tandemlift.engines.models.camera import ANGLE, CAMERAS, Camera
 from tandemlift.engines.models.camera import camera_of as camera_of
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.ground import View
+from tandemlift.pictures.drawing.second_studio import drawn_by_two
 from tandemlift.pictures.drawing.stage import FlightStage
 from tandemlift.pictures.drawing.studio import Studio, pyvista
 from tandemlift.pictures.drawing.video import check_size, ffmpeg, write_mp4
@@ -167,6 +168,7 @@ class Animation:
 
     def __init__(self, flight: Flight, shot: Shot = SHOT, kind: str = ".gif") -> None:
         self.kind, self.size = kind, shot.size or SIZES[kind]
+        self._again = partial(Animation, flight, shot, kind)
         if kind == ".mp4":
             check_size(self.size)
             ffmpeg()
@@ -191,13 +193,17 @@ class Animation:
         return len(self.times)
 
     def __iter__(self) -> Iterator[Image.Image]:
-        return (self.film.picture(float(time), self.note) for time in self.times)
+        return drawn_by_two(self, self._again)
+
+    def picture(self, index: int) -> Image.Image:
+        """The picture of a number."""
+        return self.film.picture(float(self.times[index]), self.note)
 
     def palette(self) -> Image.Image:
         """A common palette of all pictures; palettes of their own would make colours flicker."""
         strongest = np.argmax([np.linalg.norm(self.film.stage.push(float(time))) for time in self.times])
         few = {0, len(self) // 2, len(self) - 1, int(strongest)}
-        images = np.concatenate([np.asarray(self.film.picture(float(self.times[k]), self.note)) for k in sorted(few)])
+        images = np.concatenate([np.asarray(self.picture(k)) for k in sorted(few)])
         colors = list[int]()
         for method, count in PALETTE:
             colors += Image.fromarray(images).quantize(count, method=method).getpalette()[: 3 * count]  # type: ignore

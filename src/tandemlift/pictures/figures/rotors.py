@@ -118,7 +118,7 @@ def draw(flight: Flight) -> Figure:
     faults = {name: rotor_fault(flight, *name) for name in product(range(1, rows + 1), range(1, 5))}
     for column, ((row, rotor), fault) in enumerate(faults.items()):
         ax = figure.add_subplot(grid[row - 1, rotor - 1])
-        _panel(ax, flight, column, quadrotors[row - 1].max_thrust, fault)
+        _panel(ax, flight, column, quadrotors[row - 1].thrust_limit, fault)
         ax.tick_params(labelbottom=row == rows, labelleft=rotor == 1)
         if rotor == 1:
             ax.set_ylabel(f"quadrotor {row}\nthrust (N)")

@@ -36,11 +36,11 @@ OVERLAY = over_time("wind_velocity", "wind_force", "contact_force")
 ROW, AROUND = 1.35, 0.85  # in: height of a panel, and above and below them all
 VECTORS = (  # channel, label, least span of the axis
     ("wind_velocity", "wind (m/s)", 0.2),
-    ("wind_force", "force of the wind (N)", 0.2),
+    ("wind_force", "force of the\nwind (N)", 0.2),
     ("contact_force", "contact force (N)", 1.0),
 )
 LEAST_HEIGHT = 0.02  # m
-HEIGHT = "height above floor (m)"
+HEIGHT = "height above\nfloor (m)"
 
 
 def _vector(ax: Axes, flight: Flight, name: str, least: float) -> None:

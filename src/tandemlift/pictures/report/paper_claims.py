@@ -62,7 +62,7 @@ def _of_the_vehicle(paper: Flight) -> Iterator[PaperClaim]:
 
 def _most_moments(paper: Flight) -> Array:
     """Bounds of the moments (3) [N m]: all rotors that help at full thrust, the others at none."""
-    thrusts = np.repeat([q.max_thrust for q in paper.vehicle.quadrotors], 4)
+    thrusts = np.repeat([q.thrust_limit for q in paper.vehicle.quadrotors], 4)
     return np.maximum(paper.vehicle.effect[1:], 0.0) @ thrusts
 
 

@@ -115,7 +115,7 @@ def _rotors(flight: Flight) -> Iterator[Row]:
     if actuators.model == "ideal":
         yield "Rotors", f"ideal: every command takes effect at once and exactly; {method} allocation"
         return
-    most = _spread([q.max_thrust for q in quadrotors], "N")
+    most = _spread([q.thrust_limit for q in quadrotors], "N")
     late = f"commands {describe(actuators.delay, 'ms', 1e3)} late" if actuators.delay else "commands without delay"
     start = {"hover": "turning as in hover at the start", "stopped": "stopped at the start"}[actuators.start]
     yield "Rotors", f"0 to {most} each; {_lag(quadrotors)}; {late}; {start}; {method} allocation"

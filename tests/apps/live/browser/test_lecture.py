@@ -1,4 +1,4 @@
-"""A lecture at a server: its script sets, pauses and pushes; a ghost needs a page without one, and the page says so."""
+"""A lecture at a server: its script sets, pauses and pushes; and a ghost that flies in the server."""
 
 import pytest
 from chromium import dropped, panel
@@ -40,12 +40,16 @@ def test_a_script_sets_pushes_and_pauses_a_flight_of_a_server(lecture, live):
     live.wait(lambda seen: abs(seen["push"]).max() < 0.02, "no push on the way back")
 
 
-def test_a_ghost_is_refused_with_the_reason_in_menu_and_script(page):
-    panel(page, "admittance.mass")
-    entry = page.get_by_label("Compare").locator("option[disabled]")
-    assert entry.inner_text() == "not here: only a page without a server (tandemlift page) flies two"
-    dropped(page, SCRIPT.replace("pause = true", 'ghost = "keep"'))
-    until(lambda: page.locator("#question").is_visible(), "the refusal")
-    wanted = 'step 3: ghost = "keep": must be left out here: only a page without a server flies two'
-    assert wanted in page.inner_text("#question")
-    page.get_by_role("button", name="Close").click()
+def test_a_ghost_flies_in_the_server_with_its_settings_and_ends(page, live):
+    entry = panel(page, "admittance.damping").locator("input[type=number]").first
+    first = entry.input_value()
+    page.get_by_label("Compare").select_option(index=1)
+    until(lambda: "same settings" in page.inner_text("#comparison"), "a ghost")
+    entry.fill("7")
+    entry.press("Enter")
+    until(lambda: f"damping {first}, now: 7" in page.inner_text("#comparison"), "what differs")
+    page.locator("#comparison").get_by_role("button", name="Swap").click()
+    until(lambda: "damping 7" in page.inner_text("#comparison"), "the other way round")
+    assert entry.input_value() == first
+    page.locator("#comparison").get_by_role("button", name="End").click()
+    until(lambda: page.locator("#comparison").is_hidden(), "a flight by itself")

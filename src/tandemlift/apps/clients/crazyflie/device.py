@@ -56,7 +56,7 @@ class Crazyflie:
         self._high, self._low_level, self._locked_thrust = HighLevelCommander(), -math.inf, True
         self._watchdog: float | None = None
         self._external = [0.0] * 7
-        self._full = 4.0 * quadrotors.vehicle.quadrotors[number].max_thrust
+        self._full = 4.0 * quadrotors.vehicle.quadrotors[number].thrust_limit
         self.parameters = self._parameters() | (parameters or {})
         self._parameter = ParameterService(self.parameters)
         self.log = LogService(self._variables() | (channels or {}))

@@ -33,7 +33,7 @@ BESIDE_TEXT = "point = {point}: must be on the vehicle, within {reach:.3g} m of 
 TARED_IN_HOVER_TEXT = "hands off until the force sensors are tared, in steady hover"
 TARED_UNTIL_TEXT = "hands off until {end:g} s: the force sensors are tared in hover"
 REPEATABLE = ("compiled", "mujoco")  # engines whose bodies only the flight pushes
-NOT_REPEATABLE = "rewind: others may push the body in {engine}, so that its flights cannot be flown again"
+NOT_REPEATABLE = "{what}: others may push the body in {engine}, so that its flights cannot be flown again"
 NO_REQUESTS = "{what}: mission {mission} is scheduled and takes no requests"
 
 ALLOWED, TARED_IN_HOVER, TARED_UNTIL, BESIDE = 0.0, 1.0, 2.0, 3.0  # whether a push is allowed, else the reason
@@ -128,14 +128,14 @@ def check_takes_requests(guidance: str, mission: str, what: str) -> None:
         raise InputError(NO_REQUESTS.format(what=what, mission=mission))
 
 
-def check_repeatable(engine: str) -> None:
+def check_repeatable(engine: str, what: str = "rewind") -> None:
     """Refuse to fly again in an engine that does not do the same twice.
 
     Raises:
         InputError: it does not.
     """
     if engine not in REPEATABLE:
-        raise InputError(NOT_REPEATABLE.format(engine=engine))
+        raise InputError(NOT_REPEATABLE.format(what=what, engine=engine))
 
 
 def check_may_tare(flight: RecordedFlight, vehicle: SceneVehicle, phase: str) -> None:

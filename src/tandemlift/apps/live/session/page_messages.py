@@ -183,6 +183,13 @@ class FlyMessage(NumberedMessage):
     toml: Annotated[str | None, 'content of the file; the message must begin with `{"type":"fly",`'] = None
 
 
+class CompareMessage(NumberedMessage):
+    """Keep the flight as it is as a ghost under the same hand, change places with the ghost, or end it."""
+
+    type: Literal["compare"] = "compare"
+    what: Literal["keep", "swap", "end"]
+
+
 class SaveMessage(NumberedMessage):
     """Save what was flown so far."""
 
@@ -218,6 +225,7 @@ PageMessage = (
     | ResetMessage
     | RewindMessage
     | FlyMessage
+    | CompareMessage
     | SaveMessage
     | TurnMessage
     | PingMessage

@@ -130,7 +130,7 @@ def _quadrotor(quadrotor: Quadrotor, center: Array, shapes: Sequence[tuple[Scene
             position=_list(center + np.array([x, y, 0.0])),
             spin=int(spin),
             radius=quadrotor.rotor_radius,
-            max_thrust=quadrotor.max_thrust,
+            max_thrust=quadrotor.thrust_limit,
             max_speed=quadrotor.max_speed,
             blades=blades,
             disc=disc,

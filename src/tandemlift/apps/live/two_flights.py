@@ -1,0 +1,122 @@
+"""A session with a ghost: a second flight under the same hand, with the settings as they were when it was kept.
+
+Both take every step together; each is bit-identical to one that flies alone with its settings and the same hand.
+"""
+
+from __future__ import annotations
+
+from typing import cast
+
+from tandemlift.apps.live.session.checks import check_repeatable
+from tandemlift.apps.live.session.hand_control import HandControl
+from tandemlift.apps.live.session.interactive_mission import with_whole_rotors
+from tandemlift.apps.live.session.page_messages import (
+    CompareMessage,
+    FlyMessage,
+    PageMessage,
+    ResetMessage,
+    RewindMessage,
+)
+from tandemlift.apps.live.session.parameters import scene_at
+from tandemlift.apps.live.session.server_messages import Answer, FlightScene, FlightStatus
+from tandemlift.apps.live.session.session import Session
+from tandemlift.core.vector import ZERO
+from tandemlift.simulation.recorded_flight import RecordedFlight
+
+
+class TwoFlights(Session):
+    """A session beside whose flight a ghost may fly."""
+
+    _ghost: RecordedFlight | None = None
+    _begun = _swaps = 0  # ghosts, and changes of places
+
+    def prepare(self) -> None:
+        """Compile the flight, and take its first step; once."""
+        if not self.is_ready:
+            self.watchers.append(self._fly_along)
+        super().prepare()
+
+    def _fly_along(self, flight: RecordedFlight) -> None:
+        """Let the ghost take the step that the flight has taken, with the same hand, unless it has ended before."""
+        ghost = self._ghost
+        if ghost is None or ghost.over or ghost.step != flight.step - 1:
+            return
+        if ghost.hand != flight.hand:
+            ghost.hold(flight.hand)
+        ghost.advance()
+
+    def apply(self, message: PageMessage) -> list[Answer]:
+        """Apply a message; return the answers.
+
+        Raises:
+            InputError: it cannot be done; the text says why.
+        """
+        ghost = self._ghost
+        if isinstance(message, CompareMessage) and self.is_ready:
+            self._compare(message)
+            self.generation += 1
+            return []
+        if ghost is None or not isinstance(message, (ResetMessage, RewindMessage, FlyMessage)):
+            return super().apply(message)
+        with self._parameters.turn:
+            if isinstance(message, RewindMessage):
+                self.pacer.paused = True
+                steps = min(round(message.time / ghost.dt) + 1, self._flight.step)
+                again = self._flown_again(ghost, steps)
+            elif isinstance(message, ResetMessage):
+                again = RecordedFlight(with_whole_rotors(ghost.now, self._mission), self._engine)
+                again.hold()
+                again.advance()
+            with self._lock:
+                answers = super().apply(message)
+                self._ghost = None if isinstance(message, FlyMessage) else again
+                if isinstance(message, RewindMessage):
+                    again.hold(self._flight.hand)
+        return answers
+
+    def _flown_again(self, past: RecordedFlight, steps: int) -> RecordedFlight:
+        again = RecordedFlight(past.start, self._engine)
+        again.repeat(past, min(steps, past.step))
+        return again
+
+    def _compare(self, message: CompareMessage) -> None:
+        check_repeatable(self._engine, "compare")
+        with self._parameters.turn:
+            if message.what == "keep":
+                past = self._flight
+                again = self._flown_again(past, past.step)
+                with self._lock:
+                    again.repeat(past, past.step, pending=True)  # what was flown meanwhile
+                    self._ghost, self._begun = again, self._begun + 1
+            elif message.what == "end":
+                self._ghost = None
+            elif self._ghost is not None:
+                with self._lock:
+                    for one in (self._flight, self._ghost):
+                        one.hold(one.hand._replace(held=0.0, force=ZERO, lift=0.0, land=0.0))
+                    self._flight, self._ghost, self._failed = self._ghost, self._flight, False
+                    self._hand = HandControl(self._flight, self._frames.scene["vehicle"])
+                    self._swaps += 1
+
+    # displayed values
+
+    def frame(self) -> bytes:
+        """The latest frame, and that of the ghost after it."""
+        with self._lock:
+            own, ghost = super().frame(), self._ghost
+            return own if ghost is None else own + self._frames.frame(self._frames.values(*ghost.moment))
+
+    @property
+    def scene(self) -> FlightScene:
+        """The scene with the present parameters, and the ghost's."""
+        own, ghost = super().scene, self._ghost
+        if ghost is None:
+            return own
+        seen = scene_at(self._frames.scene, ghost.now, self._mission)
+        parts = {name: seen[name] for name in ("mission", "controller", "parameters")}
+        return cast("FlightScene", {**own, "ghost": {**parts, "begun": self._begun, "swaps": self._swaps}})
+
+    def status(self) -> FlightStatus:
+        """The state of the flight in words, and how its ghost has ended."""
+        own, ghost = super().status(), self._ghost
+        return own if ghost is None else cast("FlightStatus", {**own, "ghost": str(ghost.ending or "")})
