@@ -80,7 +80,7 @@ def hover(control: Control, seconds: float, size: float = 1.0) -> Hover:
     flight, seen = SteppedFlight(mission, quads), Hover(control)
     flight.step()
     true = quads.vehicle.lever_arms + np.array([0.0, 0.0, HEIGHT])
-    most = quads.vehicle.quadrotors[0].max_thrust
+    most = quads.vehicle.quadrotors[0].thrust_limit
     for i in range(2):
         quads.arm(i)
     steps = round(EVERY / flight.simulation.dt)

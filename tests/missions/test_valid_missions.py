@@ -17,19 +17,8 @@ from tandemlift.missions.changes import value_at
 from tandemlift.missions.keys import allowed
 
 BUILT_IN = [
-    *(
-        "crazyflie-stick",
-        "doorway",
-        "flight-ready",
-        "four",
-        "gusts",
-        "heavy-payload",
-        "hover",
-        "iris",
-        "narrow-zigzag",
-        "narrow",
-    ),
-    *("off-centre-push", "one-push", "paper", "rotor-loss", "zigzag"),
+    *("crazyflie-stick", "doorway", "flight-ready", "four", "gusts", "heavy-payload", "hover", "iris"),
+    *("narrow-zigzag", "narrow", "off-centre-push", "one-push", "paper", "rotor-loss", "two-x500", "zigzag"),
 ]
 
 

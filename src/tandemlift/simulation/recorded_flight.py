@@ -1,7 +1,6 @@
 """A flight that takes commands from step to step and records them.
 
-It is saved as a mission: a TOML file, with the hand in an archive beside it, whose flight is bit-identical. It depends
-on no clock and no page.
+It is saved as a mission, a TOML file with the hand in an archive beside it, whose flight is bit-identical.
 """
 
 from __future__ import annotations
@@ -251,7 +250,8 @@ class RecordedFlight:
         hands = dict(past._hand)
         while self.step < steps or pending:
             for c in [c for c in past._changes[len(self._changes) :] if round(c["time"] / self.dt) == self.step]:
-                self.change(self.prepare(*(args := (c["key"], c["value"], c["duration"]))), *args)
+                change = c["key"], c["value"], c["duration"]
+                self.change(self.prepare(*change), *change)
             if self.step in hands:
                 self.hold(unflat(hands[self.step], HAND_RELEASED))
             pending = pending and self.step < steps

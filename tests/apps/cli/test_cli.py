@@ -100,7 +100,7 @@ def test_the_version_is_told(run):
             ("rnu", "paper"),
             [
                 "No such command 'rnu'",
-                "run, live, missions, docs, new, template, explain, check, controllers, engines, schema, completion, report,",
+                "run, live, missions, docs, new, template, explain, check, controllers, engines, schema, completion,",
                 "Did you mean 'run'?",
             ],
         ),

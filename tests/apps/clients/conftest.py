@@ -1,11 +1,14 @@
 """What tests of clients share: a flight of two Crazyflies on a rod, a step at a time."""
 
+from importlib.util import find_spec
+
 import pytest
 
 import tandemlift as tl
 from tandemlift.apps.clients.crazyflie.device import Crazyflie
 from tandemlift.apps.clients.flight import SteppedFlight, quadrotors_of
 
+collect_ignore_glob = [] if find_spec("pymavlink") else ["test_mavlink_*.py"]
 ASIDE = {"pushes": [], "pilot.push": "truth", "pilot.state": "truth", "phases.land_start": 1e6}
 
 

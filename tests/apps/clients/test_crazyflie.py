@@ -61,7 +61,7 @@ def test_roll_to_the_right_and_a_lowered_nose_accelerate_there(pair, roll, pitch
     """On the wire a positive pitch raises the nose; a positive roll lowers the right side."""
     pair.seconds(4.0, lambda: pair.both(hover(height=0.6)))
     weight = pair.quads.vehicle.weight / 2.0
-    thrust = round(65535.0 * weight / (4.0 * pair.quads.vehicle.quadrotors[0].max_thrust))
+    thrust = round(65535.0 * weight / (4.0 * pair.quads.vehicle.quadrotors[0].thrust_limit))
     pair.both(header(3, 0) + struct.pack("<fffH", 0.0, 0.0, 0.0, 0))  # unlocks the thrust
     pair.seconds(1.0, lambda: pair.both(header(3, 0) + struct.pack("<fffH", roll, pitch, 0.0, thrust)))
     assert sign * pair.state().velocity[axis] > 0.3

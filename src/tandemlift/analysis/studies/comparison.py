@@ -219,3 +219,15 @@ def _explained(error: Exception, controllers: Iterable[str]) -> Exception:
         if not own.start.__module__.startswith("tandemlift.") and file_of(own) in files:
             return InputError(f"controller {own.name!r} fails: {error_text(error, file_of(own))}")
     return error
+
+
+def names_in(option: str, given: str, example: str) -> list[str]:
+    """The names of a comma-separated list, without repetition.
+
+    Raises:
+        InputError: the list is empty.
+    """
+    names = list(dict.fromkeys(part.strip() for part in given.split(",") if part.strip()))
+    if not names:
+        raise InputError(f"{option}: must be a comma-separated list of names, such as {example}")
+    return names

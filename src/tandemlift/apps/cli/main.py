@@ -15,7 +15,7 @@ from tandemlift.apps.cli.keys import completion, controllers, engines, explain, 
 from tandemlift.apps.cli.linearize import certify, check, excite, linearize
 from tandemlift.apps.cli.live import docs, grade, live, page, replay, score
 from tandemlift.apps.cli.report import paper, plot, report
-from tandemlift.apps.cli.ros import crazyflie, gazebo, ros
+from tandemlift.apps.cli.ros import crazyflie, gazebo, mavlink, ros
 from tandemlift.apps.cli.run import run
 from tandemlift.apps.cli.study import compare, study
 from tandemlift.apps.cli.tune import feel, train, tune
@@ -33,7 +33,7 @@ GROUPS: dict[str, tuple[click.Command, ...]] = {
     "Look at a flight": (report, plot, render, replay),
     "Fly many, compare, analyse": (compare, score, grade, study, tune, train, feel, linearize, certify, paper),
     "Your vehicle": (excite, identify, shadow),
-    "Take it elsewhere": (gazebo, ros, crazyflie, page, export, compile),
+    "Take it elsewhere": (gazebo, ros, crazyflie, mavlink, page, export, compile),
 }
 
 

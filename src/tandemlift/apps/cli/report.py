@@ -152,21 +152,17 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
     from tandemlift.pictures.report.paper_report import typeset, write_paper_files
 
     path = file_path("--out", out, ".pdf")
+    given = f"--out {out}" if out != OUT else "", f"--style {style}" if style else "", "--no-pdf" if no_pdf else ""
+    command = " ".join(["tandemlift paper", *filter(None, given)])
     with results_folder(str(path.parent), path.parent, (path.name,)):
         flights = fly_paper()
         folder = path.with_name(f"{path.stem}-files")
         with progress_bar("Drawing", "figures") as progress:
-            write_paper_files(flights, folder, _command(out, style, no_pdf), gazebo_sentence(), progress)
+            write_paper_files(flights, folder, command, gazebo_sentence(), progress)
         echo(f"figures, tables and source: {folder}")
         if not no_pdf:
             typeset(folder, path)
             echo(f"report: {path}")
-
-
-def _command(out: str, style: str | None, no_pdf: bool) -> str:
-    """The command as it was given."""
-    parts = [f"--out {out}" if out != OUT else "", f"--style {style}" if style else "", "--no-pdf" if no_pdf else ""]
-    return " ".join(["tandemlift paper", *filter(None, parts)])
 
 
 def fly_paper() -> PaperFlights:

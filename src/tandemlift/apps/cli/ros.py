@@ -1,10 +1,12 @@
-"""Flights for robots' software: `tandemlift ros`, a node in real time, `gazebo`, and `crazyflie`, for its clients."""
+"""Flights for robots' software: `tandemlift ros`, a node in real time, `gazebo`, and for clients of quadrotors."""
 
 from __future__ import annotations
 
 import sys
 import time
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -22,14 +24,7 @@ from tandemlift.apps.cli.flying import (
     strict_option,
     with_after_crash,
 )
-from tandemlift.apps.cli.live import (
-    DEFAULT,
-    OUT,
-    check_live_installed,
-    no_browser_option,
-    port_option,
-    serve_until_interrupt,
-)
+from tandemlift.apps.cli.live import DEFAULT, OUT, no_browser_option, port_option
 from tandemlift.apps.cli.run import write_results
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
@@ -74,11 +69,10 @@ def ros(
 ) -> None:
     """Fly MISSION in real time as a ROS node that messages push.
 
-    MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file. The default is zigzag, the
-    paper's corridor. The mission's own pushes and person are omitted: messages on /tandemlift/push push the vehicle.
-    ROS 1 needs rospy and a running roscore. ROS 2 needs no installed ROS, only pip install 'tandemlift[ros2]'; where
-    rclpy is installed, the node is one of rclpy, with services and parameters. docs/how-to/ros.md describes topics,
-    services and parameters. Ctrl-C ends the flight.
+    The default is zigzag, the paper's corridor. The mission's own pushes and person are omitted: messages on
+    /tandemlift/push push the vehicle. ROS 1 needs rospy and a running roscore. ROS 2 needs no installed ROS, only
+    pip install 'tandemlift[ros2]'; where rclpy is installed, the node is one of rclpy, with services and parameters.
+    docs/how-to/ros.md describes topics, services and parameters. Ctrl-C ends the flight.
 
     \b
     Examples:
@@ -91,7 +85,7 @@ def ros(
     """
     from tandemlift.apps.live.two_flights import TwoFlights
     from tandemlift.apps.ros import ros1
-    from tandemlift.apps.ros.middleware import recorded
+    from tandemlift.apps.ros.middleware import recorded, split_words
     from tandemlift.apps.ros.node import fly_and_save, middleware_for, shut_down, version_for
     from tandemlift.apps.ros.sample_queue import steps_between_samples
     from tandemlift.engines.registry import engine_named
@@ -99,7 +93,7 @@ def ros(
     if folder:
         echo(str(ros1.folder()))
         return
-    mission, arguments = _split_arguments(words)
+    mission, arguments = split_words(words, DEFAULT)
     engine_named(engine)
     loaded = load(mission, settings)
     steps_between_samples(rate, loaded.mission.step)
@@ -117,15 +111,6 @@ def ros(
         click.echo(f"{mission}: {failure}", err=True)
     if failures or gone:
         sys.exit(FAILED)
-
-
-def _split_arguments(words: tuple[str, ...]) -> tuple[str, list[str]]:
-    """The mission, and the arguments for ROS itself."""
-    arguments = [word for word in words if ":=" in word]
-    missions = [word for word in words if ":=" not in word] or [DEFAULT]
-    if len(missions) > 1:
-        raise InputError(f"{' '.join(missions)}: give one mission only")
-    return missions[0], arguments
 
 
 @click.command()
@@ -155,10 +140,9 @@ def gazebo(
 ) -> None:
     """Fly MISSION in Gazebo 11, with its window.
 
-    It starts the server, the window, the world and the pilot. MISSION is a built-in mission (see `tandemlift missions`)
-    or the path of a .toml file. The default is zigzag, the paper's corridor. Gazebo must be installed on this system,
-    or in a root made by tools/gazebo-root whose path is in TANDEMLIFT_GAZEBO_ROOT. The command prints how to push, and
-    writes the same files as `tandemlift run`. Ctrl-C ends a flight with --by-hand, which is written as well.
+    It starts the server, the window, the world and the pilot. The default is zigzag, the paper's corridor. Gazebo must
+    be installed on this system, or in a root made by tools/gazebo-root whose path is in TANDEMLIFT_GAZEBO_ROOT. How to
+    push is printed; files are those of `tandemlift run`. Ctrl-C ends a flight with --by-hand, which is written as well.
 
     \b
     Examples:
@@ -179,9 +163,9 @@ def gazebo(
     root()  # raises if there is no Gazebo, before anything is compiled
     with results_folder(out, Path("out/gazebo") / loaded.mission.name, FILES) as folder:
         began = time.perf_counter()
-        if not (no_window or has_display()):
-            click.echo("No window: DISPLAY is not set", err=True)
         window = has_display() and not no_window
+        if not (window or no_window):
+            click.echo("No window: DISPLAY is not set", err=True)
         with progress_bar("Flying", "steps", shown=not by_hand) as progress:
             flight, photographs = fly_in_gazebo(
                 loaded, echo, progress, by_hand=by_hand, window=window, real_time=not fast, pictures=pictures
@@ -191,17 +175,18 @@ def gazebo(
     exit_if_amiss({flight.name: flight}, strict=strict)
 
 
+own_loops_option = click.option("--own-loops", is_flag=True, help="Each quadrotor has its own rate loops: they fight.")
+
+
 @click.command()
 @click.argument("mission", default="crazyflie-stick", shell_complete=MISSIONS)
 @click.option("--udp-port", type=int, default=19850, show_default=True, help="UDP port of the first Crazyflie.")
-@click.option("--own-loops", is_flag=True, help="Each quadrotor has its own rate loops, whose integrators fight.")
+@own_loops_option
 @engine_option
 @port_option
 @no_browser_option
 @set_option
-def crazyflie(
-    mission: str, udp_port: int, own_loops: bool, engine: str, port: int, no_browser: bool, settings: tuple[str, ...]
-) -> None:
+def crazyflie(mission: str, udp_port: int, **options: Any) -> None:
     """Fly MISSION in real time, each quadrotor as a Crazyflie.
 
     Bitcraze's cflib finds them by scanning, or as udp://127.0.0.1:19850, :19851 and so on; scripts for real ones fly
@@ -213,17 +198,50 @@ def crazyflie(
       tandemlift crazyflie
       tandemlift crazyflie crazyflie-stick --set wind.velocity=[1,0,0]
     """
-    check_live_installed()
     from tandemlift.apps.clients.crazyflie.server import CrazyflieServer
+
+    _fly_by_clients(mission, partial(CrazyflieServer, port=udp_port), **options)
+
+
+@click.command()
+@click.argument("mission", default="two-x500", shell_complete=MISSIONS)
+@click.option("--udp-port", type=int, default=14540, show_default=True, help="UDP port of the first one's clients.")
+@own_loops_option
+@engine_option
+@port_option
+@no_browser_option
+@set_option
+def mavlink(mission: str, udp_port: int, **options: Any) -> None:
+    """Fly MISSION in real time, each quadrotor as a MAVLink vehicle.
+
+    Scripts for MAVSDK fly them unchanged. Clients of the first one listen on udpin://0.0.0.0:14540, of the second one
+    on :14541. The live page shows the same flight, and pushes it. The mission's own pushes, person and pilot are
+    omitted. Needs pip install 'tandemlift[mavlink]'. docs/how-to/fly-with-mavlink.md has modes and parameters. Ctrl-C
+    ends the flight.
+
+    \b
+    Examples:
+      tandemlift mavlink
+      tandemlift mavlink two-x500 --set wind.velocity=[1,0,0]
+    """
+    from tandemlift.apps.clients.mavlink.vehicles import MavlinkVehicles
+
+    _fly_by_clients(mission, partial(MavlinkVehicles, port=udp_port), **options)
+
+
+def _fly_by_clients(
+    mission: str, serve: Any, own_loops: bool, engine: str, port: int, no_browser: bool, settings: tuple[str, ...]
+) -> None:
+    """Fly in real time by the clients that are served, beside the live page."""
     from tandemlift.apps.clients.flight import PILOT_ASIDE, RealTimeFlight, quadrotors_of
     from tandemlift.apps.live.page_files import page_files
-    from tandemlift.apps.live.server import PageServer
+    from tandemlift.apps.live.server import PageServer, serve_until_interrupt
 
     flown = load(mission, (*PILOT_ASIDE, *settings))
     quadrotors = quadrotors_of(flown, "own" if own_loops else "shared")
     flight = RealTimeFlight(flown, quadrotors, engine, OUT)
-    with CrazyflieServer(quadrotors, flight, port=udp_port) as server:
-        echo(f"Crazyflies: {', '.join(server.addresses)}")
+    with serve(quadrotors, flight) as server:
+        echo(f"Quadrotors: {', '.join(server.addresses)}")
         page = PageServer(page_files(), flight.session, port=port)
-        serve_until_interrupt(page, f"{mission}, flown by clients", browser=not no_browser)
+        serve_until_interrupt(page, f"{mission}, flown by clients", echo, browser=not no_browser)
     exit_now(0)  # a thread may still be compiling

@@ -215,31 +215,14 @@ def compare(
 def _entered(
     mission: str, controllers: str | None, engine: str, engines: str | None, settings: tuple[str, ...]
 ) -> MissionComparison:
-    """The comparison that the options ask for.
-
-    Raises:
-        InputError: a list is empty, a controller or an engine is unknown, or the mission cannot be loaded.
-    """
-    from tandemlift.analysis.studies.comparison import in_engines, with_controllers
+    """The comparison that the options ask for."""
+    from tandemlift.analysis.studies.comparison import in_engines, names_in, with_controllers
     from tandemlift.engines.registry import engine_named
 
     if engines is not None:
-        named = _names("--engines", engines, "compiled,mujoco")
-        return in_engines(load(mission, settings), named)
+        return in_engines(load(mission, settings), names_in("--engines", engines, "compiled,mujoco"))
     engine_named(engine)
     changes, chosen = dict(map(parse_setting, settings)), None
     if controllers is not None:
-        chosen = [chosen_controller(name) for name in _names("--controllers", controllers, "nftsmc,pid")]
+        chosen = [chosen_controller(name) for name in names_in("--controllers", controllers, "nftsmc,pid")]
     return with_controllers(mission, changes, chosen, engine)
-
-
-def _names(option: str, given: str, example: str) -> list[str]:
-    """The names of a comma-separated list, without repetition.
-
-    Raises:
-        InputError: the list is empty.
-    """
-    names = list(dict.fromkeys(part.strip() for part in given.split(",") if part.strip()))
-    if not names:
-        raise InputError(f"{option}: must be a comma-separated list of names, such as {example}")
-    return names

@@ -110,8 +110,9 @@ def tune(
     from tandemlift.analysis.studies.tuning.tune import tune as tuned
 
     chosen = controller and chosen_controller(controller).name
+    given = int(draws) if re.fullmatch("[0-9]{1,9}", draws) else draws
     how |= {"goals": dict(map(goal_of, goals)), "parameters": dict(map(range_of, parameters))}
-    _search(tuned, mission, settings, out, {**how, "draws": _draws_of(draws), "controller": chosen})
+    _search(tuned, mission, settings, out, {**how, "draws": given, "controller": chosen})
 
 
 @click.command()
@@ -157,11 +158,6 @@ def _search(
         sys.exit(INTERRUPTED)
     if not found.is_better:
         sys.exit(NOT_BETTER)
-
-
-def _draws_of(text: str) -> int | str:
-    """A number of draws, or the path of a study file."""
-    return int(text) if re.fullmatch("[0-9]{1,9}", text) else text
 
 
 @contextmanager

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol, cast
 
@@ -156,3 +156,11 @@ def recorded(middleware: Middleware, folder: str | None) -> Iterator[Middleware]
         raise InputError("--bag: needs ROS 2; in ROS 1, rosbag record -a")
     with LiveBag(Path(folder)) as bag:
         yield cast(Middleware, RecordedMiddleware(middleware, bag))
+
+
+def split_words(words: Sequence[str], default: str) -> tuple[str, list[str]]:
+    """The mission among words, and the arguments for ROS itself."""
+    missions = [word for word in words if ":=" not in word] or [default]
+    if len(missions) > 1:
+        raise InputError(f"{' '.join(missions)}: give one mission only")
+    return missions[0], [word for word in words if ":=" in word]

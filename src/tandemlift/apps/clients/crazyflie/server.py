@@ -9,16 +9,15 @@ import selectors
 import socket
 import threading
 import time
-from collections.abc import Callable
 from contextlib import suppress
-from typing import Any, Self
+from typing import Self
 
 from tandemlift import InputError
 from tandemlift.apps.clients.crazyflie.device import Channel, Crazyflie
 from tandemlift.apps.clients.crazyflie.tables import CrtpParameter, fits
 from tandemlift.apps.clients.flight import RealTimeFlight
+from tandemlift.apps.clients.mission_numbers import mission_numbers
 from tandemlift.apps.clients.quadrotors import Quadrotors
-from tandemlift.apps.live.session.page_messages import SetMessage
 
 PORT = 19850  # cflib, crtp/udpdriver.py: scans ten ports from here
 SILENT = 1.0  # s without a packet, after which another client may take over; cflib sends ten a second
@@ -165,40 +164,6 @@ def channels_of(flight: RealTimeFlight) -> dict[str, Channel]:
 
 
 def parameters_of(flight: RealTimeFlight) -> dict[str, CrtpParameter]:
-    """The numbers of a mission that can be changed in flight and whose names fit into a table, lists by component."""
-    found: dict[str, CrtpParameter] = {}
-    for shown in flight.session.scene["parameters"]:
-        group, _, rest = shown["key"].partition(".")
-        value = shown["value"]
-        if isinstance(value, str):
-            continue
-        numbers = list(value) if isinstance(value, list | tuple) else [value]
-        for n, number in enumerate(numbers):
-            name = rest.replace(".", "_") + (f"_{n + 1}" if len(numbers) > 1 else "")
-            if fits(group, name):
-                change = _changer(flight, shown["key"], numbers if len(numbers) > 1 else None, n, shown)
-                found[f"{group}.{name}"] = CrtpParameter("f", number, change)
-    return found
-
-
-def _changer(
-    flight: RealTimeFlight, key: str, numbers: list[float] | None, n: int, shown: Any
-) -> Callable[[float], bool]:
-    """What changes a number in flight, in a thread of its own: it may compile; False if it is out of bounds."""
-
-    def change(number: float) -> bool:
-        if not shown.get("min", number) <= number <= shown.get("max", number):
-            return False
-        value: Any = number
-        if numbers is not None:
-            numbers[n] = number
-            value = tuple(numbers)
-
-        def apply() -> None:
-            with suppress(InputError):  # it has no effect in this mission, or the flight is over
-                flight.session.apply(SetMessage(seq=0, key=key, value=value))
-
-        threading.Thread(target=apply, daemon=True).start()
-        return True
-
-    return change
+    """The numbers of a mission that can be changed in flight and whose names fit into a table."""
+    numbers = mission_numbers(flight)
+    return {f"{g}.{name}": CrtpParameter("f", one.value, one.changed) for g, name, one in numbers if fits(g, name)}

@@ -1,0 +1,1 @@
+"""Quadrotors as MAVLink vehicles, over UDP."""

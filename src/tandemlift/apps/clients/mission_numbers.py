@@ -1,0 +1,66 @@
+"""The numbers of a mission that clients may change in flight, as parameters of their protocols."""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any
+
+from tandemlift import InputError
+from tandemlift.apps.clients.flight import RealTimeFlight
+from tandemlift.apps.live.session.page_messages import SetMessage
+
+
+@dataclass
+class MissionNumber:
+    """A number of a mission: its value, and what is called with a new one, which may refuse it."""
+
+    value: float
+    changed: Callable[[float], bool]
+
+    def take(self, value: float) -> bool:
+        """Change it; whether it may have the value."""
+        if not math.isfinite(value) or not self.changed(value):
+            return False
+        self.value = value
+        return True
+
+
+def mission_numbers(flight: RealTimeFlight) -> Iterator[tuple[str, str, MissionNumber]]:
+    """Table, name and number of each, lists by component: `wind`, `velocity_1`."""
+    for shown in flight.session.scene["parameters"]:
+        table, _, rest = shown["key"].partition(".")
+        value = shown["value"]
+        if isinstance(value, str):
+            continue
+        numbers = list(value) if isinstance(value, list | tuple) else [value]
+        for n, number in enumerate(numbers):
+            name = rest.replace(".", "_") + (f"_{n + 1}" if len(numbers) > 1 else "")
+            change = _changer(flight, shown["key"], numbers if len(numbers) > 1 else None, n, shown)
+            yield table, name, MissionNumber(number, change)
+
+
+def _changer(
+    flight: RealTimeFlight, key: str, numbers: list[float] | None, n: int, shown: Any
+) -> Callable[[float], bool]:
+    """What changes a number in flight, in a thread of its own: it may compile; False if it is out of bounds."""
+
+    def change(number: float) -> bool:
+        if not shown.get("min", number) <= number <= shown.get("max", number):
+            return False
+        value: Any = number
+        if numbers is not None:
+            numbers[n] = number
+            value = tuple(numbers)
+
+        def apply() -> None:
+            with suppress(InputError):  # it has no effect in this mission, or the flight is over
+                flight.session.apply(SetMessage(seq=0, key=key, value=value))
+
+        threading.Thread(target=apply, daemon=True).start()
+        return True
+
+    return change
