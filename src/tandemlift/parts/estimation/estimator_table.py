@@ -120,10 +120,7 @@ WIDTH = 3.0  # of a push, in standard deviations
 
 
 def tare_checks(e: EstimatorTable, sampling: float, step: float, *, uses_mass: bool) -> Iterator[CheckResult]:
-    """Check for an identified mass without a tare, and a tare between two samples of the joints; `sampling` [s].
-
-    `uses_mass`: whether guidance accelerates the identified mass.
-    """
+    """Check for an identified mass that is used or has no tare, and a tare between two samples, `sampling` [s]."""
     if uses_mass and not e.identify_mass:
         yield refused("compliance.mass_feedforward = true: no mass is identified; set estimator.identify_mass = true")
     if e.identify_mass and e.tare_start is None and e.tare == "at-time":
