@@ -93,7 +93,8 @@ def rows(observer: str, minutes: float, winds: list[float]) -> Iterator[str]:
         yield f"| {wind:g} | {at[0]:g}, {at[1]:g} | {hands:.0f} | {most} | {push[0]:.2f}, {push[1]:.2f} |"
 
 
-if __name__ == "__main__":
+def main() -> None:
+    """Print a row for each wind."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--observer", default="kalman")
     parser.add_argument("--minutes", type=float, default=1000.0, help="of hover without a push, for each wind")
@@ -101,3 +102,7 @@ if __name__ == "__main__":
     given = parser.parse_args()
     for row in rows(given.observer, given.minutes, given.winds):
         print(row, flush=True)
+
+
+if __name__ == "__main__":
+    main()

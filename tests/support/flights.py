@@ -35,6 +35,7 @@ def lanes(name, **changes):
             own["faults"] = [{"quadrotor": 1, "rotor": i % 4 + 1, "time": 0.4 + 0.25 * i if i != 1 else 50.0}]
         if i in LOST:
             size = LOST[i] * (1.0 if mission.actuators.model == "rotors" else IDEAL)
+            size *= min(1.0, tl.Vehicle.from_settings(mission.vehicle).inertia[0, 0] / 1.6)  # of a light one, less
             own["disturbance.moment"] = [size, 0.0, 0.0]
         made.append(tl.load_mission(name, own))
     return made

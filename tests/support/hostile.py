@@ -27,6 +27,7 @@ GOOD = [
     {"type": "speed", "seq": 15, "factor": 0.5},
     {"type": "reset", "seq": 16},
     {"type": "rewind", "seq": 16, "time": 12.5},
+    {"type": "compare", "seq": 12, "what": "keep"},
     {"type": "save", "seq": 17, "name": "mine-1.0"},
     {"type": "ping", "seq": 18, "t": 1.5},
     {"type": "fly", "seq": 19, "mission": "mine.toml", "toml": "x = 1"},

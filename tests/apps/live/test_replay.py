@@ -324,6 +324,7 @@ def test_bad_input_is_refused_in_words(flight, run, tmp_path, arguments, words):
 def test_without_websockets_it_says_what_to_install(flight, run, tmp_path, monkeypatch):
     flight.save(tmp_path / "flight.npz")
     monkeypatch.setitem(sys.modules, "websockets", None)
+    monkeypatch.delitem(sys.modules, "tandemlift.apps.live.server", raising=False)
     for arguments in (("live",), ("replay", "flight.npz")):
         assert "pip install 'tandemlift[live]'" in str(run(*arguments).exception)
     assert run("replay", "flight.npz", "--html", "one.html").exit_code == 0
@@ -349,9 +350,9 @@ def test_the_address_is_printed_and_ctrl_c_ends_it_well(verb, flight, page, tmp_
         from tandemlift.apps.live import page_files as pages
         from standin import StandIn
         pages.PAGE_FOLDER = pathlib.Path({str(page)!r})
-        session = types.ModuleType("tandemlift.apps.live.session.session")
-        session.Session = lambda mission, engine, out: StandIn(mission.mission.name)
-        sys.modules["tandemlift.apps.live.session.session"] = session
+        flights = types.ModuleType("tandemlift.apps.live.two_flights")
+        flights.TwoFlights = lambda mission, engine, out: StandIn(mission.mission.name)
+        sys.modules["tandemlift.apps.live.two_flights"] = flights
         main()
     """
     target = {"live": "hover", "replay": "flight.npz"}[verb]

@@ -37,7 +37,7 @@ def test_a_true_vehicle_that_leaves_no_payload_is_refused_by_its_keys(ending, mu
 
 def test_endings_and_ports_that_do_not_fit_are_refused(tmp_path):
     mission = tl.load_mission("paper")
-    for name in ("world.urdf", "world", "world.sdf.gz", ".sdf"):
+    for name in ("world.obj", "world", "world.sdf.gz", ".sdf"):
         assert ".sdf (Gazebo world) or .xml (MuJoCo model)" in check_refused(mission, tmp_path / name)
     assert "'paper' is no flight" in check_refused(mission, tmp_path / "paper.csv")
     assert "only a world, .sdf, has a plugin" in check_refused(mission, tmp_path / "paper.xml", plugin=7000)
@@ -87,7 +87,7 @@ def test_the_command_writes_the_mission_of_a_flight(run, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "piece"),
     [
-        (("iris", "--out", "iris.urdf"), "iris.urdf: must end in .mcap"),
+        (("iris", "--out", "iris.obj"), "iris.obj: must end in .mcap"),
         (("nowhere", "--out", "x.sdf"), "nowhere"),
         (("iris", "--out", "iris.csv", "--set", "mission.duration=5"), "--set is for a mission"),
         (("saved", "--out", "iris.sdf", "--set", "mission.duration=5"), "--set is for a mission"),

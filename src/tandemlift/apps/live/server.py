@@ -20,6 +20,7 @@ from typing import Self
 from tandemlift.core.errors import extra
 
 with extra("live", "the live page"):
+    import websockets  # noqa: F401  (first, so that the error names it)
     from websockets.asyncio.server import Server as SocketServer
     from websockets.asyncio.server import ServerConnection, serve
     from websockets.datastructures import Headers

@@ -57,9 +57,11 @@ class ComplianceTable(Table):
     moment_lead: Delay = key(0.06, "s", "lead time of the compensated push's moment", source=TRIAL)
     reference_lead: Delay = key(0.11, "s", "lead time of the reference's acceleration", source=TRIAL)
     vertical_force_lead: Delay | None = key(
-        None, "s", "force_lead along z, where no tilt delays the thrust", unset="that of x and y"
+        None, "s", "force_lead along z, where no tilt delays the thrust", unset="that of x and y", example=0.05
     )
-    vertical_reference_lead: Delay | None = key(None, "s", "reference_lead along z", unset="that of x and y")
+    vertical_reference_lead: Delay | None = key(
+        None, "s", "reference_lead along z", unset="that of x and y", example=0.03
+    )
     mass_feedforward: bool = key(
         False, None, "whether the mass that a tare identifies is accelerated, too, with the reference", source="off"
     )

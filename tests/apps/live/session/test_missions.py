@@ -59,7 +59,7 @@ def test_values_are_restored_to_those_of_the_file_and_a_reset_begins_it_again(se
 @pytest.mark.parametrize(
     ("mission", "toml", "reason"),
     [
-        ("irs", None, "unknown mission 'irs'; there are doorway, .* Did you mean 'iris'\\?"),
+        ("irs", None, "unknown mission 'irs'; there are crazyflie-stick, .* Did you mean 'iris'\\?"),
         ("photo.png", "\ufffdPNG\r\n", "photo.png is not valid TOML"),
         ("mine.toml", MINE + "mas = 2", "mine.toml: admittance.mas = 2: unknown key.* Did you mean admittance.mass\\?"),
         ("mine.toml", 'extends = "../other.toml"', "mine.toml: extends = .*: must be a built-in mission"),

@@ -9,7 +9,7 @@ from sessions import fly, say, seen, unprepared
 
 import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
-from tandemlift.apps.live.session.page_messages import PAGE_MESSAGES, PingMessage, TurnMessage
+from tandemlift.apps.live.session.page_messages import PAGE_MESSAGES, CompareMessage, PingMessage, TurnMessage
 from tandemlift.apps.live.session.session import Session
 from tandemlift.core.caching import LastUsed
 
@@ -25,7 +25,11 @@ def test_a_flight_that_is_over_says_so_and_changes_no_more(session):
 
 def test_a_session_handles_every_message_of_a_page_that_the_server_does_not_answer_itself():
     handled = set(Session.__dict__["_handle"].dispatcher.registry)
-    assert set(PAGE_MESSAGES.values()) - handled == {PingMessage, TurnMessage}
+    assert set(PAGE_MESSAGES.values()) - handled == {
+        PingMessage,
+        TurnMessage,
+        CompareMessage,
+    }  # the last: by TwoFlights
 
 
 def test_an_error_in_flight_is_told(session, monkeypatch):
