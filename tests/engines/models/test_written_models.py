@@ -38,7 +38,7 @@ def test_a_true_vehicle_that_leaves_no_payload_is_refused_by_its_keys(ending, mu
 def test_endings_and_ports_that_do_not_fit_are_refused(tmp_path):
     mission = tl.load_mission("paper")
     for name in ("world.obj", "world", "world.sdf.gz", ".sdf"):
-        assert ".sdf (Gazebo world) or .xml (MuJoCo model)" in check_refused(mission, tmp_path / name)
+        assert ".sdf (Gazebo world), .xml (MuJoCo model) or .urdf" in check_refused(mission, tmp_path / name)
     assert "'paper' is no flight" in check_refused(mission, tmp_path / "paper.csv")
     assert "only a world, .sdf, has a plugin" in check_refused(mission, tmp_path / "paper.xml", plugin=7000)
     for port in (0, -1, 65536):

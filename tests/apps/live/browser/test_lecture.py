@@ -44,12 +44,12 @@ def test_a_ghost_flies_in_the_server_with_its_settings_and_ends(page, live):
     entry = panel(page, "admittance.damping").locator("input[type=number]").first
     first = entry.input_value()
     page.get_by_label("Compare").select_option(index=1)
-    until(lambda: "same settings" in page.inner_text("#comparison"), "a ghost")
+    until(lambda: "same settings" in page.text_content("#comparison"), "a ghost")
     entry.fill("7")
     entry.press("Enter")
-    until(lambda: f"damping {first}, now: 7" in page.inner_text("#comparison"), "what differs")
+    until(lambda: f"damping {first}, now: 7" in page.text_content("#comparison"), "what differs")
     page.locator("#comparison").get_by_role("button", name="Swap").click()
-    until(lambda: "damping 7" in page.inner_text("#comparison"), "the other way round")
+    until(lambda: "damping 7" in page.text_content("#comparison"), "the other way round")
     assert entry.input_value() == first
     page.locator("#comparison").get_by_role("button", name="End").click()
     until(lambda: page.locator("#comparison").is_hidden(), "a flight by itself")
