@@ -325,8 +325,8 @@ def test_without_websockets_it_says_what_to_install(flight, run, tmp_path, monke
     flight.save(tmp_path / "flight.npz")
     monkeypatch.setitem(sys.modules, "websockets", None)
     monkeypatch.delitem(sys.modules, "tandemlift.apps.live.server", raising=False)
-    for arguments in (("live",), ("replay", "flight.npz")):
-        assert "pip install 'tandemlift[live]'" in str(run(*arguments).exception)
+    for verb in ("live",), ("replay", "flight.npz"):
+        assert "pip install 'tandemlift[live]'" in str(run(*verb).exception)
     assert run("replay", "flight.npz", "--html", "one.html").exit_code == 0
 
 
@@ -350,9 +350,8 @@ def test_the_address_is_printed_and_ctrl_c_ends_it_well(verb, flight, page, tmp_
         from tandemlift.apps.live import page_files as pages
         from standin import StandIn
         pages.PAGE_FOLDER = pathlib.Path({str(page)!r})
-        flights = types.ModuleType("tandemlift.apps.live.two_flights")
+        sys.modules["tandemlift.apps.live.two_flights"] = flights = types.ModuleType("two_flights")
         flights.TwoFlights = lambda mission, engine, out: StandIn(mission.mission.name)
-        sys.modules["tandemlift.apps.live.two_flights"] = flights
         main()
     """
     target = {"live": "hover", "replay": "flight.npz"}[verb]
