@@ -83,6 +83,7 @@ def test_in_the_notebook_a_flight_shows_itself_and_long_work_has_a_bar(tmp_path)
     html = [data["text/html"] for data in outputs if "text/html" in data]
     assert [text for text in html if "<svg" in text]
     bars = [out.get("text", "") + str(out.get("data", "")) for out in every]  # of characters without ipywidgets
+    bars += map(str, notebook.metadata.get("widgets", {}).values())
     assert [text for text in bars if "200/200" in text]
     assert [data for data in outputs if "image/png" in data]
 

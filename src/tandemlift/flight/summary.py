@@ -44,8 +44,10 @@ def summary_lines(flight: Flight) -> Iterator[str]:
 
 
 def _largest_thrust(flight: Flight) -> str:
-    """The largest thrust of a rotor beside its limit; '' of a flight without rotors or vehicle."""
+    """The largest thrust of a rotor beside its limit; '' of a flight without vehicle, or of ideal rotors."""
     if "rotor_thrusts" not in flight or "vehicle" not in flight.mission:
+        return ""
+    if flight.mission["actuators"]["model"] != "rotors":  # without a limit
         return ""
     thrusts = flight["rotor_thrusts"]
     most = np.repeat([q.thrust_limit for q in flight.vehicle.quadrotors], 4)
@@ -53,8 +55,6 @@ def _largest_thrust(flight: Flight) -> str:
         return ""
     largest = np.nanmax(thrusts, axis=0)
     k = int(np.argmax(largest / most))
-    if flight.mission["actuators"]["model"] != "rotors":
-        return f"{largest[k]:8.2f} N, of ideal rotors without a limit"
     share = f"{largest[k]:8.2f} N of {most[k]:.2f} N ({largest[k] / most[k]:.0%})"
     return f"{share}, rotor {k % 4 + 1} of quadrotor {k // 4 + 1}"
 
