@@ -24,7 +24,7 @@ def handed_in(folder: Path, exercise: str) -> list[Notebook]:
     return [Notebook(path.stem, exercise, path) for path in paths]
 
 
-for exercise in sorted(p.parent.name for p in EXERCISES.glob("*/checks.py")):
+for exercise in sys.argv[1:] or sorted(p.parent.name for p in EXERCISES.glob("*/checks.py")):
     with tempfile.TemporaryDirectory() as folder:
         notebooks = handed_in(Path(folder), exercise)
         graded_class(notebooks[:1], EXERCISES)  # compiles what it flies
