@@ -43,13 +43,18 @@ def mission_numbers(flight: RealTimeFlight) -> Iterator[tuple[str, str, MissionN
             yield table, name, MissionNumber(number, change)
 
 
+PENDING = threading.BoundedSemaphore(8)  # changes at a time; a client that sends more is refused until some are made
+
+
 def _changer(
     flight: RealTimeFlight, key: str, numbers: list[float] | None, n: int, shown: Any
 ) -> Callable[[float], bool]:
-    """What changes a number in flight, in a thread of its own: it may compile; False if it is out of bounds."""
+    """What changes a number in flight, in a thread: it may compile; False if it is out of bounds, or too many wait."""
 
     def change(number: float) -> bool:
         if not shown.get("min", number) <= number <= shown.get("max", number):
+            return False
+        if not PENDING.acquire(blocking=False):
             return False
         value: Any = number
         if numbers is not None:
@@ -57,8 +62,11 @@ def _changer(
             value = tuple(numbers)
 
         def apply() -> None:
-            with suppress(InputError):  # it has no effect in this mission, or the flight is over
-                flight.session.apply(SetMessage(seq=0, key=key, value=value))
+            try:
+                with suppress(InputError):  # it has no effect in this mission, or the flight is over
+                    flight.session.apply(SetMessage(seq=0, key=key, value=value))
+            finally:
+                PENDING.release()
 
         threading.Thread(target=apply, daemon=True).start()
         return True

@@ -53,10 +53,11 @@ class Grade(NamedTuple):
         return sum(check.points for check in self.checks)
 
     def __str__(self) -> str:
-        lines = [f"{'✓' if c.points else '✗'} {c.points}/{c.of}  {c.title}" for c in self.checks]
-        hints = [f"\n       {c.hint}" if c.hint else "" for c in self.checks]
-        of = sum(check.of for check in self.checks)
-        return "\n".join([*map("".join, zip(lines, hints, strict=True)), f"{self.points} of {of} points"])
+        lines = list[str]()
+        for check in self.checks:
+            lines.append(f"{'✓' if check.points else '✗'} {check.points}/{check.of}  {check.title}")
+            lines += [f"       {check.hint}"] if check.hint else []
+        return "\n".join([*lines, f"{self.points} of {sum(check.of for check in self.checks)} points"])
 
     def _repr_html_(self) -> str:
         return f"<pre>{html.escape(str(self))}</pre>"

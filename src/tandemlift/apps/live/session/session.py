@@ -102,8 +102,6 @@ class Session:
         """The flight in progress, once it is ready; a reset begins another."""
         return self._flight
 
-    # the thread
-
     def start(self) -> None:
         """Prepare the flight, and fly, in a thread of its own."""
         self._thread.start()
@@ -230,7 +228,8 @@ class Session:
 
     @_handle.register
     def _pause(self, m: page.PauseMessage) -> None:
-        self.pacer.paused = m.on
+        with self._lock:  # so that no step is taken after it
+            self.pacer.paused = m.on
 
     @_handle.register
     def _set_speed(self, m: page.SpeedMessage) -> None:
