@@ -1,10 +1,12 @@
-"""The live page, measured as a person and four lookers-on would load it: `python benchmarks/live.py [--minutes 10]`.
+"""The live page, measured as a person and four lookers-on would load it.
 
-Starts `tandemlift live zigzag`, opens its page at 800 × 450 in Debian's Chromium without a graphics card, pulls the
-beam with a mouse that tells of its place 100 times a second, and prints Markdown: how many targets a second reach the
-physics, how long it takes from the event until a picture shows what came of it, how far the flight is behind the clock,
-and what the server takes of a processor. The page is drawn in both ways that there are without a card: WebGL alone by
-SwiftShader, as Chromium does it by itself, and all of the page by it. Needs Linux, Chromium and Playwright.
+Starts `tandemlift live zigzag`, opens its page in Debian's Chromium without a graphics card, pulls the beam with a
+mouse that tells of its place 100 times a second, and prints Markdown: how many targets a second reach the physics, how
+long it takes from the event until a picture shows what came of it, how far the flight is behind the clock, and what the
+server takes of a processor. The page is drawn in both ways that there are without a card: WebGL alone by SwiftShader,
+as Chromium does it by itself, and all of the page by it. Needs Linux, Chromium and Playwright.
+
+    python benchmarks/live.py [--minutes 10] [--size 1280x720]
 """
 
 from __future__ import annotations
@@ -26,7 +28,7 @@ from pathlib import Path
 
 import numpy as np
 from machine import describe, heading, table
-from playwright.async_api import Page, async_playwright
+from playwright.async_api import Page, ViewportSize, async_playwright
 from waiting import PATIENCE, ended, said
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
@@ -37,7 +39,6 @@ from tandemlift.apps.live.session.frames import read_frames
 CHROMIUM = "/usr/bin/chromium"
 FLAGS = ("--no-sandbox", "--enable-unsafe-swiftshader", "--disable-background-networking")
 ALL = "--use-angle=swiftshader"  # the whole page is drawn by SwiftShader, not its WebGL alone
-SIZE = {"width": 800, "height": 450}
 PULLING, RADIUS, TURN = 20.0, 60.0, 4.0  # s, pixels and s of a circle of the mouse
 MOUSE = 100.0  # places a second that it tells of
 NAP, LATE = (
@@ -153,11 +154,11 @@ async def pulled(page: Page, looker: Looker) -> tuple[float, float, float]:
     return count / passed, float(wait), float(pictures)
 
 
-async def seen(address: str, looker: Looker, *flags: str) -> tuple[float, float, float, float]:
+async def seen(address: str, looker: Looker, size: ViewportSize, *flags: str) -> tuple[float, float, float, float]:
     """Time to the first picture [s], and what `pulled` measures, in a browser with some flags besides."""
     async with async_playwright() as playwright:
         browser = await playwright.chromium.launch(executable_path=CHROMIUM, args=[*FLAGS, *flags])
-        page = await browser.new_page(viewport=SIZE)
+        page = await browser.new_page(viewport=size)
         began = time.perf_counter()
         await page.goto(address)
         await until(page, "#meters .pictures dd", "[1-9]")
@@ -196,24 +197,31 @@ def watched(process: subprocess.Popen[str], lookers: list[Looker], seconds: floa
     return share, max(lookers[0].behind), (lookers[0].frames - frames) / passed
 
 
+def pixels(text: str) -> ViewportSize:
+    """Width and height, from text such as 800x450."""
+    width, height = map(int, text.split("x"))
+    return {"width": width, "height": height}
+
+
 def main() -> None:
     """Print the machine and the table."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--minutes", type=float, default=10.0, help="of flight with four lookers-on")
-    minutes = parser.parse_args().minutes
+    parser.add_argument("--size", type=pixels, default="800x450", help="of the page, in pixels")
+    options = parser.parse_args()
     print(heading(describe(("tandemlift", "websockets", "llvmlite"))), flush=True)
     with tempfile.TemporaryDirectory() as out, started(out) as (process, address):
-        rows = measured(process, address, 60.0 * minutes)
+        rows = measured(process, address, options.size, 60.0 * options.minutes)
     print("\n" + table(["", "target", "measured"], rows))
 
 
-def measured(process: subprocess.Popen[str], address: str, seconds: float) -> list[list[str]]:
+def measured(process: subprocess.Popen[str], address: str, page: ViewportSize, seconds: float) -> list[list[str]]:
     """The rows of the table."""
     files = page_files()
     size = sum(len(files[f"/{name}"]) for name in ("index.html", "page.js", "page.css")) / 1e3
     first = Looker(address)
-    own = asyncio.run(seen(address, first))
-    software = asyncio.run(seen(address, first, ALL))
+    own = asyncio.run(seen(address, first, page))
+    software = asyncio.run(seen(address, first, page, ALL))
     lookers = [first, *[Looker(address) for _ in range(LOOKERS - 1)]]
     with idler() as late:
         share, behind, frames = watched(process, lookers, seconds)
@@ -228,7 +236,7 @@ def measured(process: subprocess.Popen[str], address: str, seconds: float) -> li
         ["first picture", "≤ 2 s", both[0]],
         ["targets that reach the physics", "≥ 40 /s", both[1]],
         ["event → Python → screen, median", "≤ 35 ms", both[2]],
-        ["pictures while the beam is pulled", "", both[3]],
+        [f"pictures while the beam is pulled, {page['width']} × {page['height']}", "", both[3]],
         [f"flight behind the clock, at most ({over})", "≤ 20 ms", f"{behind:.1f} ms"],
         ["a process that only sleeps, late at most meanwhile", "", f"{idle:.1f} ms"],
         ["server, of one core", "≤ 25 %", f"{100.0 * share:.1f} %"],
