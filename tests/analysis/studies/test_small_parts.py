@@ -1,4 +1,4 @@
-"""Small parts of studies by themselves: estimates, fronts, coordinates, what is said."""
+"""Small parts of studies by themselves: estimates, coordinates, what is said."""
 
 from types import SimpleNamespace
 
@@ -15,7 +15,6 @@ from tandemlift.analysis.studies.feel import feel_checks
 from tandemlift.analysis.studies.study import mission_of_row
 from tandemlift.analysis.studies.tuning.candidates import _trial
 from tandemlift.analysis.studies.tuning.optimisers import PARTS, _Coordinate
-from tandemlift.analysis.studies.tuning.search import front_of
 
 
 def test_an_estimate_grows_with_the_rows_and_with_the_files(monkeypatch):
@@ -67,14 +66,6 @@ def test_a_coordinate_is_a_way_of_parts_from_the_lower_bound_and_back():
         for x in np.linspace(0.0, c.of(high), 7):
             assert c.of(c.value(x)) == pytest.approx(x, abs=1e-9)
         assert (c.value(-1.0), c.value(c.of(high) + 1.0)) == (low, pytest.approx(high))
-
-
-def test_on_a_front_no_candidate_beats_another_and_of_two_alike_there_is_one():
-    ranks = [(1.0, 3.0), (2.0, 2.0), (2.0, 2.0), (3.0, 2.5), (3.0, 1.0), (1.0, 4.0)]
-    tried = [
-        SimpleNamespace(apart=[SimpleNamespace(rank=r) for r in pair], values=(k,)) for k, pair in enumerate(ranks)
-    ]
-    assert [point.values for point in front_of(tried, (0,))] == [(0,), (1,), (4,)]
 
 
 def test_the_share_of_a_trial_is_how_far_it_got():

@@ -65,11 +65,10 @@ def search_options(command: Callable[..., Any]) -> Callable[..., Any]:
     multiple=True,
     metavar="KEY[=RANGE]",
     shell_complete=keys,
-    help="Value to search: a dotted key, a table or a pattern, and [low, high] or a list of words. Can be repeated."
+    help="Value to search: a dotted key, a table or a pattern, and [low, high]. Can be repeated."
     "  [default: the controller's gains]",
 )
 @click.option("--draws", default="8", show_default=True, metavar="N|FILE", help="Flights that compare candidates.")
-@click.option("--optimiser", metavar="cma|optuna", help="[default: cma; optuna for choices and several goals]")
 @click.option("--aim", default="mean", show_default=True, metavar="mean|worst", help="Which of all draws counts.")
 @controller_option("Tune this controller")
 @search_options
@@ -100,7 +99,7 @@ def tune(
       tuned.toml     the mission with the new values; `tandemlift run` flies it
       evidence.json  task, every cost, and old against new on every holdout draw
       tune.html      all of it on one page that needs no network
-      figures/       cost over candidates; old and new on holdout draws; the front (PNG and PDF)
+      figures/       cost over candidates; old and new on holdout draws (PNG and PDF)
 
     Exit code 1: the new values are not better on holdout draws. 130: Ctrl-C; the best so far is written.
     """
