@@ -6,7 +6,7 @@ processes and machines that share a folder, and gives the same rows.
 
 from __future__ import annotations
 
-from collections import Counter, deque
+from collections import deque
 from collections.abc import Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from functools import partial
@@ -14,7 +14,6 @@ from typing import Any, NamedTuple, TypeAlias
 
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.execution.chunk import chunk_of
-from tandemlift.analysis.studies.execution.dask import DaskWorkers
 from tandemlift.analysis.studies.execution.flying import fly_chunk
 from tandemlift.analysis.studies.execution.store import ChunkFiles
 from tandemlift.analysis.studies.execution.workers import ExecutorWorkers, Task, ThreadWorkers
@@ -23,7 +22,6 @@ from tandemlift.core.types import Progress
 
 WAITING = 2  # chunks handed over for each worker, so that none waits
 BEAT = 1.0  # s, after which progress is reported although no chunk has ended
-MOST_LOST = 5  # times that a chunk is handed over again because its worker ended
 
 
 class StudyPart(NamedTuple):
@@ -34,7 +32,7 @@ class StudyPart(NamedTuple):
 
 
 WHOLE = StudyPart()
-Workers: TypeAlias = ThreadWorkers | ExecutorWorkers | DaskWorkers
+Workers: TypeAlias = ThreadWorkers | ExecutorWorkers
 
 
 def part_from(text: str) -> StudyPart:
@@ -102,7 +100,7 @@ class _Run:
         self.todo = deque(i for i in own if not files.is_flown(self.names[i]))
         self.others = deque[int]()
         self.pending, self.claimed = dict[Future[Any], int](), set[int]()
-        self.lost, self.flown = Counter[int](), 0
+        self.flown = 0
         self.total = sum(map(work.size, own))
         self.done = self.total - sum(map(work.size, self.todo))
 
@@ -114,7 +112,6 @@ class _Run:
                 for future in wait(self.pending, BEAT, FIRST_COMPLETED).done:
                     self._take(future)
                     self._hand_over()
-                self._hand_over()  # to workers that have joined, although no chunk has ended
                 self._tell()
         finally:
             for future in self.pending:
@@ -134,10 +131,7 @@ class _Run:
             i = self._next()
             if i is None:
                 return
-            self._submit(i)
-
-    def _submit(self, i: int) -> None:
-        self.pending[self.workers.submit(self.work.task(i))] = i
+            self.pending[self.workers.submit(self.work.task(i))] = i
 
     def _release(self, i: int) -> None:
         self.files.release(self.names[i])
@@ -163,26 +157,10 @@ class _Run:
         return None
 
     def _take(self, future: Future[Any]) -> None:
-        """Write the results of a chunk; if its worker ended, hand it over again."""
+        """Write the results of a chunk."""
         i = self.pending.pop(future)
-        try:
-            columns = self.workers.columns(future)
-        except BaseException as error:
-            if not self.workers.is_lost(error):
-                raise
-            self._fly_again(i, error)
-            return
+        columns = self.workers.columns(future)
         if not self.files.is_flown(self.names[i]):
             self.files.write(self.names[i], columns)
         self._release(i)
         self.done, self.flown = self.done + self.work.size(i), self.flown + 1
-
-    def _fly_again(self, i: int, error: BaseException) -> None:
-        self.lost[i] += 1
-        if self.lost[i] > MOST_LOST:
-            first = sum(map(self.work.size, range(i)))
-            raise InputError(
-                f"rows {first} to {first + self.work.size(i) - 1} end every worker that runs them: {error} "
-                "All other results are kept"
-            )
-        self._submit(i)
