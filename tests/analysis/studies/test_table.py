@@ -44,10 +44,9 @@ def test_the_columns_that_vary_are_named_grid_before_draws(gusts):
     assert gusts.grid == ("admittance.damping",)
 
 
-def test_pandas_polars_and_numpy_get_the_same_numbers(gusts):
+def test_pandas_and_numpy_get_the_same_numbers(gusts):
     work = gusts.table["human_work_j"].to_pylist()
     assert gusts.to_pandas()["human_work_j"].tolist() == work
-    assert gusts.to_polars(["human_work_j"])["human_work_j"].to_list() == work
     assert gusts.values("human_work_j").tolist() == work
 
 
@@ -174,7 +173,6 @@ def test_what_is_not_there_is_said(gusts, ask, answer):
     [
         ("pyarrow", "study", lambda study: load_study(study.folder)),
         ("pandas", "pandas", lambda study: study.to_pandas()),
-        ("polars", "polars", lambda study: study.to_polars()),
         ("xarray", "xarray", lambda study: study.to_xarray()),
     ],
 )

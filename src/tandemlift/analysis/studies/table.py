@@ -26,7 +26,6 @@ from tandemlift.missions import Mission
 
 if TYPE_CHECKING:
     import pandas
-    import polars
     import pyarrow
     import xarray
 
@@ -137,16 +136,6 @@ class Study:
         with extra("pandas", "to_pandas"):
             import pandas  # noqa: F401
         return self.read(columns).to_pandas()
-
-    def to_polars(self, columns: Sequence[str] | None = None) -> polars.DataFrame:
-        """The table, or chosen columns, as a polars DataFrame.
-
-        Raises:
-            InputError: there is no such column, or polars is not installed.
-        """
-        with extra("polars", "to_polars"):
-            import polars
-        return polars.from_arrow(self.read(columns))
 
     def to_xarray(self, columns: Sequence[str] | None = None) -> xarray.Dataset:
         """The rows as a grid: a dimension for each key of `[grid]`, and for all else of which there are several.
