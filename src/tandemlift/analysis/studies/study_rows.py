@@ -27,6 +27,7 @@ NO_METRICS = (
 TRACKING = ("position_rmse_after_10s_m", "position_rmse_m")  # the first that there is
 CLEARANCE = "clearance_min_m"
 BAD_OUTCOMES = "Bad outcomes"
+MOST_RANKED = 100_000  # rows that a rank correlation uses, drawn at random from more
 EFFORTS = ("human_work_per_path_j_m", "human_work_j")  # of a person who guides it; of any push
 
 
@@ -217,8 +218,9 @@ class StudyRows:
         for quantity, values in {BAD_OUTCOMES: self.bad.astype(np.float64), **self.values}.items():
             shares = dict[str, float]()
             for name in columns:
-                known = np.isfinite(values) & np.isfinite(self.varied[name])
-                x, y = self.varied[name][known], values[known]
+                known = np.flatnonzero(np.isfinite(values) & np.isfinite(self.varied[name]))
+                drawn = np.random.default_rng(1).permutation(known)[:MOST_RANKED]
+                x, y = self.varied[name][drawn], values[drawn]
                 if len(x) and np.ptp(x) > 0.0 and np.ptp(y) > 0.0:
                     shares[name] = float(np.corrcoef(rankdata(x), rankdata(y))[0, 1])
             if shares:
