@@ -31,10 +31,10 @@ from machine import describe, heading, number, save, table
 import tandemlift as tl
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.execution.anywhere import fly_study
 from tandemlift.analysis.studies.execution.chunk import chunk_of
 from tandemlift.analysis.studies.execution.columns import write_columns
 from tandemlift.analysis.studies.execution.flying import fly_chunk
+from tandemlift.analysis.studies.execution.running import fly_study
 from tandemlift.analysis.studies.execution.store import ChunkFiles, StudyFolder, open_folder
 from tandemlift.core.errors import InputError
 

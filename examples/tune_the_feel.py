@@ -20,13 +20,11 @@ print(feels["firm"])
 time = 0.02 * np.arange(1, 201)  # s since the push began
 figure, axes = plt.subplots(figsize=(7, 2.6), layout="constrained")
 for (name, feel), color in zip(feels.items(), ("C0", "C1"), strict=True):
-    x = feel.axes[0]
-    simulation = tl.Simulation(feel.mission)
+    x, simulation = feel.axes[0], tl.Simulation(feel.mission)
     simulation.step(steps=14_000)  # it lifts off and tares its force sensors
     flown = [simulation.step([x.push, 0.0, 0.0], steps=20)[3] for _ in time]
-    axes.plot(
-        time, x.final_speed * (1.0 - np.exp(-time / x.time_constant)), "--", color=color, lw=1
-    )
+    closed = x.final_speed * (1.0 - np.exp(-time / x.time_constant))
+    axes.plot(time, closed, "--", color=color, lw=1)
     axes.plot(time, flown, color=color, label=f"{name}: {x.push:g} N")
 axes.set(xlabel="time since the push began [s]", ylabel="speed along x [m/s]")
 axes.legend(title="dashed: closed form")

@@ -108,8 +108,7 @@ def study(
 
 
 def _fly(plan: StudyPlan, out: str | None, part: str, threads: int | None) -> StudyFolder:
-    from tandemlift.analysis.studies.execution.anywhere import fly_study
-    from tandemlift.analysis.studies.execution.running import part_from
+    from tandemlift.analysis.studies.execution.running import fly_study, part_from
     from tandemlift.analysis.studies.execution.store import open_folder
 
     chosen = part_from(part)
