@@ -13,10 +13,10 @@ import numpy as np
 import pyarrow as pa
 
 import tandemlift as tl
+from tandemlift.analysis.studies.design.sampling import points
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.checked_file import write_checked
 from tandemlift.analysis.studies.execution.store import open_folder
-from tandemlift.analysis.studies.table import Study
 from tandemlift.pictures.report.study.study_report import write_study_report
 
 KEYS = ("plant.mass_scale", "admittance.damping", "admittance.mass", "admittance.threshold", "wind.turbulence")
@@ -34,11 +34,10 @@ def plan_of(rows):
 def write_rows(folder, numbers):
     """Write all chunks of a study, with numbers that are made up: the first two metrics follow the first two keys."""
     plan, store = folder.plan(), folder
-    points = Study(folder.path, plan, ()).drawn_points()
     for i, name in enumerate(store.names()):
         row = np.arange(i * store.rows_per_chunk, min(store.count, (i + 1) * store.rows_per_chunk))
         draw, count = row % plan.point_count, len(row)
-        u = [points[key][draw] for key in KEYS]
+        u = points("random", plan.point_count, len(KEYS), 0, 0, plan.point_count)[draw].T
         bad = numbers.random(count) < 1e-3 * u[0]
         noise = numbers.lognormal(size=(METRICS + len(SHOWN), count))
         about = {"row": row, "mission": ["one-push"] * count, "controller": np.where(row == draw, "nftsmc", "pid")}

@@ -2,10 +2,7 @@
 
 - `overhead`: a study of `paper` against `fly_many` with the same missions loaded, on one and two threads, in turns;
   what each part of a chunk takes; bytes of a row.
-- `dask`: a study of 8,192 flights on two workers of one thread against two threads, in turns.
-- `tasks`: 10,000 chunks that do nothing, through Dask: the share of the scheduler, which runs in this process.
 - `kills`: a study is killed by SIGKILL at 50 random moments, each time resumed; only chunks in work fly again.
-- `workers`: Dask's workers are killed 20 times at random moments in one study.
 - `processes`: two processes on one folder.
 - `disk`: a disk of 1 MB that gets full, and a read-only one (needs root: it mounts them).
 """
@@ -14,16 +11,13 @@ from __future__ import annotations
 
 import argparse
 import json
-import multiprocessing
 import os
 import pickle
 import random
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 from collections.abc import Callable
 from functools import partial
@@ -37,16 +31,14 @@ from machine import describe, heading, number, save, table
 import tandemlift as tl
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.execution.anywhere import fly_study
 from tandemlift.analysis.studies.execution.chunk import chunk_of
 from tandemlift.analysis.studies.execution.columns import write_columns
-from tandemlift.analysis.studies.execution.dask import cluster_workers
 from tandemlift.analysis.studies.execution.flying import fly_chunk
-from tandemlift.analysis.studies.execution.running import StudyWork, run_chunks
+from tandemlift.analysis.studies.execution.running import fly_study
 from tandemlift.analysis.studies.execution.store import ChunkFiles, StudyFolder, open_folder
 from tandemlift.core.errors import InputError
 
-PACKAGES = ("tandemlift", "numpy", "llvmlite", "pyarrow", "distributed")
+PACKAGES = ("tandemlift", "numpy", "llvmlite", "pyarrow")
 SEED = 17
 PROGRAM = "from study_scaling import child; child()"  # of a process that is killed or shares a folder
 
@@ -140,71 +132,6 @@ def parts(plan: StudyPlan, file: Path) -> dict[str, float]:
     return found
 
 
-def dask(rounds: int, root: Path) -> dict[str, Any]:
-    tables = study_of("one-push", 8192, 20.0, 128)
-    plan, turns = load_plan(tables), []
-    flown(study_of("one-push", 16, 20.0, 8), root / "warm", threads=2)
-    for i in range(rounds):
-        folders = [open_folder(plan, root / f"{name}-{i}") for name in ("threads", "dask")]
-        threads = seconds(partial(fly_study, plan, folders[0], threads=2))
-        whole = time.perf_counter()
-        with cluster_workers(2, print) as workers:
-            run_warm(workers, root / f"warm-{i}")
-            alone = seconds(partial(fly_on, plan, folders[1], workers))
-        turns.append((threads, alone, time.perf_counter() - whole))
-        assert same(*folders)
-    cells = [number(median(t[i] for t in turns)) for i in range(3)] + [number(median(t[0] / t[1] for t in turns))]
-    header = ("two threads [s]", "Dask, 2 workers [s]", "with their start [s]", "threads over Dask")
-    print(table(header, [cells], texts=0))
-    return {"turns": turns}
-
-
-def fly_on(plan: StudyPlan, folder: StudyFolder, workers: Any) -> int:
-    return run_chunks(StudyWork(plan, folder.names()), folder.files, workers)
-
-
-def run_warm(workers: Any, path: Path) -> None:
-    """Load the compiled loop into each worker."""
-    plan = load_plan(study_of("one-push", 64, 20.0, 8))
-    fly_on(plan, open_folder(plan, path), workers)
-
-
-class NoWork:
-    """Chunks that do nothing."""
-
-    def __init__(self, count: int) -> None:
-        self.names = [f"{i}" for i in range(count)]
-
-    def size(self, i: int) -> int:
-        return 1
-
-    def task(self, i: int) -> Callable[[], Any]:
-        return dict
-
-
-class NoFiles(ChunkFiles):
-    """Files that nobody writes."""
-
-    def is_flown(self, name: str) -> bool:
-        return False
-
-    def claim(self, name: str) -> bool:
-        return True
-
-    def write(self, name: str, columns: Any) -> None:
-        pass
-
-
-def tasks(rounds: int, root: Path) -> dict[str, Any]:
-    count = 10_000
-    with cluster_workers(2, print) as workers:
-        run_chunks(NoWork(100), NoFiles(root, {}), workers)
-        taken = [times(lambda: run_chunks(NoWork(count), NoFiles(root, {}), workers)) for _ in range(rounds)]
-    wall, processor = (1e3 * median(column) / count for column in zip(*taken, strict=True))
-    print(f"{count:,} chunks that do nothing: {wall:.2f} ms each, {processor:.2f} ms of them on a processor here")
-    return {"seconds": taken}
-
-
 def tables_of(folder: StudyFolder) -> dict[str, Any]:
     return {name: pq.read_table(folder.files.file(name)) for name in folder.names()}
 
@@ -264,30 +191,6 @@ def kills(rounds: int, root: Path) -> dict[str, Any]:
     return {"kills": runs, "claims": again}
 
 
-def workers(rounds: int, root: Path) -> dict[str, Any]:
-    whole, moments, killed = whole_of(root), random.Random(SEED), list[int]()
-    going = threading.Event()
-
-    def kill() -> None:
-        while len(killed) < 20 and not going.wait(moments.uniform(0.5, 2.5)):
-            pids = [p.pid for p in multiprocessing.active_children() if "Dask Worker" in p.name]
-            if pids:
-                killed.append(moments.choice(sorted(pids)))
-                os.kill(killed[-1], signal.SIGKILL)
-
-    plan = load_plan(LONG)
-    folder = open_folder(plan, root / "dask")
-    thread = threading.Thread(target=kill)
-    with cluster_workers(2, print) as dask_workers:
-        thread.start()
-        taken = seconds(lambda: fly_on(plan, folder, dask_workers))
-        going.set()
-        thread.join()
-    assert same(whole, folder)
-    print(f"{len(killed)} workers killed in {taken:.0f} s; rows equal")
-    return {"killed": len(killed), "seconds": taken}
-
-
 def processes(rounds: int, root: Path) -> dict[str, Any]:
     whole, path = whole_of(root), root / "both"
     both = [started(path) for _ in range(2)]
@@ -327,7 +230,7 @@ def refusal(there: Path) -> str:
     raise SystemExit("it was not refused")
 
 
-MEASUREMENTS = {f.__name__: f for f in (overhead, dask, tasks, kills, workers, processes, disk)}
+MEASUREMENTS = {f.__name__: f for f in (overhead, kills, processes, disk)}
 
 
 def main() -> None:

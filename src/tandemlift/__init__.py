@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from tandemlift.analysis.linearization.linear_model import LinearModel
     from tandemlift.analysis.linearization.linearize import linearize
     from tandemlift.analysis.studies.execution.block import Block
+    from tandemlift.analysis.studies.feel import feel
     from tandemlift.analysis.studies.study import study
     from tandemlift.analysis.studies.table import Study, load_study
     from tandemlift.analysis.studies.tuning.tune import train, tune
@@ -37,7 +38,6 @@ if TYPE_CHECKING:
     from tandemlift.parts.mechanics.vehicle import Vehicle
     from tandemlift.pictures.figures.registry import plot
     from tandemlift.pictures.report.study.certificate_report import certify
-    from tandemlift.pictures.report.study.feel_report import feel
     from tandemlift.simulation.fly import fly, fly_many
     from tandemlift.simulation.pilot_api import Pilot
     from tandemlift.simulation.simulation import Simulation
@@ -57,7 +57,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "check": "analysis.certification.mission_check",
     "compile_mission": "codegen.mission_module",
     "excite": "analysis.identification.excitation_design",
-    "feel": "pictures.report.study.feel_report",
+    "feel": "analysis.studies.feel",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
     "grade": "apps.live.grading",

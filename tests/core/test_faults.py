@@ -85,14 +85,13 @@ faults.ALARM_TEXTS = faults._alarm_texts()
 
 import tandemlift as tl
 from tandemlift.parts.guidance.fault_detection import ActiveFaults, strongest_reaction
-from tandemlift.missions.reference import key_tables
+from tandemlift.missions.reference import explained
 from tandemlift.apps.live.session.scene_builder import scene_of
 
 mission = tl.load_mission("iris", {"pilot.guidance": "interactive", "supervision.model": "on",
                                    "supervision.reactions.battery": "land"})
 assert mission.supervision.reactions.battery == "land"
-assert "| `supervision.reactions.battery` |" in key_tables()
-assert "reaction when the battery is low" in key_tables()
+assert "reaction when the battery is low" in explained("supervision.reactions.battery")
 assert scene_of(mission, "compiled")["alarms"][10 * NEXT] == "battery low"
 none = ActiveFaults(*[0.0] * len(faults.FAULTS))
 assert strongest_reaction(none._replace(battery=1.0), none._replace(battery=3.0)) == (3.0, 10.0 * NEXT)

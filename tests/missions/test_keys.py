@@ -12,6 +12,7 @@ from click.testing import CliRunner
 from for_all import for_all
 from listings import LISTINGS
 from mission_schema import SCHEMA, every_table
+from reference_tables.keys import key_tables
 from repository import ROOT
 
 import tandemlift as tl
@@ -19,7 +20,7 @@ from tandemlift.apps.cli.main import cli
 from tandemlift.missions import Mission, check, load_mission, tables_of
 from tandemlift.missions.changes import value_at
 from tandemlift.missions.keys import is_of_the_package, plain, sections
-from tandemlift.missions.reference import explained, index, key_tables, plain_name, template_text
+from tandemlift.missions.reference import explained, index, plain_name, template_text
 from tandemlift.parts.contact.standing import standing_on
 from tandemlift.parts.mechanics.bodies import Body
 

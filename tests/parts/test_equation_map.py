@@ -11,8 +11,7 @@ from pathlib import Path
 import pytest
 from for_all import for_all
 from repository import ROOT
-
-from tandemlift.pictures.report.paper_figures import errata
+from reproduction.figures import errata
 
 SOURCE, TESTS = ROOT / "src" / "tandemlift", ROOT / "tests"
 PAPER = ROOT.parent / "shared" / "paper.tex"

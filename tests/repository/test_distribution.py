@@ -14,9 +14,9 @@ from repository import ROOT
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
 EXTRAS = PROJECT["optional-dependencies"]
-WITHOUT_IMPORT = {"bokeh", "casadi", "jax"}  # Dask's dashboard; laws take arrays of these as they are given
+WITHOUT_IMPORT = {"casadi", "jax"}  # laws take arrays of these as they are given
 COMES_WITH = {  # an import's package, where it has another name
-    **{"dask": "distributed", "lz4": "rosbags", "pydantic_core": "pydantic", "mpl_toolkits": "matplotlib"},
+    **{"lz4": "rosbags", "pydantic_core": "pydantic", "mpl_toolkits": "matplotlib"},
     **{"PIL": "pillow", "cycler": "matplotlib", "markupsafe": "jinja2"},
 }
 NOT_IN_ALL = {"torch"}  # 5 GB

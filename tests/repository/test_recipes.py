@@ -45,7 +45,6 @@ KEY: Edits = {"parts/guidance/compliance_table.py": [(SPIN_UP, NEW_KEY + SPIN_UP
 KEY_IS_KNOWN = """
 import tandemlift as tl
 from tandemlift.missions.reference import explained
-from tandemlift.missions.reference import key_tables
 from tandemlift.missions.schema import mission_schema
 from tandemlift.missions.reference import template_text
 
@@ -55,7 +54,6 @@ assert explained(name).split() == (
 said = mission_schema()["properties"]["compliance"]["properties"]["idle_time"]
 assert (said["minimum"], said["default"]) == (0, 0.2) and meaning in said["description"]
 assert any("idle_time = 0.2" in line and meaning in line for line in template_text().splitlines())
-assert f"| `{name}` | s | `0.2`; chosen: short | {meaning}. Allowed: a number ≥ 0 |" in key_tables()
 changes = [{"time": 1.0, "key": name, "value": 0.3}]
 mission = tl.load_mission("iris", {name: 0.1, "changes": changes, "pilot.guidance": "interactive"})
 assert mission.compliance.idle_time == 0.1
@@ -245,11 +243,11 @@ CONTROLLER: Edits = {
 }
 CONTROLLER_FLIES = """
 import tandemlift as tl
-from tandemlift.missions.reference import key_tables
+from tandemlift.missions.reference import explained
 
 metrics = tl.fly(tl.load_mission("hover", {"controller.name": "my-pd", "controller.stiffness": 9.0})).metrics()
 assert abs(metrics["final_position_m"][2] - metrics["final_reference_m"][2]) < 0.01
-assert "## `[controller]` of `my-pd`" in key_tables()
+assert "[controller] of my-pd" in explained("controller", "my-pd")
 """
 
 

@@ -35,12 +35,6 @@ mount --rbind /dev "$1/dev" && mount -t proc proc "$1/proc" && exec chroot "$1" 
 PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 HOME=/tmp sh -c "$2"
 """  # in its own mount namespace, so that no mount is left behind
 
-VIRTUAL_DISPLAY = """\
-Xvfb -displayfd 1 -terminate -nolisten tcp > display 2> /dev/null &
-while kill -0 $! && ! [ -s display ]; do sleep 0.05; done
-DISPLAY=:$(cat display); export DISPLAY
-"""  # a display that ends with its only client
-
 
 def root() -> Path | None:
     """The root folder in which Gazebo is installed; None for this system.
@@ -76,8 +70,6 @@ class GazeboServer:
         world: the text of its world.
         environment: variables beside Gazebo's own.
         grace: time in which it may end by itself when it is closed [s].
-        draws: whether the world has cameras: the server then draws on a virtual display (Xvfb), in step with the
-            world.
 
     Attributes:
         folder: the working folder of the server.
@@ -87,9 +79,7 @@ class GazeboServer:
         InputError: there is no Gazebo.
     """
 
-    def __init__(
-        self, world: str, environment: Mapping[str, str] = NOTHING_MORE, grace: float = 0.0, *, draws: bool = False
-    ) -> None:
+    def __init__(self, world: str, environment: Mapping[str, str] = NOTHING_MORE, grace: float = 0.0) -> None:
         inside, self._grace = root(), grace
         self.master = os.environ.get(MASTER) or f"http://127.0.0.1:{free_port(socket.SOCK_STREAM)}"
         self.folder = Path(tempfile.mkdtemp(prefix="tandemlift-", dir=None if inside is None else inside / "tmp"))
@@ -97,17 +87,16 @@ class GazeboServer:
         (self.folder / "vehicle.world").write_text(world, "utf-8")
         with (self.folder / "log").open("wb") as log:
             self._process = subprocess.Popen(
-                shell_command(inside, export_lines(environment) + self._script(seen, draws)),
+                shell_command(inside, export_lines(environment) + self._script(seen)),
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=subprocess.STDOUT,
                 start_new_session=True,  # Ctrl-C is ours
             )
 
-    def _script(self, folder: Path, draws: bool) -> str:
-        server = f"{VIRTUAL_DISPLAY}exec gzserver --lockstep" if draws else "exec gzserver"
+    def _script(self, folder: Path) -> str:
         return with_gazebo_environment(
-            self.master, f"cd {shlex.quote(str(folder))}\n{server} --verbose vehicle.world", folder
+            self.master, f"cd {shlex.quote(str(folder))}\nexec gzserver --verbose vehicle.world", folder
         )
 
     def check(self) -> None:

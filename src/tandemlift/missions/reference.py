@@ -1,7 +1,6 @@
 """The reference of all keys of a mission, made from its tables.
 
-A key in a few lines (`tandemlift explain KEY`), all of them in Markdown, and a commented mission file with every key
-(`tandemlift template`).
+A key in a few lines (`tandemlift explain KEY`), and a commented mission file with every key (`tandemlift template`).
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from typing import Any
 
 from tandemlift.core.errors import InputError, shown, written
 from tandemlift.core.files import parts_of
-from tandemlift.missions.keys import EXTENDS, PAPER, Key, Section, default_words, is_of_the_package, sections
+from tandemlift.missions.keys import EXTENDS, PAPER, Key, Section, default_words, sections
 
 NEAREST = 3
 
@@ -121,46 +120,6 @@ def nearest_three(given: str, names: dict[str, str]) -> list[str]:
         return max(whole, 0.5 * (whole + last), last - 0.05)
 
     return [names[name] for name in sorted(names, key=likeness, reverse=True)[:NEAREST]]
-
-
-# ---- Markdown
-
-TABLE_HEAD = "| key | unit | default | meaning |\n|---|---|---|---|"
-
-
-def key_tables() -> str:
-    """A section with a table of keys for each table of a mission."""
-    extends = f"`extends` (before all tables): {EXTENDS.meaning}.\n"
-    ours = (section for section in sections() if is_of_the_package(section.controller))
-    return extends + "".join(_section(section) for section in ours)
-
-
-def _section(section: Section) -> str:
-    of = f" of `{section.controller}`" if section.controller else ""
-    text = "\n\n".join(f"{p[0].upper()}{p[1:]}{'' if p.endswith('.') else '.'}" for p in section.text)
-    rows = "\n".join([TABLE_HEAD, *map(_row, section.keys)]) + "\n" if section.keys else ""
-    return f"\n## `{section.header}`{of}\n\n{text}\n" + (f"\n{rows}" if rows else "")
-
-
-def _row(key: Key) -> str:
-    facts = key.facts
-    unit = "" if facts.unit in (None, "1") else facts.unit or ""
-    return f"| `{key.name}` | {unit} | {_default(key)} | {'. '.join(_meaning(key))} |"
-
-
-def _default(key: Key) -> str:
-    words = default_words(key)
-    if not key.field.is_required():
-        words = f"if left out, {words}" if key.default is None else f"`{words}`"
-    return f"{words}; {key.facts.source}" if key.facts.source else words
-
-
-def _meaning(key: Key) -> Iterator[str]:
-    yield key.facts.meaning
-    if key.facts.choices:
-        yield "; ".join(f"`{shown(choice)}`: {text}" for choice, text in key.facts.choices.items())
-    if allowed := key.facts.rule if key.facts.choices else key.allowed:
-        yield f"Allowed: {allowed}"
 
 
 # ---- The template

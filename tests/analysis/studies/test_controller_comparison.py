@@ -1,4 +1,4 @@
-"""`tandemlift compare`: one mission, several controllers; a table, a page that needs nothing else, and numbers."""
+"""`tandemlift compare`: one mission, several controllers; a table, and numbers."""
 
 import json
 import re
@@ -7,28 +7,25 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from as_toml import to_toml
-from html_page import check_page
 
 import tandemlift as tl
 from tandemlift.analysis.studies.comparison import Entry, MissionComparison, with_controllers
-from tandemlift.analysis.studies.comparison_scores import OF_CONTROLLERS, ScoreTable, controller_table
+from tandemlift.analysis.studies.comparison_scores import controller_table
 from tandemlift.flight.record import interruption
 from tandemlift.parts.controllers import CONTROLLERS
-from tandemlift.pictures.report.study.comparison import write_comparison
 
 SHORT = ("--set", "mission.duration=0.6")
 WILD = ("lambda_1=0", "lambda_2=0", "xi=[4,2,11,0.1,0.1,0.1]")  # of nftsmc
 TWO = ("--controllers", "nftsmc,pid")
 
 
-def test_a_comparison_writes_a_page_and_numbers_and_prints_a_row_each(run, tmp_path):
+def test_a_comparison_writes_numbers_and_prints_a_row_each(run, tmp_path):
     code, out, _ = run("compare", "hover", *TWO, *SHORT)
     folder = tmp_path / "out" / "hover"
     assert code == 0
-    assert {path.name for path in folder.iterdir()} == {f"compare.{kind}" for kind in ("html", "json", "csv", "tex")}
+    assert {path.name for path in folder.iterdir()} == {f"compare.{kind}" for kind in ("json", "csv", "tex")}
     assert [line.split()[0] for line in out.splitlines()[2:4]] == ["nftsmc", "pid"]
     assert "wall ns/step" in out.splitlines()[1]
-    assert "Wall time is that of this one flight" in " ".join(check_page(folder / "compare.html").text.split())
     found = json.loads((folder / "compare.json").read_text("utf-8"), parse_constant=pytest.fail)
     assert [row["controller"] for row in found["controllers"]] == ["nftsmc", "pid"]
     flight = tl.fly(tl.load_mission("hover", {"mission.duration": 0.6}, controller="pid"))
@@ -38,24 +35,6 @@ def test_a_comparison_writes_a_page_and_numbers_and_prints_a_row_each(run, tmp_p
     assert row["settings"] == flight.mission["controller"]
 
 
-def test_the_page_needs_nothing_but_itself_and_has_a_row_and_the_settings_of_each(run, tmp_path):
-    assert (
-        run("compare", "hover", *TWO, "--set", "mission.duration=2.0", "--out", "here", "--style", "elsevier")[0] == 0
-    )
-    figures = sorted(path.name for path in (tmp_path / "here" / "figures").iterdir())
-    assert figures == ["errors.pdf", "errors.png", "inputs.pdf", "inputs.png"]
-    (width,) = re.findall(rb"/MediaBox \[ 0 0 ([\d.]+)", (tmp_path / "here" / "figures" / "errors.pdf").read_bytes())
-    assert float(width) == pytest.approx(190.0 / 25.4 * 72.0, abs=0.01)
-    page = check_page(tmp_path / "here" / "compare.html")
-    assert not [a for _, a in page.elements if "href" in a or not a.get("src", "data:").startswith("data:")]
-    assert len([tag for tag, _ in page.elements if tag == "img"]) == 2
-    for name in ("nftsmc", "pid"):
-        assert len(page.row(name)) == len(OF_CONTROLLERS) + 4
-        assert page.row(name)[-1] == "flown to the end"
-        assert f"name = &#34;{name}&#34;" in page.text
-    assert "script" not in {tag for tag, _ in page.elements}
-
-
 def test_a_controller_that_diverges_is_a_row_that_says_when_and_why(run, tmp_path):
     wild = [part for gain in WILD for part in ("--set", f"controller.gains.{gain}")]
     code, out, err = run("compare", "paper", *TWO, *wild, "--set", "mission.duration=40")
@@ -63,9 +42,6 @@ def test_a_controller_that_diverges_is_a_row_that_says_when_and_why(run, tmp_pat
     assert re.search(r"nftsmc: diverged at 31\.2\S* s: distance", err)
     assert "pid:" not in err
     assert "diverged at" in out
-    page = check_page(tmp_path / "out" / "paper" / "compare.html")
-    assert page.row("nftsmc")[-1].startswith("diverged at ")
-    assert page.row("pid")[-1] == "flown to the end"
     found = json.loads((tmp_path / "out" / "paper" / "compare.json").read_text("utf-8"))
     assert found["controllers"][0]["failure"].startswith("diverged at ")
     assert found["controllers"][1]["failure"] is None
@@ -97,11 +73,11 @@ def test_bad_input_is_refused_and_nothing_is_written(arguments, pieces, run, tmp
 
 
 def test_a_folder_that_is_in_the_way_is_refused_before_the_flight(run, tmp_path, monkeypatch):
-    (tmp_path / "taken" / "compare.html").mkdir(parents=True)
+    (tmp_path / "taken" / "compare.json").mkdir(parents=True)
     monkeypatch.setattr("tandemlift.analysis.studies.comparison.fly_each", lambda *_, **__: pytest.fail("flown"))
     code, _, err = run("compare", "hover", "--out", "taken")
     assert code == 2
-    assert "taken/compare.html is in the way" in err
+    assert "taken/compare.json is in the way" in err
 
 
 def test_all_controllers_enter_by_default_the_mission_s_own_first_with_its_settings():
@@ -127,13 +103,6 @@ def test_a_controller_has_the_settings_of_the_mission_that_is_extended(tmp_path)
     assert "controller.gains" in entered["nftsmc"].refusal
     with pytest.raises(tl.InputError, match=r"controller\.gains"):
         with_controllers(str(alone), {}, [CONTROLLERS["nftsmc"]])
-
-
-def test_a_controller_that_is_refused_is_a_row_of_the_page(tmp_path):
-    (flown,) = with_controllers("hover", {"mission.duration": 0.2}, [CONTROLLERS["pid"]]).fly().entries
-    found = MissionComparison("controllers", [flown, Entry("other", refusal="lacks <everything>")])
-    page = check_page(write_comparison(found, tmp_path / "compare.html"))
-    assert page.row("other") == ["other", "–", "lacks <everything>"]
 
 
 def test_another_engine_flies_them_one_by_one(tmp_path):
@@ -173,13 +142,6 @@ def test_a_controller_of_one_s_own_that_fails_is_told_with_its_line(run, tmp_pat
     code, _, err = run("compare", "hover", "--controllers", "mine.py", *SHORT)
     assert code == 2
     assert "controller 'failing' fails: mine.py, line 11: ZeroDivisionError" in err
-
-
-def test_the_least_score_of_a_column_is_the_best_unless_all_have_it():
-    rows = {"a": ["3.000", "0.000", "7"], "b": ["1.000", "0.000", "5"], "c": ["0.500", "0.000", "0"], "d": [""] * 3}
-    table = ScoreTable("errors", (*OF_CONTROLLERS[:2], "findings"), rows)
-    assert table.best("abcd") == {("c", OF_CONTROLLERS[0])}
-    assert table.best("abd") == {("b", OF_CONTROLLERS[0])}  # without one that diverged
 
 
 def test_long_flights_are_scored_after_ten_seconds_and_one_that_ended_before_does_not_change_that():

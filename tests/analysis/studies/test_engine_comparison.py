@@ -1,7 +1,6 @@
-"""`tandemlift compare --engines`: the same flight in several engines, how far apart, and a page of it."""
+"""`tandemlift compare --engines`: the same flight in several engines, and how far apart."""
 
 import json
-import re
 
 import numpy as np
 import pytest
@@ -53,14 +52,12 @@ def test_a_flight_that_ended_early_is_compared_as_far_as_it_came():
     assert largest_differences(short, a) == {"position": 0.0, "attitude": 0.0, "joint_force": 0.0}
 
 
-def test_a_mission_is_flown_in_each_engine_and_the_page_and_numbers_say_so(run, tmp_path):
+def test_a_mission_is_flown_in_each_engine_and_the_numbers_say_so(run, tmp_path):
     code, printed, _ = run(
         "compare", "paper", "--engines", "compiled,mujoco", "--set", "mission.duration=2.0", "--out", "o"
     )
     assert code == 0
-    assert sorted(p.name for p in (tmp_path / "o").iterdir()) == [
-        *("engines.csv", "engines.html", "engines.json", "engines.tex")
-    ]
+    assert sorted(p.name for p in (tmp_path / "o").iterdir()) == [*("engines.csv", "engines.json", "engines.tex")]
     found = json.loads((tmp_path / "o/engines.json").read_text("utf-8"))
     assert [row["engine"] for row in found["engines"]] == ["compiled", "mujoco"]
     a, b = (tl.fly(tl.load_mission("paper", SHORT), engine) for engine in ("compiled", "mujoco"))
@@ -69,12 +66,6 @@ def test_a_mission_is_flown_in_each_engine_and_the_page_and_numbers_say_so(run, 
     assert found["engines"][1]["difference"]["position"] == pytest.approx(most)
     assert set(found["engines"][0]["difference"].values()) == {0.0}
     assert f"{most:.1e}" in printed
-    text = (tmp_path / "o/engines.html").read_text("utf-8")
-    rows = re.findall(r'<th scope="row">(.*?)</th>(.*?)</tr>', text)
-    assert [name for name, _ in rows[:2]] == ["compiled", "mujoco"]
-    assert rows[1][1].count("<td>") == 8
-    assert text.count("data:image/png;base64,") == 3
-    assert "http" not in text.replace("http-equiv", "")
 
 
 @pytest.mark.parametrize(

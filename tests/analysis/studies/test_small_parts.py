@@ -1,23 +1,20 @@
-"""Small parts of studies by themselves: estimates, fronts, coordinates, answers in closed form, what is said."""
+"""Small parts of studies by themselves: estimates, coordinates, what is said."""
 
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 from study_runs import TWELVE, fly
 
 import tandemlift as tl
 from tandemlift.analysis.studies import estimate
-from tandemlift.analysis.studies.closed_form import _free, axes_of, speed_at
+from tandemlift.analysis.studies.closed_form import axes_of
 from tandemlift.analysis.studies.dataset import MOST_NAMES, study_html
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.feel_study import _both, feel_checks
-from tandemlift.analysis.studies.standard_push import ARM, _pushes, answer_of
+from tandemlift.analysis.studies.feel import feel_checks
 from tandemlift.analysis.studies.study import mission_of_row
 from tandemlift.analysis.studies.tuning.candidates import _trial
 from tandemlift.analysis.studies.tuning.optimisers import PARTS, _Coordinate
-from tandemlift.analysis.studies.tuning.search import front_of
 
 
 def test_an_estimate_grows_with_the_rows_and_with_the_files(monkeypatch):
@@ -47,60 +44,6 @@ def test_an_estimate_is_told_in_the_largest_unit_of_which_there_are_two(seconds,
     assert time == f"time    some {words} on 1 threads; {words} on one"
 
 
-@pytest.mark.parametrize(
-    ("mass", "damping", "stiffness"), [(1.3, 2.0, 6.0), (0.7, 5.0, 3.0), (2.0, 0.0, 8.0), (1.5, 2.0, 0.0)]
-)
-def test_the_free_answer_solves_the_equation_of_the_admittance(mass, damping, stiffness):
-    """M x″ + C x′ + K x = F from any start, by SciPy."""
-    times = np.linspace(0.0, 3.0, 31)
-    k = SimpleNamespace(
-        mass=mass, damping=damping, stiffness=stiffness, time_constant=mass / damping if damping else np.inf
-    )
-    wanted = solve_ivp(
-        lambda t, y: [y[1], (1.7 - damping * y[1] - stiffness * y[0]) / mass],
-        (0.0, 3.0), [0.2, -0.4], t_eval=times, rtol=1e-10, atol=1e-12,
-    ).y  # fmt: skip
-    assert np.array(_free(k, times, 0.2, -0.4, 1.7)) == pytest.approx(wanted, abs=1e-8)
-
-
-def test_the_numbers_of_an_answer_are_those_of_a_lag():
-    """v = V (1 − exp(−t/τ)): 95 % after 3 τ, late by τ, and V τ on the way to rest; without samples there is none."""
-    top, tau, hold = 0.8, 0.3, 4.0
-    t = np.arange(-0.5, 8.0, 1e-3)
-    v = np.where(t < 0.0, 0.0, np.where(t <= hold, top * (1.0 - np.exp(-t / tau)), top * np.exp((hold - t) / tau)))
-    k = SimpleNamespace(stiffness=0.0, time=1.0, final_speed=top)
-    final, time, overshoot, lag, stop = answer_of(k, t, v, hold)
-    assert (final, time) == (pytest.approx(top, rel=1e-4), pytest.approx(-tau * np.log(0.05), abs=2e-3))
-    assert (overshoot, lag, stop) == (
-        pytest.approx(0.0, abs=1e-4),
-        pytest.approx(tau, rel=0.01),
-        pytest.approx(top * tau, rel=0.01),
-    )
-    assert answer_of(k, t - 9.0, v, hold) == (0.0, None, None, None, None)
-    assert answer_of(SimpleNamespace(stiffness=2.0, time=1.0, final_speed=top), t, v, hold)[1:] == (None,) * 4
-
-
-@pytest.mark.parametrize("axis", ["x", "z", "yaw"])
-def test_the_standard_push_is_even_and_acts_along_its_axis_alone(axis):
-    """On a vehicle that follows the closed form: the same force or moment from start to end, and no other one."""
-    mission = tl.load_mission("iris", {"compliance.yaw.model": "compliant"})
-    k = next(k for k in axes_of(mission) if k.axis == axis)
-    start, hold, yaw = 20.0, 3.0, 0.4
-    turned = np.trapezoid(speed_at(k, np.linspace(0.0, 1.5, 4000), hold), dx=1.5 / 3999) if axis == "yaw" else 0.0
-    pushes = _pushes(k, start, hold, yaw)
-    force, moment = np.zeros(3), np.zeros(3)
-    for push in pushes:  # in the middle of the hold, where the vehicle has turned as the closed form says
-        F = np.array(push["force"]) * np.exp(-0.5 * ((start + 1.5 - push["time"]) / push["sigma"]) ** 2)
-        x, y, z = push.get("point", [0.0] * 3)
-        heading = yaw + turned
-        arm = [x * np.cos(heading) - y * np.sin(heading), x * np.sin(heading) + y * np.cos(heading), z]
-        force, moment = force + F, moment + np.cross(arm, F)
-    wanted = np.array([axis == "x", 0.0, axis == "z", 0.0, 0.0, axis == "yaw"]) * k.push
-    assert np.concatenate([force, moment]) == pytest.approx(wanted, abs=2e-3 * k.push)
-    impulse = sum(np.linalg.norm(push["force"]) * push["sigma"] for push in pushes) * np.sqrt(2.0 * np.pi)
-    assert impulse == pytest.approx(k.push * hold * (1.0 / ARM if axis == "yaw" else 1.0), rel=1e-6)
-
-
 def drift(**changes):
     mission = tl.load_mission("iris", {key.replace("__", "."): value for key, value in changes.items()})
     return [result for result in feel_checks(mission, axes_of(mission)) if result.check == "drift"]
@@ -125,14 +68,6 @@ def test_a_coordinate_is_a_way_of_parts_from_the_lower_bound_and_back():
         assert (c.value(-1.0), c.value(c.of(high) + 1.0)) == (low, pytest.approx(high))
 
 
-def test_on_a_front_no_candidate_beats_another_and_of_two_alike_there_is_one():
-    ranks = [(1.0, 3.0), (2.0, 2.0), (2.0, 2.0), (3.0, 2.5), (3.0, 1.0), (1.0, 4.0)]
-    tried = [
-        SimpleNamespace(apart=[SimpleNamespace(rank=r) for r in pair], values=(k,)) for k, pair in enumerate(ranks)
-    ]
-    assert [point.values for point in front_of(tried, (0,))] == [(0,), (1,), (4,)]
-
-
 def test_the_share_of_a_trial_is_how_far_it_got():
     mission = tl.load_mission("hover", {"mission.duration": 2.0})
     half = {"outcome": "crashed", "steps": mission.mission.steps // 2}
@@ -148,12 +83,6 @@ def test_what_is_said_of_a_study_counts_the_names_that_are_left_out():
         text = study_html("gusts", 4, 4, [f"key{i}" for i in range(count)], outcomes)
         assert text.count("<code>") == MOST_NAMES
         assert f"</code>{more}</p>" in text
-
-
-def test_a_pair_of_numbers_is_said_once_where_alike_and_a_missing_one_by_a_dash():
-    assert _both(0.5, 0.75, "m") == "0.50 → 0.75 m"
-    assert _both(0.5, 0.5, "m") == "0.50 m"
-    assert _both(0.05, None, "%") == "5 → – %"
 
 
 def test_the_mission_of_a_row_is_that_with_its_draw(tmp_path):

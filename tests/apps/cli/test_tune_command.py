@@ -48,16 +48,6 @@ def test_values_that_are_not_better_end_with_1(tmp_path):
     assert tl.load_mission(tmp_path / "tuned.toml").controller == tl.load_mission("hover").controller
 
 
-def test_two_goals_print_a_front_and_a_page_with_its_figure(tmp_path):
-    goals = ("--minimize", "position_rmse_m.2", "--minimize", "moment_max_abs_after_10s_n_m.0=0.1")
-    settings = ("--set", "mission.duration=12", "--set", "mission.step=0.005", "--set", "initial.euler=[0.1, 0, 0]")
-    code, text, _ = call("hover", *goals, *settings, "--draws", 2, "--holdout", 4, "--budget", 32, "--out", tmp_path)
-    assert code in (0, 1)
-    assert "front 1: " in text
-    assert (tmp_path / "figures" / "front.png").exists()
-    assert "<h2>Front</h2>" in (tmp_path / "tune.html").read_text("utf-8")
-
-
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from law_values import paper_vehicle
 from listings import GUIDE, LISTINGS
+from reference_tables.keys import key_tables
 
 import tandemlift as tl
 from tandemlift.compiler.tracer.graph import Graph
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import flat
-from tandemlift.missions.reference import key_tables
 from tandemlift.parts.controllers import CONTROLLERS, controller, load_controller
 from tandemlift.parts.controllers import control as control_law
 from tandemlift.parts.controllers.trial_run import check_started

@@ -8,17 +8,15 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from tandemlift.analysis.studies.execution.checked_file import CheckedFile, DamagedFile
-from tandemlift.core.errors import InputError, extra, unknown
+from tandemlift.analysis.studies.execution.checked_file import ABOUT, CheckedFile, DamagedFile
+from tandemlift.core.errors import extra, unknown
 
 if TYPE_CHECKING:
     import pyarrow
 
 CHANNEL = "flight."  # begins the name of a kept channel's column
 CODED = ("mission", "controller", "engine", "case", "outcome", "finding_kinds")  # few different texts in many rows
-ABOUT = "tandemlift."  # prefix of a file's metadata
 THREADS = 4  # that read files; PyArrow reads without Python
-MARK = b"PAR1"  # begins and ends a whole Parquet file
 
 
 class ChunkFile(NamedTuple):
@@ -27,23 +25,6 @@ class ChunkFile(NamedTuple):
     path: Path
     first: int
     last: int
-
-
-def check_whole(path: Path) -> None:
-    """Check that a file begins and ends as a Parquet file does.
-
-    Raises:
-        InputError: it does not, or cannot be read.
-    """
-    try:
-        with path.open("rb") as file:
-            begin, size = file.read(len(MARK)), file.seek(0, 2)
-            file.seek(max(size - len(MARK), 0))
-            end = file.read()
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror or error}") from None
-    if (begin, end) != (MARK, MARK):
-        raise DamagedFile(path, "it is cut short, or no Parquet file")
 
 
 def _opened(file: ChunkFile, coded: Collection[str] = ()) -> CheckedFile:
@@ -70,10 +51,7 @@ def about(file: ChunkFile) -> dict[str, str]:
 def _read_file(file: ChunkFile, names: Sequence[str], coded: Collection[str]) -> pyarrow.Table:
     """Chosen columns of a file, of those that it has."""
     opened = _opened(file, coded)
-    try:
-        table: pyarrow.Table = opened.read(names)
-    except OSError as error:
-        raise DamagedFile(file.path, error) from None
+    table: pyarrow.Table = opened.read(names)
     if opened.rows != file.last - file.first:
         raise DamagedFile(file.path, f"it has {opened.rows} rows in place of {file.last - file.first}")
     return table

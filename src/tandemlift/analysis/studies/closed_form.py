@@ -1,8 +1,7 @@
 """The response of an admittance to a rectangular push in closed form: M v' + C v + K x = F.
 
 F is the force beyond the gate. Without stiffness v(t) = F/C (1 − exp(−t/τ)), τ = M/C; once released it stops within v
-τ. With a spring, x tends to F/K: with a = C/(2 M) and w² = K/M − a², which may be negative, x = F/K − e^(−a t) (x₁
-cos(w t) + (v₁ + a x₁) sin(w t)/w) for initial deviations x₁ and v₁.
+τ. With a spring, x tends to F/K, and its slowest motion decays as exp(−t (a − √(a² − K/M))), a = C/(2 M).
 """
 
 from __future__ import annotations
@@ -10,9 +9,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-
-from tandemlift.core.types import LN_20, Array
+from tandemlift.core.types import LN_20
 from tandemlift.missions import Mission
 
 AXES = ("x", "y", "z")
@@ -95,30 +92,3 @@ def axes_of(m: Mission) -> tuple[AxisFeel, ...]:
         push = max(MOMENT, ABOVE * yaw.threshold)
         found.append(AxisFeel(YAW, inertia, yaw.damping, 0.0, yaw.threshold, subtracts_threshold=True, push=push))
     return tuple(found)
-
-
-def speed_at(k: AxisFeel, time: Array, hold: float) -> Array:
-    """The speed [m/s] at times [s] from the beginning of the standard push (T), which is held for `hold` [s]."""
-    t = np.asarray(time, dtype=float)
-    _, speed = _free(k, np.clip(t, 0.0, hold), 0.0, 0.0, k.beyond)
-    end_place, end_speed = (float(x) for x in _free(k, np.array(hold), 0.0, 0.0, k.beyond))
-    _, after = _free(k, np.maximum(t - hold, 0.0), end_place, end_speed, 0.0)
-    return np.where(t < 0.0, 0.0, np.where(t < hold, speed, after))
-
-
-def _free(k: AxisFeel, t: Array, place: float, speed: float, force: float) -> tuple[Array, Array]:
-    """(Place [m], speed [m/s]) after times [s] under a constant force beyond the gate [N]."""
-    if k.stiffness == 0.0:
-        if k.damping == 0.0:
-            a = force / k.mass
-            return place + speed * t + 0.5 * a * t * t, speed + a * t
-        final, tau = force / k.damping, k.time_constant
-        fading = -np.expm1(-t / tau)
-        return place + final * t + (speed - final) * tau * fading, final + (speed - final) * (1.0 - fading)
-    a = 0.5 * k.damping / k.mass
-    w = np.sqrt(complex(k.stiffness / k.mass - a * a))
-    left, rest = place - force / k.stiffness, force / k.stiffness
-    decay, cosine, sine = np.exp(-a * t), np.cos(w * t), t * np.sinc(w * t / np.pi)
-    x = rest + (decay * (left * cosine + (speed + a * left) * sine)).real
-    v = (decay * (speed * cosine - (a * speed + k.stiffness / k.mass * left) * sine)).real
-    return x, v

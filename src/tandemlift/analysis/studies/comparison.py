@@ -20,7 +20,7 @@ from tandemlift.analysis.studies.comparison_scores import (
     largest_differences,
     step_time,
 )
-from tandemlift.analysis.studies.execution.flying import engine_summary, fly_each
+from tandemlift.analysis.studies.execution.flying import fly_each
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
@@ -45,12 +45,6 @@ class Entry(NamedTuple):
     engine: str = "compiled"
     refusal: str = ""
     flight: Flight | None = None
-
-    @property
-    def summary(self) -> str:
-        """The description in a sentence; "" for a controller that is not registered, such as a user's file."""
-        known = CONTROLLERS.get(self.name)
-        return known.summary if known else engine_summary(self.name)
 
 
 @dataclass(frozen=True)

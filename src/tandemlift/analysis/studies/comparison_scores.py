@@ -5,7 +5,7 @@ docs/reference/controllers.md describes the scores of controllers.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +17,6 @@ QUANTITIES = {"position": "m", "attitude": "rad", "joint_force": "N", "joint_tor
 NAMES = {name: name.replace("_", " ") for name in QUANTITIES}
 SETTLED = 0.1  # s, start of the comparison of joints: some engines first correct joint errors of a fast start
 OF_CONTROLLERS = ("RMSE x (mm)", "RMSE y (mm)", "RMSE z (mm)", "max (mm)", "effort (N m)", "saturated (%)")
-"""Titles of the scores of controllers of which the least is the best."""
 
 
 class ScoreTable(NamedTuple):
@@ -32,16 +31,6 @@ class ScoreTable(NamedTuple):
     what: str
     titles: tuple[str, ...]
     rows: dict[str, list[str]]
-
-    def best(self, names: Sequence[str]) -> set[tuple[str, str]]:
-        """The cells (name, title) with the least score among flights with some names; none where all have it."""
-        found = set[tuple[str, str]]()
-        for i, title in enumerate(self.titles):
-            cells = {name: self.rows[name][i] for name in names if self.rows[name][i]}
-            if title in OF_CONTROLLERS and len(set(cells.values())) > 1:
-                least = min(map(float, cells.values()))
-                found |= {(name, title) for name, cell in cells.items() if float(cell) == least}
-        return found
 
 
 def controller_table(flights: Mapping[str, Flight]) -> ScoreTable:

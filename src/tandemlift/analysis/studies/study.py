@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.execution.anywhere import fly_study
-from tandemlift.analysis.studies.execution.running import part_from
+from tandemlift.analysis.studies.execution.running import fly_study, part_from
 from tandemlift.analysis.studies.execution.store import StudyFolder, open_folder
 from tandemlift.analysis.studies.table import Study, load_study
 from tandemlift.core.errors import InputError
@@ -25,8 +24,6 @@ def study(
     *,
     threads: int | None = None,
     executor: Executor | None = None,
-    scheduler: str | None = None,
-    cluster: str | None = None,
     part: str = "1/1",
     progress: Progress | None = None,
 ) -> Study:
@@ -37,8 +34,6 @@ def study(
         out: folder of the study; by default out/NAME.
         threads: number of threads; by default one for each processor.
         executor: flies the chunks in place of threads of this process; `threads` is then the number of its workers.
-        scheduler: address of a Dask scheduler, whose workers fly the chunks; see docs/how-to/scaling.md.
-        cluster: "local:N" for N processes of this machine, under Dask.
         part: "K/N" to fly part K of N only; the parts may run at the same time, on machines that share the folder.
         progress: called with (rows flown, rows in all); by default, a notebook shows a bar.
 
@@ -50,10 +45,9 @@ def study(
     """
     plan = load_plan(study)
     folder = open_folder(plan, Path("out") / plan.settings.study.name if out is None else Path(out))
-    where: dict[str, Any] = {"threads": threads, "executor": executor, "scheduler": scheduler, "cluster": cluster}
     chosen = part_from(part)
     with progress_or_own(plan.settings.study.name, progress) as shown:
-        fly_study(plan, folder, part=chosen, progress=shown, say=print, **where)
+        fly_study(plan, folder, threads=threads, executor=executor, part=chosen, progress=shown, say=print)
     return load_study(folder.path)
 
 

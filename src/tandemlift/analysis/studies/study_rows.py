@@ -26,6 +26,8 @@ NO_METRICS = (
 )
 TRACKING = ("position_rmse_after_10s_m", "position_rmse_m")  # the first that there is
 CLEARANCE = "clearance_min_m"
+BAD_OUTCOMES = "Bad outcomes"
+MOST_RANKED = 100_000  # rows that a rank correlation uses, drawn at random from more
 EFFORTS = ("human_work_per_path_j_m", "human_work_j")  # of a person who guides it; of any push
 
 
@@ -205,9 +207,25 @@ class StudyRows:
         return ", ".join(part for part in parts if part) or "all rows"
 
     @cached_property
-    def drawn(self) -> dict[str, Array]:
-        """The point of each draw of the plan (draws,), by the drawn number: see `Study.drawn_points`."""
-        return self.study.drawn_points()
+    def ranked(self) -> dict[str, dict[str, float]]:
+        """Spearman's rank correlation of bad outcomes, and of each quantity, with each varied column of numbers.
+
+        Columns that do not vary where the quantity is known are left out.
+        """
+        from scipy.stats import rankdata
+
+        found, columns = {}, [name for name in self.varied if name not in self.texts]
+        for quantity, values in {BAD_OUTCOMES: self.bad.astype(np.float64), **self.values}.items():
+            shares = dict[str, float]()
+            for name in columns:
+                known = np.flatnonzero(np.isfinite(values) & np.isfinite(self.varied[name]))
+                drawn = np.random.default_rng(1).permutation(known)[:MOST_RANKED]
+                x, y = self.varied[name][drawn], values[drawn]
+                if len(x) and np.ptp(x) > 0.0 and np.ptp(y) > 0.0:
+                    shares[name] = float(np.corrcoef(rankdata(x), rankdata(y))[0, 1])
+            if shares:
+                found[quantity] = shares
+        return found
 
     @cached_property
     def finding_counts(self) -> dict[str, NDArray[np.bool_]]:

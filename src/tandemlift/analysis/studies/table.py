@@ -12,13 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tandemlift.analysis.studies.chunk_files import CHANNEL, ChunkFile, about, check_whole, columns_in, read
+from tandemlift.analysis.studies.chunk_files import CHANNEL, ChunkFile, about, columns_in, read
 from tandemlift.analysis.studies.dataset import study_html, to_xarray
-from tandemlift.analysis.studies.design.distributions import Distribution, Horizontal
-from tandemlift.analysis.studies.design.draws import dimensions_of
 from tandemlift.analysis.studies.design.keys import columns_of
 from tandemlift.analysis.studies.design.plan import StudyPlan
-from tandemlift.analysis.studies.design.sampling import points
 from tandemlift.analysis.studies.design.settings import REFUSED, StudySettings
 from tandemlift.analysis.studies.design.statistics import share
 from tandemlift.analysis.studies.execution.store import StudyFolder
@@ -29,7 +26,6 @@ from tandemlift.missions import Mission
 
 if TYPE_CHECKING:
     import pandas
-    import polars
     import pyarrow
     import xarray
 
@@ -141,16 +137,6 @@ class Study:
             import pandas  # noqa: F401
         return self.read(columns).to_pandas()
 
-    def to_polars(self, columns: Sequence[str] | None = None) -> polars.DataFrame:
-        """The table, or chosen columns, as a polars DataFrame.
-
-        Raises:
-            InputError: there is no such column, or polars is not installed.
-        """
-        with extra("polars", "to_polars"):
-            import polars
-        return polars.from_arrow(self.read(columns))
-
     def to_xarray(self, columns: Sequence[str] | None = None) -> xarray.Dataset:
         """The rows as a grid: a dimension for each key of `[grid]`, and for all else of which there are several.
 
@@ -210,27 +196,10 @@ class Study:
                 found |= dict(zip(here, table.to_pylist(), strict=True))
         return [found[n] for n in wanted]
 
-    def drawn_points(self) -> dict[str, Array]:
-        """The point of each draw (draws,) in the unit cube, by the drawn number: a key, or one number of it.
-
-        A drawn value is a rising function of its point; points of different keys are independent.
-        """
-        study, drawn = self.settings.study, self.plan.drawn
-        found = points(study.sampling, study.draws, dimensions_of(drawn), study.seed, 0, self.plan.point_count)
-        names = [name for key, distribution in drawn.items() for name in _names(key, distribution)]
-        return dict(zip(names, found.T, strict=True))
-
     def _number(self, row: int) -> int:
         if not isinstance(row, int | np.integer) or not 0 <= row < self.plan.count:
             raise InputError(f"row = {row!r}: must be a whole number from 0 to {self.plan.count - 1}")
         return int(row)
-
-
-def _names(key: str, distribution: Distribution) -> list[str]:
-    """The names of a drawn key's numbers: the key, its entries, or length and direction of a vector."""
-    if isinstance(distribution, Horizontal):
-        return [f"{key} (length)", f"{key} (direction)"]
-    return [key] if distribution.count is None else [f"{key}.{i}" for i in range(distribution.count)]
 
 
 def load_study(folder: str | os.PathLike[str]) -> Study:
@@ -250,7 +219,6 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
     for i, name in enumerate(store.names()):
         first, file = i * store.rows_per_chunk, store.files.file(name)
         if file.exists():
-            check_whole(file)
             files.append(ChunkFile(file, first, min(store.count, first + store.rows_per_chunk)))
     return Study(path, store.plan(), tuple(files))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -113,7 +113,7 @@ def load(mission: str, settings: tuple[str, ...], controller: Controller | str |
 # the files of a flight
 
 
-def write_flight(flight: Flight, folder: Path, *, figures: bool, photographs: Sequence[tuple[str, bytes]] = ()) -> None:
+def write_flight(flight: Flight, folder: Path, *, figures: bool) -> None:
     """Write the files of a flight into the folder, and say where its figures are drawn, with a progress bar."""
     from tandemlift.apps.live.replay import report_replay
     from tandemlift.pictures.report.flight_report import write_flight_files
@@ -122,7 +122,7 @@ def write_flight(flight: Flight, folder: Path, *, figures: bool, photographs: Se
     if figures:
         echo(f"  drawing: {folder / FIGURES}")
     with progress_bar("Drawing", "figures", shown=figures and sys.stderr.isatty()) as progress:
-        write_flight_files(flight, folder, figures=figures, photographs=photographs, progress=progress, replay=replay)
+        write_flight_files(flight, folder, figures=figures, progress=progress, replay=replay)
 
 
 # findings: a line each on standard error

@@ -108,8 +108,7 @@ def template() -> None:
 @click.command()
 @click.argument("key", required=False, shell_complete=keys)
 @controller_option
-@click.option("--markdown", is_flag=True, help="Print the reference of all keys in Markdown instead.")
-def explain(key: str | None, controller: str | None, markdown: bool) -> None:
+def explain(key: str | None, controller: str | None) -> None:
     """Explain a mission KEY: unit, meaning, bounds and default.
 
     KEY is a dotted key or a table. Without KEY, all tables are listed.
@@ -122,13 +121,10 @@ def explain(key: str | None, controller: str | None, markdown: bool) -> None:
       tandemlift explain controller.stiffness --controller my_pd.py
       tandemlift explain controller --controller my_pd.py
     """
-    from tandemlift.missions.reference import explained, index, key_tables
+    from tandemlift.missions.reference import explained, index
 
     own = "" if controller is None else chosen_controller(controller).name
-    if markdown:
-        echo(key_tables(), nl=False)
-    else:
-        echo(index() if key is None else explained(key, own))
+    echo(index() if key is None else explained(key, own))
 
 
 @click.command()

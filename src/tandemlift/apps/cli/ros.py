@@ -118,9 +118,6 @@ def ros(
 @click.option("--by-hand", is_flag=True, help="Leave out the mission's pushes and person: you push, by a Gazebo topic.")
 @click.option("--fast", is_flag=True, help="Fly as fast as possible instead of in real time.")
 @click.option("--no-window", is_flag=True, help="Do not open Gazebo's window. Without a display, no window opens.")
-@click.option(
-    "--pictures", is_flag=True, help="Take four photographs with Gazebo's cameras, as in the paper's Figure 9."
-)
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/gazebo/NAME]")
 @set_option
 @after_crash_option
@@ -131,7 +128,6 @@ def gazebo(
     by_hand: bool,
     fast: bool,
     no_window: bool,
-    pictures: bool,
     out: str | None,
     settings: tuple[str, ...],
     after_crash: float | None,
@@ -148,14 +144,12 @@ def gazebo(
     Examples:
       tandemlift gazebo
       tandemlift gazebo iris --by-hand
-      tandemlift gazebo zigzag --pictures --fast --no-window
+      tandemlift gazebo zigzag --fast --no-window
 
     Exit code 3: crashed, diverged, interrupted or not lifted; what was flown is written. With --strict, also findings.
     """
-    if by_hand and (fast or pictures):
-        raise InputError(
-            f"--by-hand flies in real time and takes no pictures: leave out {'--fast' if fast else '--pictures'}"
-        )
+    if by_hand and fast:
+        raise InputError("--by-hand flies in real time: leave out --fast")
     from tandemlift.apps.ros.gazebo_flight import fly_in_gazebo, has_display
     from tandemlift.engines.gazebo_server import root
 
@@ -167,11 +161,9 @@ def gazebo(
         if not (window or no_window):
             click.echo("No window: DISPLAY is not set", err=True)
         with progress_bar("Flying", "steps", shown=not by_hand) as progress:
-            flight, photographs = fly_in_gazebo(
-                loaded, echo, progress, by_hand=by_hand, window=window, real_time=not fast, pictures=pictures
-            )
+            flight = fly_in_gazebo(loaded, echo, progress, by_hand=by_hand, window=window, real_time=not fast)
         recording = None if by_hand else loaded.person.recording
-        write_results(flight, folder, began, recording, figures=not no_figures, photographs=photographs)
+        write_results(flight, folder, began, recording, figures=not no_figures)
     exit_if_amiss({flight.name: flight}, strict=strict)
 
 

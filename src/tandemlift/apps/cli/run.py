@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -150,11 +149,10 @@ def write_results(
     recording: str | None,
     *,
     figures: bool,
-    photographs: Sequence[tuple[str, bytes]] = (),
 ) -> None:
     """Print the summary of a flight, write its files, and print the time since `began` [s], by `time.perf_counter`.
 
-    A recording that the mission flies, given by its path, and photographs, each with its title, are among the files.
+    A recording that the mission flies, given by its path, is among the files.
     """
     from tandemlift.flight.summary import summary_lines
     from tandemlift.missions.recording import recording_bytes
@@ -162,5 +160,5 @@ def write_results(
     echo("\n".join(summary_lines(flight)))
     if recording is not None:  # so that the folder can be flown anywhere
         write_file(folder / Path(recording).name, recording_bytes(recording))
-    write_flight(flight, folder, figures=figures, photographs=photographs)
+    write_flight(flight, folder, figures=figures)
     echo(f"  report: {folder / 'report.html'} ({time.perf_counter() - began:.2f} s in all)")

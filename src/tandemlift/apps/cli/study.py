@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -15,12 +16,11 @@ from tandemlift.apps.cli.flying import (
     chosen_controller,
     engine_option,
     exit_if_amiss,
-    kept_style_option,
     load,
     set_option,
     strict_option,
 )
-from tandemlift.apps.export.results import FIGURES, results_folder
+from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import parse_setting
 
@@ -41,10 +41,6 @@ if TYPE_CHECKING:
     help="Set one key of the study file, such as study.draws=1000. Can be repeated.",
 )
 @click.option("--threads", type=click.IntRange(min=1), help="Threads.  [default: one for each processor]")
-@click.option(
-    "--scheduler", metavar="ADDRESS", help="Fly on the workers of a Dask scheduler, such as tcp://127.0.0.1:8786."
-)
-@click.option("--cluster", metavar="local:N", help="Fly in N processes of this machine, with Dask's dashboard.")
 @click.option("--part", default="1/1", metavar="K/N", help="Fly part K of N only, as in a job array.")
 @click.option(
     "--for",
@@ -62,8 +58,6 @@ def study(
     out: str | None,
     settings: tuple[str, ...],
     threads: int | None,
-    scheduler: str | None,
-    cluster: str | None,
     part: str,
     metrics: tuple[str, ...],
     no_report: bool,
@@ -109,19 +103,19 @@ def study(
         for line in expected.lines(threads or os.cpu_count() or 1):
             echo(f"  {line}")
         return
-    folder = _fly(plan, out, part, threads=threads, scheduler=scheduler, cluster=cluster)
+    folder = _fly(plan, out, part, threads)
     _print_outcomes(folder.path, metrics, report=not no_report)
 
 
-def _fly(plan: StudyPlan, out: str | None, part: str, **where: Any) -> StudyFolder:
-    from tandemlift.analysis.studies.execution.anywhere import fly_study
-    from tandemlift.analysis.studies.execution.running import part_from
+def _fly(plan: StudyPlan, out: str | None, part: str, threads: int | None) -> StudyFolder:
+    from tandemlift.analysis.studies.execution.running import fly_study, part_from
     from tandemlift.analysis.studies.execution.store import open_folder
 
     chosen = part_from(part)
     folder = open_folder(plan, Path("out") / plan.settings.study.name if out is None else Path(out))
     with progress_bar(plan.settings.study.name, "rows") as progress:
-        fly_study(plan, folder, part=chosen, progress=progress, say=lambda line: click.echo(line, err=True), **where)
+        say = partial(click.echo, err=True)
+        fly_study(plan, folder, threads=threads, part=chosen, progress=progress, say=say)
     return folder
 
 
@@ -139,7 +133,7 @@ def _print_outcomes(folder: Path, metrics: tuple[str, ...], *, report: bool) -> 
 
 
 STEMS = {"controllers": "compare", "engines": "engines"}  # of the files
-KINDS = ("html", "json", "csv", "tex")
+KINDS = ("json", "csv", "tex")
 
 
 @click.command()
@@ -159,7 +153,6 @@ KINDS = ("html", "json", "csv", "tex")
 )
 @set_option
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
-@kept_style_option
 @strict_option
 def compare(
     mission: str,
@@ -168,12 +161,11 @@ def compare(
     engines: str | None,
     settings: tuple[str, ...],
     out: str | None,
-    style: str | None,
     strict: bool,
 ) -> None:
     """Fly MISSION with several controllers, or in several engines.
 
-    A table is printed, and a page written. The mission's own controller flies with the mission's settings, every other
+    The mission's own controller flies with the mission's settings, every other
     one with its defaults. Keys of `controller` given by --set apply to the mission's own controller only. Wall times
     are those of one flight each, and depend on the machine's load.
 
@@ -183,20 +175,18 @@ def compare(
       tandemlift compare iris --controllers nftsmc,pid,lqr --set 'disturbance.force=[3, 3, 0]'
       tandemlift compare hover --controllers nftsmc,my_pd.py --out out/mine
       tandemlift compare zigzag --engines compiled,mujoco,gazebo
-      tandemlift compare iris --style ieee
 
     \b
     Files in the results folder (other files there are left alone):
-      compare.html   table, errors and inputs on one page that needs no network
-      compare.json   the same as numbers in SI units, with all metrics and settings
-      engines.html   with --engines: the flights, and their differences from the first
-      engines.json   with --engines: the same as numbers in SI units
+      compare.json   the table as numbers in SI units, with all metrics and settings
+      engines.json   with --engines: the largest differences from the first, in SI units
       *.csv, *.tex   all metrics, a column for each controller or engine, for a spreadsheet and for LaTeX
-      figures/       with --style: the figures of the page (PNG and PDF)
+
+    `tandemlift plot` draws several saved flights over each other.
 
     Exit code 3: a flight crashed, diverged or did not lift; its row has the reason. With --strict, also findings.
     """
-    from tandemlift.pictures.report.study.comparison import write_comparison_files
+    from tandemlift.pictures.report.study.comparison import write_comparison
 
     if engines is not None and controllers is not None:
         raise InputError("--engines, --controllers: give only one of them")
@@ -207,8 +197,8 @@ def compare(
             found = entered.fly(progress)
         for line in found.lines():
             echo(line)
-        page = write_comparison_files(found, folder, stem, folder / FIGURES if style is not None else None)
-        echo(f"  page: {page}")
+        write_comparison(found, folder, stem)
+        echo(f"  numbers: {folder / stem}.json")
     exit_if_amiss(found.flights, strict=strict)
 
 

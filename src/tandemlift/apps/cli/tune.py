@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tandemlift.apps.cli.completion import MISSIONS, keys, names
-from tandemlift.apps.cli.console import compile_notices, echo, print_checks, progress_bar
+from tandemlift.apps.cli.console import compile_notices, echo, print_checks
 from tandemlift.apps.cli.flying import (
     FAILED,
     chosen_controller,
@@ -20,7 +20,6 @@ from tandemlift.apps.cli.flying import (
     load,
     parse_setting,
     set_option,
-    style_option,
 )
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import without_flight_warnings
@@ -66,11 +65,10 @@ def search_options(command: Callable[..., Any]) -> Callable[..., Any]:
     multiple=True,
     metavar="KEY[=RANGE]",
     shell_complete=keys,
-    help="Value to search: a dotted key, a table or a pattern, and [low, high] or a list of words. Can be repeated."
+    help="Value to search: a dotted key, a table or a pattern, and [low, high]. Can be repeated."
     "  [default: the controller's gains]",
 )
 @click.option("--draws", default="8", show_default=True, metavar="N|FILE", help="Flights that compare candidates.")
-@click.option("--optimiser", metavar="cma|optuna", help="[default: cma; optuna for choices and several goals]")
 @click.option("--aim", default="mean", show_default=True, metavar="mean|worst", help="Which of all draws counts.")
 @controller_option("Tune this controller")
 @search_options
@@ -101,7 +99,7 @@ def tune(
       tuned.toml     the mission with the new values; `tandemlift run` flies it
       evidence.json  task, every cost, and old against new on every holdout draw
       tune.html      all of it on one page that needs no network
-      figures/       cost over candidates; old and new on holdout draws; the front (PNG and PDF)
+      figures/       cost over candidates; old and new on holdout draws (PNG and PDF)
 
     Exit code 1: the new values are not better on holdout draws. 130: Ctrl-C; the best so far is written.
     """
@@ -175,20 +173,15 @@ def _progress() -> Iterator[TuneProgress | None]:
         yield update
 
 
-FEEL_FILES = ("feel.json", "feel.html", "feel.png", "feel.pdf")
-
-
 @click.command()
 @click.argument("mission", shell_complete=MISSIONS)
 @set_option
-@click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
-@style_option
 @click.option("--strict", is_flag=True, help="Exit with code 3 if a check fails.")
-def feel(mission: str, settings: tuple[str, ...], out: str | None, strict: bool) -> None:
+def feel(mission: str, settings: tuple[str, ...], strict: bool) -> None:
     """Show the response to a push with the keys of MISSION.
 
-    It checks whether the vehicle can respond so. A standard push along each axis, by the closed form of the admittance
-    and flown. `tandemlift tune` searches for better keys.
+    A standard push along each axis, by the closed form of the admittance, and checks whether the vehicle can respond
+    so. `tandemlift tune` searches for better keys.
 
     \b
     Examples:
@@ -196,26 +189,15 @@ def feel(mission: str, settings: tuple[str, ...], out: str | None, strict: bool)
       tandemlift feel iris --set admittance.feel.preset=firm
       tandemlift feel iris --set 'admittance.feel={force=1.0, speed=0.6, time=2.0}'
 
-    \b
-    Files in the results folder (other files there are left alone):
-      feel.html  table, figure and checks on one page that needs no network
-      feel.json  all numbers in SI units; feel.png, feel.pdf: the figure
-
     Exit code 3: with --strict, a check fails.
     """
-    from tandemlift.pictures.report.study.feel_report import feel as studied
+    from tandemlift.analysis.studies.feel import feel as examined
 
     with without_flight_warnings():  # of pushes that are not flown here
-        loaded = load(mission, settings)
-    name = loaded.mission.name
-    with results_folder(out, Path("out") / name, FEEL_FILES) as folder:
-        with progress_bar("Flying", "rows", shown=sys.stderr.isatty()) as progress:
-            report = studied(loaded, progress=progress)
-        echo(f"{name}: the response to a standard push, closed form → flown")
-        for line in report.lines():
-            echo(f"  {line}")
-        print_checks(report.checks)
-        report.save(folder)
-        echo(f"  page: {folder / 'feel.html'}")
-    if strict and report.study.fails:
+        found = examined(load(mission, settings))
+    echo(f"{found.mission.mission.name}: the response to a standard push, by the closed form of the admittance")
+    for line in found.lines():
+        echo(f"  {line}")
+    print_checks(found.checks)
+    if strict and found.fails:
         sys.exit(FAILED)

@@ -1,4 +1,4 @@
-"""Gazebo started for one flight, with a window to watch and push it, and with cameras that photograph it."""
+"""Gazebo started for one flight, with a window to watch and push it."""
 
 from __future__ import annotations
 
@@ -8,15 +8,12 @@ import signal
 import socket
 import subprocess
 import sys
-import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import NamedTuple
 
 from tandemlift import Flight
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
-from tandemlift.apps.ros.gazebo_cameras import ViewRequest, views_from
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress
 from tandemlift.engines.gazebo import CHECKS, PORT, REAL_TIME, world_from
@@ -28,23 +25,9 @@ from tandemlift.engines.gazebo_server import (
     shell_command_for_user,
     with_gazebo_environment,
 )
-from tandemlift.engines.models.sdf_elements import PICTURES, add_cameras
 from tandemlift.missions import Mission
 from tandemlift.simulation.fly import fly
 from tandemlift.simulation.recorded_flight import RecordedFlight
-
-EVERY = 0.5  # s, from one picture of a camera to the next
-PATIENCE = 60.0  # s, in which every camera must save its first picture
-CHECK_EVERY = 0.1  # s, between checks whether it has
-WAITING = "<wait>true</wait>", "<wait>false</wait>"  # a world that waits for its pilot draws nothing
-
-
-class Photo(NamedTuple):
-    """A photograph: the view, the time [s] of the flight just after it, and its JPEG."""
-
-    view: ViewRequest
-    time: float
-    jpeg: bytes
 
 
 class GazeboSession:
@@ -52,35 +35,26 @@ class GazeboSession:
 
     Args:
         mission: the mission that will be flown.
-        views: photographs to be taken.
         window: whether to open Gazebo's window.
         real_time: whether to fly in real time.
 
     Attributes:
         master: address of Gazebo's own transport.
         port: of the plugin, UDP.
-        photos: photographs taken so far.
         check: raises a `ConnectionError` if the server has ended.
 
     Raises:
-        InputError: there is no Gazebo, no display for the window, or the cameras save no picture.
+        InputError: there is no Gazebo, or no display for the window.
     """
 
-    def __init__(
-        self, mission: Mission, views: Sequence[ViewRequest] = (), *, window: bool = False, real_time: bool = False
-    ) -> None:
-        self.photos: list[Photo] = []
-        self._due, self.port = list(views), free_port(socket.SOCK_DGRAM)
-        text = world_from(mission, self.port)
-        if views:
-            text = add_cameras(text.replace(*WAITING), [v.camera for v in views], EVERY)
+    def __init__(self, mission: Mission, *, window: bool = False, real_time: bool = False) -> None:
+        self.port = free_port(socket.SOCK_DGRAM)
         with ExitStack() as closing:
-            self._server = GazeboServer(text, draws=bool(views))
+            self._server = GazeboServer(world_from(mission, self.port))
             closing.callback(self._server.close)
             self.master, self.check = self._server.master, self._server.check
             if window:
                 closing.enter_context(_window(self.master))
-            self._await_cameras()
             closing.enter_context(_joined(self.port, self.check, real_time=real_time))
             self._closing = closing.pop_all()
 
@@ -89,29 +63,6 @@ class GazeboSession:
 
     def __exit__(self, *error: object) -> None:
         self._closing.close()
-
-    def _await_cameras(self) -> None:
-        until = time.monotonic() + PATIENCE
-        while not all(self._pictures_of(view) for view in self._due):
-            self._server.check()
-            if time.monotonic() > until:
-                raise InputError(
-                    f"Gazebo's cameras save no pictures; is Xvfb installed where Gazebo is?{self._server.last_output()}"
-                )
-            time.sleep(CHECK_EVERY)
-
-    def _pictures_of(self, view: ViewRequest) -> list[Path]:
-        """The picture files of a camera in the order of time; the last may be incomplete."""
-        files = (self._server.folder / PICTURES / view.camera.name).glob("*.jpg")
-        return sorted(files, key=lambda path: int(path.stem.rpartition("-")[2]))
-
-    def take_due_photographs(self, at: float) -> None:
-        """Take the photographs that are due at a time [s] of the flight; to be called about every second of it."""
-        for view in [v for v in self._due if v.time <= at]:
-            files = self._pictures_of(view)
-            if len(files) > 1:
-                self._due.remove(view)
-                self.photos.append(Photo(view, at, files[-2].read_bytes()))
 
 
 @contextmanager
@@ -128,16 +79,6 @@ def _joined(port: int, check: Callable[[], None], *, real_time: bool) -> Iterato
             os.environ.pop(name)
             if value is not None:
                 os.environ[name] = value
-
-
-def gazebo_sentence() -> str:
-    """Whether Gazebo can fly the corridor on this machine."""
-    how = "`tandemlift gazebo zigzag --fast --pictures` flies this corridor in Gazebo 11 and photographs it"
-    try:
-        root()
-    except InputError:
-        return f"{how}. Gazebo is not installed on the machine that made this report."
-    return f"{how}. Gazebo is installed on the machine that made this report, which flew the compiled engine."
 
 
 def has_display() -> bool:
@@ -171,38 +112,6 @@ def _window(master: str) -> Iterator[None]:
         finally:
             client.kill()
             client.wait()
-
-
-def fly_to_end(
-    mission: Mission,
-    begun: Callable[[GazeboSession], None],
-    progress: Progress | None = None,
-    *,
-    window: bool = False,
-    real_time: bool = False,
-    pictures: bool = False,
-) -> tuple[Flight, list[tuple[str, bytes]]]:
-    """Fly a mission to its end; the flight, and the title and JPEG of each photograph.
-
-    Args:
-        mission: the mission.
-        begun: called before the first step.
-        progress: called with (steps flown, steps in all).
-        window: whether to open Gazebo's window.
-        real_time: whether to fly in real time.
-        pictures: whether to take photographs, where the flight of the compiled engine says.
-    """
-    views, step = views_from(fly(mission)) if pictures else [], mission.mission.step
-    with GazeboSession(mission, views, window=window, real_time=real_time) as gazebo:
-        begun(gazebo)
-
-        def take_photographs(done: int, total: int) -> None:
-            gazebo.take_due_photographs(done * step)
-            if progress:
-                progress(done, total)
-
-        flight = fly(mission, "gazebo", progress=take_photographs)
-        return flight, [(f"{p.view.title}, {p.view.time:.0f} s", p.jpeg) for p in gazebo.photos]
 
 
 def fly_by_hand(mission: Mission, begun: Callable[[GazeboSession], None], *, window: bool) -> Flight:
@@ -242,9 +151,8 @@ def fly_in_gazebo(
     by_hand: bool,
     window: bool,
     real_time: bool,
-    pictures: bool,
-) -> tuple[Flight, list[tuple[str, bytes]]]:
-    """Fly a mission to its end, or by hand until Ctrl-C; the flight, and its photographs, each with its title."""
+) -> Flight:
+    """Fly a mission to its end, or by hand until Ctrl-C."""
 
     def begun(gazebo: GazeboSession) -> None:
         push = """gz topic -p /gazebo/default/tandemlift/push -m 'data: "force 2 0 0 point 0 0 0 duration 2"'"""
@@ -253,5 +161,7 @@ def fly_in_gazebo(
         sys.stdout.flush()
 
     if by_hand:
-        return fly_by_hand(mission, begun, window=window), []
-    return fly_to_end(mission, begun, progress, window=window, real_time=real_time, pictures=pictures)
+        return fly_by_hand(mission, begun, window=window)
+    with GazeboSession(mission, window=window, real_time=real_time) as gazebo:
+        begun(gazebo)
+        return fly(mission, "gazebo", progress=progress)

@@ -22,9 +22,6 @@ if TYPE_CHECKING:
 
     from tandemlift.pictures.drawing.figure import Caption, FlightFigure
 
-VIEWS = "views"
-"""Photographs of a flight from Gazebo, `views.draw`: they are not drawn from a flight, so `figures` lacks them."""
-
 
 @cache
 def figures() -> dict[str, FlightFigure]:
@@ -48,10 +45,8 @@ def figures() -> dict[str, FlightFigure]:
 
 
 def captions() -> dict[str, Caption]:
-    """The captions of the photographs and of all figures by name, in the order in which a report shows them."""
-    from tandemlift.pictures.figures import views
-
-    return {VIEWS: views.CAPTION} | {name: figure.CAPTION for name, figure in figures().items()}
+    """The captions of all figures by name, in the order in which a report shows them."""
+    return {name: figure.CAPTION for name, figure in figures().items()}
 
 
 def figures_for(flight: Flight) -> dict[str, FlightFigure]:
@@ -141,10 +136,3 @@ def save_figures(
             if progress:
                 progress(done, len(drawn))
     return written
-
-
-def save_photographs(photographs: Sequence[tuple[str, bytes]], folder: Path) -> Path:
-    """Write photographs, title and JPEG of each, as one figure in a folder, which is made if it does not exist."""
-    from tandemlift.pictures.figures import views
-
-    return save_figure(views.draw(photographs), folder / f"{VIEWS}.png")

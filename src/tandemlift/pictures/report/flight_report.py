@@ -10,7 +10,7 @@ import gzip
 import json
 import math
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,7 +18,7 @@ from tandemlift.core.files import FLIGHT_FILE, atomic_write
 from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
-from tandemlift.pictures.figures.registry import VIEWS, captions, figures_for, save_photographs
+from tandemlift.pictures.figures.registry import captions, figures_for
 from tandemlift.pictures.report.metric_tables import write_metric_tables
 from tandemlift.pictures.report.page import NO_BREAK, Cell, Verdict, number, shown_figure, split_unit, write_page
 from tandemlift.pictures.report.second_drawer import second_drawer
@@ -84,7 +84,7 @@ def place_text(point: Iterable[float]) -> str:
 
 def _pngs(flight: Flight, figures: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> dict[str, Path]:
     """The existing PNG files of a flight's figures by name."""
-    names = (VIEWS, *figures_for(flight))
+    names = figures_for(flight)
     if isinstance(figures, (str, os.PathLike)):
         found = {name: Path(figures) / f"{name}.png" for name in names}
     else:
@@ -140,7 +140,6 @@ def write_flight_files(
     folder: Path,
     *,
     figures: bool = True,
-    photographs: Sequence[tuple[str, bytes]] = (),
     progress: Progress | None = None,
     replay: str | None = None,
 ) -> None:
@@ -150,7 +149,6 @@ def write_flight_files(
         flight: a flight, also one that diverged.
         folder: an existing folder.
         figures: whether to draw the figures.
-        photographs: title and JPEG of each photograph of a flight in Gazebo.
         progress: called after each figure with (figures written, figures in all).
         replay: a page that plays the flight, for the report.
     """
@@ -161,8 +159,6 @@ def write_flight_files(
                 (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
         if figures:
             drawer.save_figures(flight, folder / FLIGHT_FILE, folder / "figures", progress)
-    if photographs:
-        save_photographs(photographs, folder / "figures")
     write_report(flight, folder / "figures", folder / "report.html", replay)
 
 

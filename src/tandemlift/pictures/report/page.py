@@ -23,7 +23,6 @@ from tandemlift.core.files import DATA, atomic_write
 from tandemlift.flight.metric_descriptions import metric_of
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import DARK, current_style
-from tandemlift.pictures.figures.registry import VIEWS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -142,11 +141,11 @@ class ShownFigure(NamedTuple):
 def shown_figure(name: str, png: Path, caption: Caption) -> ShownFigure:
     """A picture for a page.
 
-    On a dark page, a drawing on white is inverted, and its hues turned back; a photograph is not.
+    On a dark page, a drawing on white is inverted, and its hues turned back.
     """
     data = png.read_bytes()
     width, height = (round(SCREEN * dots) for dots in struct.unpack(">II", data[16:24]))  # of the PNG's header
-    looks = ["wide"] * (width > WIDE) + ["drawn"] * (name != VIEWS and current_style().palette != DARK)
+    looks = ["wide"] * (width > WIDE) + ["drawn"] * (current_style().palette != DARK)
     return ShownFigure(name, caption, base64.b64encode(data).decode(), width, height, " ".join(looks))
 
 

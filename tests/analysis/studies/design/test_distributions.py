@@ -103,7 +103,7 @@ def test_the_points_of_a_longer_study_begin_with_those_of_a_shorter_one(sampling
     assert np.array_equal(points(sampling, 256, 3, 1, 0, 64), points(sampling, 64, 3, 1, 0, 64))
 
 
-@pytest.mark.parametrize("sampling", [*SAMPLINGS, "saltelli"])
+@pytest.mark.parametrize("sampling", SAMPLINGS)
 def test_points_are_the_same_however_they_are_cut(sampling):
     assert point_count(sampling, 64, 2) > 0  # two numbers are enough for every kind
     count = point_count(sampling, 64, 3)
@@ -118,10 +118,9 @@ def test_points_are_the_same_however_they_are_cut(sampling):
 @pytest.mark.parametrize(
     ("sampling", "draws", "dimensions", "said"),
     [
-        ("saltelli", 100, 3, "draws = 100: must be a power of two"),
+        ("sobol", 100, 3, "draws = 100: must be a power of two"),
         ("sobol", 1000, 3, "such as 512 or 1024"),
         ("latin-hypercube", 8, 0, "needs keys in [draw]"),
-        ("saltelli", 8, 1, "at least two numbers in [draw]"),
         ("latin-hypercube", 10**9, 3, "at most 200000000"),
     ],
 )

@@ -171,9 +171,3 @@ def test_what_a_study_says_of_persons_is_not_drawn():
         assert 0.9 <= mission.person.gain <= 1.1
         assert not {"person.delay", "disturbance.force"} & row.varied.keys()
     assert len({row.varied["person.stiffness"] for row in rows_of(plan)}) == 5
-
-
-def test_the_rows_of_saltelli_s_points_share_their_seeds():
-    plan = plan_of(study={"draws": 8, "sampling": "saltelli", "seeds": 2}, draw=WHOLE["draw"])
-    assert plan.count == 8 * (2 * 4 + 2) * 2
-    assert {row.changes["mission.seed"] for row in rows_of(plan)} == {0, 1}

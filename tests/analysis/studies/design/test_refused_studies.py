@@ -59,10 +59,6 @@ REFUSED = {  # a study: pieces of its message
         {**study(draws=100, sampling="sobol"), **drawn()},
         ["study.draws = 100", "power of two", "64 or 128"],
     ),
-    "saltelli without a power of two": (
-        {**study(draws=12, sampling="saltelli"), **drawn(count=None), **{"draw": {"a.b": UNIFORM, "c.d": UNIFORM}}},
-        ["study.draws = 12", "power of two", "8 or 16"],
-    ),
     "sobol of nothing": (study(draws=8, sampling="sobol"), ["study.sampling = 'sobol'", "[draw]"]),
     "persons where nobody is": (study(persons="random"), ["study.persons = 'random'", "one-push", "no person"]),
     "seeds of a seed": ({**study(seeds=3), "set": {"mission.seed": 4}}, ["study.seeds = 3", "[set]", "mission.seed"]),

@@ -1,9 +1,9 @@
-"""Chunks on workers: which are flown, by whom, and again when a worker ends; what a part is."""
+"""Chunks on workers: which are flown, and by whom; what a part is."""
 
 from concurrent.futures import Future
 
 import pytest
-from study_runs import TWELVE, assert_same_rows, files_of, fly
+from study_runs import TWELVE, assert_same_rows, fly
 
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.running import WAITING, StudyWork, part_from, run_chunks
@@ -11,17 +11,17 @@ from tandemlift.analysis.studies.execution.store import open_folder
 from tandemlift.core.errors import InputError
 
 
-class Lost(Exception):
+class FailedError(Exception):
     pass
 
 
-class WorkersThatEnd:
-    """Workers of which the first few end while they fly a chunk; each chunk is flown when its result is asked for."""
+class SlowWorkers:
+    """Workers that fly each chunk when its result is asked for; that of one row fails."""
 
     count = 2
 
-    def __init__(self, ends):
-        self.ends, self.waiting, self.most = ends, 0, 0
+    def __init__(self, fails=None):
+        self.fails, self.waiting, self.most = fails, 0, 0
 
     def submit(self, task):
         self.waiting += 1
@@ -34,13 +34,9 @@ class WorkersThatEnd:
         self.waiting -= 1
         task = future.result()
         (chunk,) = task.args
-        if self.ends.get(chunk.first, 0):
-            self.ends[chunk.first] -= 1
-            raise Lost
+        if chunk.first == self.fails:
+            raise FailedError
         return task()
-
-    def is_lost(self, error):
-        return isinstance(error, Lost)
 
 
 def run(plan, path, workers, **options):
@@ -61,30 +57,15 @@ def plan():
     return load_plan(TWELVE)
 
 
-def test_a_chunk_whose_worker_ends_is_flown_by_another_one(twelve, plan, tmp_path):
-    workers = WorkersThatEnd({0: 1, 8: 5, 44: 2})
-    assert run(plan, tmp_path, workers) == 12
-    assert_same_rows(twelve, tmp_path)
-
-
-def test_a_chunk_that_ends_whatever_worker_flies_it_is_named_and_the_others_stay(plan, tmp_path):
-    with pytest.raises(InputError, match=r"^rows 8 to 11 end every worker that runs them"):
-        run(plan, tmp_path, WorkersThatEnd({8: 100}))
-    done = len(files_of(tmp_path))
-    assert 2 <= done < 12
-    assert fly(TWELVE, tmp_path, threads=1) == 12 - done
-
-
 def test_few_chunks_wait_at_a_time(plan, tmp_path):
-    workers = WorkersThatEnd({})
+    workers = SlowWorkers()
     run(plan, tmp_path, workers)
     assert workers.most == WAITING * workers.count
 
 
 def test_an_error_of_a_chunk_ends_the_run_and_gives_its_claims_back(plan, tmp_path):
-    workers = WorkersThatEnd({20: 1})
-    workers.is_lost = lambda error: False
-    with pytest.raises(Lost):
+    workers = SlowWorkers(20)
+    with pytest.raises(FailedError):
         run(plan, tmp_path, workers)
     assert list(tmp_path.glob("chunks/.*")) == []
 
@@ -113,12 +94,12 @@ def test_chunks_that_another_process_claims_are_flown_last(plan, tmp_path):
         assert folder.files.claim(name)
     order = []
 
-    class Noting(WorkersThatEnd):
+    class Noting(SlowWorkers):
         def submit(self, task):
             order.append(task.args[0].name)
             return super().submit(task)
 
-    assert run(plan, tmp_path, Noting({})) == 12
+    assert run(plan, tmp_path, Noting()) == 12
     assert set(order[-3:]) == set(names[:3])
     assert list(tmp_path.glob("chunks/.*")) == []
 
@@ -127,14 +108,14 @@ def test_what_another_process_has_flown_meanwhile_is_not_flown(twelve, plan, tmp
     folder = open_folder(plan, tmp_path)
     names = folder.names()
 
-    class Overtaken(WorkersThatEnd):
+    class Overtaken(SlowWorkers):
         def columns(self, future):
             for name in names[6:]:
                 folder.files.file(name).write_bytes((twelve / "chunks" / f"{name}.parquet").read_bytes())
             return super().columns(future)
 
     done = []
-    flown = run(plan, tmp_path, Overtaken({}), progress=lambda rows, total: done.append(rows))
+    flown = run(plan, tmp_path, Overtaken(), progress=lambda rows, total: done.append(rows))
     assert flown == 6
     assert done[-1] == 48
     assert_same_rows(twelve, tmp_path)

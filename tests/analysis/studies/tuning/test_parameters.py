@@ -52,14 +52,6 @@ def test_zero_is_searched_as_it_is(mission):
     assert (stiffness.low, stiffness.high) == (0.0, 1.0)  # the key begins at 0
 
 
-def test_words_and_true_and_false_are_choices(mission):
-    words = found(mission, {"controller.switching": None, "controller.human_force_feedforward": None})
-    assert words["controller.switching"].choices == ("sign", "saturation", "tanh")
-    assert words["controller.human_force_feedforward"].choices == (False, True)
-    some = found(mission, {"controller.switching": ["tanh", "saturation"]})
-    assert some["controller.switching"].choices == ("tanh", "saturation")
-
-
 def test_a_value_is_flown_with_three_digits_within_its_bounds(mission):
     bandwidth = found(mission, {"controller.filter_bandwidth": [5.0, 20.06]})["controller.filter_bandwidth"]
     assert bandwidth.as_flown(12.3456) == 12.3
@@ -75,12 +67,9 @@ def test_components_that_are_not_searched_stay(mission):
     ("ranges", "words"),
     [
         ({"controller.gain": None}, r"no such key or table\. Did you mean 'controller.gains'"),
-        ({"controller.name": None}, "at least two choices"),
+        ({"controller.name": None}, "is not a number"),
         ({"allocation.weights": None}, "is not a number"),
-        ({"controller.switching": [1.0, 2.0]}, "must be a list of"),
-        ({"controller.switching": ["tanh", "cosh"]}, "must be a list of"),
-        ({"controller.switching": ["tanh"]}, "at least two choices"),
-        ({"controller.filter_bandwidth": ["tanh", "sign"]}, "takes no words"),
+        ({"controller.filter_bandwidth": ["tanh", "sign"]}, r"must be \[low, high\]"),
         ({"controller.filter_bandwidth": [50.0, 5.0]}, "the range is empty"),
         ({"controller.filter_bandwidth": [5.0, 5.0]}, "the range is empty"),
         ({"controller.filter_bandwidth": []}, r"must be \[low, high\]"),

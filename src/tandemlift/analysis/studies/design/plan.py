@@ -178,7 +178,7 @@ class StudyPlan:
         if study.persons == "random":
             changes, varied = self._with_person(changes, varied, variant)
         if SEED not in changes:
-            changes[SEED] = study.seed + (0 if study.sampling == "saltelli" else draw * self._seeds) + repeat
+            changes[SEED] = study.seed + draw * self._seeds + repeat
         return StudyRow(number=number, variant=variant, case=case.name, draw=draw, changes=changes, varied=varied)
 
     def _with_person(

@@ -21,22 +21,19 @@ def point_count(sampling: Sampling, draws: int, dimensions: int) -> int:
     Raises:
         InputError: the number does not suit the sampling.
     """
-    if sampling in ("sobol", "saltelli") and draws & (draws - 1):
+    if sampling == "sobol" and draws & (draws - 1):
         lower = 1 << (draws.bit_length() - 1)
         raise InputError(
             f"study.draws = {draws}: must be a power of two for sampling = {sampling!r}, such as {lower} or {2 * lower}"
         )
     if sampling != "random" and dimensions == 0:
         raise InputError(f"study.sampling = {sampling!r}: needs keys in [draw] to vary")
-    if sampling == "saltelli" and dimensions < 2:
-        raise InputError("study.sampling = 'saltelli': needs at least two numbers in [draw]")
-    count = draws * (2 * dimensions + 2) if sampling == "saltelli" else draws
-    if sampling in ("latin-hypercube", "saltelli") and count * dimensions > MOST_NUMBERS:
+    if sampling == "latin-hypercube" and draws * dimensions > MOST_NUMBERS:
         raise InputError(
-            f"study.draws = {draws}: {count} points of {dimensions} numbers are too many for sampling = {sampling!r}, "
+            f"study.draws = {draws}: {draws} points of {dimensions} numbers are too many for sampling = {sampling!r}, "
             f"which forms all at once; must come to at most {MOST_NUMBERS} numbers"
         )
-    return count
+    return draws
 
 
 def points(sampling: Sampling, draws: int, dimensions: int, seed: int, first: int, last: int) -> Array:
@@ -61,7 +58,7 @@ def points(sampling: Sampling, draws: int, dimensions: int, seed: int, first: in
         return np.random.Generator(numbers).random((last - first, dimensions))
     if sampling == "sobol":
         return _sobol(dimensions, seed, first, last)
-    return _all_at_once(sampling, draws, dimensions, seed)[first:last]
+    return _latin_hypercube(draws, dimensions, seed)[first:last]
 
 
 def _sobol(dimensions: int, seed: int, first: int, last: int) -> Array:
@@ -76,19 +73,7 @@ def _sobol(dimensions: int, seed: int, first: int, last: int) -> Array:
 
 
 @lru_cache(maxsize=2)
-def _all_at_once(sampling: Sampling, draws: int, dimensions: int, seed: int) -> Array:
-    if sampling == "latin-hypercube":
-        with extra("study", "sampling = 'latin-hypercube'"):
-            from scipy.stats.qmc import LatinHypercube
-        found = LatinHypercube(dimensions, rng=np.random.default_rng(seed)).random(draws)
-    else:
-        with extra("study", "sampling = 'saltelli'"):
-            from SALib.sample import sobol
-        found = sobol.sample(saltelli_problem(dimensions), draws, calc_second_order=True, seed=seed)
-    return np.minimum(np.asarray(found, np.float64), LARGEST)
-
-
-def saltelli_problem(dimensions: int) -> dict[str, object]:
-    """The unit cube as SALib describes it."""
-    names = [f"u{i}" for i in range(dimensions)]
-    return {"num_vars": dimensions, "names": names, "bounds": [[0.0, 1.0]] * dimensions}
+def _latin_hypercube(draws: int, dimensions: int, seed: int) -> Array:
+    with extra("study", "sampling = 'latin-hypercube'"):
+        from scipy.stats.qmc import LatinHypercube
+    return np.minimum(LatinHypercube(dimensions, rng=np.random.default_rng(seed)).random(draws), LARGEST)

@@ -17,7 +17,7 @@ MAX_ROWS = 10**9
 OUTCOME_NAMES = tuple(kind.name for kind in OUTCOMES)
 BLOCK, ROWS_PER_CHUNK, MOST_CHUNKS = 8, 256, 10_000
 CHUNKS = 32  # at least, of a study that has enough rows: so many workers have something to do
-Sampling = Literal["random", "sobol", "latin-hypercube", "saltelli"]
+Sampling = Literal["random", "sobol", "latin-hypercube"]
 REFUSED = "refused"  # the outcome of a row that cannot be flown
 
 
@@ -87,7 +87,6 @@ class StudyTable(Table):
         1,
         "1",
         "number of points of `[draw]`; the same points at every grid point, case, controller, engine and mission",
-        rule="for saltelli the number N of base points, a power of two: N (2 d + 2) points of d numbers are flown",
         example=200,
     )
     sampling: Sampling = key(
@@ -98,7 +97,6 @@ class StudyTable(Table):
             "random": "independent",
             "sobol": "scrambled Sobol' sequence",
             "latin-hypercube": "one point in each slice of each axis",
-            "saltelli": "for Sobol' indices of sensitivity",
         },
     )
     persons: Literal["own", "random"] = key(

@@ -89,7 +89,7 @@ missions = ["iris"]             # built-in names, or paths from the folder of th
 controllers = []                # names, or .py files from the folder of this file; empty: each mission's own
 engines = ["compiled"]          # see `tandemlift engines`
 draws = 40                      # points of [draw]; the same for each grid point, case, controller and mission
-sampling = "random"             # random, sobol, latin-hypercube, or saltelli for Sobol' indices of sensitivity
+sampling = "random"             # random, sobol or latin-hypercube
 persons = "own"                 # own, or random: gains, arm, speed, lag of the mission's person x 0.7 to 1.3,
                                 # delay 0.1 to 0.3 s, tremor up to 0.1 N, any grip, a wind of up to 1 N
 seeds = 1                       # flights of each point, with different noise, wind and tremor (mission.seed)

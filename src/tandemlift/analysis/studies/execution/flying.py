@@ -12,7 +12,7 @@ from tandemlift.analysis.studies.execution.columns import Columns, columns_of_ro
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import INTERRUPTED
 from tandemlift.core.types import Progress
-from tandemlift.engines.registry import ENGINES, EngineLost, engine_named
+from tandemlift.engines.registry import EngineLost, engine_named
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission
 from tandemlift.missions.loading import MissionTemplate
@@ -64,11 +64,6 @@ def fly_each(
         results.update(zip(places, way.flown([missions[i] for i in places], advanced), strict=True))
         done += len(places)
     return [results[i] for i in range(len(missions))]
-
-
-def engine_summary(name: str) -> str:
-    """The description of an engine in a sentence; "" for none of that name."""
-    return ENGINES[name].summary if name in ENGINES else ""
 
 
 class _Engine:

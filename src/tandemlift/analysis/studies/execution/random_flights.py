@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from tandemlift.analysis.studies.design.settings import REFUSED
 from tandemlift.analysis.studies.design.statistics import CONFIDENCE, upper_bound
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.execution.anywhere import fly_study
+from tandemlift.analysis.studies.execution.running import fly_study
 from tandemlift.analysis.studies.execution.store import open_folder
 from tandemlift.core.files import atomic_write
 from tandemlift.core.phases import FAILURES

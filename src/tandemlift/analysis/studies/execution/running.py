@@ -6,24 +6,24 @@ processes and machines that share a folder, and gives the same rows.
 
 from __future__ import annotations
 
-from collections import Counter, deque
-from collections.abc import Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, wait
+import os
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from contextlib import contextmanager
 from functools import partial
 from typing import Any, NamedTuple, TypeAlias
 
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.execution.chunk import chunk_of
-from tandemlift.analysis.studies.execution.dask import DaskWorkers
 from tandemlift.analysis.studies.execution.flying import fly_chunk
-from tandemlift.analysis.studies.execution.store import ChunkFiles
-from tandemlift.analysis.studies.execution.workers import ExecutorWorkers, Task, ThreadWorkers
+from tandemlift.analysis.studies.execution.store import ChunkFiles, StudyFolder
+from tandemlift.analysis.studies.execution.workers import ExecutorWorkers, Task, ThreadWorkers, thread_workers
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress
 
 WAITING = 2  # chunks handed over for each worker, so that none waits
 BEAT = 1.0  # s, after which progress is reported although no chunk has ended
-MOST_LOST = 5  # times that a chunk is handed over again because its worker ended
 
 
 class StudyPart(NamedTuple):
@@ -34,7 +34,7 @@ class StudyPart(NamedTuple):
 
 
 WHOLE = StudyPart()
-Workers: TypeAlias = ThreadWorkers | ExecutorWorkers | DaskWorkers
+Workers: TypeAlias = ThreadWorkers | ExecutorWorkers
 
 
 def part_from(text: str) -> StudyPart:
@@ -102,7 +102,7 @@ class _Run:
         self.todo = deque(i for i in own if not files.is_flown(self.names[i]))
         self.others = deque[int]()
         self.pending, self.claimed = dict[Future[Any], int](), set[int]()
-        self.lost, self.flown = Counter[int](), 0
+        self.flown = 0
         self.total = sum(map(work.size, own))
         self.done = self.total - sum(map(work.size, self.todo))
 
@@ -114,7 +114,6 @@ class _Run:
                 for future in wait(self.pending, BEAT, FIRST_COMPLETED).done:
                     self._take(future)
                     self._hand_over()
-                self._hand_over()  # to workers that have joined, although no chunk has ended
                 self._tell()
         finally:
             for future in self.pending:
@@ -134,10 +133,7 @@ class _Run:
             i = self._next()
             if i is None:
                 return
-            self._submit(i)
-
-    def _submit(self, i: int) -> None:
-        self.pending[self.workers.submit(self.work.task(i))] = i
+            self.pending[self.workers.submit(self.work.task(i))] = i
 
     def _release(self, i: int) -> None:
         self.files.release(self.names[i])
@@ -163,26 +159,55 @@ class _Run:
         return None
 
     def _take(self, future: Future[Any]) -> None:
-        """Write the results of a chunk; if its worker ended, hand it over again."""
+        """Write the results of a chunk."""
         i = self.pending.pop(future)
-        try:
-            columns = self.workers.columns(future)
-        except BaseException as error:
-            if not self.workers.is_lost(error):
-                raise
-            self._fly_again(i, error)
-            return
+        columns = self.workers.columns(future)
         if not self.files.is_flown(self.names[i]):
             self.files.write(self.names[i], columns)
         self._release(i)
         self.done, self.flown = self.done + self.work.size(i), self.flown + 1
 
-    def _fly_again(self, i: int, error: BaseException) -> None:
-        self.lost[i] += 1
-        if self.lost[i] > MOST_LOST:
-            first = sum(map(self.work.size, range(i)))
-            raise InputError(
-                f"rows {first} to {first + self.work.size(i) - 1} end every worker that runs them: {error} "
-                "All other results are kept"
-            )
-        self._submit(i)
+
+def fly_study(
+    plan: StudyPlan,
+    folder: StudyFolder,
+    *,
+    threads: int | None = None,
+    executor: Executor | None = None,
+    part: StudyPart = WHOLE,
+    progress: Progress | None = None,
+    say: Callable[[str], None] = lambda line: None,
+) -> int:
+    """Fly all chunks of a part of a study that are not flown yet.
+
+    Args:
+        plan: of the study.
+        folder: of the study; receives the files.
+        threads: of this process; by default one for each processor. With an executor, the number of its workers.
+        executor: flies the chunks in place of these threads.
+        part: of the chunks to fly.
+        progress: called with (rows flown, rows of the part).
+        say: prints a line: how to continue after Ctrl-C.
+
+    Returns:
+        Number of chunks flown.
+
+    Raises:
+        InputError: it cannot be flown there, or it cannot be written; finished
+            chunks are kept.
+    """
+    try:
+        with _workers(threads, executor) as workers:
+            return run_chunks(StudyWork(plan, folder.names()), folder.files, workers, part, progress)
+    except KeyboardInterrupt:
+        say(f"stopped: finished rows are kept in {folder.path}; start the same study again to continue")
+        raise
+
+
+@contextmanager
+def _workers(threads: int | None, executor: Executor | None) -> Iterator[Workers]:
+    if executor is not None:
+        yield ExecutorWorkers(executor, threads or getattr(executor, "_max_workers", None) or os.cpu_count() or 1)
+    else:
+        with thread_workers(threads or os.cpu_count() or 1) as workers:
+            yield workers

@@ -51,7 +51,7 @@ class ChunkFiles:
         if not path.exists():
             return False
         try:
-            CheckedFile(path).check()
+            CheckedFile(path).read()
         except (FileNotFoundError, DamagedFile):
             return False
         except OSError as error:

@@ -46,10 +46,6 @@ class ThreadWorkers:
         columns: Columns = future.result()
         return columns
 
-    def is_lost(self, error: BaseException) -> bool:
-        """Whether an error means that a worker ended, so that another one can fly its chunk."""
-        return False
-
 
 class ExecutorWorkers:
     """The workers of an executor, such as processes.
@@ -80,10 +76,6 @@ class ExecutorWorkers:
         except BrokenExecutor as error:
             raise _ended(error) from None
         return columns
-
-    def is_lost(self, error: BaseException) -> bool:
-        """See `ThreadWorkers`."""
-        return False
 
 
 def _ended(error: Exception) -> InputError:

@@ -1,4 +1,4 @@
-"""Optimisers: each proposes candidates and receives their costs, until its budget is spent."""
+"""The optimiser: it proposes candidates and receives their costs, until its budget is spent."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.analysis.studies.tuning.parameters import Tunable
-from tandemlift.core.errors import InputError, extra
+from tandemlift.core.errors import extra
 from tandemlift.core.types import Array
 
 BLOCK = 8  # candidates: as many as fly in one block
@@ -33,13 +33,10 @@ class EvolutionStrategy:
         step: standard deviation of its first candidates; of a positive number, about the logarithm of a factor.
 
     Raises:
-        InputError: a parameter is a choice, or the package is missing.
+        InputError: the package is missing.
     """
 
     def __init__(self, parameters: Sequence[Tunable], seed: int, step: float = FIRST_STEP) -> None:
-        for p in parameters:
-            if p.choices:
-                raise InputError(f"--optimiser cma: {p.name} is a choice, for which there is --optimiser optuna")
         with extra("tune", "CMA-ES"):
             from cma.boundary_handler import BoundTransform
         usual = 4 + int(3.0 * math.log(len(parameters)))
@@ -59,7 +56,7 @@ class EvolutionStrategy:
         return f"converged ({', '.join(sorted(reasons))})" if reasons else ""
 
     @property
-    def centre(self) -> Point | None:
+    def centre(self) -> Point:
         """The mean of the normal distribution."""
         return self._values(self._strategy.result.xfavorite)
 
@@ -72,9 +69,9 @@ class EvolutionStrategy:
         inside = self._bounds.transform(self._start + self._together @ point)
         return tuple(c.value(float(x)) for c, x in zip(self._coordinates, inside, strict=True))
 
-    def tell(self, points: Sequence[Point], costs: Array) -> None:
-        """Learn from the costs (candidates, 1) of the last candidates."""
-        self._strategy.tell(self._asked, [float(cost) for cost in costs[:, 0]])
+    def tell(self, points: Sequence[Point], costs: Sequence[float]) -> None:
+        """Learn from the costs of the last candidates."""
+        self._strategy.tell(self._asked, [float(cost) for cost in costs])
 
 
 def _together(keys: Sequence[str]) -> Array:

@@ -1,8 +1,8 @@
-"""The parameters of a search: numbers and words of a mission, each with its present value and range.
+"""The parameters of a search: numbers of a mission, each with its present value and range.
 
 A positive number is searched by its logarithm, within a factor of its present value and the bounds of its key. Every
 other number is searched linearly: a negative one within ten times its size, zero within one of it. A vector is one
-number for each component. A word, or true and false, is a choice.
+number for each component.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import fnmatch
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, Literal, NamedTuple, get_args, get_origin
+from typing import Any, NamedTuple, get_args, get_origin
 
 import numpy as np
 from pydantic import BaseModel
@@ -28,11 +28,11 @@ LIMITS = {"a", "max_tilt", "velocity_i_limit", "rate_i_limit", "integral_limit",
 JUDGING = ("mission", "outcome", "crash", "findings", "promise")  # tables that define the flight and its assessment
 LINEAR_SPAN = 10.0  # times the size of a negative number
 Range = Sequence[Any] | None
-Value = float | int | bool | str
+Value = float | int
 
 
 class Tunable(NamedTuple):
-    """A number or a word that a search changes.
+    """A number that a search changes.
 
     Attributes:
         key: dotted key of the mission.
@@ -42,7 +42,6 @@ class Tunable(NamedTuple):
         high: its highest value.
         is_log: whether it is searched by its logarithm.
         is_whole: whether it is a whole number.
-        choices: its values, if it is a choice; then it has no bounds.
         own: the value of the key now, with all of its components; None of a key without one.
     """
 
@@ -53,7 +52,6 @@ class Tunable(NamedTuple):
     high: float = math.inf
     is_log: bool = False
     is_whole: bool = False
-    choices: tuple[Any, ...] = ()
     own: Any = None
 
     @property
@@ -62,9 +60,7 @@ class Tunable(NamedTuple):
         return self.key if self.place is None else f"{self.key}.{self.place}"
 
     def as_flown(self, value: Any) -> Any:
-        """The flown value: a choice unchanged, a number with three digits, within its bounds."""
-        if self.choices:
-            return value
+        """The flown value: with three digits, within its bounds."""
         if self.is_whole:
             return int(min(max(round(value), math.ceil(self.low)), math.floor(self.high)))
         return float(min(max(float(f"{value:.{DIGITS}g}"), self.low), self.high))
@@ -117,7 +113,7 @@ def range_of(text: str) -> tuple[str, Any]:
         )
     value = toml_value(f"--parameter {text}", literal) if equals else None
     if equals and not isinstance(value, list):
-        raise InputError(f"--parameter {text}: the range must be [low, high], or a list of words in quotes")
+        raise InputError(f"--parameter {text}: the range must be [low, high]")
     return key, value
 
 
@@ -127,11 +123,11 @@ def parameters_of(mission: Mission, ranges: Mapping[str, Range], factor: float) 
     Args:
         mission: whose values are searched about.
         ranges: dotted keys, tables, or patterns such as `controller.gains.lambda_*`, each with the range [low, high] of
-            its numbers, a list of words, or None; empty for the gains of the controller.
+            its numbers, or None; empty for the gains of the controller.
         factor: by which a positive number without a range may differ from its present value.
 
     Raises:
-        InputError: a key is unknown, is no number or choice, or its range is empty.
+        InputError: a key is unknown, is no number, or its range is empty.
     """
     leaves = {leaf.key: leaf for leaf in _leaves(mission, "")}
     found: dict[str, Tunable] = {}
@@ -174,19 +170,15 @@ def _check_range(asked: str, limits: Range) -> None:
     if limits is None:
         return
     is_range = len(limits) == 2 and all(map(is_number, limits)) and all(map(math.isfinite, limits))
-    is_words = len(limits) > 0 and all(isinstance(x, (str, bool)) for x in limits)
-    if not is_range and not is_words:
-        raise InputError(f"--parameter {asked}={shown(list(limits))}: must be [low, high], or a list of words")
-    if is_range and not limits[0] < limits[1]:
+    if not is_range:
+        raise InputError(f"--parameter {asked}={shown(list(limits))}: must be [low, high]")
+    if not limits[0] < limits[1]:
         raise InputError(
             f"--parameter {asked}={shown(list(limits))}: the range is empty; must be [low, high] with low < high"
         )
 
 
 def _parameters(leaf: _Leaf, limits: Range, factor: float) -> Iterator[Tunable]:
-    if (choices := _choices(leaf, limits)) is not None:
-        yield Tunable(leaf.key, None, leaf.value, choices=choices, own=leaf.value)
-        return
     whole = plain(leaf.annotation) is int
     if leaf.value is None and limits is not None:
         yield _number(leaf, None, None, limits, factor, whole=whole)
@@ -201,27 +193,6 @@ def _parameters(leaf: _Leaf, limits: Range, factor: float) -> Iterator[Tunable]:
             yield _number(leaf, place, value, limits, factor, whole=False)
     else:
         yield _number(leaf, None, leaf.value, limits, factor, whole=whole)
-
-
-def _choices(leaf: _Leaf, limits: Range) -> tuple[Any, ...] | None:
-    """The choices of a leaf; None if it is no choice.
-
-    Raises:
-        InputError: words are given that it may not be.
-    """
-    kind = plain(leaf.annotation)
-    allowed = (False, True) if kind is bool else get_args(kind) if get_origin(kind) is Literal else ()
-    given = () if limits is None else tuple(limits)
-    words = bool(given) and all(isinstance(x, (str, bool)) for x in given)
-    if not allowed and words:
-        raise InputError(f"--parameter {leaf.key}={shown(list(given))}: the key takes no words; must be [low, high]")
-    if allowed and given and not (words and set(given) <= set(allowed)):
-        raise InputError(
-            f"--parameter {leaf.key}={shown(list(given))}: must be a list of {', '.join(map(shown, allowed))}"
-        )
-    if allowed and len(given or allowed) < 2:
-        raise InputError(f"--parameter {leaf.key}: needs at least two choices")
-    return (given or allowed) if allowed else None
 
 
 def _number(leaf: _Leaf, place: int | None, value: Any, limits: Range, factor: float, *, whole: bool) -> Tunable:

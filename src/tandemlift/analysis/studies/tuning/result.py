@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 from tandemlift.analysis.studies.tuning.candidates import Cost
 from tandemlift.analysis.studies.tuning.draws import Draw
 from tandemlift.analysis.studies.tuning.holdout import Evidence, as_table
-from tandemlift.analysis.studies.tuning.parameters import Tunable
 from tandemlift.analysis.studies.tuning.task import Task, Values
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import write_file
@@ -21,23 +20,11 @@ from tandemlift.missions.changes import MISSING, Place, Tables, value_at
 MISSION_FILE, EVIDENCE_FILE = "tuned.toml", "evidence.json"
 
 
-class FrontPoint(NamedTuple):
-    """A candidate that no other one dominates: its values, and its costs for each goal alone.
-
-    `costs` are those on the draws of the search, `holdout` those on holdout draws, if it was flown there.
-    """
-
-    values: Values
-    costs: tuple[Cost, ...]
-    holdout: tuple[Cost, ...] = ()
-
-
 class Tuning(NamedTuple):
     """The result of a search.
 
     Attributes:
         task: the task of the search.
-        optimiser: "cma" or "optuna".
         seed: of the search and of its draws.
         budget: number of candidates allowed.
         draws: on which candidates were compared.
@@ -46,16 +33,13 @@ class Tuning(NamedTuple):
         new: the best values found.
         costs: of old and new, on the draws for the choice among the best; of an interrupted search, on its own draws.
         history: the cost of every candidate in the order of the search, the present values first.
-        apart: the same for each goal alone.
         records: the candidates that were better than all before them, with their numbers in the history.
         ended: the reason for the end of the search.
         is_finished: whether it was not interrupted.
         evidence: the comparison on holdout draws; None after an interrupted search.
-        front: the Pareto front of several goals; else empty.
     """
 
     task: Task
-    optimiser: str
     seed: int
     budget: int
     draws: tuple[Draw, ...]
@@ -64,12 +48,10 @@ class Tuning(NamedTuple):
     new: Values
     costs: tuple[Cost, Cost]
     history: tuple[Cost, ...]
-    apart: tuple[tuple[Cost, ...], ...]
     records: tuple[tuple[int, Values], ...]
     ended: str
     is_finished: bool
     evidence: Evidence | None = None
-    front: tuple[FrontPoint, ...] = ()
 
     @property
     def name(self) -> str:
@@ -121,14 +103,12 @@ class Tuning(NamedTuple):
         )
 
     def as_table(self) -> dict[str, Any]:
-        """The result as JSON: task, optimiser, values, history, evidence, front."""
+        """The result as JSON: task, optimiser, values, history, evidence."""
         task = self.task
-        names = [p.name for p in task.parameters]
         return {
             "mission": task.source.name,
             "changes": task.source.changes,
             "controller": task.mission.controller.name,
-            "optimiser": self.optimiser,
             "seed": self.seed,
             "budget": self.budget,
             "aim": task.aim,
@@ -140,7 +120,14 @@ class Tuning(NamedTuple):
                 for goal, scale in zip(task.goals, task.scales, strict=True)
             ],
             "parameters": [
-                {"key": p.name, "old": old, "new": new, **({"choices": p.choices} if p.choices else _bounds(p))}
+                {
+                    "key": p.name,
+                    "old": old,
+                    "new": new,
+                    "low": p.low,
+                    "high": p.high,
+                    "scale": "log" if p.is_log else "linear",
+                }
                 for p, old, new in zip(task.parameters, self.old, self.new, strict=True)
             ],
             "choice": {"old": self.costs[0]._asdict(), "new": self.costs[1]._asdict()},
@@ -149,14 +136,6 @@ class Tuning(NamedTuple):
                 "history": [[cost.bad, cost.ratio] for cost in self.history],
                 "records": [[number, *values] for number, values in self.records],
             },
-            "front": [
-                {
-                    "values": dict(zip(names, point.values, strict=True)),
-                    "search": [cost._asdict() for cost in point.costs],
-                    "holdout": [cost._asdict() for cost in point.holdout],
-                }
-                for point in self.front
-            ],
             "evidence": None if self.evidence is None else as_table(self.evidence, self.holdout, task.goals),
         }
 
@@ -164,10 +143,6 @@ class Tuning(NamedTuple):
 def present_values(task: Task) -> Values:
     """The present values of a task's parameters, exactly."""
     return tuple(p.own if p.place is None else p.own[p.place] for p in task.parameters)
-
-
-def _bounds(p: Tunable) -> dict[str, Any]:
-    return {"low": p.low, "high": p.high, "scale": "log" if p.is_log else "linear"}
 
 
 def _relative(name: str, folder: Path) -> str:

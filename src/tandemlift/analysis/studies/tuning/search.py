@@ -1,32 +1,25 @@
-"""A search: candidates are proposed, flown and compared until the budget is spent; the best of them, and the front."""
+"""A search: candidates are proposed, flown and compared until the budget is spent; and the best of them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple, TypeAlias
-
-import numpy as np
+from typing import NamedTuple
 
 from tandemlift.analysis.studies.tuning.candidates import Cost, Trial
 from tandemlift.analysis.studies.tuning.draws import Draw
 from tandemlift.analysis.studies.tuning.optimisers import EvolutionStrategy
-from tandemlift.analysis.studies.tuning.optuna_optimiser import ParzenEstimator
-from tandemlift.analysis.studies.tuning.result import FrontPoint
 from tandemlift.analysis.studies.tuning.task import Task, Values
 
 TuneProgress = Callable[[int, int, Cost], None]
 """Called with (candidates tried, candidates in all, the lowest cost so far)."""
-Optimiser: TypeAlias = EvolutionStrategy | ParzenEstimator
-"""Proposes values of parameters, and learns from their costs."""
 SPENT, INTERRUPTED = "budget spent", "interrupted"
 
 
 class CandidateResult(NamedTuple):
-    """A candidate that has flown: its values, its cost, and its cost for each goal alone."""
+    """A candidate that has flown: its values and its cost."""
 
     values: Values
     cost: Cost
-    apart: tuple[Cost, ...]
 
 
 class TuningSearch:
@@ -54,7 +47,7 @@ class TuningSearch:
         self.ended = ""
 
     def _judged(self, values: Values, trial: Trial) -> CandidateResult:
-        return CandidateResult(values, self.task.cost(trial), tuple(self.task.costs_apart(trial)))
+        return CandidateResult(values, self.task.cost(trial))
 
     @property
     def records(self) -> tuple[tuple[int, Values], ...]:
@@ -66,51 +59,32 @@ class TuningSearch:
                 found.append((number, tried.values))
         return tuple(found)
 
-    def run(self, optimiser: Optimiser, *, is_front: bool) -> None:
+    def run(self, optimiser: EvolutionStrategy) -> None:
         """Search until the budget is spent, the search converges, or Ctrl-C, which keeps the results so far.
 
         Args:
             optimiser: proposes the candidates.
-            is_front: whether it receives a cost for each goal, and not one for all together.
         """
         try:
             while not self.ended:
                 if len(self.tried) - 1 + optimiser.size > self.budget:
                     self.ended = SPENT
                 else:
-                    self._try_population(optimiser, is_front)
+                    self._try_population(optimiser)
                     self.ended = optimiser.ended
         except KeyboardInterrupt:
             self.ended = INTERRUPTED
 
-    def _try_population(self, optimiser: Optimiser, is_front: bool) -> None:
+    def _try_population(self, optimiser: EvolutionStrategy) -> None:
         task, points = self.task, optimiser.ask()
         values = [tuple(p.as_flown(x) for p, x in zip(task.parameters, point, strict=True)) for point in points]
         trials = task.fly_while_hopeful([task.changes(v) for v in values], self.draws)
         tried = [self._judged(v, trial) for v, trial in zip(values, trials, strict=True)]
-        optimiser.tell(points, np.array([[c.rank for c in (t.apart if is_front else (t.cost,))] for t in tried]))
+        optimiser.tell(points, [one.cost.rank for one in tried])
         self.tried += tried
         self.best = min([self.best, *tried], key=lambda t: t.cost.rank)
         if self.progress:
             self.progress(len(self.tried) - 1, self.budget, self.best.cost)
-
-
-MOST = 12  # points that are shown, and flown on holdout draws
-
-
-def front_of(tried: Sequence[CandidateResult], chosen: Values) -> tuple[FrontPoint, ...]:
-    """The candidates that no other one dominates, in the order of their first goal; at most `MOST`, evenly spread.
-
-    The chosen one is among them, unless another one dominates it.
-    """
-    ranks = np.array([[cost.rank for cost in t.apart] for t in tried])
-    kept: list[int] = []
-    for i in sorted(range(len(tried)), key=lambda i: (*ranks[i], i)):
-        if not any(np.all(ranks[j] <= ranks[i]) for j in kept):
-            kept.append(i)
-    places = np.unique(np.linspace(0, len(kept) - 1, min(len(kept), MOST)).round().astype(int))
-    shown = [k for k in range(len(kept)) if k in places or tried[kept[k]].values == chosen]
-    return tuple(FrontPoint(tried[kept[k]].values, tried[kept[k]].apart) for k in shown)
 
 
 FINALISTS = 8  # of each kind
@@ -118,7 +92,9 @@ TIMES = 16  # draws, for each draw of the search
 EARLY, LAST = 4, 4  # a quarter of the draws first; then the best four fly the others
 
 
-def choose(search: TuningSearch, optimiser: Optimiser, draws: Sequence[Draw]) -> tuple[Values, tuple[Cost, Cost]]:
+def choose(
+    search: TuningSearch, optimiser: EvolutionStrategy, draws: Sequence[Draw]
+) -> tuple[Values, tuple[Cost, Cost]]:
     """The best of the best candidates, and the costs of the present values and of its own, on draws for the choice.
 
     The finalists are the candidates of the lowest cost, those that were the best at some time, which are often farther
@@ -132,8 +108,9 @@ def choose(search: TuningSearch, optimiser: Optimiser, draws: Sequence[Draw]) ->
     task, present = search.task.for_draws(draws), search.tried[0]
     ranked = sorted(search.tried[1:], key=lambda tried: tried.cost.rank)
     finalists = list(dict.fromkeys(tried.values for tried in ranked))[:FINALISTS]
+    centre = tuple(p.as_flown(x) for p, x in zip(task.parameters, optimiser.centre, strict=True))
     once_best = [values for _, values in search.records[-FINALISTS:]]
-    finalists = list(dict.fromkeys([*finalists, *once_best, *_centre(task, optimiser)]))
+    finalists = list(dict.fromkeys([*finalists, *once_best, centre]))
     early = draws[: len(draws) // EARLY]
     judge = search.task.for_draws(early)
     costs = [judge.cost(trial) for trial in judge.fly([task.changes(values) for values in finalists], early)]
@@ -141,10 +118,3 @@ def choose(search: TuningSearch, optimiser: Optimiser, draws: Sequence[Draw]) ->
     old, *others = (task.cost(trial) for trial in task.fly([{}, *map(task.changes, last)], draws))
     chosen, lowest = min(zip(last, others, strict=True), key=lambda pair: pair[1].rank)
     return (chosen, (old, lowest)) if lowest.rank < old.rank else (present.values, (old, old))
-
-
-def _centre(task: Task, optimiser: Optimiser) -> list[Values]:
-    point = optimiser.centre
-    if point is None:
-        return []
-    return [tuple(p.as_flown(x) for p, x in zip(task.parameters, point, strict=True))]

@@ -80,11 +80,6 @@ class Task(NamedTuple):
         """The cost of a trial, all goals together."""
         return cost_of(trial, self.goals, self.scales, self.aim)
 
-    def costs_apart(self, trial: Trial) -> list[Cost]:
-        """The cost of a trial for each goal alone."""
-        parts = zip(self.goals, self.scales, trial.values, strict=True)
-        return [cost_of(trial._replace(values=(values,)), [g], [scale], self.aim) for g, scale, values in parts]
-
     def for_draws(self, draws: Sequence[Draw]) -> Task:
         """The same task on other draws: goals without a target of the draw's case keep their scales."""
         scales = [

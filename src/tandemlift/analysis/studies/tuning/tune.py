@@ -24,18 +24,15 @@ from tandemlift.analysis.studies.tuning.result import Tuning, present_values
 from tandemlift.analysis.studies.tuning.search import (
     INTERRUPTED,
     TIMES,
-    Optimiser,
     TuneProgress,
     TuningSearch,
     choose,
-    front_of,
 )
 from tandemlift.analysis.studies.tuning.task import Task, started
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.progress import progress_or_own
-from tandemlift.missions import Mission
 
-FACTORS = {"cma": 1000.0, "optuna": 10.0}  # by which a number may differ: a search that moves can go far
+FACTOR = 1000.0  # by which a number without a range may differ from its present value
 POPULATIONS = 60  # of the default budget
 MOST_DRAWS = 1_000_000
 POLICY, WEIGHTS = "compliance.policy", (-4.0, 4.0)  # the range of a weight
@@ -49,7 +46,6 @@ class How(NamedTuple):
     draws: int | Study = 8
     holdout: int = 200
     budget: int | None = None
-    optimiser: str | None = None
     aim: Aim = "mean"
     seed: int = 0
     threads: int | None = None
@@ -80,13 +76,12 @@ def tune(
         progress: called after each population; by default, a notebook shows a bar.
         how: any of
 
-            parameters: dotted keys, tables or patterns of searched values, with a range [low, high] or a list of words
-            for each if it is a table; by default the gains of the controller.
+            parameters: dotted keys, tables or patterns of searched values, with a range [low, high] for each
+            if it is a table; by default the gains of the controller.
             draws: the study whose rows compare candidates, as file or tables, or the number of draws of
             `default_study`; 8.
             holdout: number of draws on which old and new are compared in the end; 200.
             budget: most candidates to try; by default 60 populations; with 0 only the present values fly.
-            optimiser: "cma", or "optuna" for choices and for the front of several goals; by default the suitable one.
             aim: whether the "mean" over draws counts, or the "worst"; the mean.
             seed: of search and draws; 0.
             threads: that fly; by default one for each processor.
@@ -143,7 +138,7 @@ def train(
     seed, weights = how.get("seed", 0), f"{POLICY}.weights"
     study = {"name": "persons", "missions": [source.name], "draws": persons, "seed": seed, "persons": "random"}
     draws = {"study": study, "set": {key: value for key, value in source.changes.items() if key != weights}}
-    how |= {"parameters": {weights: WEIGHTS}, "draws": draws, "optimiser": "cma"}
+    how |= {"parameters": {weights: WEIGHTS}, "draws": draws}
     return _tuned(source, goals_from(EFFORT), How(**how), progress)
 
 
@@ -152,7 +147,8 @@ def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: T
         raise unknown("aim", how.aim, ("mean", "worst"))
     _check_count("--holdout", how.holdout)
     loaded = source.load()
-    kind, parameters = _parameters(loaded, goals, how)
+    asked = [how.parameters] if isinstance(how.parameters, str) else how.parameters
+    parameters = parameters_of(loaded, asked if isinstance(asked, Mapping) else dict.fromkeys(asked), FACTOR)
     if isinstance(how.draws, int):
         _check_count("--draws", how.draws)
     study = default_study(loaded, source, how.draws, how.seed) if isinstance(how.draws, int) else how.draws
@@ -161,7 +157,7 @@ def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: T
     _check_apart(compared, parameters)
     goals = tuple(goal.with_targets(drawn.targets) for goal in goals)
     task, trial = started(Task(source, loaded, parameters, goals, (), (), how.aim, how.threads, how.strict), compared)
-    optimiser = _optimiser(kind, task, how.seed, step=FAR_STEP if trial.bad.all() else FIRST_STEP)
+    optimiser = EvolutionStrategy(task.parameters, how.seed, FAR_STEP if trial.bad.all() else FIRST_STEP)
     budget = POPULATIONS * optimiser.size if how.budget is None else how.budget
     if budget != 0 and budget < optimiser.size:
         raise InputError(f"--budget {budget}: must be at least {optimiser.size}, which are tried at a time, or 0")
@@ -169,7 +165,7 @@ def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: T
     with progress_or_own("Tuning", None, "candidates") as shown:
         if shown and not progress:
             search.progress = lambda tried, most, cost: shown(tried, most)
-        search.run(optimiser, is_front=kind == "optuna")
+        search.run(optimiser)
     new, costs = search.best.values, (search.tried[0].cost, search.best.cost)
     if budget and search.ended != INTERRUPTED:
         try:
@@ -178,7 +174,6 @@ def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: T
             search.ended = INTERRUPTED
     found = Tuning(
         task=task,
-        optimiser=kind,
         seed=how.seed,
         budget=budget,
         draws=tuple(compared),
@@ -187,46 +182,21 @@ def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: T
         new=new,
         costs=costs,
         history=tuple(t.cost for t in search.tried),
-        apart=tuple(t.apart for t in search.tried),
         records=search.records,
         ended=search.ended,
         is_finished=search.ended != INTERRUPTED,
-        front=front_of(search.tried, new) if kind == "optuna" and len(goals) > 1 else (),
     )
     return _with_evidence(found) if found.is_finished else found
 
 
 def _with_evidence(found: Tuning) -> Tuning:
-    """The result with the comparison on holdout draws, also of the front; unfinished after Ctrl-C."""
+    """The result with the comparison on holdout draws; unfinished after Ctrl-C."""
     task = found.task.for_draws(found.holdout)
-    front = [task.changes(point.values) for point in found.front]
     try:
-        old, new, *others = task.fly([{}, found.changes, *front], found.holdout)
+        old, new = task.fly([{}, found.changes], found.holdout)
     except KeyboardInterrupt:
         return found._replace(ended=INTERRUPTED, is_finished=False)
-    points = [p._replace(holdout=tuple(task.costs_apart(t))) for p, t in zip(found.front, others, strict=True)]
-    return found._replace(evidence=evidence_of(old, new, task.goals, task.scales, task.aim), front=tuple(points))
-
-
-def _parameters(mission: Mission, goals: Sequence[Goal], how: How) -> tuple[str, tuple[Tunable, ...]]:
-    """The optimiser, and the parameters that it searches."""
-    if how.optimiser is not None and how.optimiser not in FACTORS:
-        raise unknown("optimiser", how.optimiser, FACTORS)
-    parameters = [how.parameters] if isinstance(how.parameters, str) else how.parameters
-    ranges = parameters if isinstance(parameters, Mapping) else dict.fromkeys(parameters)
-    kind = how.optimiser or ("optuna" if len(goals) > 1 else "cma")
-    found = parameters_of(mission, ranges, FACTORS[kind])
-    if how.optimiser is None and any(p.choices for p in found):
-        return "optuna", parameters_of(mission, ranges, FACTORS["optuna"])
-    return kind, found
-
-
-def _optimiser(kind: str, task: Task, seed: int, *, step: float) -> Optimiser:
-    if kind == "cma":
-        return EvolutionStrategy(task.parameters, seed, step)
-    from tandemlift.analysis.studies.tuning.optuna_optimiser import ParzenEstimator
-
-    return ParzenEstimator(task.parameters, seed, len(task.goals))
+    return found._replace(evidence=evidence_of(old, new, task.goals, task.scales, task.aim))
 
 
 def _check_count(option: str, count: int) -> None:

@@ -67,17 +67,12 @@ def axis_of(rows: StudyRows, column: str, axes: int) -> MapAxis:
     return MapAxis(shown, cell.astype(np.intp), count, edges, ())
 
 
-def map_columns(rows: StudyRows, strongest: Sequence[str]) -> list[str]:
+def map_columns(rows: StudyRows) -> list[str]:
     """The two columns of the maps, or the only one: those of the grid first, then the most influential."""
-    drawn = [column for name in strongest for column in _columns_of(rows, name)]
     grid = sorted((c for c in rows.study.grid if c in rows.varied), key=lambda c: -len(np.unique(rows.varied[c])))
+    first = next(iter(rows.ranked.values()), {})
+    drawn = sorted(first, key=lambda column: -abs(first[column]))
     return list(dict.fromkeys([*grid[:2], *drawn, *rows.varied]))[:2]
-
-
-def _columns_of(rows: StudyRows, name: str) -> list[str]:
-    """The columns of an input of the sensitivity: its own, or those of its key."""
-    key = name.partition(" (")[0]
-    return [column for column in rows.varied if column == key or column.startswith(f"{key}.")]
 
 
 def medians(cell: Places, values: Array, count: int) -> Array:

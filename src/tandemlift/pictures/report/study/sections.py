@@ -12,13 +12,13 @@ import numpy as np
 from tandemlift.analysis.studies.design.keys import changes_in
 from tandemlift.analysis.studies.design.settings import REFUSED
 from tandemlift.analysis.studies.design.statistics import Share, finite, quantile, share, upper_bound
-from tandemlift.analysis.studies.study_rows import StudyRows
+from tandemlift.analysis.studies.study_rows import BAD_OUTCOMES, StudyRows
 from tandemlift.analysis.studies.table import Study
 from tandemlift.core.errors import shown
 from tandemlift.core.findings import KIND_OF
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
-from tandemlift.pictures.report.page import DASH, Cell, PageTable, Verdict, html, number, with_keys
+from tandemlift.pictures.report.page import DASH, Cell, PageTable, Verdict, html, number, split_unit, with_keys
 from tandemlift.pictures.report.study.outcome_tables import MOST_GROUPS, outcome_counts, tabled_groups
 from tandemlift.pictures.report.study.words import QuantityDisplay, row_command, shown_column, shown_quantity
 
@@ -195,3 +195,16 @@ def _quantiles(values: Array, look: QuantityDisplay, low_is_bad: bool) -> Sequen
     bounds = [number(v) if np.isfinite(v) else DASH for v in (median.low, median.high)]
     middle = (number(median.value), f"{bounds[0]} to {bounds[1]}")
     return [count(len(known)), middle, *[number(float(v)) for v in (low, high, worst)]]
+
+
+def influence(rows: StudyRows) -> PageTable | None:
+    """The rank correlation of each varied column with each quantity; None if nothing varies."""
+    if not rows.ranked:
+        return None
+    titles = [name if name == BAD_OUTCOMES else split_unit(name)[0] for name in rows.ranked]
+    columns = list(dict.fromkeys(name for found in rows.ranked.values() for name in found))
+    lines = [
+        (name, *(number(round(found[name], 3)) if name in found else DASH for found in rows.ranked.values()))
+        for name in columns
+    ]
+    return PageTable("counts", ("", *titles), lines)

@@ -12,7 +12,7 @@ from tandemlift.analysis.studies.table import Study
 from tandemlift.core.errors import InputError
 from tandemlift.missions import format_toml
 from tandemlift.pictures.report.page import PageTable, ShownFigure, shown_figures, write_page
-from tandemlift.pictures.report.study import distributions, maps, sections, sensitivity
+from tandemlift.pictures.report.study import distributions, maps, sections
 from tandemlift.pictures.report.study.outcome_tables import shown_worst, write_outcomes
 from tandemlift.pictures.report.study.words import command
 
@@ -22,19 +22,17 @@ if TYPE_CHECKING:
     from tandemlift.pictures.drawing.figure import Caption
 
 
-def _figures(rows: StudyRows, found: Sequence[sensitivity.Analysed], folder: Path | None) -> list[ShownFigure]:
+def _figures(rows: StudyRows, folder: Path | None) -> list[ShownFigure]:
     """The figures, as far as there is something to draw."""
     drawn, captions = dict[str, "Figure"](), dict[str, "Caption"]()
     if rows.quantities:
         drawn["distributions"] = distributions.draw_distributions(rows)
         captions["distributions"] = distributions.CAPTION
-    columns = maps.map_columns(rows, sensitivity.strongest(found))
+    columns = maps.map_columns(rows)
     if columns and (rows.quantities or rows.bad.any()):
         both = len(columns) == 2
         drawn["maps"] = maps.draw_maps(rows, columns) if both else maps.draw_curves(rows, columns[0])
         captions["maps"] = maps.CAPTION if both else maps.CURVE_CAPTION
-    if any(one.found for one in found):
-        drawn["sensitivity"], captions["sensitivity"] = sensitivity.draw_sensitivity(found), sensitivity.CAPTION
     return shown_figures(drawn, captions, folder)
 
 
@@ -61,8 +59,6 @@ def write_study_report(
     if not len(study):
         raise InputError(f"{study.folder}: no row of the study is flown yet")
     path, rows = Path(path), StudyRows(study, metrics)
-    varies = bool(rows.varied)
-    found = sensitivity.analysed(rows) if varies else []
     write_outcomes(rows, path.parent)
     return write_page(
         path,
@@ -78,9 +74,8 @@ def write_study_report(
         findings=sections.findings(rows),
         measured=list(sections.measured(rows)),
         bad=sections.count(int(rows.bad.sum())),
-        figures=_figures(rows, found, figures),
-        indices=sensitivity.shown_indices(found),
-        not_analysed=sensitivity.not_analysed(found),
+        figures=_figures(rows, figures),
+        influence=sections.influence(rows),
         worst=list(shown_worst(rows)),
         settings=format_toml(study.settings.model_dump(mode="json", exclude_none=True)),
         again=command("study", study.folder / "study.toml", "--out", study.folder),

@@ -1,4 +1,4 @@
-"""Figures of a tuning: cost over candidates, old against new on holdout draws, the front of several goals."""
+"""Figures of a tuning: cost over candidates, old against new on holdout draws."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 from tandemlift.analysis.studies.tuning.result import Tuning
 from tandemlift.core.types import Array
 from tandemlift.pictures.drawing.figure import Caption
-from tandemlift.pictures.drawing.style import BLUE, GREY, LIGHT_BLUE, VERMILLION, column_figure, page_figure, styled
+from tandemlift.pictures.drawing.style import BLUE, GREY, LIGHT_BLUE, column_figure, page_figure, styled
 from tandemlift.pictures.report.page import split_unit
 
 CAPTIONS = {
@@ -28,12 +28,6 @@ CAPTIONS = {
         "The farther left a curve, the better; one that does not reach 100 % has bad outcomes.",
         "A panel for each component of the goals: two curves rising from 0 to 100 %, present and new values.",
     ),
-    "front": Caption(
-        "Front",
-        "Costs of all candidates for the first two goals (grey), the candidates that no other one beats in all goals "
-        "(blue), and the present values (red). Candidates with a bad outcome are left out.",
-        "A scatter of costs for two goals, with the front as connected blue dots and the present values in red.",
-    ),
 }
 AXES = "xyz"
 MOST_PANELS, ROW = 9, 1.75  # panels, in
@@ -46,8 +40,6 @@ def drawn_figures(found: Tuning) -> dict[str, Figure]:
     drawn = {"search": draw_search(found)} if len(found.history) > 1 else {}
     if found.evidence is not None and not (found.evidence.old.bad.all() and found.evidence.new.bad.all()):
         drawn["evidence"] = draw_evidence(found)
-    if found.front:
-        drawn["front"] = draw_front(found)
     return drawn
 
 
@@ -133,25 +125,3 @@ def _distribution(ax: Axes, label: str, before: Array, after: Array) -> None:
     ax.xaxis.set_major_locator(MaxNLocator(nbins=5))
     ax.set_ylim(0.0, 102.0)
     ax.set_xlabel(f"{words} ({unit})" if unit else words)
-
-
-@styled
-def draw_front(found: Tuning) -> Figure:
-    """Costs of two goals, with the front."""
-    figure = column_figure(2.9)
-    ax = figure.add_subplot()
-    front = np.array([[cost.ratio for cost in point.costs[:2]] for point in found.front])
-    tried = np.array([[c.ratio for c in costs[:2]] for costs in found.apart if not any(c.bad for c in costs)])
-    if len(tried):
-        ax.plot(tried[:, 0], tried[:, 1], ".", ms=2.5, color=GREY, label="candidates")
-    ax.plot(front[:, 0], front[:, 1], ".-", ms=6, lw=1.0, color=BLUE, label="front")
-    if not any(c.bad for c in found.apart[0]):
-        ax.plot(found.apart[0][0].ratio, found.apart[0][1].ratio, "D", ms=4, color=VERMILLION, label="present values")
-    corner = front.max(axis=0)
-    low, high = front.min(axis=0), np.maximum(corner * 1.6, 1.15)
-    ax.set_xlim(low[0] - 0.06 * (high[0] - low[0]), high[0])
-    ax.set_ylim(low[1] - 0.06 * (high[1] - low[1]), high[1])
-    names = [axis_label(goal.name)[0] for goal in found.task.goals[:2]]
-    ax.set(xlabel=f"cost: {names[0].lower()}", ylabel=f"cost: {names[1].lower()}")
-    figure.legend(loc="outside upper left", ncols=3, columnspacing=1.0)
-    return figure

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.analysis.studies.tuning.candidates import Cost
-from tandemlift.analysis.studies.tuning.parameters import Tunable
 from tandemlift.analysis.studies.tuning.result import MISSION_FILE, Tuning
 from tandemlift.core.errors import shown
 from tandemlift.core.files import versions
@@ -19,7 +18,6 @@ from tandemlift.pictures.report.page import (
     PageTable,
     Verdict,
     code,
-    html,
     number,
     shown_figures,
     write_page,
@@ -27,7 +25,6 @@ from tandemlift.pictures.report.page import (
 from tandemlift.pictures.report.study import tuning_figures
 from tandemlift.pictures.report.study.tuning_figures import axis_label, shown_scale
 
-METHODS = {"cma": "CMA-ES", "optuna": "Optuna's tree-structured Parzen estimator"}
 HEADS = ("old median", "worst", "new median", "worst", "difference", "95 % from", "to")  # of the text
 FEW_DRAWS = 12  # draws whose changes are listed
 
@@ -53,7 +50,6 @@ def write_results(found: Tuning, folder: Path) -> None:
         evidence=_evidence(found),
         bad=[f"{cost.bad} of {len(found.holdout)}" for cost in found.evidence.costs] if found.evidence else [],
         figures=shown_figures(drawn, tuning_figures.CAPTIONS),
-        front=_front(found),
         values=PageTable("compared part", ("Key", "Present", "New", "Searched"), _values(found)),
         draws=PageTable("setup", (), _draws(found)),
         counts=(len(found.draws), len(found.holdout)),
@@ -64,7 +60,7 @@ def write_results(found: Tuning, folder: Path) -> None:
 
 
 def tuning_lines(found: Tuning) -> Iterator[str]:
-    """The result of a tuning in lines of text: the search, old against new on holdout draws, and the front."""
+    """The result of a tuning in lines of text: the search, and old against new on holdout draws."""
     yield f"{found.name}: {what_was_done(found)}"
     if not found.is_finished:
         old, new = (cost_words(cost, len(found.draws)) for cost in found.costs)
@@ -78,9 +74,6 @@ def tuning_lines(found: Tuning) -> Iterator[str]:
             yield "  " + " " * width + "  ".join(head.rjust(10) for head in HEADS)
         for label, values in rows:
             yield f"  {label.ljust(width)}" + "  ".join(f"{value:10.4g}" for value in values)
-    for place, point in enumerate(found.front, 1):
-        costs = "  ".join(cost_words(cost, len(found.holdout)) for cost in point.holdout or point.costs)
-        yield f"  front {place}: {costs}"
 
 
 def what_was_done(found: Tuning) -> str:
@@ -88,7 +81,7 @@ def what_was_done(found: Tuning) -> str:
     tried, task = len(found.history) - 1, found.task
     what = f"{len(task.parameters)} value{'s' * (len(task.parameters) != 1)}"
     draws = f"{len(found.draws)} draw{'s' * (len(found.draws) != 1)}"
-    return f"{what} searched by {METHODS[found.optimiser]}: {tried} candidates on {draws} each; {found.ended}"
+    return f"{what} searched by CMA-ES: {tried} candidates on {draws} each; {found.ended}"
 
 
 def _verdict(found: Tuning) -> Verdict:
@@ -116,33 +109,9 @@ def _evidence(found: Tuning) -> list[tuple[str, str, list[str]]]:
     return rows
 
 
-def _front(found: Tuning) -> PageTable | None:
-    """The table of the front."""
-    goals = [axis_label(goal.name)[0] for goal in found.task.goals]
-    heads = [html("{}<br>{}").format(goal, draws) for draws in ("search", "holdout") for goal in goals]
-    rows = [
-        (
-            f"{place}{' (the mission below)' if point.values == found.new else ''}",
-            *(cost_words(cost, len(found.draws)) for cost in point.costs),
-            *(cost_words(cost, len(found.holdout)) for cost in point.holdout),
-            "",
-        )
-        for place, point in enumerate(found.front, 1)
-    ]
-    return PageTable("compared part", ("", *heads, ""), rows) if rows else None
-
-
 def _values(found: Tuning) -> Iterator[Sequence[Cell]]:
     for p, old, new in zip(found.task.parameters, found.old, found.new, strict=True):
-        yield code(p.name), _value(old), _value(new), _span(p)
-
-
-def _value(value: object) -> str:
-    return shown(value) if isinstance(value, (bool, str)) else number(value)
-
-
-def _span(p: Tunable) -> str:
-    return ", ".join(map(shown, p.choices)) if p.choices else f"{number(p.low)} to {number(p.high)}"
+        yield code(p.name), number(old), number(new), f"{number(p.low)} to {number(p.high)}"
 
 
 def _draws(found: Tuning) -> list[Sequence[Cell]]:

@@ -1,6 +1,6 @@
 """The report on the paper: figures, tables, data and source in a folder, and the PDF that Typst sets from them.
 
-`data/paper/report.typ` sets what `document` says, so that no text of ours is ever code of Typst.
+`data/report.typ` sets what `document` says, so that no text of ours is ever code of Typst.
 """
 
 from __future__ import annotations
@@ -13,13 +13,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.core.errors import InputError, extra
-from tandemlift.core.files import atomic_write
-from tandemlift.core.types import Progress
-from tandemlift.flight.record import Flight
-from tandemlift.pictures.report.page import versions_of
-from tandemlift.pictures.report.paper_claims import claims
-from tandemlift.pictures.report.paper_figures import (
+from reproduction.claims import claims
+from reproduction.figures import (
     DATA,
     PaperFigure,
     caption_of,
@@ -29,9 +24,12 @@ from tandemlift.pictures.report.paper_figures import (
     paper_figures,
     write_drawing,
 )
-from tandemlift.pictures.report.paper_tables import as_csv, as_latex, nomenclature, paper_tables, value_at
-
-SOURCE = "report.typ"
+from reproduction.tables import as_csv, as_latex, nomenclature, paper_tables, value_at
+from tandemlift.core.files import atomic_write
+from tandemlift.core.types import Progress
+from tandemlift.flight.record import Flight
+from tandemlift.pictures.report.page import versions_of
+from tandemlift.pictures.report.typesetting import SOURCE
 
 
 class PaperFlights(NamedTuple):
@@ -150,30 +148,3 @@ def write_paper_files(
 def _write(path: Path, text: str) -> None:
     with atomic_write(path) as partial:
         partial.write_text(text, "utf-8")
-
-
-def check_typesetting() -> None:
-    """Find out whether the PDF can be set.
-
-    Raises:
-        InputError: the package that sets it is not installed.
-    """
-    with extra("paper", "the PDF of the paper's report"):
-        import typst  # noqa: F401
-
-
-def typeset(folder: Path, path: Path) -> None:
-    """Set the report in a folder as a PDF; the same files give the same bytes.
-
-    Raises:
-        InputError: the package that sets it is not installed, or is too old to place figures in PDF.
-    """
-    check_typesetting()
-    import typst
-
-    try:
-        pdf = typst.compile(folder / SOURCE, ignore_system_fonts=True, timestamp=0)
-    except typst.TypstError as error:
-        raise InputError(f"{folder / SOURCE} cannot be set by typst, 0.14 or newer: {error.message}") from error
-    with atomic_write(path) as partial:
-        partial.write_bytes(pdf)

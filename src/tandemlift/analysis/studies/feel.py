@@ -1,4 +1,4 @@
-"""The feel of a mission: its axes under the standard push, and the checks."""
+"""`tl.feel`: the response of a mission's admittance to the standard push, in closed form, and its checks."""
 
 from __future__ import annotations
 
@@ -6,12 +6,10 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
-from tandemlift.analysis.studies.closed_form import YAW, AxisFeel
-from tandemlift.analysis.studies.standard_push import Answer, PushedAxis, pushed_axes
-from tandemlift.core.errors import FAILS, CheckResult, judged, noted
-from tandemlift.core.progress import progress_or_own
-from tandemlift.core.types import GRAVITY, LN_20, Progress
-from tandemlift.missions import Mission
+from tandemlift.analysis.studies.closed_form import YAW, AxisFeel, axes_of
+from tandemlift.core.errors import FAILS, CheckResult, judged
+from tandemlift.core.types import GRAVITY, LN_20
+from tandemlift.missions import Mission, MissionLike, mission_of
 from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.interaction.passage import least_room, passage_checks, places_of
 from tandemlift.parts.pilot.schedule_checks import Schedule
@@ -28,8 +26,6 @@ from tandemlift.parts.rotors.hover import HoverFacts
 from tandemlift.parts.rotors.hover_loads import WindOnParts
 
 DRIFT_SIGMAS = 2.0  # standard deviations of the sensors' drift
-SATURATED = 0.01  # of the time, at most, with a rotor at its limit
-APART = 0.25  # of the final speed, at most, between closed form and flight
 
 
 def feel_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
@@ -168,39 +164,20 @@ def stop_check(room: float, axes: Sequence[AxisFeel]) -> CheckResult:
     return judged("stop", slowest.stop_distance, room, "m", text)
 
 
-def flown_checks(p: PushedAxis) -> Iterator[CheckResult]:
-    """Checks of the flight of an axis under the standard push."""
-    axis, unit = p.feel.axis, "rad/s" if p.feel.axis == YAW else "m/s"
-    if p.difference is None:
-        text = f"under {p.feel.push:g} {'N m' if axis == YAW else 'N'} along {axis}: {p.flight.failure}"
-        yield noted("flown", text, verdict="fails", subject=axis)
-        return
-    share = p.saturated
-    text = f"rotors are at a limit for {share:.2%} of the time under the push along {axis}: allow it more time"
-    yield judged("saturation", share, SATURATED, "1", text, subject=axis)
-    if 0.0 < p.feel.final_speed < math.inf:
-        limit = APART * p.feel.final_speed
-        text = (
-            f"closed form and flight are {p.difference:.3g} {unit} apart along {axis}, and {APART:.0%} of the final "
-            f"speed is {limit:.3g} {unit}: filters, limits and rotors are too slow; allow it more time"
-        )
-        yield judged("flown", p.difference, limit, unit, text, subject=axis)
+HEADS = ("push", "moves from", "final speed", "95 % after", "stops within")
 
 
-HEADS = ("push", "moves from", "final speed", "95 % after", "overshoot", "lag", "stops within", "apart")
-
-
-class FeelStudy(NamedTuple):
+class FeelReport(NamedTuple):
     """The feel of a mission's admittance.
 
     Attributes:
         mission: the examined one.
-        pushed: each axis under the standard push, by closed form and flown.
+        axes: of its admittance, each with its standard push.
         checks: each with its number, limit and remedy.
     """
 
     mission: Mission
-    pushed: tuple[PushedAxis, ...]
+    axes: tuple[AxisFeel, ...]
     checks: tuple[CheckResult, ...]
 
     @property
@@ -210,72 +187,51 @@ class FeelStudy(NamedTuple):
 
     def summary(self) -> dict[str, Any]:
         """All numbers in SI units; in yaw, those of lengths are angles, and those of forces are moments."""
-        a = self.mission.admittance
+        feel = self.mission.admittance.feel
+        numbers = ("final_speed", "time", "time_constant", "acceleration", "stop_distance")
         return {
             "mission": self.mission.mission.name,
-            "feel": None if a.feel is None else [f._asdict() for f in a.feel.axes],
-            "axes": [_axis(p) for p in self.pushed],
+            "feel": None if feel is None else [axis._asdict() for axis in feel.axes],
+            "axes": [k._asdict() | {name: getattr(k, name) for name in numbers} for k in self.axes],
             "checks": [{**check._asdict(), "margin": check.margin} for check in self.checks],
         }
 
+    def lines(self) -> list[str]:
+        """A row for each axis under `HEADS`, and a sentence about the gate."""
+        rows = [("", *HEADS), *map(_row, self.axes)]
+        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+        table = ["  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
+        return [*table, self._gate_text()]
 
-def study_feel(mission: Mission, progress: Progress | None = None) -> FeelStudy:
-    """Fly the standard push along each axis of a mission's admittance, and check it.
+    def __str__(self) -> str:
+        """The table, a sentence about the gate, and the failed checks."""
+        return "\n".join([*self.lines(), *(f"{c.verdict}: {c.text}" for c in self.checks if c.verdict == FAILS)])
+
+    def _gate_text(self) -> str:
+        """The effect of the smallest force that moves the vehicle, along x, in a sentence."""
+        k, m = self.axes[0], self.mission
+        acts = "only the excess acts" if k.subtracts_threshold else "beyond it the whole force acts"
+        if m.pilot.guidance != "interactive":
+            return f"A push must exceed {k.threshold:g} N; {acts}."
+        release, dwell = k.threshold * m.compliance.release_fraction, 1e3 * m.compliance.dwell
+        lasting = f"for {dwell:g} ms; {acts}, until the push falls below {release:.2g} N"
+        return f"A push must exceed {k.threshold:g} N {lasting}."
+
+
+def _row(k: AxisFeel) -> tuple[str, ...]:
+    length, force = ("rad", "N m") if k.axis == YAW else ("m", "N")
+    has_speed = 0.0 < k.final_speed < math.inf  # with a spring or without damping there is no final speed
+    numbers = zip((k.final_speed, k.time, k.stop_distance), (f"{length}/s", "s", length), strict=True)
+    cells = (f"{value:.2f} {unit}" if has_speed else "–" for value, unit in numbers)
+    return (k.axis, f"{k.push:g} {force}", f"{k.threshold:g} {force}", *cells)
+
+
+def feel(mission: MissionLike) -> FeelReport:
+    """The feel of a mission's admittance in closed form, and whether the vehicle can respond so.
 
     Args:
-        mission: from `load_mission`.
-        progress: called with (axes flown, axes in all); by default, a notebook shows a bar.
-
-    Raises:
-        InputError: the mission cannot be flown without its surroundings.
+        mission: from `load_mission`, or its name or path.
     """
-    with progress_or_own("Feel", progress, "axes") as shown:
-        pushed = pushed_axes(mission, shown)
-    flown = (check for p in pushed for check in flown_checks(p))
-    return FeelStudy(mission, pushed, (*feel_checks(mission, [p.feel for p in pushed]), *flown))
-
-
-def _axis(p: PushedAxis) -> dict[str, Any]:
-    k = p.feel
-    return {
-        **k._asdict(),
-        "time_constant": k.time_constant if k.damping > 0.0 else None,
-        "acceleration": k.acceleration,
-        "closed_form": p.ideal._asdict(),
-        "flown": p.real._asdict(),
-        "difference": p.difference,
-        "findings": sorted({finding.kind for finding in p.flight.findings}),
-        "failure": p.flight.failure,
-    }
-
-
-def table_of(study: FeelStudy) -> list[tuple[str, ...]]:
-    """A row for each axis, with cells of `HEADS` after its name; where two values differ, "closed form → flown"."""
-    return [(p.feel.axis, *_cells(p)) for p in study.pushed]
-
-
-def _cells(p: PushedAxis) -> Iterator[str]:
-    k, length, force = p.feel, "rad" if p.feel.axis == YAW else "m", "N m" if p.feel.axis == YAW else "N"
-    yield f"{k.push:g} {force}"
-    yield f"{k.threshold:g} {force}"
-    units = (f"{length}/s", "s", "%", "s", length)
-    for name, unit in zip(Answer._fields, units, strict=True):
-        yield _both(getattr(p.ideal, name), getattr(p.real, name), unit)
-    yield "–" if p.difference is None else f"{p.difference:.2f} {length}/s"
-
-
-def _both(ideal: float | None, real: float | None, unit: str) -> str:
-    scale, digits = (100.0, 0) if unit == "%" else (1.0, 2)
-    texts = ["–" if value is None else f"{scale * value:.{digits}f}" for value in (ideal, real)]
-    return f"{' → '.join(dict.fromkeys(texts))} {unit}".removeprefix("– → ")
-
-
-def gate_text(study: FeelStudy) -> str:
-    """The effect of the smallest force that moves the vehicle, along x, in a sentence."""
-    k, m = study.pushed[0].feel, study.mission
-    acts = "only the excess acts" if k.subtracts_threshold else "beyond it the whole force acts"
-    if m.pilot.guidance != "interactive":
-        return f"A push must exceed {k.threshold:g} N; {acts}."
-    release, dwell = k.threshold * m.compliance.release_fraction, 1e3 * m.compliance.dwell
-    lasting = f"for {dwell:g} ms; {acts}, until the push falls below {release:.2g} N"
-    return f"A push must exceed {k.threshold:g} N {lasting}."
+    examined = mission_of(mission)
+    axes = axes_of(examined)
+    return FeelReport(examined, axes, tuple(feel_checks(examined, axes)))

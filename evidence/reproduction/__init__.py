@@ -1,0 +1,1 @@
+"""The paper beside our results: its claims, figures, tables and errata."""
