@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page docs docs-quick test check quick lint types imports tests examples test-learning test-clients test-ros2 test-pythons test-distributions release test-gazebo test-targets validate paper random-missions mutation-check bench compare-engines bench-peers lock clean help
+.PHONY: run live page docs docs-quick test check quick lint types imports tests examples test-learning test-clients test-ros2 test-pythons test-distributions release test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -98,9 +98,6 @@ test-targets: .venv/dev  ## every target on every mission: cross compilers, QEMU
 
 validate: .venv/dev  ## the pilot's performance beside its targets, printed; 5 minutes. CHAPTER="tracking draws" for some, ENGINE=mujoco
 	$(BIN)/python evidence/validate.py $(if $(CHAPTER),--chapter $(CHAPTER)) $(if $(ENGINE),--engine $(ENGINE)) $(if $(DRAWS),--draws $(DRAWS))
-
-paper: .venv/dev  ## the paper's figures and tables beside ours, in out/paper.pdf
-	$(BIN)/python evidence/reproduce_paper.py
 
 random-missions: .venv/dev  ## a thousand missions at random, each outcome confirmed by a judge; into docs/reference/validation.md
 	$(BIN)/python evidence/fly_random_missions.py --write

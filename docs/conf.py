@@ -6,7 +6,7 @@ from pathlib import Path
 import tandemlift
 
 HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE / "_extensions"), str(HERE.parent / "tools"), str(HERE.parent / "evidence")]
+sys.path[:0] = [str(HERE / "_extensions"), str(HERE.parent / "tools")]
 
 project = "tandemlift"
 author = "The tandemlift contributors"

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 from for_all import for_all
 from repository import ROOT
-from reproduction.figures import errata
+
+from tandemlift.pictures.report.paper_figures import errata
 
 SOURCE, TESTS = ROOT / "src" / "tandemlift", ROOT / "tests"
 PAPER = ROOT.parent / "shared" / "paper.tex"

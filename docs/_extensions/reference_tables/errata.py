@@ -1,7 +1,6 @@
 """The errata of the paper, with their formulas as mathematics.
 
-In `evidence/reproduction/data/errata.toml` a formula stands between dollars as one would type it:
-`$φ_d = atan(Q/u_z)$`.
+In `data/paper/errata.toml` a formula stands between dollars as one would type it: `$φ_d = atan(Q/u_z)$`.
 """
 
 from __future__ import annotations
@@ -10,7 +9,7 @@ import re
 import unicodedata
 from itertools import groupby
 
-from reproduction.figures import Erratum, errata
+from tandemlift.pictures.report.paper_figures import Erratum, errata
 
 ACCENTS = {"\u0307": "dot", "\u0308": "ddot", "\u0302": "hat"}
 FUNCTIONS = ("atan", "cos", "ln", "sat")

@@ -14,7 +14,7 @@ from tandemlift.apps.cli.identify import identify, shadow
 from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, new, schema, template
 from tandemlift.apps.cli.linearize import certify, check, excite, linearize
 from tandemlift.apps.cli.live import docs, grade, live, page, replay, score
-from tandemlift.apps.cli.report import plot, report
+from tandemlift.apps.cli.report import paper, plot, report
 from tandemlift.apps.cli.ros import crazyflie, gazebo, mavlink, ros
 from tandemlift.apps.cli.run import run
 from tandemlift.apps.cli.study import compare, study
@@ -31,7 +31,7 @@ GROUPS: dict[str, tuple[click.Command, ...]] = {
     "Try first": (run, live, missions, docs),
     "Write a mission": (new, template, explain, check, controllers, engines, schema, completion),
     "Look at a flight": (report, plot, render, replay),
-    "Fly many, compare, analyse": (compare, score, grade, study, tune, train, feel, linearize, certify),
+    "Fly many, compare, analyse": (compare, score, grade, study, tune, train, feel, linearize, certify, paper),
     "Your vehicle": (excite, identify, shadow),
     "Take it elsewhere": (gazebo, ros, crazyflie, mavlink, page, export, compile),
 }

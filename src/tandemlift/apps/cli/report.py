@@ -1,13 +1,14 @@
-"""`tandemlift report` and `plot`: figures and reports of saved flights, of a bag, of a study."""
+"""`tandemlift report`, `plot` and `paper`: figures and reports of saved flights, of a bag, of a study."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from tandemlift.apps.cli.completion import FLIGHTS
-from tandemlift.apps.cli.console import echo
+from tandemlift.apps.cli.console import echo, progress_bar
 from tandemlift.apps.cli.flying import (
     DRAWINGS,
     FILES,
@@ -19,6 +20,9 @@ from tandemlift.apps.cli.flying import (
 )
 from tandemlift.apps.export.results import FIGURES, file_path, load_flight, results_folder
 from tandemlift.core.errors import InputError
+
+if TYPE_CHECKING:
+    from tandemlift.pictures.report.paper_report import PaperFlights
 
 
 @click.command()
@@ -116,3 +120,60 @@ def plot(figure: str, flights: tuple[str, ...], out: str | None) -> None:
     drawn = tl.plot(named, figure)
     path.parent.mkdir(parents=True, exist_ok=True)
     echo(f"{figure}: {save(drawn, path)}")
+
+
+OUT = "out/paper.pdf"
+
+
+@click.command()
+@click.option("--out", metavar="FILE", default=OUT, show_default=True, help="FILE.pdf.")
+@kept_style_option
+@click.option("--no-pdf", is_flag=True, help="Write figures, tables and source only.")
+def paper(out: str, style: str | None, no_pdf: bool) -> None:
+    """Put the paper's figures and tables beside ours, in one PDF.
+
+    The missions `paper` and `zigzag` are flown, and `paper` once more for each setting that the paper leaves open, with
+    another choice. The PDF needs the package typst: pip install 'tandemlift[paper]'. Without it, the rest is written.
+
+    \b
+    Examples:
+      tandemlift paper
+      tandemlift paper --out reproduction.pdf --style elsevier
+      tandemlift paper --no-pdf
+
+    \b
+    Files, for FILE.pdf:
+      FILE.pdf                 claims, tables, figures, open settings and errata; fonts embedded, figures as vectors
+      FILE-files/figures/      the figures, one PDF each; diagrams as SVG, in colours of their own
+      FILE-files/tables/       Tables II and III beside our numbers, as CSV and LaTeX
+      FILE-files/report.typ    the source of the PDF, with its text and numbers in report.json
+    """
+    from tandemlift.apps.ros.gazebo_flight import gazebo_sentence
+    from tandemlift.pictures.report.paper_report import typeset, write_paper_files
+
+    path = file_path("--out", out, ".pdf")
+    given = f"--out {out}" if out != OUT else "", f"--style {style}" if style else "", "--no-pdf" if no_pdf else ""
+    command = " ".join(["tandemlift paper", *filter(None, given)])
+    with results_folder(str(path.parent), path.parent, (path.name,)):
+        flights = fly_paper()
+        folder = path.with_name(f"{path.stem}-files")
+        with progress_bar("Drawing", "figures") as progress:
+            write_paper_files(flights, folder, command, gazebo_sentence(), progress)
+        echo(f"figures, tables and source: {folder}")
+        if not no_pdf:
+            typeset(folder, path)
+            echo(f"report: {path}")
+
+
+def fly_paper() -> PaperFlights:
+    """Fly the missions of the report, with a progress bar."""
+    from tandemlift.missions import load_mission
+    from tandemlift.pictures.report.paper_figures import open_settings
+    from tandemlift.pictures.report.paper_report import PaperFlights
+    from tandemlift.simulation.fly import fly_many
+
+    missions = [load_mission("paper"), load_mission("zigzag")]
+    missions += [load_mission("paper", setting.changes) for setting in open_settings()]
+    with progress_bar("Flying", "flights") as progress:
+        flown, corridor, *choices = fly_many(missions, progress=progress)
+    return PaperFlights(flown, corridor, [flight.metrics() for flight in choices])

@@ -81,6 +81,16 @@ def _joined(port: int, check: Callable[[], None], *, real_time: bool) -> Iterato
                 os.environ[name] = value
 
 
+def gazebo_sentence() -> str:
+    """Whether Gazebo can fly the corridor on this machine."""
+    how = "`tandemlift gazebo zigzag --fast` flies this corridor in Gazebo 11"
+    try:
+        root()
+    except InputError:
+        return f"{how}. Gazebo is not installed on the machine that made this report."
+    return f"{how}. Gazebo is installed on the machine that made this report, which flew the compiled engine."
+
+
 def has_display() -> bool:
     """Whether there is a screen for a window."""
     return bool(os.environ.get("DISPLAY"))

@@ -25,10 +25,10 @@ from tandemlift.core.types import Progress
 from tandemlift.missions import Mission, MissionLike, mission_of
 from tandemlift.pictures.drawing.style import save
 from tandemlift.pictures.report.page import shown_figures, write_page
+from tandemlift.pictures.report.paper_report import check_typesetting, typeset
 from tandemlift.pictures.report.study.certificate_figures import CAPTIONS, certificate_figures
-from tandemlift.pictures.report.typesetting import SOURCE, check_typesetting, typeset
 
-PAGE, JSON, PDF = "certificate.html", "certificate.json", "certificate.pdf"
+PAGE, JSON, PDF, SOURCE = "certificate.html", "certificate.json", "certificate.pdf", "report.typ"
 NONE, MINUS = "none", "−"
 TIERS = ("linear", "structured", "person", "nonlinear", "statistics")
 PACKAGES = ("tandemlift", "numpy", "scipy", "slycot", "cvxpy")

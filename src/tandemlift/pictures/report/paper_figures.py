@@ -1,12 +1,13 @@
-"""The paper's figures beside ours: texts and open settings from `data/figures.toml`, and the drawings.
+"""The paper's figures beside ours: texts and open settings from `data/paper/figures.toml`, and the drawings.
 
-A drawing is a diagram of the mission `paper`, an SVG file beside this one, or a figure of one of our flights.
+A drawing is a diagram of the mission `paper`, an SVG file of the package, or a figure of one of our flights.
 """
 
 from __future__ import annotations
 
 import tomllib
 from functools import cache
+from importlib.resources import files
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -36,7 +37,7 @@ from tandemlift.pictures.drawing.surroundings import floor_height, walls_in
 from tandemlift.pictures.drawing.vehicle import Skeleton, skeleton
 from tandemlift.pictures.figures.registry import figures, save_figure
 
-DATA = Path(__file__).parent / "data"
+DATA = files("tandemlift") / "data" / "paper"
 
 
 class Erratum(NamedTuple):
@@ -117,7 +118,7 @@ def paper_figures() -> list[PaperFigure]:
 
 
 def diagram_captions() -> dict[str, Caption]:
-    """The captions of the diagrams of the mission `paper`, by the names of their files in `data/diagrams/`."""
+    """The captions of the diagrams of the mission `paper`, by the names of their files in `data/paper/diagrams/`."""
     return {name: Caption(**table) for name, table in _contents()["diagrams"].items()}
 
 
@@ -134,7 +135,7 @@ def caption_of(name: str) -> Caption:
 
 
 def write_drawing(name: str, flight: Flight | None, path: Path) -> None:
-    """Write a drawing: a figure of a flight as PDF, or a diagram, which is an SVG file beside this one."""
+    """Write a drawing: a figure of a flight as PDF, or a diagram, which is an SVG file of the package."""
     if flight is not None:
         save_figure(draw_stages(flight) if name == STAGES else figures()[name].draw(flight), path)
         return

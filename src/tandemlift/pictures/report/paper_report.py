@@ -1,6 +1,6 @@
 """The report on the paper: figures, tables, data and source in a folder, and the PDF that Typst sets from them.
 
-`data/report.typ` sets what `document` says, so that no text of ours is ever code of Typst.
+`data/paper/report.typ` sets what `document` says, so that no text of ours is ever code of Typst.
 """
 
 from __future__ import annotations
@@ -13,8 +13,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from reproduction.claims import claims
-from reproduction.figures import (
+from tandemlift.core.errors import InputError, extra
+from tandemlift.core.files import atomic_write
+from tandemlift.core.types import Progress
+from tandemlift.flight.record import Flight
+from tandemlift.pictures.report.page import versions_of
+from tandemlift.pictures.report.paper_claims import claims
+from tandemlift.pictures.report.paper_figures import (
     DATA,
     PaperFigure,
     caption_of,
@@ -24,12 +29,9 @@ from reproduction.figures import (
     paper_figures,
     write_drawing,
 )
-from reproduction.tables import as_csv, as_latex, nomenclature, paper_tables, value_at
-from tandemlift.core.files import atomic_write
-from tandemlift.core.types import Progress
-from tandemlift.flight.record import Flight
-from tandemlift.pictures.report.page import versions_of
-from tandemlift.pictures.report.typesetting import SOURCE
+from tandemlift.pictures.report.paper_tables import as_csv, as_latex, nomenclature, paper_tables, value_at
+
+SOURCE = "report.typ"
 
 
 class PaperFlights(NamedTuple):
@@ -148,3 +150,30 @@ def write_paper_files(
 def _write(path: Path, text: str) -> None:
     with atomic_write(path) as partial:
         partial.write_text(text, "utf-8")
+
+
+def check_typesetting() -> None:
+    """Find out whether the PDF can be set.
+
+    Raises:
+        InputError: the package that sets it is not installed.
+    """
+    with extra("paper", "the PDF of the paper's report"):
+        import typst  # noqa: F401
+
+
+def typeset(folder: Path, path: Path) -> None:
+    """Set the report in a folder as a PDF; the same files give the same bytes.
+
+    Raises:
+        InputError: the package that sets it is not installed, or is too old to place figures in PDF.
+    """
+    check_typesetting()
+    import typst
+
+    try:
+        pdf = typst.compile(folder / SOURCE, ignore_system_fonts=True, timestamp=0)
+    except typst.TypstError as error:
+        raise InputError(f"{folder / SOURCE} cannot be set by typst, 0.14 or newer: {error.message}") from error
+    with atomic_write(path) as partial:
+        partial.write_bytes(pdf)

@@ -1,4 +1,4 @@
-"""`make paper`: each figure and table of the paper has its place, with numbers of the mission and of flights."""
+"""`tandemlift paper`: each figure and table of the paper has its place, with numbers of the mission and of flights."""
 
 import json
 import re
@@ -6,17 +6,18 @@ import sys
 
 import numpy as np
 import pytest
-import reproduce_paper
+from click.testing import CliRunner
 from repository import ROOT
-from reproduction import report
-from reproduction.claims import claims, gaussian_displacement
-from reproduction.figures import DATA, errata, open_settings, paper_figures, write_drawing
-from reproduction.report import PaperFlights
-from reproduction.tables import agrees, nomenclature, paper_tables, value_at
 
 import tandemlift as tl
+from tandemlift.apps.cli import report as command
+from tandemlift.apps.cli.main import cli
 from tandemlift.missions import tables_of
-from tandemlift.pictures.report.typesetting import typeset
+from tandemlift.pictures.report import paper_report
+from tandemlift.pictures.report.paper_claims import claims, gaussian_displacement
+from tandemlift.pictures.report.paper_figures import DATA, errata, open_settings, paper_figures, write_drawing
+from tandemlift.pictures.report.paper_report import PaperFlights, typeset
+from tandemlift.pictures.report.paper_tables import agrees, nomenclature, paper_tables, value_at
 
 PAPER = ROOT.parent / "shared" / "paper.tex"
 SHORT = {"mission.duration": 16.0, "mission.log_interval": 0.05}
@@ -43,11 +44,12 @@ def without_typst(flights, tmp_path_factory):
     path = tmp_path_factory.mktemp("paper") / "a.pdf"
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(sys.modules, "typst", None)
-        patch.setattr(reproduce_paper, "fly_paper", lambda: flights)
-        patch.setattr(report, "write_drawing", lambda name, *to: write_drawing("path" if name in SLOW else name, *to))
-        with pytest.raises(tl.InputError) as refused:
-            reproduce_paper.main(["--out", str(path)])
-    return str(refused.value), path
+        patch.setattr(command, "fly_paper", lambda: flights)
+        patch.setattr(
+            paper_report, "write_drawing", lambda name, *to: write_drawing("path" if name in SLOW else name, *to)
+        )
+        result = CliRunner().invoke(cli, ["paper", "--out", str(path)])
+    return str(result.exception), path
 
 
 @pytest.fixture(scope="module")
@@ -191,13 +193,13 @@ def test_without_typst_all_else_is_written_and_the_command_that_installs_it_is_n
     assert "pip install 'tandemlift[paper]'" in said
     assert not path.exists()
     assert len(list((folder / "figures").glob("figure-*"))) == 11
-    assert json.loads((folder / "report.json").read_text("utf-8"))["command"].endswith(f"--out {path} --style ieee")
+    assert json.loads((folder / "report.json").read_text("utf-8"))["command"] == f"tandemlift paper --out {path}"
 
 
 @pytest.mark.parametrize(("out", "said"), [("a.html", "must end in .pdf"), ("folder.pdf", "is a folder")])
 def test_a_path_that_is_no_pdf_is_refused_before_anything_is_flown(out, said, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "folder.pdf").mkdir()
-    with pytest.raises(tl.InputError, match=said):
-        reproduce_paper.main(["--out", out])
+    result = CliRunner().invoke(cli, ["paper", "--out", out])
+    assert said in str(result.exception)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["folder.pdf"]

@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from reproduction.tables import agrees
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
+from tandemlift.pictures.report.paper_tables import agrees
 
 CALM = 10.0  # s, from which on the disturbed start is over
 UNTIL = 20.0  # s, before the pushes along x and y

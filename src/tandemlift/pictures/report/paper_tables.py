@@ -13,10 +13,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from reproduction.figures import DATA, errata
 from tandemlift.core.types import GRAVITY
 from tandemlift.missions import check
 from tandemlift.pictures.report.metric_tables import latex_table, latex_text
+from tandemlift.pictures.report.paper_figures import DATA, errata
 
 AXES = {"position": slice(0, 3), "attitude": slice(3, 6), "one": slice(None)}
 DERIVED = {

@@ -1,1 +1,0 @@
-"""The paper beside our results: its claims, figures, tables and errata."""
