@@ -29,7 +29,6 @@ from tandemlift.core.types import Progress
 CHECKS, SOLUTIONS = "checks.py", "solutions"  # beside the notebook of an exercise; the folder that no answer may read
 LEFT_OUT = {"page", "check", "look"}  # tags of cells that grading does not run
 MEMORY = 8 << 30  # bytes that the answers of one notebook may take
-PREFIX = "check_"
 
 
 class Graded(NamedTuple):
@@ -72,7 +71,7 @@ def grade(checks: ModuleType | SimpleNamespace, answers: Mapping[str, Any]) -> G
             fails has the hint.
         answers: by name, such as `globals()`.
     """
-    asked = [value for name, value in vars(checks).items() if name.startswith(PREFIX) and inspect.isfunction(value)]
+    asked = [value for name, value in vars(checks).items() if name.startswith("check_") and inspect.isfunction(value)]
     return Grade(tuple(_graded(check, answers) for check in asked))
 
 
@@ -84,10 +83,9 @@ def _graded(check: Any, answers: Mapping[str, Any]) -> Graded:
     try:
         check(**asked)
     except Exception as error:
-        blank = [name for name, answer in asked.items() if _is_blank(answer)]
-        ours = f"`{blank[0]}` is not written yet, or its cell was not run" if blank else str(error)
-        raised = "" if blank or isinstance(error, AssertionError) else f"{_place(error)}{type(error).__name__}: "
-        return Graded(title, 0, of, raised + ours)
+        hint = str(error) if isinstance(error, AssertionError) else f"{_place(error)}{type(error).__name__}: {error}"
+        blank = [f"`{name}` is not written yet, or its cell was not run" for name in asked if _is_blank(asked[name])]
+        return Graded(title, 0, of, [*blank, hint][0])
     return Graded(title, of, of)
 
 
@@ -132,9 +130,7 @@ def notebooks_in(folder: Path) -> tuple[list[Notebook], list[str]]:
         raise InputError(f"{folder}: {'is a file, not a folder' if folder.exists() else 'there is no such folder'}")
     paths = [p for p in sorted(folder.rglob("*.ipynb")) if not any(part.startswith(".") for part in p.parts[1:])]
     if not paths:
-        raise InputError(
-            f"{folder}: must hold notebooks (.ipynb), one or a folder for each participant; there are none"
-        )
+        raise InputError(f"{folder}: must hold notebooks (.ipynb), one or a folder for each participant; has none")
     found, others = list[Notebook](), list[str]()
     for path in paths:
         name = path.relative_to(folder).parts[0].removesuffix(".ipynb")
@@ -192,8 +188,8 @@ def _run_apart(notebook: Notebook, checks: SimpleNamespace, report: Connection) 
     sys.modules["checks"] = ModuleType("checks")
     vars(sys.modules["checks"]).update(vars(checks))
     namespace: dict[str, Any] = {"__name__": "__main__"}
-    failure, result, at = "", Grade(), 0
-    with tempfile.TemporaryDirectory() as here, contextlib.redirect_stdout(io.StringIO()) as out:
+    failure, result, at, out = "", Grade(), 0, io.StringIO()
+    with tempfile.TemporaryDirectory() as here, contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
         os.chdir(here)
         os.environ["TANDEMLIFT_OPTIMISE"] = "0"  # a flight starts no program either
         tried = _guard(own)
@@ -202,8 +198,7 @@ def _run_apart(notebook: Notebook, checks: SimpleNamespace, report: Connection) 
                 report.send(at)
                 if isinstance(code, SyntaxError):
                     raise code
-                with contextlib.redirect_stderr(out):
-                    exec(code, namespace)
+                exec(code, namespace)
         except (Exception, SystemExit) as error:
             failure = f"cell {at}, {type(error).__name__}: {error}"
         except (_Forbidden, KeyboardInterrupt):
