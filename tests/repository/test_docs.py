@@ -12,6 +12,7 @@ from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
+from tandemlift.flight.channels import OTHER, channel_of
 
 DOCUMENTS = sorted(ROOT.glob("*.md"))  # the links of docs/ are checked when the site is built
 PAGES = sorted((ROOT / "docs" / "how-to").glob("*.md"))
@@ -39,6 +40,19 @@ def test_every_block_of_python_runs_and_prints_the_text_below_it(path, tmp_path,
         capsys.readouterr()
         exec(compile(block, path.name, "exec"), {})
         assert not printed or capsys.readouterr().out == printed
+
+
+@for_all(sorted((ROOT / "docs" / "how-to").glob("coming-from-*.md")))
+def test_keys_and_channels_that_tables_for_users_of_others_name_exist(page):
+    from click.testing import CliRunner
+
+    rows = re.findall(r"^\| [^|\n]* \| ([^|\n]*) \|$", page.read_text("utf-8"), re.M)
+    for name in {name for row in rows for name in re.findall(r"`([a-z]+(?:[._][a-z_0-9*]+)+)`", row)}:
+        if "." not in name or channel_of(name.split(".")[0]) != OTHER:
+            assert channel_of(name.split(".")[0]) != OTHER, name
+        elif not name.startswith("tl."):
+            key = name.removesuffix(".*").replace("*", "0")
+            assert CliRunner().invoke(cli, ["explain", key]).exit_code == 0, name
 
 
 def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):

@@ -1,6 +1,8 @@
 """Logs that others wrote are read as what they measured: ULog by its definition, bags by rosbags, CSV by pandas."""
 
+import re
 import struct
+from pathlib import Path
 
 import numpy as np
 import pandas
@@ -105,6 +107,44 @@ def test_a_ulog_without_our_topics_or_damaged_is_refused_by_name(tmp_path):
     (tmp_path / "no.ulg").write_bytes(b"nothing")
     with pytest.raises(tl.InputError, match="cannot be read as a ULog"):
         tl.read_log(tmp_path / "no.ulg")
+
+
+def test_a_ulog_of_a_flight_makes_the_shadow_command_what_was_flown(tmp_path):
+    """With the map of docs/how-to/coming-from-px4.md: rotors as fractions, joints from `debug_array`."""
+    pytest.importorskip("pyulog")
+    mission = tl.load_mission("iris", {"mission.duration": 12.0, "mission.log_interval": 0.001})
+    log = log_of(tl.fly(mission))
+    imu, motion, joints = log[IMU[0]].time, log[MOTION[0]].time, log[JOINTS[0]].time
+    weight, largest = 3.5 * 9.81, 5.84e-6 * 1100.0**2
+    turned = quaternions(DOWN * Rotation.from_quat(log[MOTION[2]].values, scalar_first=True) * DOWN)
+    down = {name: DOWN.apply(log[name].values) for name in (*IMU, *MOTION[:2])}
+    loads = np.hstack([log[name].values for name in JOINTS])
+    topics = {
+        "sensor_combined": (
+            "float[3] gyro_rad;float[3] accelerometer_m_s2",
+            imu,
+            np.hstack([down[n] for n in IMU[::-1]]),
+        ),
+        "vehicle_local_position": (
+            "float x;float y;float z;float vx;float vy;float vz",
+            motion,
+            np.hstack([down[n] for n in MOTION[:2]]),
+        ),
+        "vehicle_attitude": ("float[4] q", motion, turned),
+        "actuator_motors": ("float[12] control", log["rotor_commands"].time, log["rotor_commands"].values / largest),
+        "debug_array": ("float[58] data", joints, loads),
+    }
+    for name, width in (("actuator_motors", 12), ("debug_array", 58)):
+        fields, time, rows = topics[name]
+        topics[name] = fields, time, np.pad(rows, ((0, 0), (0, width - rows.shape[1])))
+    stamped = {name: (f, [5_000_000 + round(1e6 * t) for t in time], rows) for name, (f, time, rows) in topics.items()}
+    text = (Path(__file__).parents[3] / "docs" / "how-to" / "coming-from-px4.md").read_text("utf-8")
+    (tmp_path / "map.toml").write_text(re.search(r"<!-- map.toml -->\n```toml\n(.*?)```", text, re.S)[1], "utf-8")
+    shadow = tl.shadow(tl.read_log(ulog_of(tmp_path / "flight.ulg", stamped), tmp_path / "map.toml"), mission)
+    hover = (shadow.time > 9.0) & (shadow.time < 12.0)
+    thrusts, flown = shadow["rotor_commands"][hover], shadow["flown_rotor_commands"][hover]
+    assert thrusts == pytest.approx(flown, abs=5e-3)  # N
+    assert thrusts.sum(axis=1).mean() == pytest.approx(weight, rel=0.01)  # less ground effect
 
 
 # ---- bags, written by rosbags

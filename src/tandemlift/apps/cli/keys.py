@@ -56,8 +56,8 @@ def new(
     """Write a mission FILE of your beam on two quadrotors.
 
     It tells what they can lift, and how far from their limits they are. A terminal is asked for what no option gives.
-    Forces, moments and thresholds of the mission suit the weight: docs/how-to/change-the-vehicle.md has the rule and
-    the models with their sources.
+    Forces, moments and thresholds of the mission suit the weight: docs/how-to/change-the-vehicle.md has the rule, the
+    models with their sources, and other quadrotors.
 
     \b
     Examples:
@@ -188,7 +188,7 @@ def missions(name: str | None) -> None:
 
 @click.command()
 def controllers() -> None:
-    """List the controllers."""
+    """List the controllers. One of your own is a file: docs/reference/controllers.md has one to begin with."""
     from tandemlift.parts.controllers import CONTROLLERS
 
     _print_table({name: c.summary for name, c in sorted(CONTROLLERS.items())})

@@ -162,13 +162,13 @@ def page(
 )
 @set_option
 def score(folder: Path, mission: str, free: tuple[str, ...], settings: tuple[str, ...]) -> None:
-    """Rank flights through a corridor by hand.
+    """Rank the flights of a challenge: through a corridor by hand.
 
     Each is flown again from its recording, and scored. FOLDER holds the flights that participants saved in the page of
-    `tandemlift live` or `tandemlift page`, a folder or a .zip each. The score is a time, and the lowest wins: the time
-    from the first push to the end of the corridor, 5 s for each touch of a wall, 1 s for 5 N s of effort, and the
-    logarithm of the dimensionless jerk. A flight of another mission, or with a score that its recording does not fly,
-    is refused with its reason.
+    `tandemlift live` or `tandemlift page`, by *Challenge*, a folder or a .zip each. The score is a time, and the lowest
+    wins: the time from the first push to the end of the corridor, 5 s for each touch of a wall, 1 s for 5 N s of
+    effort, and the logarithm of the dimensionless jerk. A flight of another mission, or with a score that its recording
+    does not fly, is refused with its reason.
 
     \b
     Examples:

@@ -89,7 +89,9 @@ def read_log(
 
 def _read(path: Path, columns: Map | str | os.PathLike[str] | None) -> Log:
     kind = path.suffix.lower()
-    given = _ways(columns if isinstance(columns, Mapping) else _map_in(Path(columns)) if columns else {})
+    known = _map_in(DATA / "logs" / f"{'ulog' if kind == '.ulg' else 'bag'}.toml")
+    own = columns if isinstance(columns, Mapping) else _map_in(Path(columns)) if columns else {}
+    given = _ways({key: known[key] for key in OF_ALL if key in known} | dict(own))
     if kind == ".npz" or (path / FLIGHT_FILE).is_file():
         return log_of(Flight.load(path))
     if kind == ".csv":
@@ -97,10 +99,10 @@ def _read(path: Path, columns: Map | str | os.PathLike[str] | None) -> Log:
             raise InputError(f"{path}: needs a map of its columns to streams; see docs/how-to/log-a-vehicle.md")
         return _log(path, csv_table(path), given, given)
     if kind == ".ulg":
-        return _log(path, ulog_tables(path), _ways(_map_in(DATA / "logs" / "ulog.toml")) | given, given)
+        return _log(path, ulog_tables(path), _ways(known) | given, given)
     if kind not in (".bag", ".mcap") and not path.is_dir():
         raise InputError(f"{path}: must be a flight (.npz), a bag (.bag, .mcap or its folder), a ULog (.ulg) or a .csv")
-    ways = _ways(_map_in(DATA / "logs" / "bag.toml")) | given
+    ways = _ways(known) | given
     tables = bag_tables(path, [topic for many in ways.values() for way in many for topic in way.topics])
     if not given and {MISSION.name, BASE} <= {*tables.topics}:
         return log_of(read_bag(path))

@@ -27,9 +27,8 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress
 
 CHECKS, SOLUTIONS = "checks.py", "solutions"  # beside the notebook of an exercise; the folder that no answer may read
-LEFT_OUT = {"page", "check"}  # tags of cells that grading does not run
+LEFT_OUT = {"page", "check", "look"}  # tags of cells that grading does not run
 MEMORY = 8 << 30  # bytes that the answers of one notebook may take
-PREFIX = "check_"
 
 
 class Graded(NamedTuple):
@@ -72,7 +71,7 @@ def grade(checks: ModuleType | SimpleNamespace, answers: Mapping[str, Any]) -> G
             fails has the hint.
         answers: by name, such as `globals()`.
     """
-    asked = [value for name, value in vars(checks).items() if name.startswith(PREFIX) and inspect.isfunction(value)]
+    asked = [value for name, value in vars(checks).items() if name.startswith("check_") and inspect.isfunction(value)]
     return Grade(tuple(_graded(check, answers) for check in asked))
 
 
@@ -80,22 +79,25 @@ def _graded(check: Any, answers: Mapping[str, Any]) -> Graded:
     parameters = dict(inspect.signature(check).parameters)
     of = parameters.pop("points").default
     title = inspect.getdoc(check) or check.__name__
-    missing = [name for name in parameters if name not in answers]
-    if missing:
-        return Graded(title, 0, of, f"`{missing[0]}` is not there yet: run the cell that defines it")
+    asked = {name: answers.get(name, ...) for name in parameters}
     try:
-        check(*(answers[name] for name in parameters))
-    except AssertionError as error:
-        return Graded(title, 0, of, str(error))
-    except Exception as error:  # of an answer
-        return Graded(title, 0, of, f"{_place(error)}{type(error).__name__}: {error}")
+        check(**asked)
+    except Exception as error:
+        hint = str(error) if isinstance(error, AssertionError) else f"{_place(error)}{type(error).__name__}: {error}"
+        blank = [f"`{name}` is not written yet, or its cell was not run" for name in asked if _is_blank(asked[name])]
+        return Graded(title, 0, of, [*blank, hint][0])
     return Graded(title, of, of)
+
+
+def _is_blank(answer: Any) -> bool:
+    """Whether an answer is `...`, or a function that still has a `...` of the notebook that was handed out."""
+    return answer is ... or ... in getattr(getattr(answer, "__code__", None), "co_consts", ())
 
 
 def _place(error: BaseException) -> str:
     """Where an answer raised: "`step`, line 3: "."""
-    inside = [f for f in traceback.extract_tb(error.__traceback__) if Path(f.filename).name != CHECKS]
-    ours = [f for f in inside if f.filename.startswith("cell ") or "ipykernel" in f.filename]
+    frames = traceback.extract_tb(error.__traceback__)
+    ours = [f for f in frames if f.filename.startswith("cell ") or "ipykernel" in f.filename]
     return f"`{ours[-1].name}`, line {ours[-1].lineno}: " if ours else ""
 
 
@@ -128,9 +130,7 @@ def notebooks_in(folder: Path) -> tuple[list[Notebook], list[str]]:
         raise InputError(f"{folder}: {'is a file, not a folder' if folder.exists() else 'there is no such folder'}")
     paths = [p for p in sorted(folder.rglob("*.ipynb")) if not any(part.startswith(".") for part in p.parts[1:])]
     if not paths:
-        raise InputError(
-            f"{folder}: must hold notebooks (.ipynb), one or a folder for each participant; there are none"
-        )
+        raise InputError(f"{folder}: must hold notebooks (.ipynb), one or a folder for each participant; has none")
     found, others = list[Notebook](), list[str]()
     for path in paths:
         name = path.relative_to(folder).parts[0].removesuffix(".ipynb")
@@ -164,6 +164,7 @@ def _guard(own: Path) -> list[str]:
     tried = list[str]()
 
     def hook(event: str, arguments: tuple[Any, ...]) -> None:
+        before = len(tried)
         if event in ("subprocess.Popen", "os.system", "os.posix_spawn", "os.exec"):
             tried.append("starts another program")
         elif event == "open" and isinstance(arguments[0], (str, bytes, os.PathLike)):
@@ -172,11 +173,8 @@ def _guard(own: Path) -> list[str]:
                 tried.append(f"reads the solution ({path.name})")
             elif path.suffix == ".ipynb" and path != own:
                 tried.append(f"reads another notebook ({path.name})")
-            else:
-                return
-        else:
-            return
-        raise _Forbidden(tried[-1])
+        if len(tried) > before:
+            raise _Forbidden(tried[-1])
 
     sys.addaudithook(hook)
     return tried
@@ -190,17 +188,17 @@ def _run_apart(notebook: Notebook, checks: SimpleNamespace, report: Connection) 
     sys.modules["checks"] = ModuleType("checks")
     vars(sys.modules["checks"]).update(vars(checks))
     namespace: dict[str, Any] = {"__name__": "__main__"}
-    failure, result, at = "", Grade(), 0
-    with tempfile.TemporaryDirectory() as here, contextlib.redirect_stdout(io.StringIO()) as out:
+    failure, result, at, out = "", Grade(), 0, io.StringIO()
+    with tempfile.TemporaryDirectory() as here, contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
         os.chdir(here)
+        os.environ["TANDEMLIFT_OPTIMISE"] = "0"  # a flight starts no program either
         tried = _guard(own)
         try:
             for at, code in cells:
                 report.send(at)
                 if isinstance(code, SyntaxError):
                     raise code
-                with contextlib.redirect_stderr(out):
-                    exec(code, namespace)
+                exec(code, namespace)
         except (Exception, SystemExit) as error:
             failure = f"cell {at}, {type(error).__name__}: {error}"
         except (_Forbidden, KeyboardInterrupt):
