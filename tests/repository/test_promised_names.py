@@ -54,7 +54,7 @@ def recorded():
 def changed(before, now):
     """The record `before`, brought to the names that there are now."""
     came = {name: NEW for name in now if before.get(name, GONE) == GONE}
-    went = {name: GONE for name in before.keys() - now}
+    went = dict.fromkeys(before.keys() - now, GONE)
     return before | came | went
 
 
