@@ -84,7 +84,7 @@ test-pythons:    ## the fast tests under each installed Python from 3.11 to 3.13
 test-distributions: .venv/dev  ## build the wheel and the source distribution; try them, and each extra, in fresh environments
 	tools/test-distributions
 
-release: .venv/dev .venv/docs  ## wheel, sources, site, page, paper, bill of materials, notes and checksums, tried, into dist/
+release: .venv/dev .venv/docs  ## wheel, sources, site, page, paper, exercises, bill of materials, notes, checksums: tried, into dist/
 	tools/release
 
 test-gazebo: .venv/dev  ## flights in a real Gazebo 11, ROS 1, ROS 2's DDS and RViz; installs them, as root

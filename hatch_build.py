@@ -31,7 +31,6 @@ class Description(MetadataHookInterface):
     def update(self, metadata: dict[str, Any]) -> None:
         """Leave out pictures and what is marked; relative links become plain text, and the folder the package."""
         text = (Path(self.root) / "README.md").read_text("utf-8")
-        text = text.replace("pip install -e '.[", "pip install 'tandemlift[")
         text = re.sub(PICTURE, "", re.sub(REPOSITORY_ONLY, "", text, flags=re.S))
         metadata["readme"] = {"content-type": "text/markdown", "text": re.sub(RELATIVE_LINK, r"\1", text)}
 

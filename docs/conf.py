@@ -1,6 +1,7 @@
 """The site: `make docs` writes out/site. It is built without a network, and a warning ends the build."""
 
 import sys
+import zipfile
 from pathlib import Path
 
 import tandemlift
@@ -75,6 +76,17 @@ def spread(app, env, docnames):
     docnames[:] = [name for start in range(8) for name in docnames[start::8]]
 
 
+def pack_exercises(app):
+    """Write out/exercises.zip, without the solutions, for the pages that offer it."""
+    folder, packed = HERE.parent / "exercises", HERE.parent / "out" / "exercises.zip"
+    packed.parent.mkdir(exist_ok=True)
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name in ("README.md", *(f"[0-9]*/*.{ending}" for ending in ("ipynb", "py", "toml"))):
+            for path in sorted(folder.glob(name)):
+                archive.write(path, path.relative_to(HERE.parent))
+
+
 def setup(app):
-    """Order the pages before they are read."""
+    """Pack the exercises and order the pages before they are read."""
+    app.connect("builder-inited", pack_exercises)
     app.connect("env-before-read-docs", spread)

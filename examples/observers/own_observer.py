@@ -1,6 +1,6 @@
 """Put an observer of one's own beside the others: the same flights of `iris`, as one Parquet file.
 
-    pip install -e '.[pandas,study]'
+    pip install 'tandemlift[pandas,study]'
     python examples/observers/own_observer.py
 
 The first call flies and writes `observers.parquet`, one row a millisecond: what sensors measured

@@ -119,3 +119,55 @@ def test_the_build_imports_no_package_that_it_does_not_ask_for():
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
     assert (done.stdout, done.stderr) == ("8\n", "")
+
+
+@pytest.fixture
+def repository(tmp_path):
+    """A clean repository with what `make release` reads before it builds; its names are as they are recorded."""
+    files = {
+        "src/tandemlift/core/files.py": '__version__ = "1.2.0"\n',
+        "CITATION.cff": "version: 1.2.0\n",
+        "CHANGELOG.md": "# Changelog\n\n## [1.2.0] - 2027-01-01\n\n- News.\n\n## [1.1.0] - 2026-12-01\n\n- Old.\n",
+        ".gitignore": ".venv/\n",
+        ".venv/bin/pytest": "#!/bin/sh\nexit 0\n",
+        "Makefile": "docs:\n\t@exit 7\n",
+        "tools/release": (ROOT / "tools" / "release").read_text("utf-8"),
+    }
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text, "utf-8")
+    for name in ("tools/release", ".venv/bin/pytest"):
+        (tmp_path / name).chmod(0o755)
+    subprocess.run(["git", "init", "-q", tmp_path], check=True)
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "committed", "said"),
+    [
+        ("README.md", "", True, "docs] Error 7"),  # nothing is in its way: it builds, of which there is nothing here
+        ("stray.txt", "", False, "make release: the tree is not clean: commit or remove\n?? stray.txt\n"),
+        ("CITATION.cff", "version: 1.1.0\n", True, "make release: CITATION.cff: must have version: 1.2.0\n"),
+        (
+            "CHANGELOG.md",
+            "## [1.2.0]\n\n## [1.1.0]\n\n- Old.\n",
+            True,
+            "CHANGELOG.md: must have a section [1.2.0] with",
+        ),
+        (
+            ".venv/bin/pytest",
+            "#!/bin/sh\necho key a.b >&2; exit 1\n",
+            True,
+            "key a.b\nmake release: public names changed",
+        ),
+    ],
+)
+def test_a_release_is_refused_before_anything_is_built(repository, name, text, committed, said):
+    commit = ("-c", "user.name=a", "-c", "user.email=a@example.org", "commit", "-qm", "All")
+    (repository / name).write_text(text, "utf-8") if committed else None
+    for words in (("add", "."), commit):
+        subprocess.run(["git", "-C", repository, *words], check=True)
+    (repository / name).write_text(text, "utf-8")
+    done = subprocess.run([repository / "tools" / "release"], capture_output=True, text=True, check=False)
+    assert (done.returncode, said in done.stderr) == (2, True), done.stderr
+    assert (repository / "out").exists() == ("Error 7" in said)

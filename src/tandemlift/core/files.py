@@ -18,7 +18,7 @@ from typing import Any
 
 from tandemlift.core.errors import InputError
 
-__version__ = "0.2.0"
+__version__ = "1.0.0"
 DATA = Path(__file__).resolve().parents[1] / "data"  # missions, pages, templates: everything but Python
 FLIGHT_FILE = "flight.npz"  # in the folder of a run
 

@@ -114,7 +114,7 @@ def identify(
 
     \b
     Examples:
-      tandemlift identify out/excited --mission iris --weighed vehicle.payload.mass=0.5
+      tandemlift identify out/iris-excited --mission iris --weighed vehicle.payload.mass=0.5
       tandemlift identify one.ulg two.ulg --mission start.toml --align --out out/mine
 
     \b

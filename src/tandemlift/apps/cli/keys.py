@@ -152,10 +152,10 @@ def completion(shell: str) -> None:
     """Print the script by which a SHELL completes commands and names.
 
     \b
-    In the start file of the shell, where `tandemlift` is on the path:
-      bash, ~/.bashrc:                    eval "$(tandemlift completion bash)"
-      zsh, ~/.zshrc, after compinit:      eval "$(tandemlift completion zsh)"
-      fish, ~/.config/fish/config.fish:   tandemlift completion fish | source
+    Examples:
+      eval "$(tandemlift completion bash)"     # in ~/.bashrc
+      eval "$(tandemlift completion zsh)"      # in ~/.zshrc, after compinit
+      tandemlift completion fish | source      # in ~/.config/fish/config.fish
     """
     echo(SCRIPTS[shell].read_text("utf-8"), nl=False)
 
