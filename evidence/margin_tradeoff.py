@@ -2,9 +2,10 @@
 
 python evidence/margin_tradeoff.py [--persons 200] [--out FILE.png]
 
-`share` goes from the pilot of `zigzag` (0) to that of `iris` (1) with filters of 25 rad/s, on straight lines for all
-gains, filters, bandwidths and leads. `lead` goes the same way with the lead of the wrench alone. Margins are the least
-of all axes, by the linear tier of the certificate; the persons are those of `make validate CHAPTER=persons`.
+`share` goes from the pilot of `zigzag` (0) to the gains, bandwidths and leads of the wrench of `iris` (1) on straight
+lines, with an attitude filter from 15 to 25 rad/s; `smoothed` has a low-pass before this filter too, whose delay grows
+to that of 25 rad/s. `lead` changes the lead of the wrench alone. Margins are the least of all axes, by the linear tier
+of the certificate; the persons are those of `make validate CHAPTER=persons`.
 """
 
 from __future__ import annotations
@@ -27,13 +28,17 @@ from tandemlift.missions import Mission, load_mission
 
 BARS = (45.0, 35.0)  # deg: phase margin, disk phase margin
 TABLES = {
-    "controller": ("filter_bandwidth", "smoothing_bandwidth"),
+    "controller": ("filter_bandwidth",),
     "controller.gains": ("xi", "lambda_1", "lambda_2"),
     "observer": ("force_bandwidth", "moment_bandwidth"),
     "allocation": ("lead",),
 }
-FILTERS = {"controller.filter_bandwidth": 25.0, "controller.smoothing_bandwidth": 0.0}  # rad/s, of the far end
-POINTS = [("share", x) for x in (0.0, 0.25, 0.5, 0.75, 1.0)] + [("lead", x) for x in (0.25, 0.5, 1.0)]
+SMOOTHING, FILTER = "controller.smoothing_bandwidth", 25.0  # rad/s: of both filters at the far end
+LINES = {
+    "share": ("o-", "towards the pilot of iris", (0.0, 0.25, 0.5, 0.75, 1.0)),
+    "smoothed": ("^:", "the same, smoothed", (0.5, 1.0)),
+    "lead": ("s--", "lead of the wrench alone", (0.25, 0.5, 1.0)),
+}
 
 
 class Point(NamedTuple):
@@ -61,11 +66,15 @@ def numbers(mission: Mission) -> dict[str, Any]:
 
 def pilot(line: str, part: float) -> Changes:
     """The changes of `zigzag` for a point of a line."""
-    near, far = numbers(load_mission("zigzag")), {**numbers(load_mission("iris")), **FILTERS}
-    keys = near if line == "share" else ["allocation.lead"]
-    return {
+    near, far = numbers(load_mission("zigzag")), numbers(load_mission("iris"))
+    far["controller.filter_bandwidth"] = FILTER
+    keys = ["allocation.lead"] if line == "lead" else near
+    changes = {
         key: (np.asarray(near[key]) + part * (np.asarray(far[key]) - np.asarray(near[key]))).tolist() for key in keys
     }
+    if line == "smoothed":
+        changes[SMOOTHING] = FILTER / part  # the delay of a low-pass is proportional to 1/bandwidth
+    return changes
 
 
 def margins(mission: Mission) -> tuple[float, float]:
@@ -98,9 +107,8 @@ def drawn(points: list[Point], count: int) -> plt.Figure:
         "work of a person (J/m)": [p.work for p in points],
     }
     for a, (label, values) in zip(axes.flat, panels.items(), strict=True):
-        for line, style in (("share", "o-"), ("lead", "s--")):
-            of = [i for i, p in enumerate(points) if p.line == line]
-            name = "towards the pilot of iris" if line == "share" else "lead of the wrench alone"
+        for line, (style, name, _) in LINES.items():
+            of = [i for i, p in enumerate(points) if p.line == line or p.part == 0.0]  # all lines begin at zigzag
             a.plot([points[i].disk for i in of], [values[i] for i in of], style, mfc="white", label=name)
         a.axvline(BARS[1], color="k", lw=0.8, ls=":")
         a.set_ylabel(label)
@@ -120,7 +128,7 @@ def main() -> None:
     print("| pilot | margin, disk (deg) | arrived | smallest clearance (m) | oscillate | force (N), work (J/m) |")
     print("|---|---|---:|---:|---:|---|")
     points = list[Point]()
-    for line, part in POINTS:
+    for line, part in ((line, part) for line, (*_, parts) in LINES.items() for part in parts):
         with without_flight_warnings():
             p = point(line, part, given.persons)
         points.append(p)
