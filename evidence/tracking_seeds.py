@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 from validation.rows import errors, rms, triple
-from validation.scenarios import CLEAN, IN_THE_AIR, SLOW, WINDY, Changes
+from validation.scenarios import CLEAN, IN_THE_AIR, SLOW, WINDY, Changes, quadrotors
 from validation.tracking import ASIDE, HEAVIER, admittance_error
 
 from tandemlift.analysis.studies.execution.flying import fly_each
@@ -34,6 +34,7 @@ SCENES: dict[str, Changes] = {
     "rotor lag 50 ms, delay 20 ms": SLOW,
     f"+{HEAVIER} kg, unknown": {"plant.mass_scale": 1.0 + HEAVIER / 3.5},
     f"payload's centre of mass off by {ASIDE} m": {"disturbance.moment": [0.5 * 9.81 * ASIDE, 0.0, 0.0]},
+    "rotors that speed up as they slow down, 18 ms": {"vehicle.quadrotors": quadrotors(lag_up=0.018, lag_down=0.018)},
 }
 
 
