@@ -17,9 +17,10 @@ def lag_of(found, true, most=150):
     return 2 * int(np.argmin(errors))
 
 
-@pytest.fixture(scope="module")
-def flown():
-    return tl.fly(tl.load_mission("iris", {**WITHOUT, "mission.log_interval": 0.001}))
+@pytest.fixture(scope="module", params=[0.01, 0.015], ids=["delay as believed", "delay 5 ms more"])
+def flown(request):
+    changes = {"mission.log_interval": 0.001, "actuators.delay": request.param}
+    return tl.fly(tl.load_mission("iris", {**WITHOUT, **changes}))
 
 
 def test_a_hand_guides_the_vehicle_without_force_sensors(flown):
@@ -35,7 +36,7 @@ def test_force_and_moment_are_found_within_their_goals(flown):
     force, true = flown["push_estimate"][within], flown["push_force"][within]
     rmse = np.sqrt(np.mean((force - true) ** 2, axis=0))
     assert np.all(rmse < [0.08, 0.07, 0.06])
-    assert [lag_of(force[:, axis], true[:, axis]) <= 60 for axis in range(3)] == [True, True, False]
+    assert max(lag_of(force[:, axis], true[:, axis]) for axis in range(3)) <= 60
     moment = flown["push_moment_estimate"][within] - np.cross([0.0, 0.0, 0.0642857], force)  # level enough
     assert np.all(np.sqrt(np.mean(moment**2, axis=0)) < 0.03)
 

@@ -10,6 +10,7 @@ from tandemlift.core.keys import Bandwidth, NonNegative, Positive, Scale, Table,
 from tandemlift.parts.estimation.wrench.wrench_table import MotionNoise, WrenchTable, bandwidth_checks
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
+from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale, steps_of
 
 
@@ -198,3 +199,13 @@ def tare_warnings(
     for i, push in enumerate(pushes):
         if e.tare_start - WIDTH * push.sigma < push.time < end + WIDTH * push.sigma:
             yield warned(f"{window} treats a part of pushes.{i} at {push.time:g} s as a bias")
+
+
+def compensation_checks(model: str, quadrotors: Sequence[Quadrotor]) -> Iterator[CheckResult]:
+    """Check for quadrotors without drag along an axis, which do not measure its wind; `model`: `wind_compensation`."""
+    for axis, name in enumerate("xy"):
+        if model != "none" and not any(q.areas[axis] * q.drag_coefficient > 0.0 for q in quadrotors):
+            yield refused(
+                'estimator.wind_compensation = "quadrotors": must be "none" where no quadrotor has drag along body '
+                f"{name}: there the wind is not measured"
+            )

@@ -22,7 +22,6 @@ from tandemlift.parts.estimation.push_estimate import (
     push_estimator,
     start_push,
 )
-from tandemlift.parts.estimation.wind_compensation import payload_drag_from
 from tandemlift.parts.estimation.wrench.fused import (
     FusedFilter,
     FusedState,
@@ -31,6 +30,7 @@ from tandemlift.parts.estimation.wrench.fused import (
     fused_filter,
     refuted_force,
 )
+from tandemlift.parts.estimation.wrench.wind_compensation import payload_drag_from
 from tandemlift.parts.estimation.wrench.wrench_table import force_change_of
 from tandemlift.parts.estimation.wrench_push import (
     PushAndState,

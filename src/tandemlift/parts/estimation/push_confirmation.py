@@ -20,8 +20,8 @@ from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, each, vec3
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState
-from tandemlift.parts.estimation.wind_compensation import subtracted_wind
 from tandemlift.parts.estimation.wrench.confirmed_part import Zero, compared
+from tandemlift.parts.estimation.wrench.wind_compensation import subtracted_wind
 from tandemlift.parts.mechanics.loads import scaled, sum_over_set, translated
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import UP, apply_inertia, gyroscopic, inertia_value
