@@ -7,10 +7,10 @@ from typing import Literal
 
 from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.keys import Bandwidth, NonNegative, Positive, Scale, Table, key
+from tandemlift.parts.estimation.wrench.wind_compensation import compensation_checks as compensation_checks
 from tandemlift.parts.estimation.wrench.wrench_table import MotionNoise, WrenchTable, bandwidth_checks
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
-from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale, steps_of
 
 
@@ -159,9 +159,11 @@ def wrench_checks(
             f'{given} unless actuators.model is "rotors" and allocation.method is "constrained", which give it the '
             "thrusts of the rotors"
         )
-    for name, choice in (("estimator.wind_compensation", e.wind_compensation), ("contact.model", contact)):
-        if choice != "none":
-            yield refused(f'{given} where {name} is "{choice}", which reads joints')
+    if e.wind_compensation != "none" and e.wrench != "fused":
+        yield refused(
+            f'{given} or "fused" where estimator.wind_compensation is "{e.wind_compensation}": without joint sensors '
+            "wind and a hand make the same wrench; only their spectra differ (admittance.threshold)"
+        )
     interval = step * steps_of(s.interval, step)
     noise = mass * s.accelerometer.noise * noise_scale(s, interval)
     motion = step * steps_of(s.motion.interval, step)
@@ -199,13 +201,3 @@ def tare_warnings(
     for i, push in enumerate(pushes):
         if e.tare_start - WIDTH * push.sigma < push.time < end + WIDTH * push.sigma:
             yield warned(f"{window} treats a part of pushes.{i} at {push.time:g} s as a bias")
-
-
-def compensation_checks(model: str, quadrotors: Sequence[Quadrotor]) -> Iterator[CheckResult]:
-    """Check for quadrotors without drag along an axis, which do not measure its wind; `model`: `wind_compensation`."""
-    for axis, name in enumerate("xy"):
-        if model != "none" and not any(q.areas[axis] * q.drag_coefficient > 0.0 for q in quadrotors):
-            yield refused(
-                'estimator.wind_compensation = "quadrotors": must be "none" where no quadrotor has drag along body '
-                f"{name}: there the wind is not measured"
-            )

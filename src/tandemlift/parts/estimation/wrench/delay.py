@@ -24,7 +24,7 @@ from typing import Generic, NamedTuple
 from tandemlift.core.algebra import clip, cos, exp, sin, sqrt
 from tandemlift.core.law import law
 from tandemlift.core.types import Number
-from tandemlift.core.vector import ZERO
+from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, V, flush_denormals, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import Wrench
 
@@ -76,46 +76,51 @@ def delay_of(time: Number, step: Number) -> Delay:
     )
 
 
-class DelayError(NamedTuple):
-    """Estimation of δ: the vehicle's mass [kg], the band, c [N²/s⁴], and the factor of the sums over a sample."""
+class RotorDelay(NamedTuple):
+    """The known delay; for δ, the vehicle's mass [kg], the low-pass, c [N²/s⁴], the sums' factor of a sample."""
 
+    known: Delay
     mass: Number
     low_pass: LowPass
     prior: Number
     keep: Number
 
 
-class DelayErrorState(NamedTuple):
-    """Memory: e and f [N], low-passed; −Σ ė f̈ and Σ f̈² [N²/s⁴]; the last modelled wrench."""
+class RotorDelayState(NamedTuple):
+    """Memory: of the known delay; e and f [N], low-passed; −Σ ė f̈ and Σ f̈² [N²/s⁴]; the last wrench so delayed."""
 
+    thrust: DelayState[Number]
+    moment: DelayState[Vec3]
     rest: LowPassState[Number]
-    thrust: LowPassState[Number]
+    smooth: LowPassState[Number]
     product: Number
     square: Number
     before: Wrench
 
 
-@law(absent=("modelled", "m"))
-def with_delay_error(
-    k: DelayError, m: DelayErrorState, modelled: Wrench, vertical: Number, free: Number, dt: Number
-) -> tuple[Wrench, DelayErrorState]:
-    """(the modelled wrench, later by δ̂, the new memory).
+@law
+def late_wrench(
+    k: RotorDelay, m: RotorDelayState, made: Wrench, vertical: Number, free: Number, dt: Number
+) -> tuple[Wrench, RotorDelayState]:
+    """(the wrench of the rotors, later by the known delay and δ̂, the new memory).
 
     `vertical`: specific force along body z [m/s²]; `free`: 1 while no floor carries the vehicle, else 0.
     """
-    f = modelled.thrust
-    rest, thrust = low_pass_step(k.low_pass, m.rest, vertical * k.mass - f), low_pass_step(k.low_pass, m.thrust, f)
-    curvature = ((f - thrust.value) * BAND - thrust.rate * 2.0) * BAND
+    f, thrust = delayed(k.known, m.thrust, made.thrust)
+    M, moment = delayed(k.known, m.moment, made.moment)
+    rest, smooth = low_pass_step(k.low_pass, m.rest, vertical * k.mass - f), low_pass_step(k.low_pass, m.smooth, f)
+    curvature = ((f - smooth.value) * BAND - smooth.rate * 2.0) * BAND
     product = m.product * k.keep - rest.rate * curvature * free
     square = m.square * k.keep + curvature * curvature * free
     error = clip(product / (square + k.prior), -LARGEST, LARGEST) / dt
-    later = Wrench(f - (f - m.before.thrust) * error, modelled.moment - (modelled.moment - m.before.moment) * error)
-    return later, DelayErrorState(rest, thrust, product, square, modelled)
+    later = Wrench(f - (f - m.before.thrust) * error, M - (M - m.before.moment) * error)
+    return later, RotorDelayState(thrust, moment, rest, smooth, product, square, Wrench(f, M))
 
 
-def start_delay_error(mass: Number, noise: Number, interval: Number) -> tuple[DelayError, DelayErrorState]:
-    """The estimation of δ and its memory; `noise`: of the accelerometer at a sample [m/s²], every `interval` [s]."""
-    band, still, sigma = low_pass(BAND, interval), LowPassState(0.0, 0.0), mass * noise / PRIOR
+def rotor_delay(time: Number, mass: Number, noise: Number, interval: Number) -> tuple[RotorDelay, RotorDelayState]:
+    """The delay by a known time [s] and its memory; `noise`: of the accelerometer at a sample [m/s²]."""
+    still, sigma = LowPassState(0.0, 0.0), mass * noise / PRIOR
     prior = sigma * sigma * BAND**3 * (0.25 * interval)  # the variance of ė by noise is σ² ω³ T/4
-    none = DelayErrorState(still, still, 0.0, 0.0, Wrench(0.0, ZERO))
-    return DelayError(mass, band, prior, exp(-interval / MEMORY)), none
+    k = RotorDelay(delay_of(time, interval), mass, low_pass(BAND, interval), prior, exp(-interval / MEMORY))
+    none = DelayState(0.0, 0.0), DelayState(ZERO, ZERO)
+    return k, RotorDelayState(*none, still, still, 0.0, 0.0, Wrench(0.0, ZERO))

@@ -9,17 +9,20 @@ The ratio also multiplies the sensors' errors. For noise σ per sample, taken ev
 low-pass of bandwidth ω leaves ratio · σ √(ω T/4N); it delays gusts by 2/ω.
 """
 
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from tandemlift.core.algebra import maximum
 from tandemlift.core.arrays import array
+from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.law import law
 from tandemlift.core.types import Number, PerQuadrotor, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, total
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 
 
 class PayloadDrag(NamedTuple):
@@ -56,14 +59,8 @@ def wind_on_payload(
 ) -> tuple[Vec3, PayloadDragState]:
     """(force of the wind on the payload beyond the tare's [N, body axes], the new memory).
 
-    Args:
-        k: `PayloadDrag`, or `Absent`.
-        memory: its memory.
-        x: force from outside along body x on every quadrotor [N], a set.
-        y: likewise along y.
-        begun: 1 once the tare has begun, else 0.
-        taken: 1 if this sample is one of the tare, else 0.
-        armed: 1 once the tare is over, else 0.
+    `x`, `y`: forces from outside on every quadrotor [N], body axes; 1 or 0: the tare has `begun`, the sample is `taken`
+    for it, it is over (`armed`).
     """
     force = Vec3(total(x) * k.ratio_x, total(y) * k.ratio_y, 0.0)
     summed = PayloadDragState(memory.sum * begun + force * taken, memory.count * begun + taken, memory.force)
@@ -87,3 +84,13 @@ def payload_drag_from(vehicle: Vehicle, bandwidth: float, step: float) -> Payloa
     beam = array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
     quadrotors = np.sum([array(q.areas) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
     return PayloadDrag(number(beam[0] / quadrotors[0]), number(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
+
+
+def compensation_checks(model: str, quadrotors: Sequence[Quadrotor]) -> Iterator[CheckResult]:
+    """Check for quadrotors without drag along an axis, which do not measure its wind; `model`: `wind_compensation`."""
+    for axis, name in enumerate("xy"):
+        if model != "none" and not any(q.areas[axis] * q.drag_coefficient > 0.0 for q in quadrotors):
+            yield refused(
+                'estimator.wind_compensation = "quadrotors": must be "none" where no quadrotor has drag along body '
+                f"{name}: there the wind is not measured"
+            )
