@@ -50,10 +50,10 @@ def test_there_is_no_reading_of_joints_that_have_no_sensors(flown):
     ("changes", "key"),
     [
         ({"sensors.joints.model": "none"}, "sensors.joints.model"),
-        ({**WITHOUT, "contact.model": "on"}, "contact.model"),
         ({**WITHOUT, "allocation.method": "pseudo-inverse", "observer.model": "none"}, "allocation.method"),
         ({**WITHOUT, "sensors.model": "none", "pilot.state": "truth", "pilot.push": "truth"}, "sensors.model"),
-        ({**WITHOUT, "estimator.wind_compensation": "quadrotors"}, "estimator.wind_compensation"),
+        ({**WITHOUT, "estimator.wind_compensation": "quadrotors"}, "wind and a hand make the"),
+        ({"estimator.wrench": "fused", "estimator.wind_compensation": "quadrotors"}, "estimator.wind_compensation"),
         ({**WITHOUT, "sensor_faults": [{"sensor": "joints", "kind": "nan", "time": 20.0}]}, "sensor_faults"),
     ],
 )
@@ -125,3 +125,30 @@ def test_a_supervised_vehicle_without_joint_sensors_survives_a_lost_acceleromete
         "mission.duration": 40.0,
     }
     assert tl.fly(tl.load_mission("iris", changes)).metrics()["outcome"].startswith("landed")
+
+
+@pytest.mark.parametrize(("wrench", "part"), [("kalman", -1.0), ("kalman", 1.0), ("fused", 1.0)])
+def test_a_wall_is_told_from_a_hand_by_motion_and_thrusts(wrench, part):
+    """A push leads the beam onto a post between the guards, or a guard onto a post in its way; nobody feels a wall."""
+    y = 0.2 if part < 0.0 else 1.1
+    hand = [{"force": [2.5, 0.0, 0.0], "time": 9.0 + 0.5 * i, "sigma": 0.5} for i in range(6)]
+    changes = {
+        **(WITHOUT if wrench == "kalman" else {}),
+        "estimator.wrench": wrench,
+        "person.model": "none",
+        "corridor.centreline": [],
+        "walls": [{"start": [1.5, y], "end": [2.0, y]}],
+        "compliance.max_speed": [0.5, 0.5, 1.0],
+        "pushes": hand,
+        "mission.duration": 20.0,
+        "mission.log_interval": 0.002,
+    }
+    flight = tl.fly(tl.load_mission("zigzag", {**changes, "pilot.map": "none"}))
+    touched = flight.time[np.flatnonzero(flight["contact_force"][:, 0] < 0.0)]
+    first = touched[touched > 8.0][0]
+    told = np.flatnonzero(flight["contact_part"] != 0.0)
+    assert 0.0 < flight.time[told[0]] - first < 0.03
+    assert flight["contact_part"][told[0]] == part
+    assert flight["contact_normal"][told[0], 0] < -0.8
+    assert flight.time[told[-1]] < first + 5.0  # the hand leads it away again, or stops
+    assert np.abs(flight["position"][flight.time > first + 2.0, 0]).max() < 1.6

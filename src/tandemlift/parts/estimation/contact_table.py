@@ -57,10 +57,7 @@ MARGIN = 0.06  # m: 30 ms at 1 m/s until a contact is detected, and an error of 
 def start_contact_detection(
     table: ContactTable, vehicle: Vehicle, step: float, *, joints: bool
 ) -> tuple[ContactDetector, Any] | tuple[Absent, Absent]:
-    """The detector of contacts and its memory before the first step, for the nominal vehicle; or `Absent`.
-
-    `joints`: whether the push is that of joint sensors; else of an observer.
-    """
+    """The detector of contacts, by joint sensors or motion, for the nominal vehicle, and its memory; or `Absent`."""
     if table.model == "none":
         return Absent(), Absent()
     payload, N = vehicle.payload, vehicle.count

@@ -159,10 +159,10 @@ def wrench_checks(
             f'{given} unless actuators.model is "rotors" and allocation.method is "constrained", which give it the '
             "thrusts of the rotors"
         )
-    if e.wind_compensation != "none" and e.wrench != "fused":
+    if e.wind_compensation != "none":
         yield refused(
-            f'{given} or "fused" where estimator.wind_compensation is "{e.wind_compensation}": without joint sensors '
-            "wind and a hand make the same wrench; only their spectra differ (admittance.threshold)"
+            f'{given} where estimator.wind_compensation is "{e.wind_compensation}": to an observer wind and a hand '
+            "make the same wrench, and 'fused' takes wind on the quadrotors into its zero"
         )
     interval = step * steps_of(s.interval, step)
     noise = mass * s.accelerometer.noise * noise_scale(s, interval)
