@@ -19,7 +19,7 @@ from validation.triggers import EVERY, FIRST, HOVER, PUSHES, delays, step
 import tandemlift as tl
 from tandemlift.core.types import Array
 
-FLIGHT, AT_ONCE, AFTER, SEEDS = 600.0, 4, 12.0, 3  # s; flights in memory; s; flights with pushes
+FLIGHT, AT_ONCE, AFTER, SEEDS = 600.0, 8, 12.0, 3  # s; flights in memory; s; flights with pushes
 SOON = 0.08  # s
 FORCES = np.geomspace(1.0, 3.0, 23)  # over the threshold
 THRESHOLDS = {  # N by wind [m/s]: chosen above the largest force of 1,000 minutes with `kalman`

@@ -57,6 +57,18 @@ def test_a_vehicle_stands_takes_off_and_flies_on_its_sensors_as_in_the_compiled_
     assert apart(a, b, "push_estimate") < 0.01  # N
 
 
+@pytest.mark.parametrize("wrench", ["kalman", "fused"])
+def test_an_observer_finds_the_push_on_the_body_of_gazebo(wrench):
+    """The truth is the wrench that Gazebo applies; the hand pushes with up to 3 N."""
+    joints = {} if wrench == "fused" else {"sensors.joints.model": "none"}
+    a, b = both("iris", {"mission.duration": 24.0, "estimator.wrench": wrench, **joints})
+    pushed = a.time > 12.5
+    assert np.abs(b["push_force"][pushed]).max() > 2.9  # N
+    errors = [np.sqrt(np.mean((f["push_estimate"] - f["push_force"])[pushed] ** 2, axis=0)) for f in (a, b)]
+    assert errors[1].max() < 0.06  # N
+    assert np.abs(errors[0] - errors[1]).max() < 0.003  # N
+
+
 def test_a_landing_ends_at_the_same_height():
     a, b = both("iris", {"mission.duration": 90.0, "mission.log_interval": 0.01})
     assert a.ending is None

@@ -12,7 +12,6 @@ from machine_code import answers
 
 from tandemlift.core.vector import Absent, Mat3, Quat, Vec3, each, outer
 from tandemlift.parts.controllers import attitude_reference, equations_of_motion, sliding_surface
-from tandemlift.parts.estimation import wind_compensation
 from tandemlift.parts.estimation.wrench import (
     delay,
     extended_kalman,
@@ -21,6 +20,7 @@ from tandemlift.parts.estimation.wrench import (
     kalman,
     momentum,
     nonlinear_disturbance,
+    wind_compensation,
 )
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
 from tandemlift.parts.guidance import guidance
@@ -52,7 +52,7 @@ WATCHING = rotor_loss_detection.DetectionState(
     *[SMOOTHS] * 2, *[SMOOTH] * 4, rotor_loss_decision.DecisionState(EIGHT, 0.0, 0.0, EIGHT, 0.0)
 )
 HEARD = guidance.PilotInput(STATE, V, V, 0.0, Absent())
-SLOPE = low_pass.LowPassState(V, V)
+SLOPE, STILL = low_pass.LowPassState(V, V), low_pass.LowPassState(0.0, 0.0)
 BLOWN = wind_compensation.PayloadDragState(V, 0.0, SLOPE)
 VEHICLE, OBSERVED = NominalBody(0.0, V, V), Observation(V, STATE, Wrench(0.0, V), V, V, Q, 0.0, 0.0)
 ALONE, LOW_PASS = kalman.KalmanObserver(VEHICLE, V, V, V), low_pass.LowPass(*[0.0] * 4)
@@ -79,6 +79,15 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "watching for a lost rotor": (
         rotor_loss_detection.detection_step,
         (DETECTION, WATCHING, HEARD, EIGHT, 0.0, 0.0, 0.0),
+    ),
+    "the wrench of rotors that are later than known": (
+        delay.late_wrench,
+        (
+            delay.RotorDelay(delay.Delay(*[0.0] * 6), 0.0, LOW_PASS, 0.0, 0.0),
+            delay.RotorDelayState(*[delay.DelayState(x, x) for x in (0.0, V)], *[STILL] * 2, 0.0, 0.0, Wrench(0.0, V)),
+            Wrench(0.0, V),
+            *[0.0] * 3,
+        ),
     ),
     "wind on the payload": (
         wind_compensation.wind_on_payload,

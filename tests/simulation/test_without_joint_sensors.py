@@ -17,9 +17,10 @@ def lag_of(found, true, most=150):
     return 2 * int(np.argmin(errors))
 
 
-@pytest.fixture(scope="module")
-def flown():
-    return tl.fly(tl.load_mission("iris", {**WITHOUT, "mission.log_interval": 0.001}))
+@pytest.fixture(scope="module", params=[0.01, 0.015], ids=["delay as believed", "delay 5 ms more"])
+def flown(request):
+    changes = {"mission.log_interval": 0.001, "actuators.delay": request.param}
+    return tl.fly(tl.load_mission("iris", {**WITHOUT, **changes}))
 
 
 def test_a_hand_guides_the_vehicle_without_force_sensors(flown):
@@ -35,7 +36,7 @@ def test_force_and_moment_are_found_within_their_goals(flown):
     force, true = flown["push_estimate"][within], flown["push_force"][within]
     rmse = np.sqrt(np.mean((force - true) ** 2, axis=0))
     assert np.all(rmse < [0.08, 0.07, 0.06])
-    assert [lag_of(force[:, axis], true[:, axis]) <= 60 for axis in range(3)] == [True, True, False]
+    assert max(lag_of(force[:, axis], true[:, axis]) for axis in range(3)) <= 60
     moment = flown["push_moment_estimate"][within] - np.cross([0.0, 0.0, 0.0642857], force)  # level enough
     assert np.all(np.sqrt(np.mean(moment**2, axis=0)) < 0.03)
 
@@ -49,10 +50,10 @@ def test_there_is_no_reading_of_joints_that_have_no_sensors(flown):
     ("changes", "key"),
     [
         ({"sensors.joints.model": "none"}, "sensors.joints.model"),
-        ({**WITHOUT, "contact.model": "on"}, "contact.model"),
         ({**WITHOUT, "allocation.method": "pseudo-inverse", "observer.model": "none"}, "allocation.method"),
         ({**WITHOUT, "sensors.model": "none", "pilot.state": "truth", "pilot.push": "truth"}, "sensors.model"),
-        ({**WITHOUT, "estimator.wind_compensation": "quadrotors"}, "estimator.wind_compensation"),
+        ({**WITHOUT, "estimator.wind_compensation": "quadrotors"}, "wind and a hand make the"),
+        ({"estimator.wrench": "fused", "estimator.wind_compensation": "quadrotors"}, "estimator.wind_compensation"),
         ({**WITHOUT, "sensor_faults": [{"sensor": "joints", "kind": "nan", "time": 20.0}]}, "sensor_faults"),
     ],
 )
@@ -124,3 +125,30 @@ def test_a_supervised_vehicle_without_joint_sensors_survives_a_lost_acceleromete
         "mission.duration": 40.0,
     }
     assert tl.fly(tl.load_mission("iris", changes)).metrics()["outcome"].startswith("landed")
+
+
+@pytest.mark.parametrize(("wrench", "part"), [("kalman", -1.0), ("kalman", 1.0), ("fused", 1.0)])
+def test_a_wall_is_told_from_a_hand_by_motion_and_thrusts(wrench, part):
+    """A push leads the beam onto a post between the guards, or a guard onto a post in its way; nobody feels a wall."""
+    y = 0.2 if part < 0.0 else 1.1
+    hand = [{"force": [2.5, 0.0, 0.0], "time": 9.0 + 0.5 * i, "sigma": 0.5} for i in range(6)]
+    changes = {
+        **(WITHOUT if wrench == "kalman" else {}),
+        "estimator.wrench": wrench,
+        "person.model": "none",
+        "corridor.centreline": [],
+        "walls": [{"start": [1.5, y], "end": [2.0, y]}],
+        "compliance.max_speed": [0.5, 0.5, 1.0],
+        "pushes": hand,
+        "mission.duration": 20.0,
+        "mission.log_interval": 0.002,
+    }
+    flight = tl.fly(tl.load_mission("zigzag", {**changes, "pilot.map": "none"}))
+    touched = flight.time[np.flatnonzero(flight["contact_force"][:, 0] < 0.0)]
+    first = touched[touched > 8.0][0]
+    told = np.flatnonzero(flight["contact_part"] != 0.0)
+    assert 0.0 < flight.time[told[0]] - first < 0.03
+    assert flight["contact_part"][told[0]] == part
+    assert flight["contact_normal"][told[0], 0] < -0.8
+    assert flight.time[told[-1]] < first + 5.0  # the hand leads it away again, or stops
+    assert np.abs(flight["position"][flight.time > first + 2.0, 0]).max() < 1.6

@@ -20,7 +20,6 @@ from tandemlift.parts.contact.corridor import wall_checks, wall_warnings
 from tandemlift.parts.estimation import estimator_table as estimator
 from tandemlift.parts.estimation.contact_table import contact_checks
 from tandemlift.parts.estimation.disturbance_observer import observer_checks
-from tandemlift.parts.estimation.wind_compensation import compensation_checks
 from tandemlift.parts.guidance import supervision_table as supervision
 from tandemlift.parts.guidance.guidance import reading_checks
 from tandemlift.parts.interaction.admittance import admittance_checks, gate_checks
@@ -65,7 +64,7 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from reading_checks(m.pilot, s.model)
     yield from estimator.tare_checks(m.estimator, s.interval, step, uses_mass=m.compliance.mass_feedforward)
     yield from estimator.wrench_checks(m.estimator, s, rotors, m.allocation.method, m.contact.model, m.hover.mass, step)
-    yield from compensation_checks(m.estimator.wind_compensation, m.vehicle.quadrotors)
+    yield from estimator.compensation_checks(m.estimator.wind_compensation, m.vehicle.quadrotors)
     yield from observer_checks(m.observer, m.allocation.method)
     yield from detection_checks(m.detection, m.allocation.method)
     yield from standing.floor_checks(m.ground, rotors, m.phases, walls=walls)

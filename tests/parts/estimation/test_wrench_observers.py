@@ -16,7 +16,7 @@ from tandemlift.parts.estimation.wrench.delay import DelayState, delay_of, delay
 from tandemlift.parts.estimation.wrench.kalman import natural_frequency, steady_gain, turning_gains
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
 from tandemlift.parts.estimation.wrench.start_observer import SampleNoise, start_wrench_observer
-from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable, force_change_of
+from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
 
 MASS, INERTIA, GRAVITY, H = 3.5, (3.2, 0.06, 3.3), 9.81, 1e-3
@@ -144,7 +144,7 @@ def test_the_extended_filter_is_that_of_filterpy_for_samples_at_random_times():
     """One axis each of translation and rotation, level: position and angle measured at random samples."""
     kalman = pytest.importorskip("filterpy.kalman")
     rng, sizes = np.random.default_rng(5), np.array([MASS, INERTIA[0]])
-    changes = np.array([force_change_of("extended-kalman", TABLE)[0], TABLE.moment_change[0]])
+    changes = np.array([TABLE.force_change[0], TABLE.moment_change[0]])
     value_noise, rate_noise = np.array([0.003, 0.002]), np.array([0.01, 0.0025])
     filters = []
     for size, change, value, rate in zip(sizes, changes, value_noise, rate_noise, strict=True):

@@ -19,6 +19,7 @@ from tandemlift.parts.estimation.contact_evidence import (
     Deviations,
     EvidenceState,
     PushReading,
+    by_line_of_action,
     heard,
     start_evidence,
     touching_part,
@@ -193,27 +194,19 @@ def contact_step(
     surroundings: KnownSurroundings,
     dt: Number,
 ) -> tuple[ContactEstimate, ContactState]:
-    """(`ContactEstimate`, the new memory) at a sample.
-
-    Args:
-        k: a `ContactDetector`, or `Absent`.
-        m: its memory.
-        e: the estimator of the push.
-        x: its reading.
-        s: the state as estimated.
-        surroundings: the pilot's knowledge of its surroundings.
-        dt: since the last sample [s].
-    """
+    """(`ContactEstimate`, the new memory) at a sample: `x` the reading of an estimator `e`, `s` the state."""
     before = m.contact
     evidence, d = heard(k, m.evidence, e, x, where(before.part == 0.0, 0.0, 1.0), dt)
     guards = guards_matched(surroundings.walls, k.geometry, s, world_forces(s, d.lasting))
     beam = beam_of(surroundings.walls, k.geometry, s, in_world(s, d.push.x, d.push.y))
     aloft = maximum(surroundings.aloft, where(s.position.z > surroundings.ground + HIGH, surroundings.landing, 0.0))
     free = where(before.part == 0.0, aloft * x.push.armed, 0.0)
-    part = touching_part(k, evidence, d, guards, beam, maximum(x.push.trusted, is_explained(m))) * free
+    told = touching_part(k, evidence, d, guards, beam, maximum(x.push.trusted, is_explained(m)))
+    part, y = by_line_of_action(k.whole, told, x.push.point, k, evidence, (guards, beam))
+    part = part * free
     seen_time = (m.seen_time + dt) * where(part == 0.0, 0.0, 1.0)
     begins = where(seen_time > DECISION_TIME, 1.0, 0.0)
-    now = chosen(begins, begun(k, evidence, d, part, guards, beam, s, x.push.point), before)
+    now = chosen(begins, begun(k, evidence, d, part, guards, beam, s, y), before)
     now = now._replace(force=force_on(k, d, now.part, s))
     least = (RELEASE * k.threshold) * (RELEASE * k.threshold)
     quiet_time = (m.quiet_time + dt) * where(dot(now.force, now.force) < least, 1.0, 0.0)

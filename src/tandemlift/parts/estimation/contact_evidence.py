@@ -19,20 +19,26 @@ sensor may move later, too; therefore a force that was not confirmed at once (`d
 
 A beam that touches is distinguished from a hand by the rise of the force: a hand gives some 100 N/s at most. If there
 is a known wall at the place and the force points away from it, a slower rise is enough.
+
+Beside an observer, without joint sensors, T and its moment about z are all that is known. Their line of action shows
+the part (`wrench.observation.may_act_on`), but not what acts: a hand gives the wrench of a wall. So on guards, too, the
+rise alone tells them apart, and a guard that is pressed slowly against a wall is not detected.
 """
 
 from __future__ import annotations
 
-from typing import Generic, NamedTuple
+from typing import Any, NamedTuple
 
 from tandemlift.core.algebra import greatest, maximum, minimum, where
-from tandemlift.core.law import elementwise, law
+from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import N, Number, PerQuadrotor
-from tandemlift.core.vector import Vec3, total
+from tandemlift.core.vector import Absent, Vec3, total
 from tandemlift.parts.estimation.contact_map import BeamMatch, GuardMatch, TouchGeometry
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, external_forces
-from tandemlift.parts.estimation.wrench.tare import SideForces
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
+from tandemlift.parts.estimation.wrench.observation import WholeForce, may_act_on, whole_force
+from tandemlift.parts.estimation.wrench.tare import ForceBand, SideForces, deviation, force_band_step, restarted
+from tandemlift.parts.mechanics.loads import add_to_each
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState
 from tandemlift.parts.sensors.readings import ImuReading
 
 CONFIRMED = 0.7  # least share of a force that the momentum residual shows
@@ -46,7 +52,7 @@ BEAM = -1.0  # number of the beam in place of that of a guard
 class ContactDetector(NamedTuple):
     """The numbers of the detection: low-pass, rate of the slow means [1/s], `threshold` [N], mass of the vehicle [kg].
 
-    `numbers`: of the quadrotors, from 1, a set.
+    `numbers`: of the quadrotors, from 1, a set. `whole`: `Absent` with joint sensors.
     """
 
     fast: LowPass
@@ -55,22 +61,14 @@ class ContactDetector(NamedTuple):
     mass: Number
     geometry: TouchGeometry
     numbers: PerQuadrotor
-
-
-class ForceBand(NamedTuple, Generic[N]):
-    """Memory of a horizontal force, of numbers or sets: low-passed along x and y, and its slow means."""
-
-    x: LowPassState[N]
-    y: LowPassState[N]
-    mean_x: N
-    mean_y: N
+    whole: WholeForce | Absent = Absent()
 
 
 class EvidenceState(NamedTuple):
     """Memory: the bands of c, f, T and q; the steady mean of c [N].
 
     `steepest`: square of the greatest slope of a push [N²/s²] since it exceeds the threshold. `doubt` [s]: recent time
-    for which the motion has not confirmed a force.
+    for which the motion has not confirmed a force. `turning`: of the moment of T, or `Absent`.
     """
 
     outside: ForceBand[PerQuadrotor]
@@ -80,6 +78,7 @@ class EvidenceState(NamedTuple):
     steady: SideForces[PerQuadrotor]
     steepest: Number
     doubt: Number
+    turning: Any = Absent()
 
 
 class Deviations(NamedTuple):
@@ -100,23 +99,7 @@ class PushReading(NamedTuple):
     push: PushEstimate
 
 
-@law
-def force_band_step(k: ContactDetector, m: ForceBand[N], x: N, y: N, hold: Number, dt: Number) -> ForceBand[N]:
-    """The memory of a force after a step; while `hold` is 1, its slow means stay."""
-    after_x, after_y = low_pass_step(k.fast, m.x, x), low_pass_step(k.fast, m.y, y)
-    rate = k.slow_rate * dt * (1.0 - hold)
-    return ForceBand(
-        after_x,
-        after_y,
-        m.mean_x + (after_x.value - m.mean_x) * rate,
-        m.mean_y + (after_y.value - m.mean_y) * rate,
-    )
-
-
-@law
-def deviation(m: ForceBand[N]) -> SideForces[N]:
-    """A force less its slow mean [N]."""
-    return SideForces(m.x.value - m.mean_x, m.y.value - m.mean_y)
+Loads = tuple[SideForces[PerQuadrotor], SideForces[PerQuadrotor], SideForces[Number], SideForces[Number], Number]
 
 
 @law
@@ -127,14 +110,6 @@ def deviations(m: EvidenceState) -> Deviations:
 
 
 @law
-def restarted(m: ForceBand[N], restart: Number) -> ForceBand[N]:
-    """A memory whose slow means are the present force if it is to `restart` (1)."""
-    return m._replace(
-        mean_x=m.mean_x + (m.x.value - m.mean_x) * restart, mean_y=m.mean_y + (m.y.value - m.mean_y) * restart
-    )
-
-
-@law
 def with_means_of_now(m: EvidenceState, restart: Number) -> EvidenceState:
     """The memory whose slow means are the present forces if it is to `restart` (1), except for the steady one."""
     return m._replace(
@@ -142,6 +117,7 @@ def with_means_of_now(m: EvidenceState, restart: Number) -> EvidenceState:
         joints=restarted(m.joints, restart),
         momentum=restarted(m.momentum, restart),
         push=restarted(m.push, restart),
+        turning=restarted(m.turning, restart),
     )
 
 
@@ -237,22 +213,69 @@ def touching_part(
     return where(guard > 0.0, guard, BEAM * sure * beam_touched(k, m.steepest, d, beam.matched))
 
 
+@law(absent=("part", "y"))
+def by_line_of_action(
+    whole: WholeForce, part: Number, y: Number, k: ContactDetector, m: EvidenceState, on: tuple[GuardMatch, BeamMatch]
+) -> tuple[Number, Number]:
+    """(the part that touches, the place of a force on the beam [m]): those given, or by the line of action of T."""
+    g, T, N, (guards, beam) = k.geometry, deviation(m.momentum), deviation(m.turning).x, on
+    crossed = may_act_on(g.quadrotors.x, g.quadrotors.y, g.guards, T.x, T.y, N)
+    known = maximum(greatest(crossed * guards.matched), beam.matched)
+    guard, slope = (
+        greatest(where(known > 0.0, guards.matched, 1.0) * crossed * k.numbers),
+        where(known > 0.0, SHARP, STEEP),
+    )
+    along = -N * T.x / maximum(T.x * T.x, k.threshold * k.threshold * 0.25) - g.payload.y
+    touched = where(m.steepest > slope * slope, where(guard > 0.0, guard, BEAM), 0.0)
+    return touched, minimum(maximum(along, -g.half), g.half)
+
+
+@choice
+def loads(whole: WholeForce | Absent, k: ContactDetector, e: PushEstimator, x: PushReading) -> Loads:
+    """(c, f, T and q [N, body axes], rate of the steady mean [1/s]); without joints T may act on each part."""
+
+
+@loads.register(Absent)
+def _by_joints(whole: Absent, k: ContactDetector, e: PushEstimator, x: PushReading) -> Loads:
+    a, f, c = x.imu.specific_force, x.imu.joint_force, external_forces(e, x.imu, x.angular)
+    q = SideForces(a.x * e.mass - total(f.x), a.y * e.mass - total(f.y))
+    return c, SideForces(f.x, f.y), SideForces(a.x * k.mass, a.y * k.mass), q, STEADY_RATE
+
+
+@loads.register(WholeForce)
+def _by_motion(whole: WholeForce, k: ContactDetector, e: object, x: PushReading) -> Loads:
+    F, none = whole_force(whole, x.imu.specific_force, x.imu.rates, x.angular), k.numbers * 0.0
+    T, on_each = SideForces(F.x, F.y), SideForces(add_to_each(none, F.x), add_to_each(none, F.y))
+    return on_each, on_each, T, T, k.slow_rate
+
+
+@law(absent=Absent())
+def turned(
+    whole: WholeForce, k: ContactDetector, m: ForceBand[Number], x: PushReading, share: Number
+) -> ForceBand[Number]:
+    """The memory of the moment of T after a reading."""
+    N = whole_force(whole, x.imu.specific_force, x.imu.rates, x.angular).z
+    return force_band_step(k.fast, m, N, 0.0, share)
+
+
 @law
 def heard(
     k: ContactDetector, m: EvidenceState, e: PushEstimator, x: PushReading, hold: Number, dt: Number
 ) -> tuple[EvidenceState, Deviations]:
     """(the memory after a reading, the deviations); while `hold` is 1, the slow means stay."""
-    a, f, c = x.imu.specific_force, x.imu.joint_force, external_forces(e, x.imu, x.angular)
-    outside = force_band_step(k, m.outside, c.x, c.y, hold, dt)
-    rate = where(x.push.armed > 0.0, STEADY_RATE, k.slow_rate) * dt * (1.0 - hold)
+    c, f, T, q, steady = loads(k.whole, k, e, x)
+    share = k.slow_rate * dt * (1.0 - hold)
+    outside = force_band_step(k.fast, m.outside, c.x, c.y, share)
+    rate = where(x.push.armed > 0.0, steady, k.slow_rate) * dt * (1.0 - hold)
     after = m._replace(
         outside=outside,
         steady=SideForces(
             m.steady.x + (outside.x.value - m.steady.x) * rate, m.steady.y + (outside.y.value - m.steady.y) * rate
         ),
-        joints=force_band_step(k, m.joints, f.x, f.y, hold, dt),
-        momentum=force_band_step(k, m.momentum, a.x * k.mass, a.y * k.mass, hold, dt),
-        push=force_band_step(k, m.push, a.x * e.mass - total(f.x), a.y * e.mass - total(f.y), hold, dt),
+        joints=force_band_step(k.fast, m.joints, f.x, f.y, share),
+        momentum=force_band_step(k.fast, m.momentum, T.x, T.y, share),
+        push=force_band_step(k.fast, m.push, q.x, q.y, share),
+        turning=turned(k.whole, k, m.turning, x, share),
     )
     d = deviations(after)
     return after._replace(steepest=steepest_push(k, after, d.push), doubt=doubt_after(k, m.doubt, d, dt)), d
@@ -263,4 +286,5 @@ def start_evidence(k: ContactDetector) -> EvidenceState:
     none, nil = k.numbers * 0.0, LowPassState(0.0, 0.0)
     still = LowPassState(none, none)
     of_sets, of_numbers = ForceBand(still, still, none, none), ForceBand(nil, nil, 0.0, 0.0)
-    return EvidenceState(of_sets, of_sets, of_numbers, of_numbers, SideForces(none, none), 0.0, 0.0)
+    turning = Absent() if isinstance(k.whole, Absent) else of_numbers
+    return EvidenceState(of_sets, of_sets, of_numbers, of_numbers, SideForces(none, none), 0.0, 0.0, turning)

@@ -12,7 +12,9 @@ from tandemlift.core.vector import Absent, each, spread, vec3
 from tandemlift.parts.estimation.contact_detection import start_contact
 from tandemlift.parts.estimation.contact_evidence import ContactDetector
 from tandemlift.parts.estimation.contact_map import TouchGeometry
+from tandemlift.parts.estimation.wrench.observation import WholeForce
 from tandemlift.parts.mechanics.low_pass import low_pass
+from tandemlift.parts.mechanics.rigid_body import inertia_value
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
@@ -53,9 +55,9 @@ MARGIN = 0.06  # m: 30 ms at 1 m/s until a contact is detected, and an error of 
 
 
 def start_contact_detection(
-    table: ContactTable, vehicle: Vehicle, step: float
+    table: ContactTable, vehicle: Vehicle, step: float, *, joints: bool
 ) -> tuple[ContactDetector, Any] | tuple[Absent, Absent]:
-    """The detector of contacts and its memory before the first step, for the nominal vehicle; or `Absent`."""
+    """The detector of contacts, by joint sensors or motion, for the nominal vehicle, and its memory; or `Absent`."""
     if table.model == "none":
         return Absent(), Absent()
     payload, N = vehicle.payload, vehicle.count
@@ -68,6 +70,7 @@ def start_contact_detection(
         corners=spread([c for h in payload.hulls for c in vehicle.origin + h.corners]) if payload.hulls else Absent(),
         margin=MARGIN,
     )
+    whole = WholeForce(vehicle.mass, inertia_value(vehicle.inertia), -vec3(vehicle.payload_center))
     detector = ContactDetector(
         fast=low_pass(FAST, step),
         slow_rate=SLOW,
@@ -75,6 +78,7 @@ def start_contact_detection(
         mass=vehicle.mass,
         geometry=geometry,
         numbers=each(N)(*[float(i + 1) for i in range(N)]),
+        whole=Absent() if joints else whole,
     )
     return detector, start_contact(detector)
 

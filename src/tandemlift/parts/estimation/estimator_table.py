@@ -7,6 +7,7 @@ from typing import Literal
 
 from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.keys import Bandwidth, NonNegative, Positive, Scale, Table, key
+from tandemlift.parts.estimation.wrench.wind_compensation import compensation_checks as compensation_checks
 from tandemlift.parts.estimation.wrench.wrench_table import MotionNoise, WrenchTable, bandwidth_checks
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
@@ -158,9 +159,11 @@ def wrench_checks(
             f'{given} unless actuators.model is "rotors" and allocation.method is "constrained", which give it the '
             "thrusts of the rotors"
         )
-    for name, choice in (("estimator.wind_compensation", e.wind_compensation), ("contact.model", contact)):
-        if choice != "none":
-            yield refused(f'{given} where {name} is "{choice}", which reads joints')
+    if e.wind_compensation != "none":
+        yield refused(
+            f'{given} where estimator.wind_compensation is "{e.wind_compensation}": to an observer wind and a hand '
+            "make the same wrench, and 'fused' takes wind on the quadrotors into its zero"
+        )
     interval = step * steps_of(s.interval, step)
     noise = mass * s.accelerometer.noise * noise_scale(s, interval)
     motion = step * steps_of(s.motion.interval, step)

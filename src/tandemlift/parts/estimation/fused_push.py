@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.core.algebra import maximum
+from tandemlift.core.law import law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, apply_transposed, cross, vec3
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
@@ -22,7 +23,6 @@ from tandemlift.parts.estimation.push_estimate import (
     push_estimator,
     start_push,
 )
-from tandemlift.parts.estimation.wind_compensation import payload_drag_from
 from tandemlift.parts.estimation.wrench.fused import (
     FusedFilter,
     FusedState,
@@ -31,7 +31,7 @@ from tandemlift.parts.estimation.wrench.fused import (
     fused_filter,
     refuted_force,
 )
-from tandemlift.parts.estimation.wrench.wrench_table import force_change_of
+from tandemlift.parts.estimation.wrench.wind_compensation import payload_drag_from
 from tandemlift.parts.estimation.wrench_push import (
     PushAndState,
     PushInputs,
@@ -98,6 +98,12 @@ def _by_both(
     )
 
 
+@law(instead={PushEstimator: "push", WrenchPush: "push"})
+def by_joints(push: FusedPush) -> PushEstimator:
+    """The estimator by joints, of a fused one too; an observer stays as it is."""
+    return push.joints
+
+
 def start_push_estimator(
     e: EstimatorTable,
     s: SensorsTable,
@@ -136,7 +142,7 @@ def start_push_estimator(
     noise = s.accelerometer.noise, s.gyroscope.noise, s.joints.force_noise, s.joints.torque_noise
     fused, filtered = fused_filter(
         alone=motion.observer,
-        changes=(vec3(force_change_of(e.wrench, e.wrench_observer)), vec3(e.wrench_observer.moment_change)),
+        changes=(vec3(e.wrench_observer.force_change), vec3(e.wrench_observer.moment_change)),
         tolerances=(e.wrench_observer.joint_force_tolerance, e.wrench_observer.joint_moment_tolerance),
         payload=(payload.mass, inertia_value(payload.tensor), vec3(vehicle.payload_center)),
         noise=(noise[0] * scale, noise[1] * scale, noise[2] * scale, noise[3] * scale),

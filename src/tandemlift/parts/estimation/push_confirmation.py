@@ -20,8 +20,8 @@ from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, each, vec3
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState
-from tandemlift.parts.estimation.wind_compensation import subtracted_wind
 from tandemlift.parts.estimation.wrench.confirmed_part import Zero, compared
+from tandemlift.parts.estimation.wrench.wind_compensation import subtracted_wind
 from tandemlift.parts.mechanics.loads import scaled, sum_over_set, translated
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import UP, apply_inertia, gyroscopic, inertia_value
@@ -109,14 +109,9 @@ def speed_at(thrust: Number, per_constant: Number) -> Number:
 def outside_load(
     rotors: RotorModel, memory: PerRotor, commands: PerRotor, quadrotors: Vec3, turning: Number
 ) -> tuple[OutsideLoad, PerRotor]:
-    """(`OutsideLoad` of a sample, the new memory).
+    """(`OutsideLoad` of a sample, the speed of every rotor as modelled [rad/s]) after the last thrusts [N].
 
-    Args:
-        rotors: a `RotorModel`, or `Absent`.
-        memory: speed of every rotor as modelled [rad/s].
-        commands: the last thrust of every rotor [N].
-        quadrotors: Σ (f_i + m_i s_i) [N, body axes].
-        turning: rate of the angular momentum less the push's moment, along body z [N·m].
+    `quadrotors`: Σ (f_i + m_i s_i) [N]; `turning`: rate of the angular momentum less the push's moment [N·m], body z.
     """
     squares, speeds = lag_step(rotors.up, rotors.down, memory, speed_at(commands, rotors.per_constant))
     made = wrench(rotors.effect, squares * rotors.constant)
@@ -133,16 +128,9 @@ def confirm(
     explained: Number,
     dt: Number,
 ) -> tuple[PushEstimate, ConfirmationState]:
-    """(the confirmed push, a `PushEstimate`, the new memory).
+    """(the confirmed push, the new memory), from the push as estimated, its source, and the last thrusts [N].
 
-    Args:
-        k: a `PushConfirmation`, or `Absent`.
-        memory: its memory.
-        push: as estimated.
-        reading: the source of the estimate.
-        commands: the last thrusts of all rotors [N]; not used without a model of the rotors.
-        explained: 1 while a contact with a wall explains the force on the quadrotors, else 0.
-        dt: since the last sample [s].
+    `explained`: 1 while a contact with a wall explains the force on the quadrotors, else 0.
     """
     imu, e, after = x.imu, x.estimator, x.memory
     sampled = apply_transposed(rotation_from_quaternion(imu.frame), p.measured)

@@ -31,14 +31,14 @@ from tandemlift.core.arrays import array
 from tandemlift.core.law import law
 from tandemlift.core.types import Number, NumberSet, PerQuadrotor, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, cross, each, spread, total, vec3
-from tandemlift.parts.estimation.wind_compensation import (
+from tandemlift.parts.estimation.wrench.observation import PushEstimate as PushEstimate
+from tandemlift.parts.estimation.wrench.tare import TINY, SideForces, TareSums, summed, tare_fields, tare_of
+from tandemlift.parts.estimation.wrench.wind_compensation import (
     PayloadDrag,
     PayloadDragState,
     start_payload_drag,
     wind_on_payload,
 )
-from tandemlift.parts.estimation.wrench.estimated_push import PushEstimate as PushEstimate
-from tandemlift.parts.estimation.wrench.tare import TINY, SideForces, TareSums, summed, tare_fields, tare_of
 from tandemlift.parts.mechanics.loads import add_to_each, sum_over_set
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import Inertia, apply_inertia, gyroscopic, inertia_value

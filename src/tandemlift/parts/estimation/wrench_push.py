@@ -29,9 +29,8 @@ from tandemlift.parts.estimation.push_estimate import (
     estimate,
     point_of_application,
 )
-from tandemlift.parts.estimation.wrench.delay import Delay, DelayState, delay_of, delayed
-from tandemlift.parts.estimation.wrench.estimated_push import PushEstimate
-from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
+from tandemlift.parts.estimation.wrench.delay import RotorDelay, RotorDelayState, late_wrench, rotor_delay
+from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, PushEstimate, observe
 from tandemlift.parts.estimation.wrench.start_observer import SampleNoise, start_wrench_observer
 from tandemlift.parts.estimation.wrench.tare import SideForces, TareSums, summed, tare_fields, tare_of
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
@@ -51,16 +50,15 @@ class ThrustModel(NamedTuple):
     """The pilot's model of the rotors; the delay of commands and IMU; ground effect."""
 
     rotors: RotorModel
-    late: Delay
+    late: RotorDelay
     surface: GroundEffect | Absent
 
 
 class ThrustState(NamedTuple):
-    """Memory: speeds of the rotors as modelled [rad/s], a set; their wrench, delayed."""
+    """Memory: speeds of the rotors as modelled [rad/s], a set; of the delay."""
 
     speeds: PerRotor
-    thrust: DelayState[Number]
-    moment: DelayState[Vec3]
+    late: RotorDelayState
 
 
 class WrenchPush(NamedTuple):
@@ -140,14 +138,15 @@ def _by_motion(
 
 
 @law
-def modelled_rotors(k: ThrustModel, m: ThrustState, commands: PerRotor, state: State) -> tuple[Wrench, ThrustState]:
-    """(the wrench of the rotors at the IMU's last sample, the new memory) after these commands [N]."""
+def modelled_rotors(
+    k: ThrustModel, m: ThrustState, x: PushInputs, state: State, vertical: Number
+) -> tuple[Wrench, ThrustState]:
+    """(the wrench of the rotors at the IMU's last sample, the new memory); `vertical`: see `late_wrench`."""
     r = k.rotors
-    squares, speeds = lag_step(r.up, r.down, m.speeds, speed_at(commands, r.per_constant))
+    squares, speeds = lag_step(r.up, r.down, m.speeds, speed_at(x.commands, r.per_constant))
     made = wrench(r.effect, squares * r.constant * ground_effect_ratio(k.surface, state))
-    thrust, thrusts = delayed(k.late, m.thrust, made.thrust)
-    moment, moments = delayed(k.late, m.moment, made.moment)
-    return Wrench(thrust, moment), ThrustState(speeds, thrusts, moments)
+    later, late = late_wrench(k.late, m.late, made, vertical, x.airborne, x.dt)
+    return later, ThrustState(speeds, late)
 
 
 @law
@@ -155,8 +154,8 @@ def observation(k: WrenchPush, m: WrenchPushState, x: PushInputs, state: State) 
     """(what an observer sees, the memory with the model of the thrusts and the rates)."""
     imu, motion = x.readings.imu, x.readings.motion
     angular = where(imu.fresh > 0.0, (imu.rates - m.rates) * k.per_interval, m.angular)
-    rotors, thrust = modelled_rotors(k.thrust, m.thrust, x.commands, state)
     at = at_center(k.imu, imu.specific_force, imu.rates, angular)
+    rotors, thrust = modelled_rotors(k.thrust, m.thrust, x, state, at.z)
     seen = Observation(at, state, rotors, motion.position, motion.velocity, motion.attitude, motion.fresh, x.dt)
     return seen, m._replace(thrust=thrust, rates=imu.rates, angular=angular)
 
@@ -228,10 +227,11 @@ def start_wrench_push(
     observer, memory = start_wrench_observer(e.wrench, e.wrench_observer, body, noise, interval)
     rotors, speeds = rotor_model(vehicle, interval)
     surface = Absent() if floor is None else ground_effect_from(vehicle, floor)
+    delay, undelayed = rotor_delay(late + 0.5 * interval, vehicle.mass, noise.accelerometer, interval)
     payload = vehicle.payload
     push = WrenchPush(
         observer=observer,
-        thrust=ThrustModel(rotors, delay_of(late + 0.5 * interval, interval), surface),
+        thrust=ThrustModel(rotors, delay, surface),
         payload=vec3(vehicle.payload_center),
         imu=OffCenter(vec3(vehicle.center_of_mass)),
         mass=number(payload.mass),
@@ -242,6 +242,6 @@ def start_wrench_push(
         **tare_fields(0.0 if e.tare == "hover" else e.tare_start, e.tare_duration, e.identify_mass, interval),
         off_center=off_center_at(payload.center_of_mass),
     )
-    still = ThrustState(speeds, DelayState(0.0, 0.0), DelayState(ZERO, ZERO))
+    still = ThrustState(speeds, undelayed)
     sums = TareSums(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, SideForces(each(1)(0.0), each(1)(0.0)))
     return push, WrenchPushState(memory, still, ZERO, ZERO, LowPassState(UP * GRAVITY, ZERO), sums)

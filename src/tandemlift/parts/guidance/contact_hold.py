@@ -36,11 +36,19 @@ ROUND = 6755399441055744.0  # 1.5 · 2^52: adding and subtracting it rounds to a
 
 
 class ContactReaction(NamedTuple):
-    """The parameters: the `gap` to a wall [m]; times [s] after which a contact is over, and leads to a landing."""
+    """The parameters: the `gap` to a wall [m]; times [s] after which a contact is over, and leads to a landing.
+
+    `whole`: `InPush` where the push has the force of a wall on any part in it, not only of that on the beam.
+    """
 
     gap: Number
     recovery_time: Number
     hold_timeout: Number
+    whole: InPush | Absent = Absent()
+
+
+class InPush(NamedTuple):
+    """An observed push has the force of any wall in it."""
 
 
 class HandWrench(NamedTuple):
@@ -110,6 +118,12 @@ def code_of(part: Number, normal: Vec3, along: Number) -> Number:
     return (counted * DIRECTIONS + direction) * PLACES + ((place + ROUND) - ROUND)
 
 
+@law(absent="c")
+def as_felt(whole: InPush, c: ContactEstimate) -> ContactEstimate:
+    """The contact as if of the beam, whose force is in the push."""
+    return c._replace(part=where(c.part == 0.0, 0.0, -1.0))
+
+
 @law(absent=("k", "m"))
 def react_to_contact(
     k: ContactReaction, m: ContactReactionState, pilot_input: PilotInput, aloft: Number, dt: Number
@@ -131,9 +145,10 @@ def react_to_contact(
     part = where(touching > 0.0, c.part, m.part)
     land = where(held_time > k.hold_timeout, 1.0, 0.0)
     push = slower(m.push, pilot_input.push, pilot_input.moment, dt)
-    on_beam = where(c.part < 0.0, touching, 0.0)
+    felt = as_felt(k.whole, c)
+    on_beam = where(felt.part < 0.0, touching, 0.0)
     boundary = Boundary(
-        push, holding, normal, level, level + k.gap, lever, state.position, load_at(c, state), land, code, on_beam
+        push, holding, normal, level, level + k.gap, lever, state.position, load_at(felt, state), land, code, on_beam
     )
     return boundary, ContactReactionState(holding, normal, level, lever, part, free_time, held_time, code, push)
 
@@ -219,8 +234,11 @@ def start_reaction() -> ContactReactionState:
     return ContactReactionState(0.0, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, HandWrench(ZERO, ZERO))
 
 
-def start_contact_hold(table: ContactTable) -> tuple[ContactReaction, ContactReactionState] | tuple[Absent, Absent]:
-    """The reaction to contacts and its memory before the first sample, or `Absent`."""
+def start_contact_hold(
+    table: ContactTable, wrench: str
+) -> tuple[ContactReaction, ContactReactionState] | tuple[Absent, Absent]:
+    """The reaction to contacts and its memory before the first sample, or `Absent`; `wrench`: `estimator.wrench`."""
     if table.model == "none":
         return Absent(), Absent()
-    return ContactReaction(table.gap, table.recovery_time, table.hold_timeout), start_reaction()
+    whole = Absent() if wrench == "joints" else InPush()
+    return ContactReaction(table.gap, table.recovery_time, table.hold_timeout, whole), start_reaction()

@@ -67,7 +67,7 @@ def wind_checks(schedule: Schedule, estimator: EstimatorTable, wind: WindOnParts
             parts = f"wind and gusts push the payload along {axis} with {gust:.3g} N beyond the tare"
         text = (
             f"{parts}, and admittance.threshold is {threshold:g} N there: the vehicle may follow the wind; raise the "
-            "threshold, lower wind.turbulence or wind.gusts, or take estimator.wind_compensation"
+            "threshold, lower wind.turbulence or wind.gusts, or take estimator.wind_compensation (with joint sensors)"
         )
         yield judged("wind on the payload", max(float(eddies[i]), gust), threshold, "N", text, subject=axis, near=0.2)
 

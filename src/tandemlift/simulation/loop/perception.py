@@ -19,7 +19,7 @@ from tandemlift.parts.estimation.contact_detection import (
     shaken,
 )
 from tandemlift.parts.estimation.contact_evidence import ContactDetector, PushReading
-from tandemlift.parts.estimation.fused_push import FusedPush, FusedPushState
+from tandemlift.parts.estimation.fused_push import FusedPush, FusedPushState, by_joints
 from tandemlift.parts.estimation.navigation import NavigationState, Navigator
 from tandemlift.parts.estimation.push_confirmation import (
     ConfirmationState,
@@ -200,11 +200,11 @@ def _estimated(
     dt = time_between(estimators.sampling, dt)
     inputs = PushInputs(readings, commands, surroundings.aloft, t, dt)
     push, pushed, state, moved = push_and_state(estimators.push, memory.push, estimators.state, memory.state, inputs)
-    by_joints: Any = estimators.push  # for the next two laws, which are those of absent parts where an observer runs
-    imu = about_center(by_joints.off_center, readings.imu, pushed.angular)
+    used = by_joints(estimators.push)
+    imu = about_center(used.off_center, readings.imu, pushed.angular)
     seen = PushReading(imu, pushed.angular, push)
-    contact, contact_memory = contact_step(estimators.contact, memory.contact, by_joints, seen, state, surroundings, dt)
-    sampled, explained = SampledPush(imu, by_joints, pushed), shaken(contact_memory)
+    contact, contact_memory = contact_step(estimators.contact, memory.contact, used, seen, state, surroundings, dt)
+    sampled, explained = SampledPush(imu, used, pushed), shaken(contact_memory)
     push, confirmation = confirm(
         estimators.confirmation,
         memory.confirmation,

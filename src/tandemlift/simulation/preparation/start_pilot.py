@@ -111,7 +111,7 @@ def start_hand_guidance(
     supervision, supervising = start_supervision(mission.supervision, vehicle, mission.initial, known)
     tank, filled = start_tank(c.tank)
     heading, turned = start_heading(c.yaw, push, vehicle, 0.0 if at_rest else mission.initial.euler[2])
-    contact, touching = start_contact_hold(mission.contact)
+    contact, touching = start_contact_hold(mission.contact, mission.estimator.wrench)
     max_tilt = c.max_tilt if of_controller is None else minimum(c.max_tilt, of_controller)
     guided = HandGuidance(
         phasing=phase_settings(mission.phases, c, mission.requests),
@@ -156,7 +156,9 @@ def start_estimators(
     drag = vehicle.drag
     believed = NominalVehicle(vec3(vehicle.payload_center), vec3(drag.force), vec3(drag.moment))
     tare = TareInHover() if e.tare == "hover" else TareAtTime()
-    contact, no_contact = start_contact_detection(mission.contact, vehicle, interval)
+    contact, no_contact = start_contact_detection(
+        mission.contact, vehicle, interval, joints=e.wrench in ("joints", "fused")
+    )
     confirmation, unconfirmed = start_confirmation(
         e,
         vehicle,

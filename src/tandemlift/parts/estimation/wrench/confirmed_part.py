@@ -140,15 +140,8 @@ def compared(
 ) -> Confirmed[V]:
     """Compare a push with `rest`, that is r, and return its unconfirmed part.
 
-    Args:
-        low_pass: of r.
-        zero: the memory before.
-        push: F̂, low-passed, a vector or a number.
-        rest: r, likewise.
-        tolerance: of forces or of moments.
-        ratio: ρ.
-        tare: share of this sample in the mean over the tare; 0 once that is over.
-        dt: since the last sample [s]; 0 without learning, as before the end of the tare.
+    F̂ and r are low-passed. `tare`: share of this sample in the mean over the tare; 0 once that is over. `dt`: since the
+    last sample [s]; 0 without learning, as before the end of the tare.
     """
     force, off = push - zero.offset, rest - zero.mean
     now = confirmed(force, off, zero.square, tolerance, ratio)

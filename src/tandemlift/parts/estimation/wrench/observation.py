@@ -13,13 +13,15 @@ from __future__ import annotations
 
 from typing import NamedTuple, TypeVar
 
-from tandemlift.core.law import choice, law
+from tandemlift.core.algebra import where
+from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import GRAVITY, Number
-from tandemlift.core.vector import Quat, Vec3, apply
+from tandemlift.core.vector import ZERO, Quat, Vec3, apply, cross
 from tandemlift.parts.mechanics.rigid_body import UP, Inertia, State, Wrench, apply_inertia, gyroscopic
 from tandemlift.parts.mechanics.rotation import body_z_axis, rotation_from_quaternion
 
 M = TypeVar("M")
+OUTWARD = 0.25  # square of the least cosine between a guard's arm and a force that pulls it outwards
 
 
 class NominalBody(NamedTuple):
@@ -55,6 +57,31 @@ class ExternalWrench(NamedTuple):
     moment: Vec3
 
 
+class PushEstimate(NamedTuple):
+    """The push as estimated.
+
+    `measured` [N, world axes] and `measured_moment` [N·m, body axes, about the payload's centre of mass]: the last
+    sample less the tare; `force` and `moment`, likewise: low-passed, zero until the tare is over; `point` [m]: where on
+    body y the force acts, 0 if it is too small; `payload_mass` [kg]; `disagreement` [N]: the horizontal force by which
+    one joint sensor alone would have to be wrong; `trusted` is 1 while that is below its limit, `armed` once the tare
+    is over, else 0; `usable`: `force` where trusted, else zero. `withheld` [N, world axes]: what is not confirmed
+    of the push (`push_confirmation`), and is not in the fields above; `refuted`: 1 while the motion refutes it, else 0.
+    """
+
+    measured: Vec3
+    measured_moment: Vec3
+    force: Vec3
+    moment: Vec3
+    point: Number
+    payload_mass: Number
+    disagreement: Number
+    trusted: Number
+    armed: Number
+    usable: Vec3
+    withheld: Vec3 = ZERO
+    refuted: Number = 0.0
+
+
 @choice
 def observe(observer: object, memory: M, x: Observation) -> tuple[ExternalWrench, M]:
     """(the external wrench at a sample, the observer's new memory)."""
@@ -88,3 +115,31 @@ def angular_momentum(k: NominalBody, x: Observation) -> Vec3:
 def principal(J: Inertia) -> Vec3:
     """The diagonal of an inertia tensor [kg·m²]."""
     return J if isinstance(J, Vec3) else Vec3(J.x.x, J.y.y, J.z.z)
+
+
+class WholeForce(NamedTuple):
+    """The vehicle's mass [kg] and inertia [kg·m²]; its centre of mass from the payload's [m], body axes.
+
+    A rotor gives no horizontal force in body axes, so T = m a along x and y is the whole force from outside, whatever
+    the thrusts are. With its moment N about z and the centre of mass, its line of action is x T_y − y T_x = N.
+    """
+
+    mass: Number
+    inertia: Inertia
+    center: Vec3
+
+
+@law
+def whole_force(k: WholeForce, specific_force: Vec3, rates: Vec3, angular: Vec3) -> Vec3:
+    """(T_x, T_y, N) [N, N·m] from the specific force at the payload's centre of mass [m/s²]."""
+    T = (specific_force + cross(cross(k.center, rates), rates) - cross(k.center, angular)) * k.mass
+    moment = apply_inertia(k.inertia, angular) - gyroscopic(k.inertia, rates)
+    return Vec3(T.x, T.y, moment.z)
+
+
+@elementwise
+def may_act_on(x: Number, y: Number, radius: Number, Tx: Number, Ty: Number, N: Number) -> Number:
+    """1 if the line of action crosses a guard at (x, y) of a radius [m], and T does not pull it outwards; else 0."""
+    off, outward, square = x * Ty - y * Tx - N, x * Tx + y * Ty, Tx * Tx + Ty * Ty
+    pulled = where(outward * outward > OUTWARD * (x * x + y * y) * square, where(outward > 0.0, 1.0, 0.0), 0.0)
+    return where(off * off < radius * radius * square, 1.0 - pulled, 0.0)

@@ -14,7 +14,7 @@ from tandemlift.parts.estimation.wrench.momentum import MomentumObserver, start_
 from tandemlift.parts.estimation.wrench.nonlinear_disturbance import NonlinearObserver, start_disturbance
 from tandemlift.parts.estimation.wrench.observation import NominalBody, principal
 from tandemlift.parts.estimation.wrench.unscented import start_unscented
-from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable, force_change_of
+from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable
 
 
 class SampleNoise(NamedTuple):
@@ -39,7 +39,7 @@ def start_wrench_observer(
     turning_decay = _decay(vec3(table.moment_bandwidth), interval)
     one = Vec3(1.0, 1.0, 1.0)
     force, moment = one - decay, (one - turning_decay) / interval
-    changes = vec3(force_change_of(name, table)), vec3(table.moment_change)
+    changes = vec3(table.force_change), vec3(table.moment_change)
     if name == "momentum":
         return MomentumObserver(body, force / interval, moment), start_momentum()
     if name == "hybrid":

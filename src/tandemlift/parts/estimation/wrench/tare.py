@@ -2,6 +2,8 @@
 
 The means of the force F and the moment M on the payload are the bias, with the mass m = Σ f·a / Σ a·a. In hover a bias
 of the joints' force along gravity cannot be distinguished from an error of the mass.
+
+In flight, horizontal forces are compared with slow means of them.
 """
 
 from __future__ import annotations
@@ -10,9 +12,10 @@ import math
 from typing import Any, Generic, NamedTuple
 
 from tandemlift.core.algebra import maximum, where
-from tandemlift.core.law import law
+from tandemlift.core.law import choice, law
 from tandemlift.core.types import N, Number, NumberSet, number
-from tandemlift.core.vector import Vec3, dot
+from tandemlift.core.vector import Absent, Vec3, dot
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
 
 TINY = 1e-24
 """N² or (m/s²)²: far below what any sensor shows; guards roots and divisions."""
@@ -23,6 +26,15 @@ class SideForces(NamedTuple, Generic[N]):
 
     x: N
     y: N
+
+
+class ForceBand(NamedTuple, Generic[N]):
+    """Memory of a horizontal force, of numbers or sets: low-passed along x and y, and its slow means."""
+
+    x: LowPassState[N]
+    y: LowPassState[N]
+    mean_x: N
+    mean_y: N
 
 
 class TareSums(NamedTuple):
@@ -98,3 +110,33 @@ def tare_fields(start: float | None, duration: float, identify_mass: bool, inter
     if duration < interval:
         raise ValueError(f"a tare of {duration:g} s holds no sample: they come every {interval:g} s")
     return {"tare_start": number(start), "tare_end": start + duration, "identify": float(identify_mass)}
+
+
+@law
+def force_band_step(fast: LowPass, m: ForceBand[N], x: N, y: N, share: Number) -> ForceBand[N]:
+    """The memory of a force after a step, of which its slow means follow a `share`."""
+    after_x, after_y = low_pass_step(fast, m.x, x), low_pass_step(fast, m.y, y)
+    return ForceBand(
+        after_x,
+        after_y,
+        m.mean_x + (after_x.value - m.mean_x) * share,
+        m.mean_y + (after_y.value - m.mean_y) * share,
+    )
+
+
+@law
+def deviation(m: ForceBand[N]) -> SideForces[N]:
+    """A force less its slow mean [N]."""
+    return SideForces(m.x.value - m.mean_x, m.y.value - m.mean_y)
+
+
+@choice(absent=Absent())
+def restarted(m: ForceBand[N] | Absent, restart: Number) -> Any:
+    """A memory whose slow means are the present force if it is to `restart` (1)."""
+
+
+@restarted.register(ForceBand)
+def _restarted(m: ForceBand[N], restart: Number) -> ForceBand[N]:
+    return m._replace(
+        mean_x=m.mean_x + (m.x.value - m.mean_x) * restart, mean_y=m.mean_y + (m.y.value - m.mean_y) * restart
+    )

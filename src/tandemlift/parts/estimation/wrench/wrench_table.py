@@ -25,7 +25,8 @@ class MotionNoise(NamedTuple):
 class WrenchTable(Table):
     """`[estimator.wrench_observer]`: tuning of `estimator.wrench`; axes are x, y, z, and roll, pitch, yaw.
 
-    The noise of the sensors is that of `[sensors]`, the delay of the rotors `observer.rotor_delay`.
+    The noise of the sensors is that of `[sensors]`, and the delay of the rotors `observer.rotor_delay`,
+    whose error is estimated in flight.
     """
 
     force_bandwidth: Positive3 = key(
@@ -43,16 +44,14 @@ class WrenchTable(Table):
         rule="at most 0.1 over sensors.interval",
         source="chosen: noise of 0.03 N m with the gyroscope of mission iris",
     )
-    force_change: Positive3 | None = key(
-        None,
+    force_change: Positive3 = key(
+        (0.1, 0.1, 0.06),
         "N/√s",
         "for 'fused' and the filters of Kalman: standard deviation of the change of the force within a second; more is "
         "faster and noisier, and the pilot closes a loop over it that lag and delay of the rotors limit",
         rule="such that the bandwidth is at most 0.1 over sensors.interval, or, without accelerometer, over "
         "sensors.motion.interval",
-        unset="0.1, 0.1 and 0.033; of 'fused' 0.06 along z: chosen for 33 ms with the sensors of mission iris, and "
-        "along z for 100 and 40 ms",
-        example=0.1,
+        source="chosen: a delay of 33 ms with the sensors of mission iris, and along z of 54 ms, with 'fused' 40 ms",
     )
     moment_change: Positive3 = key(
         (0.1, 0.01, 0.1),
@@ -67,11 +66,6 @@ class WrenchTable(Table):
         source="chosen: twice what pushes of 3 N leave in mission iris",
     )
     joint_moment_tolerance: Positive = key(0.2, "N m", "for 'fused': the same of moments", source="chosen")
-
-
-def force_change_of(wrench: str, table: WrenchTable) -> tuple[float, float, float]:
-    """The change of the force within a second [N/√s] of `estimator.wrench`."""
-    return table.force_change or (0.1, 0.1, 0.06 if wrench == "fused" else 0.033)
 
 
 def bandwidth_checks(
@@ -97,7 +91,7 @@ def bandwidth_checks(
         )
         sizes, of = (motion.velocity * fastest**2, motion.position * fastest**3), "noise of sensors.motion"
         largest = min([size for size in sizes if size > 0.0], default=math.inf) * math.sqrt(motion.interval)
-    change = force_change_of(wrench, table)
+    change = table.force_change
     if wrench not in BY_BANDWIDTH and max(change) > largest:
         yield refused(
             f"estimator.wrench_observer.force_change = {list(change)}: must be at most {largest:.3g} N/√s "

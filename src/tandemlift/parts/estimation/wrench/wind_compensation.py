@@ -59,14 +59,8 @@ def wind_on_payload(
 ) -> tuple[Vec3, PayloadDragState]:
     """(force of the wind on the payload beyond the tare's [N, body axes], the new memory).
 
-    Args:
-        k: `PayloadDrag`, or `Absent`.
-        memory: its memory.
-        x: force from outside along body x on every quadrotor [N], a set.
-        y: likewise along y.
-        begun: 1 once the tare has begun, else 0.
-        taken: 1 if this sample is one of the tare, else 0.
-        armed: 1 once the tare is over, else 0.
+    `x`, `y`: forces from outside on every quadrotor [N], body axes; 1 or 0: the tare has `begun`, the sample is `taken`
+    for it, it is over (`armed`).
     """
     force = Vec3(total(x) * k.ratio_x, total(y) * k.ratio_y, 0.0)
     summed = PayloadDragState(memory.sum * begun + force * taken, memory.count * begun + taken, memory.force)
