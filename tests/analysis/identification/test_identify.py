@@ -246,6 +246,26 @@ def test_a_calm_hover_excites_no_drag_and_says_so(log):
     assert drag.key in next(text for text in calm.remarks if "did not excite" in text)
 
 
+def test_in_moving_air_the_drag_area_of_the_payload_is_found():
+    """A slow motion along x tells the area there, apart from a linear drag; nothing tells that along the beam."""
+    air, slow = {"wind.model": "air"}, {"axis": "x", "frequency": 0.15, "amplitude": 0.5, "phase": 0.0}
+    flown = {
+        "mission.duration": 24.0,
+        "excitation.duration": 15.0,
+        "excitation.lines": [*FLOWN["excitation.lines"], slow],
+        "pushes": [],
+    }
+    real = TRUTH | air | {"vehicle.payload.drag_area": [0.3, 0.01, 0.2]}
+    log = blind(log_of(tl.fly(load_mission(START, real | FLOWN | flown), engine="mujoco")))
+    keys = ["vehicle.payload.drag_area", "vehicle.drag.force"]
+    found = tl.identify(log.between(BEGIN, 24.0), load_mission(START, TRUTH | air), parameters=keys, **SILENT)
+    area = found["vehicle.payload.drag_area.x"]
+    assert abs(area.value - 0.3) < 1.5 * area.half
+    assert area.half < 0.03 < abs(area.value - area.start)
+    assert found.mission.vehicle.payload.drag_area[0] == pytest.approx(area.value, rel=1e-6)
+    assert not found["vehicle.payload.drag_area.y"].excited
+
+
 def test_without_joints_and_scale_masses_and_thrust_constants_are_a_pair(log):
     part = Log({n: s for n, s in log.items() if "joint" not in n}, "part").between(BEGIN, PUSH - 3.0)
     alone = tl.identify(part, START, window=0.8, **SILENT)
