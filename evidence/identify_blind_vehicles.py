@@ -1,13 +1,14 @@
-"""Blind vehicles: drawn, flown in MuJoCo, and identified from their logs alone.
+"""Blind vehicles: drawn, flown in MuJoCo or Gazebo, and identified from their logs alone.
 
 python evidence/identify_blind_vehicles.py --vehicles 200 --out out/blind
+python evidence/identify_blind_vehicles.py --engine gazebo --vehicles 3 --out out/blind-gazebo
 
 Each vehicle is mission iris with masses, inertias, thrust constant, yaw drag, lags and delay within ±20 % of it, and
-the payload's centre of mass off its place, drawn from its seed. MuJoCo flies it with iris's sensors (noise, biases,
-drifts, misalignments, resolution, motion capture at 200 Hz), excited for 60 s as `tl.excite` designs it for mission
-iris, by a pilot that knows the vehicle. Motion capture and joints have clocks of their own, up to 50 ms and 100 ppm off
-that of the IMU, which `synchronised` (`--align`) and the fit find. `tl.identify` gets the log without pushes and
-commanded thrusts, mission iris, and the payload weighed with an error of 0.05 % (one standard deviation). It also
+the payload's centre of mass off its place, drawn from its seed. MuJoCo, or Gazebo, flies it with iris's sensors (noise,
+biases, drifts, misalignments, resolution, motion capture at 200 Hz), excited for 60 s as `tl.excite` designs it for
+mission iris, by a pilot that knows the vehicle. Motion capture and joints have clocks of their own, up to 50 ms and 100
+ppm off that of the IMU, which `synchronised` (`--align`) and the fit find. `tl.identify` gets the log without pushes
+and commanded thrusts, mission iris, and the payload weighed with an error of 0.05 % (one standard deviation). It also
 predicts 10 s of another flight, along a figure in the air, with other errors and clocks, second by second. Development
 used seeds below 1000; these begin at 20000.
 
@@ -108,12 +109,12 @@ def first_flight(start: Mission) -> dict[str, Any]:
     return found | {"mission.duration": tables["mission"]["duration"]}
 
 
-def flown(vehicle: dict[str, Any], flight: dict[str, Any], seed: int) -> tuple[Log, Mission]:
+def flown(vehicle: dict[str, Any], flight: dict[str, Any], seed: int, engine: str) -> tuple[Log, Mission]:
     """(The log of a flight of a vehicle, with clocks of its own and errors of a seed; its mission)."""
     changes = {"mission.seed": seed, "mission.log_interval": 0.001, "pushes": []}
     with without_flight_warnings():
         mission = load_mission(START, vehicle | flight | changes)
-        log = log_of(tl.fly(mission, engine="mujoco"))
+        log = log_of(tl.fly(mission, engine=engine))
     log = Log({n: s for n, s in log.items() if n not in (*PUSH, "rotor_commands")}, f"vehicle {seed}")
     chance = np.random.default_rng([seed, 1])
     for names in GROUPS.values():
@@ -121,10 +122,10 @@ def flown(vehicle: dict[str, Any], flight: dict[str, Any], seed: int) -> tuple[L
     return synchronised(log), mission
 
 
-def row_of(seed: int, start: Mission, flight: dict[str, Any]) -> dict[str, Any]:
+def row_of(seed: int, start: Mission, flight: dict[str, Any], engine: str) -> dict[str, Any]:
     """Fly and identify one vehicle."""
     vehicle = drawn(seed, start)
-    (log, mission), (other, _) = flown(vehicle, flight, seed), flown(vehicle, SECOND, seed + 500000)
+    (log, mission), (other, _) = flown(vehicle, flight, seed, engine), flown(vehicle, SECOND, seed + 500000, engine)
     error = 0.0005 * np.random.default_rng(seed + 1).standard_normal()
     weighed = {"vehicle.payload.mass": mission.vehicle.payload.mass * (1.0 + error)}
     began = time.process_time()
@@ -173,6 +174,7 @@ def main() -> None:
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--vehicles", type=int, default=200)
     options.add_argument("--first-seed", type=int, default=FIRST_SEED)
+    options.add_argument("--engine", default="mujoco")
     options.add_argument("--out", type=Path, default=Path("out/blind"))
     given = options.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
@@ -182,7 +184,7 @@ def main() -> None:
     flight = first_flight(start)
     for seed in range(given.first_seed, given.first_seed + given.vehicles):
         if seed not in done:
-            rows.append(row_of(seed, start, flight))
+            rows.append(row_of(seed, start, flight, given.engine))
             with file.open("a", encoding="utf-8") as out:
                 out.write(json.dumps(rows[-1]) + "\n")
     for line in report(rows):

@@ -1,4 +1,4 @@
-"""The vehicle driven by logged commands: rotors, body and perfect sensors, without pilot, contact and wind.
+"""The vehicle driven by logged commands: rotors, body and perfect sensors, without pilot, contact and gusts.
 
 The rotors do not depend on the body, so they are simulated first, over a whole log; the body then moves under the
 squares of their speeds and the pushes that a force gauge logged. Both are the laws of the compiled engine, as functions
@@ -37,6 +37,7 @@ from tandemlift.parts.mechanics.rigid_body import RigidBody, State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
+from tandemlift.parts.mechanics.wind import Wind, WindModel, WindTable, air_drag_from, wind_loads
 from tandemlift.parts.rotors.allocation import mixer_of
 from tandemlift.parts.rotors.ground_effect import GroundEffect, ground_effect_ratio
 from tandemlift.parts.rotors.rotor_lag import Lag, lag, lag_step
@@ -49,7 +50,7 @@ AT_REST = State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
 class VehicleNumbers(NamedTuple):
     """The numbers of a vehicle that its motion and its joints depend on, by the names of their keys; SI units.
 
-    Those of quadrotors are sets. `inertia` of the payload: moments, `products`: Jxy, Jxz, Jyz.
+    Those of quadrotors are sets. `inertia` of the payload: moments, `products`: Jxy, Jxz, Jyz, `areas`: its drag areas.
     """
 
     mass: Number
@@ -62,18 +63,20 @@ class VehicleNumbers(NamedTuple):
     torques_per_thrust: PerQuadrotor
     drag_force: Vec3
     drag_moment: Vec3
+    areas: Vec3
 
 
 class DrivenBody(NamedTuple):
     """A vehicle in the form that a step needs.
 
-    The body, k of each rotor [N/(rad/s)²], their ground effect, the point that the motion measurement follows, from the
-    centre of mass [m, body axes], the time step [s], the centre of mass from the payload's origin [m].
+    The body, k of each rotor [N/(rad/s)²], their ground effect, the wind, the point that motion capture follows, from
+    the centre of mass [m, body axes], the time step [s], the centre of mass from the payload's origin [m].
     """
 
     plant: CompiledPlant
     constants: PerRotor
     surface: GroundEffect | Absent
+    wind: WindModel | Absent
     point: Vec3
     step: Number
     center: Vec3
@@ -125,6 +128,7 @@ def vehicle_numbers(table: VehicleTable) -> VehicleNumbers:
         torques_per_thrust=cls(*[q.torque_per_thrust for q in quadrotors]),
         drag_force=vec3(table.drag.force),
         drag_moment=vec3(table.drag.moment),
+        areas=vec3(payload.areas),
     )
 
 
@@ -136,6 +140,7 @@ def with_vehicle_numbers(table: VehicleTable, n: VehicleNumbers) -> VehicleTable
             "center_of_mass": tuple(n.center_of_mass),
             "inertia": tuple(n.inertia),
             "products": tuple(n.products),
+            "drag_area": tuple(n.areas),
         }
     )
     own = zip(n.masses, zip(*n.inertias, strict=True), n.thrust_constants, n.torques_per_thrust, strict=True)
@@ -154,8 +159,10 @@ def effect_floor(scene: Scene) -> float | None:
     return None if isinstance(floor, Absent) or not scene.ground.effect else float(floor.height)
 
 
-def driven_body(table: VehicleTable, floor: float | None, n: VehicleNumbers, point: Vec3, step: Number) -> DrivenBody:
-    """The vehicle of a table with other numbers, over a floor with ground effect at z = `floor` [m], if not None."""
+def driven_body(
+    table: VehicleTable, floor: float | None, air: WindTable, n: VehicleNumbers, point: Vec3, step: Number
+) -> DrivenBody:
+    """The vehicle of a table with other numbers, in a steady wind, over a floor with ground effect at z = `floor`."""
     vehicle = Vehicle.from_settings(with_vehicle_numbers(table, n))
     J = vehicle.inertia
     body = RigidBody(
@@ -169,8 +176,10 @@ def driven_body(table: VehicleTable, floor: float | None, n: VehicleNumbers, poi
     )
     plant = CompiledPlant(mixer_of(vehicle), body, parts_layout_from(vehicle), Absent(), Absent())
     surface = Absent() if floor is None else ground_effect_from(vehicle, floor)
+    steady = WindModel(Wind(vec3(air.velocity), Absent()), air_drag_from(vehicle, air.density))
+    wind = steady if air.model == "air" else Absent()
     constants = set_of([k for k in n.thrust_constants for _ in range(4)])
-    return DrivenBody(plant, constants, surface, point, step, vec3(vehicle.center_of_mass))
+    return DrivenBody(plant, constants, surface, wind, point, step, vec3(vehicle.center_of_mass))
 
 
 @law
@@ -180,7 +189,8 @@ def driven_step(b: DrivenBody, s: State, u: DrivenInputs) -> tuple[State, Driven
     thrusts = u.squares * b.constants * ground_effect_ratio(b.surface, s)
     moment = u.moment - cross(b.center, apply_transposed(R, u.force))
     plant = b.plant._replace(body=b.plant.body._replace(force=u.force, moment=moment))
-    moved = advance(plant, s, Absent(), Absent(), thrusts, Absent(), hand, b.step)
+    air = wind_loads(b.wind, Absent(), plant.frame, s, ZERO, Absent()).loads
+    moved = advance(plant, s, Absent(), Absent(), thrusts, air, hand, b.step)
     felt = moved.readings
     return moved.state, DrivenReadings(
         position=s.position + apply(R, b.point),

@@ -68,6 +68,7 @@ KINDS = {
     "actuators.delay": Kind("delay", "s", sd=0.02),
     "vehicle.drag.force": Kind("drag_force", "N s/m", 3, sd=0.2),
     "vehicle.drag.moment": Kind("drag_moment", "N m s", 3, sd=0.05),
+    "vehicle.payload.drag_area": Kind("areas", "m²", 3),
 }
 DEFAULT = tuple(KINDS)
 INERTIAS = {"inertia": "inertia", "products": "inertia", "inertias": "inertias"}

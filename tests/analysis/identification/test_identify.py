@@ -1,16 +1,21 @@
 """Vehicles that MuJoCo flew, identified from their logs; against scipy.optimize on a plain model; bad input."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from plain_vehicle import PlainVehicle, fitted, squares
 
 import tandemlift as tl
+from tandemlift.analysis.identification.equations import ROBUST
+from tandemlift.analysis.identification.fit import VehicleSearch
 from tandemlift.analysis.identification.identify import reference_rows
+from tandemlift.analysis.identification.judgement import covariance_of
 from tandemlift.analysis.identification.prediction import Predictor
+from tandemlift.analysis.identification.sensor_errors import sensor_priors
 from tandemlift.analysis.identification.windows import windows_of
-from tandemlift.analysis.logs.log import MOTION, Log, Stream, log_of
+from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream, log_of, quaternion_product
 from tandemlift.core.errors import InputError
 from tandemlift.engines.vehicle_unknowns import driven_numbers, unknowns_of
 from tandemlift.missions import load_mission
@@ -153,6 +158,41 @@ def test_the_page_shows_each_estimate(found, tmp_path):
     assert all(row.key in text for row in (*found.rows, *found.whole))
 
 
+def test_biases_that_walk_within_a_window_widen_the_intervals(log):
+    """Steps from drawn readings spread as the covariance says; by constant biases alone it says a fifth of that."""
+    drifts = {"accelerometer.drift": 0.01, "gyroscope.drift": 0.001, "joints.force_drift": 0.05}
+    mission = load_mission(START, TRUTH | {f"sensors.{name}": value for name, value in drifts.items()})
+    w, s = windows_of(log.between(BEGIN, PUSH - 2.0), mission), mission.sensors
+    unknowns = unknowns_of(mission.vehicle, mission.actuators.delay, ["vehicle.drag.force"])
+    predictor, priors = Predictor(w, unknowns, mission), sensor_priors(mission, frozenset(w.samples))
+    search = VehicleSearch([predictor], unknowns, priors)
+    own, joints, motion = (s.accelerometer, s.gyroscope), s.joints, s.motion
+    sizes = (*[k.noise for k in own], joints.force_noise, joints.torque_noise)
+    sizes = [*sizes, motion.position_noise, motion.velocity_noise, motion.attitude_noise]
+    noise = dict(zip((*IMU, *JOINTS, *MOTION), sizes, strict=True))
+    walk = dict(zip((*IMU, *JOINTS), (*[k.drift for k in own], joints.force_drift, joints.torque_drift), strict=True))
+    search.estimate.noise = noise
+    n, part, chance = unknowns.numbers(search.estimate.q), search.parts[0], np.random.default_rng(8)
+    p = predictor.predicted(part.starts, n, predictor.squares(n, False)[0], search.estimate.point)
+    off = []
+    for _ in range(30):
+        drawn = {}
+        for name, samples in w.samples.items():
+            exact = p[name][samples.window, samples.step]
+            turns = name == MOTION[2]
+            error = noise[name] * chance.standard_normal((len(exact), 3 if turns else exact.shape[1]))
+            time = (w.first[samples.window] + samples.step) * w.step
+            gone = np.sqrt(np.diff(time, prepend=time[0]))[:, None] * chance.standard_normal(error.shape)
+            error += np.cumsum(walk.get(name, 0.0) * gone, axis=0)
+            half = np.insert(0.5 * error, 0, 1.0, axis=1)
+            drawn[name] = samples._replace(values=quaternion_product(exact, half) if turns else exact + error)
+        part.predictor = replace(predictor, windows=replace(w, samples=drawn))
+        equations, normal = search.linearised(ROBUST)
+        sd = np.sqrt(np.diag(covariance_of(search, equations, normal, dict.fromkeys(noise, 1.0)).covariance))
+        off.append(np.linalg.solve(normal.information, normal.side)[:3] / sd)
+    assert 0.75 < np.std(off) < 1.25
+
+
 def test_outliers_gaps_and_clocks_of_their_own_change_little(log, found):
     """Offsets and drifts of the sources' clocks are found beside the vehicle; the correlation does not see 1.3 ms."""
     chance, bad = np.random.default_rng(3), {}
@@ -204,6 +244,26 @@ def test_a_calm_hover_excites_no_drag_and_says_so(log):
     assert not drag.excited
     assert drag.low < drag.start < drag.high
     assert drag.key in next(text for text in calm.remarks if "did not excite" in text)
+
+
+def test_in_moving_air_the_drag_area_of_the_payload_is_found():
+    """A slow motion along x tells the area there, apart from a linear drag; nothing tells that along the beam."""
+    air, slow = {"wind.model": "air"}, {"axis": "x", "frequency": 0.15, "amplitude": 0.5, "phase": 0.0}
+    flown = {
+        "mission.duration": 24.0,
+        "excitation.duration": 15.0,
+        "excitation.lines": [*FLOWN["excitation.lines"], slow],
+        "pushes": [],
+    }
+    real = TRUTH | air | {"vehicle.payload.drag_area": [0.3, 0.01, 0.2]}
+    log = blind(log_of(tl.fly(load_mission(START, real | FLOWN | flown), engine="mujoco")))
+    keys = ["vehicle.payload.drag_area", "vehicle.drag.force"]
+    found = tl.identify(log.between(BEGIN, 24.0), load_mission(START, TRUTH | air), parameters=keys, **SILENT)
+    area = found["vehicle.payload.drag_area.x"]
+    assert abs(area.value - 0.3) < 1.5 * area.half
+    assert area.half < 0.03 < abs(area.value - area.start)
+    assert found.mission.vehicle.payload.drag_area[0] == pytest.approx(area.value, rel=1e-6)
+    assert not found["vehicle.payload.drag_area.y"].excited
 
 
 def test_without_joints_and_scale_masses_and_thrust_constants_are_a_pair(log):

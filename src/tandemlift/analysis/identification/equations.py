@@ -91,6 +91,7 @@ class Equations(NamedTuple):
         matrices: by stream (W, C, C).
         sides: by stream (W, C).
         rows: residuals in blocks over their standard deviation, by stream (W, blocks, width); NaN without a sample.
+        columns: derivatives of the predictions of these, of streams with a bias (W, C, blocks, width).
         misfit: mean squares of whitened samples within `HUBER`, by stream (W,).
         spread: robust standard deviations of samples by stream.
     """
@@ -98,6 +99,7 @@ class Equations(NamedTuple):
     matrices: dict[str, Array]
     sides: dict[str, Array]
     rows: dict[str, Array]
+    columns: dict[str, Array]
     misfit: dict[str, Array]
     spread: dict[str, float]
 
@@ -174,7 +176,7 @@ class Linearisation:
         squares, moved = predictor.squares(n, True)
         predicted = predictor.predicted(part.starts, n, squares, e.point)
         derivatives = predictor.derivatives(part.starts, e.q, n, squares, moved, e.point)
-        found = Equations({}, {}, {}, {}, {})
+        found = Equations({}, {}, {}, {}, {}, {})
         for name, samples in w.samples.items():
             place = self.priors.places.get(name, slice(0, 0))
             biases = e.biases[part.groups][:, place]
@@ -193,6 +195,8 @@ class Linearisation:
             if clock is not None:
                 J[:, STARTS + clock] = derivatives.changes(name) / (w.step * w.block)
             J *= (root / e.noise[name])[:, None]
+            if name in self.priors.places:
+                found.columns[name] = J
             rows, J = mean * root, J.reshape(*J.shape[:2], -1)
             found.matrices[name] = J @ J.swapaxes(1, 2)
             found.sides[name] = (J @ rows.reshape(len(J), -1, 1))[..., 0]

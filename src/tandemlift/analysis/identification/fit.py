@@ -48,13 +48,14 @@ class VehicleSearch(Linearisation):
             self.lost = not np.isfinite(normal.information).all()
             if self.lost:
                 return equations, normal
-            covariance = np.linalg.inv(normal.information)
-            step = covariance @ normal.side
+            shared = len(self.unknowns) + self.priors.count
+            sides = np.eye(len(normal.side), shared + 1, 1)  # rows of the covariance beside the step
+            sides[:, 0] = normal.side
+            step, *rows = np.linalg.solve(normal.information, sides).T
             self._move(step, normal)
             self.steps = number + 1
-            size = np.abs(step / np.sqrt(np.diag(covariance)))[: len(self.unknowns) + self.priors.count].max(
-                initial=0.0
-            )
+            sd = np.sqrt([row[i] for i, row in enumerate(rows)])
+            size = np.abs(step[:shared] / sd).max(initial=0.0)
             if progress:
                 progress(number + 1, MOST_STEPS)
             if number > chosen + 1 and size < ENOUGH:

@@ -58,7 +58,8 @@ def identify(
     Args:
         logs: one or several, from `read_log`, or flights with sensors.
         mission: of about such a vehicle: from `load_mission`, or its name or path.
-        parameters: keys to estimate, of `engines.vehicle_unknowns.KINDS`; all by default.
+        parameters: keys to estimate, of `engines.vehicle_unknowns.KINDS`; all by default, of areas only where the
+            mission's wind is "air".
         weighed: masses [kg] from a scale, right within 0.1 %, by key. Without joint sensors of known scale, or such a
             mass, only ratios of masses to thrust constants can be told.
         window: length of a window [s].
@@ -83,9 +84,9 @@ def identify(
         [windows_of(log_of(one) if isinstance(one, Flight) else one, mission, window) for one in logs]
         for logs in (given, [predict] if predict else [])
     )
-    unknowns = unknowns_of(
-        mission.vehicle, mission.actuators.delay, DEFAULT if parameters is None else parameters, weighed
-    )
+    keys = [key for key in DEFAULT if "area" not in key or mission.wind.model == "air"]
+    keys = keys if parameters is None else list(parameters)
+    unknowns = unknowns_of(mission.vehicle, mission.actuators.delay, keys, weighed)
     parts = [_split(w, held_back) for w in cut]
     priors = sensor_priors(mission, frozenset(name for w in cut for name in w.samples))
     search = VehicleSearch([Predictor(fitted, unknowns, mission) for fitted, _ in parts], unknowns, priors)
@@ -113,7 +114,7 @@ def _judged(
         for name in search.estimate.noise
     }
     white = {name: whiteness(r) for name, r in streams.items()}
-    covariance = covariance_of(normal, {name: w.factor for name, w in white.items()}, len(unknowns))
+    covariance = covariance_of(search, equations, normal, {name: w.factor for name, w in white.items()})
     information = data_information(normal, len(unknowns))
     found, whole, identified, remarks = _results(search, covariance, mission)
     keys = _with_derivatives(lambda x: _values(unknowns, x), search.estimate.q)

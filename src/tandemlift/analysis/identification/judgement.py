@@ -1,9 +1,10 @@
 """What the data say of an estimate: intervals, what was not excited, what cannot be told apart, whiteness, prediction.
 
-The covariance is H⁻¹ (Σ λ_c H_c + Λ) H⁻¹: H the information of the data and of the priors Λ, H_c that of one stream,
-λ_c ≥ 1 the factor by which the autocorrelation of its residuals raises the variance of a mean (Newey and West,
-Econometrica 55, 1987, with the lags of Geyer, Statistical Science 7, 1992). Without it, H⁻¹ is the Cramér-Rao bound of
-estimates with these priors.
+The covariance is H⁻¹ (Σ λ_c H_c + Λ) H⁻¹ + B: H the information of the data and of the priors Λ, H_c that of one
+stream, λ_c ≥ 1 the factor by which the autocorrelation of its residuals raises the variance of a mean (Newey and West,
+Econometrica 55, 1987, with the lags of Geyer, Statistical Science 7, 1992). Biases, which the search holds for a group
+of windows, walk within them, too: B is what such walks put into the estimate, and the middle Λ has none of theirs.
+H⁻¹ alone is the Cramér-Rao bound if biases are constant in a group.
 """
 
 from __future__ import annotations
@@ -13,16 +14,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.identification.equations import NormalEquations
+from tandemlift.analysis.identification.equations import Equations, LogInSearch, NormalEquations
 from tandemlift.analysis.identification.fit import VehicleSearch
 from tandemlift.analysis.identification.identification import Row
+from tandemlift.analysis.identification.prediction import STARTS
+from tandemlift.analysis.identification.sensor_errors import SensorPriors
 from tandemlift.core.types import Array
 from tandemlift.engines.vehicle_unknowns import Unknowns
 
 LAGS = 20  # blocks
 ALIKE, MOST_PAIRS = 0.95, 4  # correlation of the errors of two keys; pairs that are named
 UNMODELLED = 1.25  # times the white noise of samples: larger residuals are remarked
-SCALED = ("kg", "kg m²", "N/(rad/s)²")  # units with the scale of force
+SCALED = ("kg", "kg m²", "N/(rad/s)²", "m²")  # units with the scale of force
 
 
 class Whiteness(NamedTuple):
@@ -72,12 +75,36 @@ def whiteness(rows: Array) -> Whiteness:
     return Whiteness(tuple(found), float(bound), factor)
 
 
-def covariance_of(normal: NormalEquations, factors: Mapping[str, float], count: int) -> Covariance:
-    """The covariance of the first `count` unknowns, by the factors of the streams."""
-    bound = np.asarray(np.linalg.inv(normal.information), dtype=float)
-    middle: Array = normal.prior + np.sum([factors[name] * one for name, one in normal.noises.items()], axis=0)
-    whole: Array = bound @ middle @ bound
-    return Covariance(whole[:count, :count], bound[:count, :count])
+def covariance_of(
+    search: VehicleSearch, equations: Sequence[Equations], normal: NormalEquations, factors: Mapping[str, float]
+) -> Covariance:
+    """The covariance of the vehicle's coordinates, by the factors of the streams."""
+    priors, count = search.priors, len(search.unknowns)
+    inverse = np.asarray(np.linalg.inv(normal.information), dtype=float)
+    place = np.arange(len(inverse)) - count - priors.count
+    walking = (place >= 0) & (place % len(priors.bias) < min(priors.clocks.values()))
+    middle: Array = np.where(walking | walking[:, None], 0.0, normal.prior)
+    middle = middle + np.sum([factors[name] * one for name, one in normal.noises.items()], axis=0)
+    whole: Array = inverse[:count] @ middle @ inverse[:, :count]
+    for part, own, (_, to_start) in zip(search.parts, equations, normal.back, strict=True):
+        gain = inverse[:count, search.places(part)].swapaxes(0, 1)
+        gain = np.concatenate([-gain @ to_start.swapaxes(1, 2), gain], axis=2)  # of sides (W, P, C)
+        for name in priors.places:
+            whole = whole + _by_walks(part, gain[part.used], own.columns[name][part.used], priors, name)
+    return Covariance(whole, inverse[:count, :count])
+
+
+def _by_walks(part: LogInSearch, gain: Array, columns: Array, priors: SensorPriors, name: str) -> Array:
+    """The covariance (P, P) that the biases of a stream put into the coordinates, as random walks over the log."""
+    w, total = part.windows, np.zeros((gain.shape[1], gain.shape[1]))
+    time = (w.times()[part.used, None] + np.arange(columns.shape[2]) * w.block * w.step).ravel()
+    for i, k in enumerate(range(len(priors.bias))[priors.places[name]]):
+        heard = gain @ columns[..., i] * columns[:, None, STARTS + k, :, i]  # coordinates by the bias in a block
+        later = heard.swapaxes(0, 1).reshape(len(total), -1)[:, ::-1].cumsum(axis=1)[:, ::-1]
+        variance = np.diff(time, prepend=time[0]) * priors.walk[k] ** 2.0
+        variance[0] = priors.bias[k] ** 2.0
+        total += later * variance @ later.T
+    return total
 
 
 def data_information(normal: NormalEquations, count: int) -> Array:
@@ -100,7 +127,7 @@ def scale_is_known(unknowns: Unknowns, q: Array, information: Array) -> bool:
     """
     kinds = [u.kind for u in unknowns.unknowns]
     along = np.array([float(u.positive and k.unit in SCALED) for u, k in zip(unknowns.unknowns, kinds, strict=True)])
-    drag = np.array([u.start + x if "drag" in u.key else 0.0 for u, x in zip(unknowns.unknowns, q, strict=True)])
+    drag = np.array([u.start + x if ".drag." in u.key else 0.0 for u, x in zip(unknowns.unknowns, q, strict=True)])
     direction, sd = along + drag, float(np.min(unknowns.sd[along > 0.0], initial=1.0))
     return bool(direction @ information @ direction * sd**2 > 1.0 or sd < 0.01)
 

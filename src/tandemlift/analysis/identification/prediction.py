@@ -101,8 +101,9 @@ class Predictor:
     @property
     def models(self) -> Models:
         """The machine code for this geometry; made once in a process."""
-        geometry = self.mission.vehicle.model_dump_json(), effect_floor(self.mission)
-        return _models.of(geometry, lambda: _compiled(self.mission, self.unknowns.start))
+        mission = self.mission
+        geometry = mission.vehicle.model_dump_json(), effect_floor(mission), mission.wind.model_dump_json()
+        return _models.of(geometry, lambda: _compiled(mission, self.unknowns.start))
 
     @property
     def joints(self) -> int:
@@ -217,7 +218,7 @@ def _compiled(mission: Mission, start: DrivenNumbers) -> Models:
     floor, none = effect_floor(mission), DrivenInputs(each(4 * N)(*(0.0,) * (4 * N)), ZERO, ZERO)
 
     def body(p: StepNumbers) -> DrivenBody:
-        return driven_body(table, floor, p.vehicle, p.point, p.step)
+        return driven_body(table, floor, mission.wind, p.vehicle, p.point, p.step)
 
     of_body = body, driven_step, StepNumbers(start.vehicle, ZERO, 0.0), AT_REST, none
     of_rotor = (lambda step: step), rotor_step, 0.0, DrivenRotor(0.0, 0.0, 0.0), 0.0
