@@ -32,6 +32,7 @@ from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable
 
 observer = OwnObserver(lambda *known: start_wrench_observer("hybrid", WrenchTable(), *known))
 """
+TASKS, COLUMNS = benchmark.tasks, benchmark.TABLES  # as they are
 LAW = (ROOT / "examples" / "observers" / "own_law.py").read_text("utf-8")
 CONTROLLER = (ROOT / "examples" / "my_controller.py").read_text("utf-8").replace("my-pd", "entry-pd")
 
@@ -256,6 +257,13 @@ def test_steps_of_pushes_have_their_force():
     force = sum(p["force"][0] * math.exp(-0.5 * ((at - p["time"]) / p["sigma"]) ** 2) for p in first)
     assert force == pytest.approx(benchmark.FORCES[0], rel=1e-3)
     assert rms([3.0, 4.0]) == pytest.approx(math.sqrt(12.5))
+
+
+def test_a_baseline_flown_again_has_the_numbers_that_ship(monkeypatch):
+    monkeypatch.setattr(benchmark, "tasks", TASKS)
+    monkeypatch.setattr(benchmark, "TABLES", COLUMNS)
+    entry = baselines("policies")[0]
+    assert benchmark.scores_of(entry, quick=True) == benchmark.shipped_tables(quick=True)["policies"][entry.name]
 
 
 @pytest.mark.parametrize("quick", [True, False])

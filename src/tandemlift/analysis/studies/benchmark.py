@@ -7,7 +7,6 @@ push that is followed within 80 ms, as all larger ones are. Policies of the admi
 
 from __future__ import annotations
 
-import copy
 import json
 import math
 import tomllib
@@ -44,9 +43,9 @@ def tasks() -> dict[str, Any]:
     return tomllib.loads((DATA / "benchmark.toml").read_text("utf-8"))
 
 
-def plan_of(kind: Kind, task: str, entry: BenchmarkEntry, *, quick: bool) -> StudyPlan:
+def plan_of(entry: BenchmarkEntry, task: str, *, quick: bool) -> StudyPlan:
     """The flights of an entry in a task."""
-    tables = copy.deepcopy(tasks()[kind][task])
+    tables = tasks()[entry.kind][task]
     shorter = tables.pop("quick")
     changes = {"set.mission.fma": False, **(shorter if quick else {})}
     if entry.function:
@@ -141,11 +140,9 @@ def _called(observer: Callable[..., Any], table: Any) -> Array:
 OF_CHANNELS: dict[str, Callable[[Flight], Row]] = {"corridor": corridor, "steps": smallest_push}
 
 
-def fly_task(
-    kind: Kind, task: str, entry: BenchmarkEntry, *, quick: bool, progress: Progress | None = None
-) -> list[Row]:
+def fly_task(entry: BenchmarkEntry, task: str, *, quick: bool, progress: Progress | None = None) -> list[Row]:
     """The rows of a task. A flight that is refused has no metrics."""
-    plan = plan_of(kind, task, entry, quick=quick)
+    plan = plan_of(entry, task, quick=quick)
     rows, found = plan.rows(0, plan.count), list[Any]()
     own = partial(of_function, entry.function) if entry.function else OF_CHANNELS.get(task)
     at_once = len(rows) if own is None else 1 if entry.function else AT_ONCE
@@ -190,10 +187,10 @@ def scores_of(entry: BenchmarkEntry, *, quick: bool = False, progress: Progress 
 def _scores(entry: BenchmarkEntry, quick: bool, progress: Progress | None) -> Scores:
     columns = [c for c in TABLES[entry.kind] if not entry.function or c.task == "pushes"]
     names = list(dict.fromkeys(column.task for column in columns))
-    total, done, rows = sum(plan_of(entry.kind, n, entry, quick=quick).count for n in names), 0, dict[str, list[Row]]()
+    total, done, rows = sum(plan_of(entry, n, quick=quick).count for n in names), 0, dict[str, list[Row]]()
     for name in names:
         shown = progress and partial(_advance, progress, done, total)
-        rows[name] = fly_task(entry.kind, name, entry, quick=quick, progress=shown)
+        rows[name] = fly_task(entry, name, quick=quick, progress=shown)
         done += len(rows[name])
     return {column.title: column.of(rows[column.task]) for column in columns}
 
