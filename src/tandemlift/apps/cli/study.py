@@ -144,11 +144,12 @@ SCORES = ("scores.json", "scores.csv")
 @click.option("--quick", is_flag=True, help="Few and short flights, for a first look.")
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/benchmark]")
 def benchmark(file: Path | None, quick: bool, out: str | None) -> None:
-    """Score your observer, controller or policy in FILE beside those of the package.
+    """Score your observer, controller or policy in FILE.
 
     FILE is found out: a controller, as for `run --controller`; an observer of the external wrench, a law or a function
-    of a table; or weights of a policy, as `train` writes them. It flies held-out tasks. docs/how-to/benchmark.md has
-    tasks and columns. Without FILE the baselines fly; of the benchmark's folder the checksums are compared.
+    of a table; or weights of a policy, as `train` writes them. It flies held-out tasks, and its row is printed beside
+    the baselines. Without FILE these fly; of the benchmark's folder the checksums are compared. Tasks and columns:
+    docs/how-to/benchmark.md.
 
     \b
     Examples:
