@@ -22,7 +22,7 @@ import sys
 import time
 import warnings
 from collections.abc import Iterator
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -74,11 +74,14 @@ class Prediction(NamedTuple):
     frequency: float
 
 
-def random_mission(number: int, seed: int) -> tuple[str, Mission] | None:
-    """(base, mission) of a number; None if the drawn mission is refused."""
+_loaded = cache(tl.load_mission)
+
+
+def drawn_changes(number: int, seed: int) -> tuple[str, dict[str, Any]]:
+    """(base, its changes) of a number."""
     rng = np.random.default_rng((seed, number))
     base = BASES[number % len(BASES)]
-    m = tl.load_mission(base)
+    m = _loaded(base)
 
     def around(value: Any, factors: tuple[float, float]) -> Any:
         return (np.asarray(value) * np.exp(rng.uniform(*np.log(factors), np.shape(value)))).tolist()
@@ -96,6 +99,12 @@ def random_mission(number: int, seed: int) -> tuple[str, Mission] | None:
     for i in range(len(m.vehicle.quadrotors)):
         changes |= {f"vehicle.quadrotors.{i}.{key}": lag for key in ("lag_up", "lag_down")}
     changes["actuators.delay"] = float(rng.uniform(0.0, DELAY))
+    return base, changes
+
+
+def random_mission(number: int, seed: int) -> tuple[str, Mission] | None:
+    """(base, mission) of a number; None if the drawn mission is refused."""
+    base, changes = drawn_changes(number, seed)
     try:
         return base, tl.load_mission(base, changes)
     except tl.InputError:

@@ -110,8 +110,8 @@ def compile(
 @click.argument("flight_or_mission", shell_complete=FLIGHTS_AND_MISSIONS)
 @click.option("--out", metavar="FILE", help="FILE.png, FILE.gif or FILE.mp4.  [default: picture.png beside the flight]")
 @click.option("--time", type=float, help="Time of the picture [s].  [default: that of the strongest push]")
-@click.option("--from", "start", type=float, help="Start of the animation [s].")
-@click.option("--to", "end", type=float, help="End of the animation [s].")
+@click.option("--from", type=float, help="Start of the animation [s].")
+@click.option("--to", type=float, help="End of the animation [s].")
 @click.option("--fps", type=float, help="Frames per second of the animation, 1 to 50.  [default: 20]")
 @click.option("--speed", type=float, help="Playback speed.  [default: 1, or faster so that it lasts 20 s]")
 @click.option("--size", metavar="WxH", help="Size in pixels.  [default: 1280x720, a GIF 640x360]")
@@ -119,17 +119,7 @@ def compile(
 @engine_option
 @set_option
 def render(
-    flight_or_mission: str,
-    out: str | None,
-    time: float | None,
-    start: float | None,
-    end: float | None,
-    fps: float | None,
-    speed: float | None,
-    size: str | None,
-    camera: str,
-    engine: str,
-    settings: tuple[str, ...],
+    flight_or_mission: str, out: str | None, camera: str, engine: str, settings: tuple[str, ...], **at: Any
 ) -> None:
     """Draw a flight: a picture (PNG) or an animation (GIF, MP4).
 
@@ -149,10 +139,9 @@ def render(
 
     folder, saved = flight_file(flight_or_mission)
     path = Path(out) if out else folder / "picture.png"
-    given = {"--time": time, "--from": start, "--to": end, "--fps": fps, "--speed": speed}
-    film.check_options(path, [name for name, value in given.items() if value is not None])
-    view = film.camera_of(camera)
-    shot = film.Shot(time, start, end, fps or 20.0, speed, film.size_of(size), view)
+    size, view = film.size_of(at.pop("size")), film.camera_of(camera)
+    film.check_options(path, [f"--{name}" for name, value in at.items() if value is not None])
+    shot = film.Shot(at["time"], at["from"], at["to"], at["fps"] or 20.0, at["speed"], size, view)
     flight = Flight.load(saved) if saved else _fly(flight_or_mission, settings, engine)
     with progress_bar("Drawing", "pictures", shown=path.suffix.lower() != ".png") as progress:
         film.render(flight, path, shot, progress)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -125,34 +125,19 @@ def write_flight(flight: Flight, folder: Path, *, figures: bool) -> None:
         write_flight_files(flight, folder, figures=figures, progress=progress, replay=replay)
 
 
-# findings: a line each on standard error
-
-
-def print_findings(flights: Iterable[tuple[str, Flight]]) -> int:
-    """Print a line on standard error for each finding of flights by name; return their number."""
-    count = 0
-    for name, flight in flights:
-        for finding in flight.findings:
-            click.echo(f"{_coloured(f'{name}: {finding.kind}')} {str(finding).partition(' ')[2]}", err=True)
-            count += 1
-    return count
-
-
-def exit_if_found(count: int, *, strict: bool) -> None:
-    """End the process if there are findings and `--strict` was given."""
-    if count and strict:
-        sys.exit(FAILED)
-
-
 def exit_if_amiss(flights: Mapping[str, Flight], *, strict: bool) -> None:
-    """Print findings and failures of flights by name; end the process if one failed, or, if strict, has findings."""
-    count = print_findings(flights.items())
+    """Print findings and failures of flights by name, a line each on standard error.
+
+    End the process if a flight failed, or, if strict, has findings.
+    """
+    found = [(name, finding) for name, flight in flights.items() for finding in flight.findings]
+    for name, finding in found:
+        click.echo(f"{_coloured(f'{name}: {finding.kind}')} {str(finding).partition(' ')[2]}", err=True)
     failures = {name: flight.failure for name, flight in flights.items() if flight.failure}
     for name, failure in failures.items():
         click.echo(f"{name}: {failure}", err=True)
-    if failures:
+    if failures or (found and strict):
         sys.exit(FAILED)
-    exit_if_found(count, strict=strict)
 
 
 def _coloured(text: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -14,10 +15,10 @@ from tandemlift.apps.cli.flying import (
     FILES,
     exit_if_amiss,
     figures_option,
-    kept_style_option,
     load,
     set_option,
     strict_option,
+    style_option,
 )
 from tandemlift.apps.cli.run import write_results
 from tandemlift.apps.export.results import results_folder
@@ -43,14 +44,7 @@ align_option = click.option(
 @figures_option
 @strict_option
 def shadow(
-    log: str,
-    mission: str,
-    columns: str | None,
-    align: bool,
-    out: str | None,
-    settings: tuple[str, ...],
-    no_figures: bool,
-    strict: bool,
+    log: str, mission: str, out: str | None, settings: tuple[str, ...], no_figures: bool, strict: bool, **reading: Any
 ) -> None:
     """Run a mission's pilot beside the LOG of a real flight.
 
@@ -71,7 +65,7 @@ def shadow(
     import tandemlift as tl
 
     began, loaded = time.perf_counter(), load(mission, settings)
-    taken = tl.read_log(log, columns, align=align)
+    taken = tl.read_log(log, **reading)
     for note in taken.notes:
         echo(note)
     with results_folder(out, Path("out") / f"{loaded.mission.name}-shadow", FILES) as folder:
@@ -92,19 +86,17 @@ def shadow(
 @click.option("--window", type=float, default=1.0, show_default=True, metavar="S", help="Length of a window.")
 @click.option("--predict", metavar="LOG", help="Another flight, which the identified vehicle predicts.")
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-identification]")
-@kept_style_option
+@style_option
 def identify(
     logs: tuple[str, ...],
     mission: str,
-    columns: str | None,
-    align: bool,
     settings: tuple[str, ...],
     weighed: tuple[str, ...],
     parameters: str | None,
     window: float,
     predict: str | None,
     out: str | None,
-    style: str | None,
+    **reading: Any,
 ) -> None:
     """Identify a vehicle from LOGS of its flights.
 
@@ -128,7 +120,7 @@ def identify(
 
     start, masses = load(mission, settings), dict(map(_weighed, weighed))
     paths = [*logs, *([predict] if predict else [])]
-    read = [tl.read_log(path, columns, align=align) for path in paths]
+    read = [tl.read_log(path, **reading) for path in paths]
     for note in (note for log in read for note in log.notes):
         echo(note)
     other = read.pop() if predict else None

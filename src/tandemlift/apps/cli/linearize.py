@@ -11,15 +11,7 @@ import click
 
 from tandemlift.apps.cli.completion import MISSIONS
 from tandemlift.apps.cli.console import echo, print_checks, progress_bar
-from tandemlift.apps.cli.flying import (
-    DRAWINGS,
-    FAILED,
-    controller_option,
-    kept_style_option,
-    load,
-    set_option,
-    style_option,
-)
+from tandemlift.apps.cli.flying import DRAWINGS, FAILED, controller_option, load, set_option, style_option
 from tandemlift.apps.export.results import file_path, results_folder
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.files import write_file
@@ -40,16 +32,7 @@ from tandemlift.core.files import write_file
 @set_option
 @controller_option()
 def linearize(
-    mission: str,
-    at: float | None,
-    of: str,
-    inputs: str | None,
-    outputs: str | None,
-    count: int,
-    out: str | None,
-    figure: str | None,
-    settings: tuple[str, ...],
-    controller: str | None,
+    mission: str, out: str | None, figure: str | None, settings: tuple[str, ...], controller: str | None, **how: Any
 ) -> None:
     """Print the linear model of MISSION at a time of its flight.
 
@@ -67,8 +50,8 @@ def linearize(
     for option, path, endings in (("--out", out, (".npz", ".json")), ("--figure", figure, DRAWINGS)):
         if path is not None:
             file_path(option, path, *endings)
-    names = [None if given is None else given.split(",") for given in (inputs, outputs)]
-    model = tl.linearize(load(mission, settings, controller), at, of=of, inputs=names[0], outputs=names[1])
+    count, names = how.pop("count"), {name: how[name] and how[name].split(",") for name in ("inputs", "outputs")}
+    model = tl.linearize(load(mission, settings, controller), **{**how, **names})
     for line in model.lines(count):
         echo(line)
     if out:
@@ -123,16 +106,10 @@ def check(mission: str, settings: tuple[str, ...], controller: str | None, stric
 @click.option("--flights", type=click.IntRange(1), default=300, show_default=True, help="Random flights of statistics.")
 @click.option("--arm", type=(float, float, float), metavar="K B M", help="Of the box of arms: N/m, N s/m, kg.")
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-certificate]")
-@kept_style_option
+@style_option
 @click.option("--strict", is_flag=True, help="Exit with code 3 if a number is below its bar.")
 def certify(
-    mission: str,
-    settings: tuple[str, ...],
-    tiers: str | None,
-    out: str | None,
-    style: str | None,
-    strict: bool,
-    **how: Any,
+    mission: str, settings: tuple[str, ...], tiers: str | None, out: str | None, strict: bool, **how: Any
 ) -> None:
     """Certify MISSION: margins, limits, a person's arm, failures.
 

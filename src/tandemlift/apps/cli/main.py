@@ -17,7 +17,7 @@ from tandemlift.apps.cli.live import docs, grade, live, page, replay, score
 from tandemlift.apps.cli.report import paper, plot, report
 from tandemlift.apps.cli.ros import crazyflie, gazebo, mavlink, ros
 from tandemlift.apps.cli.run import run
-from tandemlift.apps.cli.study import compare, study
+from tandemlift.apps.cli.study import benchmark, compare, study
 from tandemlift.apps.cli.tune import feel, train, tune
 from tandemlift.core.errors import FlightWarning, InputError, suggestion
 from tandemlift.core.files import __version__
@@ -31,7 +31,19 @@ GROUPS: dict[str, tuple[click.Command, ...]] = {
     "Try first": (run, live, missions, docs),
     "Write a mission": (new, template, explain, check, controllers, engines, schema, completion),
     "Look at a flight": (report, plot, render, replay),
-    "Fly many, compare, analyse": (compare, score, grade, study, tune, train, feel, linearize, certify, paper),
+    "Fly many, compare, analyse": (
+        compare,
+        benchmark,
+        score,
+        grade,
+        study,
+        tune,
+        train,
+        feel,
+        linearize,
+        certify,
+        paper,
+    ),
     "Your vehicle": (excite, identify, shadow),
     "Take it elsewhere": (gazebo, ros, crazyflie, mavlink, page, export, compile),
 }

@@ -22,7 +22,7 @@ from tandemlift.apps.cli.flying import (
 )
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import parse_setting
+from tandemlift.core.files import parse_setting, write_file
 
 if TYPE_CHECKING:
     from tandemlift.analysis.studies.comparison import MissionComparison
@@ -130,6 +130,52 @@ def _print_outcomes(folder: Path, metrics: tuple[str, ...], *, report: bool) -> 
     if report and not study.missing:
         echo(f"  report: {write_study_report(study, folder / 'report.html', metrics)}")
     echo(f"  table: tl.load_study({str(folder)!r})")
+
+
+SCORES = ("scores.json", "scores.csv")
+
+
+@click.command()
+@click.argument("file", required=False, type=click.Path(path_type=Path), shell_complete=names(files=[".py", ".toml"]))
+@click.option("--quick", is_flag=True, help="Few and short flights, for a first look.")
+@click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/benchmark]")
+def benchmark(file: Path | None, quick: bool, out: str | None) -> None:
+    """Score your observer, controller or policy in FILE.
+
+    FILE is found out: a controller, as for `run --controller`; an observer of the external wrench, a law or a function
+    of a table; or weights of a policy, as `train` writes them. It flies held-out tasks, and its row is printed beside
+    the baselines. Without FILE these fly; of the benchmark's folder the checksums are compared. Tasks and columns:
+    docs/how-to/benchmark.md.
+
+    \b
+    Examples:
+      tandemlift benchmark my_pd.py
+      tandemlift benchmark out/zigzag-tuned/tuned.toml --quick
+      tandemlift benchmark
+
+    \b
+    Files in the results folder (other files there are left alone):
+      scores.json, scores.csv   the rows, each with all columns
+    """
+    from tandemlift.analysis.studies.benchmark import baseline_tables, scores_of, shipped_tables
+    from tandemlift.analysis.studies.design.benchmark_columns import csv_of, json_of, lines_of
+    from tandemlift.analysis.studies.design.benchmark_entry import checked_folder, entry_of
+
+    if file is not None and file.is_dir():
+        echo(f"{file}: {checked_folder(file)} files, all with their checksums")
+        return
+    entry = None if file is None else entry_of(file)
+    with results_folder(out, Path("out/benchmark"), SCORES) as folder:
+        with progress_bar("Flying", "flights" if entry else "baselines", shown=sys.stderr.isatty()) as progress:
+            if entry is None:
+                tables = baseline_tables(quick=quick, progress=progress)
+            else:
+                own = {entry.name: scores_of(entry, quick=quick, progress=progress)}
+                tables = {entry.kind: {**shipped_tables(quick=quick)[entry.kind], **own}}
+        for kind, rows in tables.items():
+            echo("\n".join(lines_of(kind, rows)))
+        for path, text in zip(SCORES, (json_of(tables), csv_of(tables)), strict=True):
+            write_file(folder / path, text)
 
 
 STEMS = {"controllers": "compare", "engines": "engines"}  # of the files

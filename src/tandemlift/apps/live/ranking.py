@@ -8,10 +8,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tandemlift.apps.live.session.challenge import SCORE_FILE, CorridorScore, score_of
+from tandemlift.apps.live.session.challenge import SCORE_FILE
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.core.errors import InputError, shown, without_flight_warnings
 from tandemlift.core.types import Progress
+from tandemlift.flight.corridor_score import CorridorScore, score_of
 from tandemlift.missions import Mission, load_mission, tables_of
 from tandemlift.missions.recording import MISSION_FILE, read_recording
 from tandemlift.simulation.fly import fly

@@ -16,7 +16,7 @@ from tandemlift.core.vector import dot
 from tandemlift.parts.controllers.registry import CONTROLLERS, Controller, file_of
 from tandemlift.parts.controllers.trial_run import error_text
 
-_loaded: dict[str, Controller] = {}  # by their modules
+_loaded: dict[str, list[Controller]] = {}  # by their modules
 
 
 def controller(given: str) -> Controller:
@@ -39,14 +39,22 @@ def load_controller(path: str | Path) -> Controller:
     Raises:
         InputError: the file is missing, fails, or registers no controller.
     """
+    return run_controller(file_text(path), Path(path).resolve())
+
+
+def file_text(path: str | Path) -> str:
+    """The text of a Python file.
+
+    Raises:
+        InputError: it is missing, or no text.
+    """
     path = Path(path).resolve()
     if not path.is_file():
         raise InputError(f"controller file {path} does not exist")
     try:
-        text = decode_source(path.read_bytes())
+        return decode_source(path.read_bytes())
     except (SyntaxError, UnicodeDecodeError) as error:
         raise InputError(f"controller file {error_text(error, str(path))}") from error
-    return run_controller(text, path)
 
 
 def controller_text(controller: Controller) -> str:
@@ -57,16 +65,25 @@ def controller_text(controller: Controller) -> str:
 def run_controller(text: str, path: Path) -> Controller:
     """Run the text of a file that registers one controller, and return it; nothing is read at `path`, which names it.
 
-    The text becomes a module named by its content, so that its compiled loop is found again on disk, wherever it lies.
-
     Raises:
         InputError: the text fails, or registers no controller.
+    """
+    return run_file(text, path, one=True)[1][0]
+
+
+def run_file(text: str, path: Path, *, one: bool = False) -> tuple[ModuleType, list[Controller]]:
+    """Run the text of a file, and return its module and the controllers that it registers; with `one`, it must be one.
+
+    The module is named by its content, so that its compiled loop is found again on disk, wherever it lies.
+
+    Raises:
+        InputError: the text fails, or does not register one controller.
     """
     digest = hashlib.sha256(text.encode()).hexdigest()[:12]
     module = ModuleType(f"tandemlift_user_{re.sub(r'[^A-Za-z0-9_]', '_', path.stem)}_{digest}")
     held = _loaded.get(module.__name__)
-    if held and CONTROLLERS.get(held.name) is held:
-        return held
+    if held and all(CONTROLLERS.get(each.name) is each for each in held) and (len(held) == 1 or not one):
+        return sys.modules[module.__name__], held
     module.__file__ = str(path)
     before = dict(CONTROLLERS), sys.modules.get(module.__name__)
     sys.modules[module.__name__] = module  # also while it runs: annotations are looked up there
@@ -76,7 +93,7 @@ def run_controller(text: str, path: Path) -> Controller:
         linecache.cache[str(path)] = len(text), None, lines, str(path)  # the traced text, even if the file changes
         exec(code, module.__dict__)
         new = [c for name, c in CONTROLLERS.items() if before[0].get(name) is not c]
-        if len(new) != 1:
+        if one and len(new) != 1:
             raise InputError(f"registers {len(new)} controllers; it must register one with @register(NAME, SETTINGS)")
         _check_calls(module)
     except (Exception, SystemExit) as error:
@@ -86,8 +103,8 @@ def run_controller(text: str, path: Path) -> Controller:
         if before[1] is not None:
             sys.modules[module.__name__] = before[1]
         raise InputError(f"controller file {error_text(error, str(path))}") from error
-    _loaded[module.__name__] = new[0]
-    return new[0]
+    _loaded[module.__name__] = new
+    return module, new
 
 
 def _check_calls(module: ModuleType) -> None:

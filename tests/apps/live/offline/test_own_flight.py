@@ -19,8 +19,9 @@ from tandemlift.apps.live import page_modules, pages
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.page_manifest import page_manifest
 from tandemlift.apps.live.page_modules import packed_mission, page_mission
-from tandemlift.apps.live.session.challenge import score_of, write_score
+from tandemlift.apps.live.session.challenge import write_score
 from tandemlift.core.files import DATA
+from tandemlift.flight.corridor_score import score_of
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation.traced_assembly import trace_assembly
 from tandemlift.simulation.stepping import fly_stepwise

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra import exp
@@ -27,6 +29,26 @@ class SampleNoise(NamedTuple):
     attitude: Number
 
 
+Start = Callable[[NominalBody, SampleNoise, float], tuple[Any, Any]]
+_standing_in: dict[str, Start] = {}
+
+
+class OwnObserver(NamedTuple):
+    """An observer of one's own: `start(body, noise, interval)` gives its parameters and memory, by whose type `observe`
+    finds its law. `interval`: between samples [s]."""
+
+    start: Start
+
+    @contextmanager
+    def in_place_of(self, name: str) -> Iterator[None]:
+        """In this process, flights with `estimator.wrench` = `name` that are begun meanwhile fly this observer."""
+        _standing_in[name] = self.start
+        try:
+            yield
+        finally:
+            del _standing_in[name]
+
+
 def _decay(bandwidth: Vec3, interval: Number) -> Vec3:
     return Vec3(*[exp(-w * interval) for w in bandwidth])
 
@@ -35,6 +57,8 @@ def start_wrench_observer(
     name: str, table: WrenchTable, body: NominalBody, noise: SampleNoise, interval: Number
 ) -> tuple[Any, Any]:
     """(the observer, its memory); `name`: `estimator.wrench`; `interval`: between samples [s]."""
+    if name in _standing_in:
+        return _standing_in[name](body, noise, interval)
     decay = _decay(vec3(table.force_bandwidth), interval)
     turning_decay = _decay(vec3(table.moment_bandwidth), interval)
     one = Vec3(1.0, 1.0, 1.0)

@@ -1,0 +1,123 @@
+"""Entries of the benchmark: an observer, a controller or a policy, each in one file."""
+
+from __future__ import annotations
+
+import hashlib
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, Literal, NamedTuple, get_args
+
+from tandemlift.core.errors import InputError
+from tandemlift.missions import Mission
+from tandemlift.parts.controllers import CONTROLLERS
+from tandemlift.parts.controllers.user_controller import file_text, run_file
+
+Kind = Literal["controllers", "observers", "policies"]
+KINDS: tuple[Kind, ...] = get_args(Kind)
+STOOD_IN, RECORDED = "momentum", "kalman"  # the observer in whose place a law flies; the one that flies with a function
+WRENCH, POLICY = "estimator.wrench", "compliance.policy"
+NETWORK = {f"{POLICY}.model": "network"}
+CHECKSUMS = "SHA256SUMS"
+WHAT = (
+    "an entry is a .py file that registers one controller, or defines `observer`, or a .toml file with the weights of "
+    "a policy, such as tuned.toml of `tandemlift train`"
+)
+
+
+class BenchmarkEntry(NamedTuple):
+    """What is scored.
+
+    Attributes:
+        kind: what it is.
+        name: of the row.
+        changes: of every mission that it flies.
+        controller: its name, or its file; "" for the mission's.
+        law: an observer of one's own, an `OwnObserver`; None for others.
+        function: an observer that is a function of a table (see `benchmark.functions_rows`); None for others.
+        file: of the entry; None for a baseline.
+    """
+
+    kind: Kind
+    name: str
+    changes: dict[str, Any]
+    controller: str = ""
+    law: Any = None
+    function: Callable[..., Any] | None = None
+    file: Path | None = None
+
+
+def baselines(kind: Kind) -> list[BenchmarkEntry]:
+    """The entries of a kind that the package has."""
+    if kind == "controllers":
+        own = [name for name, c in sorted(CONTROLLERS.items()) if c.start.__module__.startswith("tandemlift.")]
+        return [BenchmarkEntry(kind, name, {}, name) for name in own]
+    if kind == "observers":
+        return [BenchmarkEntry(kind, name, {WRENCH: name}) for name in get_args(_annotation("estimator", "wrench"))]
+    return [
+        BenchmarkEntry(kind, "damping of 1.6 N s/m", {f"{POLICY}.model": "none"}),
+        BenchmarkEntry(kind, "damping of 1.0 N s/m", {f"{POLICY}.model": "none", "admittance.damping": 1.0}),
+        BenchmarkEntry(kind, "the policy that ships", NETWORK),
+    ]
+
+
+def _annotation(table: str, key: str) -> Any:
+    """The type of a key of missions."""
+    return Mission.model_fields[table].annotation.model_fields[key].annotation  # type: ignore[union-attr]
+
+
+def entry_of(file: Path) -> BenchmarkEntry:
+    """The entry in a file.
+
+    Raises:
+        InputError: there is no such file, or it holds none, or more than one.
+    """
+    if file.suffix == ".toml":
+        return _policy(file)
+    if file.suffix != ".py":
+        raise InputError(f"{file}: {WHAT}")
+    try:
+        module, controllers = run_file(file_text(file), file.resolve())
+    except InputError as error:
+        raise InputError(str(error).removeprefix("controller ")) from None
+    observer = vars(module).get("observer")
+    found = [f"the controller {one.name!r}" for one in controllers] + ["an observer"] * callable(observer)
+    if hasattr(observer, "in_place_of"):
+        found += ["an observer"]
+    if len(found) != 1:
+        raise InputError(f"{file.name} holds {' and '.join(found) or 'no entry'}; it must hold one: {WHAT}")
+    if controllers:
+        return BenchmarkEntry("controllers", file.stem, {}, str(file.resolve()), file=file)
+    if callable(observer):
+        return BenchmarkEntry("observers", file.stem, {WRENCH: RECORDED}, function=observer, file=file)
+    return BenchmarkEntry("observers", file.stem, {WRENCH: STOOD_IN}, law=observer, file=file)
+
+
+def _policy(file: Path) -> BenchmarkEntry:
+    try:
+        weights = tomllib.loads(file.read_text("utf-8"))["compliance"]["policy"]["weights"]
+    except (OSError, ValueError) as error:
+        raise InputError(f"{file}: {getattr(error, 'strerror', None) or error}") from None
+    except (KeyError, TypeError):
+        raise InputError(f"{file}: has no weights in [compliance.policy]; {WHAT}") from None
+    return BenchmarkEntry("policies", file.stem, {**NETWORK, f"{POLICY}.weights": weights}, file=file)
+
+
+def checked_folder(folder: Path) -> int:
+    """The number of files of the benchmark's folder, each with the checksum that `SHA256SUMS` says.
+
+    Raises:
+        InputError: a file is missing, or is another one.
+    """
+    sums = folder / CHECKSUMS
+    if not sums.is_file():
+        raise InputError(f"{folder}: must be the folder of the benchmark, with its {CHECKSUMS}, or a file; {WHAT}")
+    lines = [line.split("  ", 1) for line in sums.read_text("utf-8").splitlines()]
+    for digest, name in lines:
+        path = folder / name
+        if not path.is_file():
+            raise InputError(f"{path}: is missing; {CHECKSUMS} names it")
+        with path.open("rb") as file:
+            if hashlib.file_digest(file, "sha256").hexdigest() != digest:
+                raise InputError(f"{path}: is not the file of the benchmark: its checksum differs from {CHECKSUMS}")
+    return len(lines)
