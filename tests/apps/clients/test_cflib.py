@@ -49,7 +49,7 @@ def crazyflies(folder):
     """The addresses of two Crazyflies that fly in real time."""
     command = [sys.executable, "-m", "tandemlift", "crazyflie", "--no-browser", "--port", "0"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=folder)
-    addresses = re.findall(r"udp://\S+?:\d+", said(process, r"Crazyflies: .*")[0])
+    addresses = re.findall(r"udp://\S+?:\d+", said(process, r"Quadrotors: .*")[0])
     said(process, "Ctrl-C")
     yield addresses
     ended(process)
