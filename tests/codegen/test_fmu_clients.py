@@ -1,17 +1,24 @@
 """FMUs in importers of others, FMPy 0.3.32 and fmuloader 0.1.2rc0, and for each platform by ziglang."""
 
+import shutil
+import subprocess
 import zipfile
+from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 from c_flights import same, unfused
+from fmu_importer import Fmu
 
 import tandemlift as tl
+from tandemlift.codegen.fmu_binaries import zig
 from tandemlift.flight.data_frames import column_names
 from tandemlift.missions import built_in
 
 pytestmark = pytest.mark.clients
+WINE = next(filter(shutil.which, ("wine64", "wine", "/usr/lib/wine/wine64")), None)
+STEPS = Path(__file__).parent.parent / "support" / "fmu_steps.c"
 BOTH = pytest.mark.parametrize("fmi", [2, 3])
 
 
@@ -89,3 +96,23 @@ def test_ziglang_compiles_for_every_platform(fmi, tmp_path):
             assert found["darwin64"] == b"\xca\xfe\xba\xbe"
         else:
             assert found["aarch64-darwin"] == found["x86_64-darwin"] == macho
+
+
+@pytest.mark.skipif(WINE is None, reason="needs wine (apt-get install --no-install-recommends wine64)")
+@BOTH
+def test_a_flight_under_windows_has_the_same_bits(fmi, tmp_path, monkeypatch):
+    monkeypatch.setenv("WINEPREFIX", str(tmp_path / "wine"))
+    mission = unfused(tl.load_mission("paper"))
+    flight = tl.fly(mission)
+    path = tl.compile_mission(mission, "fmu", tmp_path, fmi=fmi, platforms=["linux", "windows"])[2]
+    fmu, importer, out = Fmu(path), tmp_path / "steps.exe", tmp_path / "numbers"
+    with zipfile.ZipFile(path) as archive:
+        inside = next(name for name in archive.namelist() if name.endswith(".dll"))
+        library = Path(archive.extract(inside, tmp_path))
+    subprocess.run([*zig("wine"), "-target", "x86_64-windows-gnu", "-O1", "-w", "-o", importer, STEPS], check=True)
+    names = [label for name in flight.channels for label in labels_of(flight, name, fmi)]
+    wanted = np.hstack([np.reshape(flight[name], (len(flight.time), -1)) for name in flight.channels])
+    counts = [repr(float(flight.time[1])), str(len(wanted) - 1), str(wanted.shape[1])]
+    references = [str(fmu.places[name]) for name in names]
+    subprocess.run([WINE, importer, str(fmi), library, fmu.token, *counts, out, *references], check=True)
+    assert same(np.fromfile(out).reshape(wanted.shape), wanted)

@@ -3,6 +3,7 @@
 import socket
 import struct
 
+import numpy as np
 import pytest
 from patience import until
 
@@ -55,6 +56,17 @@ def test_a_second_client_is_answered_only_when_it_scans_until_the_first_is_silen
     assert asked(second, address, b"\xff") == b"\xff"  # and no echo before
     monkeypatch.setattr(crazyflie_server, "SILENT", 0.0)
     assert second.recv(100) == b"\xfc\0yours"  # what it asked meanwhile
+
+
+def test_ten_thousand_datagrams_of_any_content_leave_it_answering(served, client):
+    rng, one, (address, _) = np.random.default_rng(6), client(), served[1]
+    for k in range(10_000):
+        one.sendto(rng.bytes(int(rng.integers(0, 1500))), address)
+        if k % 100 == 99:  # so that none is lost on the way
+            answer, echo = b"", b"\xfc" + str(k).encode()
+            one.sendto(echo, address)
+            while answer != echo:
+                answer = one.recv(100)
 
 
 def test_a_port_in_use_is_refused_with_what_to_do(client):

@@ -195,6 +195,7 @@ class InnerLoops:
         max_moment: of the rotors about x, y and z [N m].
 
     Attributes:
+        rate_gains, attitude_gains: about x, y and z [1/s].
         rate_integral: the moment of the integrators of the rate loops [N m].
     """
 
@@ -202,8 +203,8 @@ class InnerLoops:
         self._inertia = inertia
         self._max = [share * most for share, most in zip(MOMENT_SHARES, max_moment, strict=True)]
         accelerations = [most / J for most, J in zip(self._max, inertia, strict=True)]
-        self._rate = [min(gains.rate, a / SATURATES) for a in accelerations]
-        self._attitude = [min(gains.attitude, k / APART) for k in self._rate]
+        self.rate_gains = [min(gains.rate, a / SATURATES) for a in accelerations]
+        self.attitude_gains = [min(gains.attitude, k / APART) for k in self.rate_gains]
         self._brakes = [BRAKING * a for a in accelerations]
         self.reset()
 
@@ -215,7 +216,7 @@ class InnerLoops:
     def moment(self, s: QuadrotorState, demand: Demand, dt: float) -> Vector:
         """The moment about x, y and z [N m], `dt` [s] after the last one."""
         rates = self._rates(s, demand, dt) if demand.rates is None else demand.rates
-        along = zip(self._rate, self._inertia, rates, s.rates, strict=True)
+        along = zip(self.rate_gains, self._inertia, rates, s.rates, strict=True)
         errors = [k * J * (wanted - rate) for k, J, wanted, rate in along]
         x, y, z = (
             clip(integral + RATE_INTEGRAL * error * dt, MAX_RATE_SHARE * most)
@@ -230,7 +231,9 @@ class InnerLoops:
         error = (demand.roll - roll, demand.pitch - pitch, wrapped(demand.yaw - yaw))
         x, y, z = (clip(i + e * dt, MAX_ATTITUDE_INTEGRAL) for i, e in zip(self._tilt, error, strict=True))
         self._tilt = (x, y, z)
-        a, b, c = (k * (e + ATTITUDE_INTEGRAL * i) for k, e, i in zip(self._attitude, error, self._tilt, strict=True))
+        a, b, c = (
+            k * (e + ATTITUDE_INTEGRAL * i) for k, e, i in zip(self.attitude_gains, error, self._tilt, strict=True)
+        )
         a, b, c = (
             clip(rate, math.sqrt(2.0 * brake * abs(e)) + RATE_AT_GOAL)
             for rate, brake, e in zip((a, b, c), self._brakes, error, strict=True)

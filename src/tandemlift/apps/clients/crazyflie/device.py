@@ -17,7 +17,7 @@ from tandemlift.apps.clients.crazyflie.commander import GENERIC, attitude_setpoi
 from tandemlift.apps.clients.crazyflie.high_level import MEMORY, HighLevelCommander, Plan
 from tandemlift.apps.clients.crazyflie.tables import NO_ENTRY, CrtpParameter, LogService, ParameterService
 from tandemlift.apps.clients.quadrotors import ArmingState, Quadrotors
-from tandemlift.apps.clients.setpoints import Setpoint, Stop
+from tandemlift.apps.clients.setpoints import Setpoint, Stop, is_finite
 
 PROTOCOL, NAME, FIRMWARE, DEVICE = 12, b"Bitcraze Crazyflie", b"tandemlift", b"CF21BL"
 LONGEST = 31  # bytes of a packet: header and 30
@@ -113,8 +113,9 @@ class Crazyflie:
         """Take a setpoint, or an external position."""
         match port, channel:
             case 3, 0:
-                self._locked_thrust = self._locked_thrust and data[12:14] != b"\0\0"
-                self._command(Stop() if self._locked_thrust else attitude_setpoint(data, self._full))
+                setpoint = attitude_setpoint(data, self._full)  # first: a packet of another length does nothing
+                self._locked_thrust = self._locked_thrust and data[12:] != b"\0\0"
+                self._command(Stop() if self._locked_thrust and is_finite(setpoint) else setpoint)
             case 7, 0 if data[0] in GENERIC:
                 self._command(GENERIC[data[0]](data[1:], self._full))
             case 7, 1 if data[0] == 0:
