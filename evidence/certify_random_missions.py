@@ -235,7 +235,7 @@ def compute(given: argparse.Namespace, numbers: list[int]) -> None:
     new, until = not given.out.exists(), time.monotonic() + 60.0 * given.minutes
     rows = partial(rows_of, seed=given.seed, chosen=tuple(given.parameters.split(",")), engine=given.engine)
     with given.out.open("a", encoding="utf-8", newline="") as file, multiprocessing.Pool(given.jobs) as pool:
-        writer = csv.DictWriter(file, COLUMNS, restval="")
+        writer = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
         if new:
             writer.writeheader()
         for done, some in enumerate(pool.imap_unordered(rows, numbers), 1):

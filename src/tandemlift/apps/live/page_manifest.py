@@ -9,7 +9,8 @@ import functools
 from collections.abc import Sequence
 from typing import Any, get_args, get_origin
 
-from tandemlift.apps.live.session import challenge, checks, pacing
+from tandemlift.apps.live.session import checks, pacing
+from tandemlift.apps.live.session.challenge import SCORE_FILE
 from tandemlift.apps.live.session.checks import TouchRule, touch_refusal
 from tandemlift.apps.live.session.frames import (
     ECHO,
@@ -34,6 +35,7 @@ from tandemlift.core.phases import DIVERGED, ENDING_OF, ENDINGS, EndingKind
 from tandemlift.core.refusals import REQUESTS, refusals_for, sentences_for
 from tandemlift.core.types import flat, zeroed
 from tandemlift.core.vector import ZERO, Quat
+from tandemlift.flight import corridor_score
 from tandemlift.flight.record import CAUSE_TEXT, ENDING_TEXT
 from tandemlift.missions import tables_of
 from tandemlift.missions.changes import Tables
@@ -167,7 +169,7 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
         "texts": _texts(plan, rule),
         "rules": message_rules(),
         "save_name": name_rule()[0],
-        "files": {"mission": MISSION, "hand": HAND, "score": challenge.SCORE_FILE},
+        "files": {"mission": MISSION, "hand": HAND, "score": SCORE_FILE},
     }
 
 
@@ -176,9 +178,11 @@ def _challenge(plan: FlightPlan) -> dict[str, Any]:
     columns = channel_columns(plan.sample)
     return {
         "every": plan.every,
-        "columns": {name: columns[name].tolist() for name in challenge.SCORED if name in columns},
-        "rules": {name.lower(): getattr(challenge, name) for name in ("TOUCH", "EFFORT", "JERK", "PRESSED", "APART")},
-        "left": challenge.LEFT,
+        "columns": {name: columns[name].tolist() for name in corridor_score.SCORED if name in columns},
+        "rules": {
+            name.lower(): getattr(corridor_score, name) for name in ("TOUCH", "EFFORT", "JERK", "PRESSED", "APART")
+        },
+        "left": corridor_score.LEFT,
     }
 
 
