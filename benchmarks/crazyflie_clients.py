@@ -91,7 +91,7 @@ def main() -> None:
     command = [sys.executable, "-m", "tandemlift", "crazyflie", "--no-browser", "--port", "0", "--udp-port", "19860"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
         assert server.stdout
-        line = next(line for line in server.stdout if "Crazyflies:" in line)
+        line = next(line for line in server.stdout if "Quadrotors:" in line)
         while "Ctrl-C" not in server.stdout.readline():
             pass
         clients = [Client(address) for address in re.findall(r"udp://\S+?:\d+", line)]
