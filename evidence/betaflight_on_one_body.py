@@ -23,7 +23,18 @@ from typing import NamedTuple
 import numpy as np
 from betaflight_flight import MAX_RATES, STANDS, Flight, Gains, Pilots, fight
 from betaflight_sitl import build
-from two_flight_controllers import EVERY, GONE, HEIGHT, SETTLED, Hover, errors_of, hover, own_moments, rows
+from two_flight_controllers import (
+    EVERY,
+    GONE,
+    HEIGHT,
+    SETTLED,
+    Hover,
+    errors_of,
+    hover,
+    label_axes,
+    own_moments,
+    rows,
+)
 
 import tandemlift as tl
 from tandemlift.apps.clients.quadrotors import INNER_EVERY, OUTER_EVERY
@@ -131,17 +142,11 @@ def draw(flights: Sequence[Hover], at_once: float, growth: float, path: Path) ->
         axes[1].plot(one.times, 1000.0 * one.against, color=colour)
     line = [1000.0 * (at_once + growth * t) for t in (0.0, 8.0)]
     axes[1].plot([0.0, 8.0], line, color="0.2", linestyle=":", label="P and I of half the difference of their errors")
-    axes[0].set_yscale("log")
-    axes[0].axhline(5.0, color="0.5", linestyle=":", linewidth=1.0)
-    axes[0].set_ylabel("from the setpoint (cm)")
-    axes[1].set_ylabel("against each other (mN m)")
-    axes[1].set_xlabel("time (s)")
+    label_axes(*axes)
     axes[0].set_xlim(0.0, 30.0)
     axes[0].set_ylim(0.3, 300.0)
     figure.legend(*axes[0].get_legend_handles_labels(), frameon=False, loc="outside upper center", ncols=2)
     axes[1].legend(frameon=False, loc="upper right")
-    for axis in axes:
-        axis.grid(alpha=0.3)
     figure.savefig(path, dpi=130)
 
 

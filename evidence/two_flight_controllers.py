@@ -16,6 +16,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -131,16 +132,21 @@ def draw(flights: list[Hover], path: Path) -> None:
         label = {"own": "each quadrotor its own loops", "shared": "shared loops, one allocation"}[one.control]
         axes[0].plot(one.times, 100.0 * one.off, color=colour, label=label)
         axes[1].plot(one.times, 1000.0 * one.against, color=colour)
-    axes[0].set_yscale("log")
-    axes[0].axhline(5.0, color="0.5", linestyle=":", linewidth=1.0)
-    axes[0].set_ylabel("from the setpoint (cm)")
-    axes[1].set_ylabel("against each other (mN m)")
-    axes[1].set_xlabel("time (s)")
+    label_axes(*axes)
     axes[0].legend(frameon=False, loc="upper center")
     axes[0].set_xlim(0.0, min(120.0, flights[0].times[-1]))
-    for axis in axes:
-        axis.grid(alpha=0.3)
     figure.savefig(path, dpi=130)
+
+
+def label_axes(distance: Any, moment: Any) -> None:
+    """Label the axes of distances, with 5 cm marked, and of moments below them."""
+    distance.set_yscale("log")
+    distance.axhline(5.0, color="0.5", linestyle=":", linewidth=1.0)
+    distance.set_ylabel("from the setpoint (cm)")
+    moment.set_ylabel("against each other (mN m)")
+    moment.set_xlabel("time (s)")
+    for axis in (distance, moment):
+        axis.grid(alpha=0.3)
 
 
 def main() -> None:

@@ -283,11 +283,11 @@ def test_the_command_prints_the_row_beside_the_baselines(tmp_path):
     assert names == ["observers", *(one.name for one in baselines("observers")), "own_law"]
     text = (out / "scores.csv").read_text()
     assert text.startswith("kind,name,column,value\n")
-    assert 'observers,"own_law","delay (ms)",' in text
+    assert "observers,own_law,delay (ms)," in text
     assert (out / "scores.json").read_text().endswith("}\n")
 
 
 def test_numbers_are_written_so_that_they_are_read_as_they_are():
     tables = {"policies": {"a": {"work (J)": 0.1, "force (N)": None}}}
-    assert csv_of(tables).splitlines()[1:] == ['policies,"a","work (J)",0.1', 'policies,"a","force (N)",']
+    assert csv_of(tables).splitlines()[1:] == ["policies,a,work (J),0.1", "policies,a,force (N),"]
     assert '"work (J)": 0.1' in json_of(tables)

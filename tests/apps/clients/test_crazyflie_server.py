@@ -59,7 +59,7 @@ def test_a_second_client_is_answered_only_when_it_scans_until_the_first_is_silen
 
 
 def test_ten_thousand_datagrams_of_any_content_leave_it_answering(served, client):
-    rng, one, (address, _) = np.random.default_rng(6), client(), served[1]
+    rng, one, (server, (address, _)) = np.random.default_rng(6), client(), served
     for k in range(10_000):
         one.sendto(rng.bytes(int(rng.integers(0, 1500))), address)
         if k % 100 == 99:  # so that none is lost on the way
@@ -67,6 +67,7 @@ def test_ten_thousand_datagrams_of_any_content_leave_it_answering(served, client
             one.sendto(echo, address)
             while answer != echo:
                 answer = one.recv(100)
+    assert server.devices[0].refused > 1_000
 
 
 def test_a_port_in_use_is_refused_with_what_to_do(client):

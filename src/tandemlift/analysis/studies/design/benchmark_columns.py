@@ -5,6 +5,8 @@ Means are sums of `math.fsum`, so that the numbers do not depend on the processo
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 import math
 import statistics
@@ -124,10 +126,10 @@ def json_of(tables: Mapping[Kind, Mapping[str, Scores]]) -> str:
 
 def csv_of(tables: Mapping[Kind, Mapping[str, Scores]]) -> str:
     """Tables as CSV, a line for each value."""
-    lines = [
-        f'{kind},"{name}","{title}",{"" if value is None else value}'
-        for kind, rows in tables.items()
-        for name, row in rows.items()
-        for title, value in row.items()
-    ]
-    return "\n".join(["kind,name,column,value", *lines, ""])
+    write = csv.writer(text := io.StringIO(), lineterminator="\n").writerow
+    write(("kind", "name", "column", "value"))
+    for kind, rows in tables.items():
+        for name, row in rows.items():
+            for title, value in row.items():
+                write((kind, name, title, value))
+    return text.getvalue()

@@ -34,7 +34,7 @@ class BenchmarkEntry(NamedTuple):
         changes: of every mission that it flies.
         controller: its name, or its file; "" for the mission's.
         law: an observer of one's own, an `OwnObserver`; None for others.
-        function: an observer that is a function of a table (see `benchmark.functions_rows`); None for others.
+        function: an observer that is a function of a table (see `benchmark.of_function`); None for others.
         file: of the entry; None for a baseline.
     """
 
