@@ -142,14 +142,7 @@ def _fly(mission: Mission, engine: str | None, controller: Controller | None) ->
         raise InputError(f"controller {controller.name!r} fails: {error_text(error, file_of(controller))}") from error
 
 
-def write_results(
-    flight: Flight,
-    folder: Path,
-    began: float,
-    recording: str | None,
-    *,
-    figures: bool,
-) -> None:
+def write_results(flight: Flight, folder: Path, began: float, recording: str | None, *, figures: bool) -> None:
     """Print the summary of a flight, write its files, and print the time since `began` [s], by `time.perf_counter`.
 
     A recording that the mission flies, given by its path, is among the files.

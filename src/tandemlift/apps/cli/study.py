@@ -12,14 +12,7 @@ import click
 
 from tandemlift.apps.cli.completion import CONTROLLERS, MISSIONS, names, separated
 from tandemlift.apps.cli.console import compile_notices, echo, progress_bar
-from tandemlift.apps.cli.flying import (
-    chosen_controller,
-    engine_option,
-    exit_if_amiss,
-    load,
-    set_option,
-    strict_option,
-)
+from tandemlift.apps.cli.flying import chosen_controller, engine_option, exit_if_amiss, load, set_option, strict_option
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import parse_setting, write_file

@@ -13,14 +13,7 @@ import click
 
 from tandemlift.apps.cli.completion import MISSIONS, keys, names
 from tandemlift.apps.cli.console import compile_notices, echo, print_checks
-from tandemlift.apps.cli.flying import (
-    FAILED,
-    chosen_controller,
-    controller_option,
-    load,
-    parse_setting,
-    set_option,
-)
+from tandemlift.apps.cli.flying import FAILED, chosen_controller, controller_option, load, parse_setting, set_option
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import without_flight_warnings
 

@@ -28,10 +28,7 @@ def rotor_lag(mission: Mission) -> float:
 
 
 def quadrotors_of(
-    mission: Mission,
-    control: Control = "shared",
-    fail_safe: FailSafe = CRAZYFLIE,
-    errors: Sequence[EstimateError] = (),
+    mission: Mission, control: Control = "shared", fail_safe: FailSafe = CRAZYFLIE, errors: Sequence[EstimateError] = ()
 ) -> Quadrotors:
     """The quadrotors of a mission's vehicle."""
     vehicle = Vehicle.from_settings(mission.vehicle)

@@ -16,13 +16,7 @@ import numpy as np
 
 from tandemlift import InputError, Vehicle
 from tandemlift.apps.clients.cascade import GRAVITY, Demand, OuterLoops, gains_for
-from tandemlift.apps.clients.one_body import (
-    LoopGroup,
-    rotation,
-    tilt,
-    together,
-    vector,
-)
+from tandemlift.apps.clients.one_body import LoopGroup, rotation, tilt, together, vector
 from tandemlift.apps.clients.setpoints import (
     AttitudeSetpoint,
     EstimateError,

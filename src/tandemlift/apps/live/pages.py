@@ -7,14 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from tandemlift.apps.live.page_files import (
-    data_element,
-    in_one_file,
-    page_text,
-    text_element,
-    with_data,
-    with_policy,
-)
+from tandemlift.apps.live.page_files import data_element, in_one_file, page_text, text_element, with_data, with_policy
 from tandemlift.apps.live.page_modules import ENDING, FORMAT, PackedFlight
 from tandemlift.apps.live.replay import replay_element
 from tandemlift.codegen.mission_module import kept

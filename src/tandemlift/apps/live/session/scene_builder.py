@@ -50,11 +50,7 @@ DIGITS = 6  # decimals of shapes [m]
 
 
 def scene_of(
-    mission: Mission,
-    engine: str,
-    *,
-    parameters: Sequence[SceneParameter] = (),
-    spring: SceneSpring = SPRING,
+    mission: Mission, engine: str, *, parameters: Sequence[SceneParameter] = (), spring: SceneSpring = SPRING
 ) -> FlightScene:
     """The scene of a mission.
 
