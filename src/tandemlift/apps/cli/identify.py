@@ -9,17 +9,9 @@ from typing import Any
 
 import click
 
+from tandemlift.apps.cli import flying
 from tandemlift.apps.cli.completion import FLIGHTS, MISSIONS
 from tandemlift.apps.cli.console import echo, progress_bar
-from tandemlift.apps.cli.flying import (
-    FILES,
-    exit_if_amiss,
-    figures_option,
-    load,
-    set_option,
-    strict_option,
-    style_option,
-)
 from tandemlift.apps.cli.run import write_results
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
@@ -40,9 +32,9 @@ align_option = click.option(
 @columns_option
 @align_option
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-shadow]")
-@set_option
-@figures_option
-@strict_option
+@flying.set_option
+@flying.figures_option
+@flying.strict_option
 def shadow(
     log: str, mission: str, out: str | None, settings: tuple[str, ...], no_figures: bool, strict: bool, **reading: Any
 ) -> None:
@@ -64,15 +56,15 @@ def shadow(
     """
     import tandemlift as tl
 
-    began, loaded = time.perf_counter(), load(mission, settings)
+    began, loaded = time.perf_counter(), flying.load(mission, settings)
     taken = tl.read_log(log, **reading)
     for note in taken.notes:
         echo(note)
-    with results_folder(out, Path("out") / f"{loaded.mission.name}-shadow", FILES) as folder:
+    with results_folder(out, Path("out") / f"{loaded.mission.name}-shadow", flying.FILES) as folder:
         with progress_bar("Shadowing", "steps", shown=sys.stderr.isatty()) as progress:
             flight = tl.shadow(taken, loaded, progress=progress)
         write_results(flight, folder, began, None, figures=not no_figures)
-    exit_if_amiss({flight.name: flight}, strict=strict)
+    flying.exit_if_amiss({flight.name: flight}, strict=strict)
 
 
 @click.command()
@@ -80,13 +72,13 @@ def shadow(
 @click.option("--mission", required=True, shell_complete=MISSIONS, help="Mission of about such a vehicle.")
 @columns_option
 @align_option
-@set_option
+@flying.set_option
 @click.option("--weighed", multiple=True, metavar="KEY=KG", help="A mass from a scale. Can be repeated.")
 @click.option("--parameters", metavar="A,B,…", help="Keys to estimate.  [default: all that can be]")
 @click.option("--window", type=float, default=1.0, show_default=True, metavar="S", help="Length of a window.")
 @click.option("--predict", metavar="LOG", help="Another flight, which the identified vehicle predicts.")
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-identification]")
-@style_option
+@flying.style_option
 def identify(
     logs: tuple[str, ...],
     mission: str,
@@ -118,7 +110,7 @@ def identify(
     import tandemlift as tl
     from tandemlift.pictures.report.identification_report import write_identification
 
-    start, masses = load(mission, settings), dict(map(_weighed, weighed))
+    start, masses = flying.load(mission, settings), dict(map(_weighed, weighed))
     paths = [*logs, *([predict] if predict else [])]
     read = [tl.read_log(path, **reading) for path in paths]
     for note in (note for log in read for note in log.notes):

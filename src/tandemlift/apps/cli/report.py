@@ -7,17 +7,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tandemlift.apps.cli import flying
 from tandemlift.apps.cli.completion import FLIGHTS
 from tandemlift.apps.cli.console import echo, progress_bar
-from tandemlift.apps.cli.flying import (
-    DRAWINGS,
-    FILES,
-    HTML,
-    figures_option,
-    kept_style_option,
-    style_option,
-    write_flight,
-)
 from tandemlift.apps.export.results import FIGURES, file_path, load_flight, results_folder
 from tandemlift.core.errors import InputError
 
@@ -33,8 +25,8 @@ if TYPE_CHECKING:
     help="Folder for the results; of a study the HTML file.  [default: that of the flight; of a bag out/NAME; of a "
     "study report.html in its folder]",
 )
-@figures_option
-@kept_style_option
+@flying.figures_option
+@flying.kept_style_option
 @click.option(
     "--for",
     "metrics",
@@ -69,9 +61,9 @@ def report(flight: str, out: str | None, no_figures: bool, style: str | None, me
     if metrics:
         raise InputError(f"--for {metrics[0]}: {flight} is no study; the report of a flight shows all metrics")
     loaded, default = load_flight(flight)
-    with results_folder(out, default, FILES) as folder:
+    with results_folder(out, default, flying.FILES) as folder:
         echo(repr(loaded).strip("<>"))
-        write_flight(loaded, folder, figures=not no_figures)
+        flying.write_flight(loaded, folder, figures=not no_figures)
         echo(f"  report: {folder / 'report.html'}")
 
 
@@ -83,7 +75,7 @@ def _report_study(folder: Path, out: str | None, metrics: tuple[str, ...], *, no
     """
     if no_figures:
         raise InputError("--no-figures: the report of a study has its figures in it")
-    path = folder / "report.html" if out is None else file_path("--out", out, *HTML)
+    path = folder / "report.html" if out is None else file_path("--out", out, *flying.HTML)
     from tandemlift.analysis.studies.table import load_study
     from tandemlift.pictures.report.study.study_report import write_study_report
 
@@ -96,7 +88,7 @@ def _report_study(folder: Path, out: str | None, metrics: tuple[str, ...], *, no
 @click.argument("figure")
 @click.argument("flights", nargs=-1, required=True, shell_complete=FLIGHTS)
 @click.option("--out", metavar="FILE", help="FILE.png, FILE.pdf or FILE.svg.  [default: out/FIGURE.png]")
-@style_option
+@flying.style_option
 def plot(figure: str, flights: tuple[str, ...], out: str | None) -> None:
     """Draw a figure of one flight, or of several over each other.
 
@@ -113,7 +105,7 @@ def plot(figure: str, flights: tuple[str, ...], out: str | None) -> None:
     import tandemlift as tl
     from tandemlift.pictures.drawing.style import save
 
-    path = file_path("--out", out or f"out/{figure}.png", *DRAWINGS)
+    path = file_path("--out", out or f"out/{figure}.png", *flying.DRAWINGS)
     loaded = [load_flight(given) for given in flights]
     names = [folder.resolve().name for _, folder in loaded]
     named = dict(zip(names if len(set(names)) == len(names) else flights, (f for f, _ in loaded), strict=True))
@@ -127,7 +119,7 @@ OUT = "out/paper.pdf"
 
 @click.command()
 @click.option("--out", metavar="FILE", default=OUT, show_default=True, help="FILE.pdf.")
-@kept_style_option
+@flying.kept_style_option
 @click.option("--no-pdf", is_flag=True, help="Write figures, tables and source only.")
 def paper(out: str, style: str | None, no_pdf: bool) -> None:
     """Put the paper's figures and tables beside ours, in one PDF.

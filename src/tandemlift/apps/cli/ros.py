@@ -10,20 +10,9 @@ from typing import Any
 
 import click
 
+from tandemlift.apps.cli import flying
 from tandemlift.apps.cli.completion import MISSIONS
 from tandemlift.apps.cli.console import echo, exit_now, progress_bar
-from tandemlift.apps.cli.flying import (
-    FAILED,
-    FILES,
-    after_crash_option,
-    engine_option,
-    exit_if_amiss,
-    figures_option,
-    load,
-    set_option,
-    strict_option,
-    with_after_crash,
-)
 from tandemlift.apps.cli.live import DEFAULT, OUT, no_browser_option, port_option
 from tandemlift.apps.cli.run import write_results
 from tandemlift.apps.export.results import results_folder
@@ -44,7 +33,7 @@ class RosCommand(click.Command):
 
 @click.command(cls=RosCommand)
 @click.argument("words", nargs=-1, metavar="[MISSION] [NAME:=VALUE]...", shell_complete=MISSIONS)
-@engine_option
+@flying.engine_option
 @click.option(
     "--version",
     type=click.Choice(["1", "2", "2-dds"]),
@@ -55,7 +44,7 @@ class RosCommand(click.Command):
 @click.option("--bag", metavar="DIR", help="Record all topics in this folder while it flies, as a bag of ROS 2 (MCAP).")
 @click.option("--rviz", is_flag=True, help="Also start RViz, which shows the vehicle and its surroundings.")
 @click.option("--folder", is_flag=True, help="Only print the folder of the launch file and of the RViz configuration.")
-@set_option
+@flying.set_option
 def ros(
     words: tuple[str, ...],
     engine: str,
@@ -95,7 +84,7 @@ def ros(
         return
     mission, arguments = split_words(words, DEFAULT)
     engine_named(engine)
-    loaded = load(mission, settings)
+    loaded = flying.load(mission, settings)
     steps_between_samples(rate, loaded.mission.step)
     arguments += click.get_current_context().meta[ROS_ARGUMENTS]
     middleware = middleware_for(version_for(version), arguments, echo, asked=version is not None)
@@ -110,7 +99,7 @@ def ros(
     for failure in (*failures, *gone):
         click.echo(f"{mission}: {failure}", err=True)
     if failures or gone:
-        sys.exit(FAILED)
+        sys.exit(flying.FAILED)
 
 
 @click.command()
@@ -119,10 +108,10 @@ def ros(
 @click.option("--fast", is_flag=True, help="Fly as fast as possible instead of in real time.")
 @click.option("--no-window", is_flag=True, help="Do not open Gazebo's window. Without a display, no window opens.")
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/gazebo/NAME]")
-@set_option
-@after_crash_option
-@figures_option
-@strict_option
+@flying.set_option
+@flying.after_crash_option
+@flying.figures_option
+@flying.strict_option
 def gazebo(
     mission: str,
     by_hand: bool,
@@ -153,9 +142,9 @@ def gazebo(
     from tandemlift.apps.ros.gazebo_flight import fly_in_gazebo, has_display
     from tandemlift.engines.gazebo_server import root
 
-    loaded = load(mission, with_after_crash(settings, after_crash))
+    loaded = flying.load(mission, flying.with_after_crash(settings, after_crash))
     root()  # raises if there is no Gazebo, before anything is compiled
-    with results_folder(out, Path("out/gazebo") / loaded.mission.name, FILES) as folder:
+    with results_folder(out, Path("out/gazebo") / loaded.mission.name, flying.FILES) as folder:
         began = time.perf_counter()
         window = has_display() and not no_window
         if not (window or no_window):
@@ -164,7 +153,7 @@ def gazebo(
             flight = fly_in_gazebo(loaded, echo, progress, by_hand=by_hand, window=window, real_time=not fast)
         recording = None if by_hand else loaded.person.recording
         write_results(flight, folder, began, recording, figures=not no_figures)
-    exit_if_amiss({flight.name: flight}, strict=strict)
+    flying.exit_if_amiss({flight.name: flight}, strict=strict)
 
 
 own_loops_option = click.option("--own-loops", is_flag=True, help="Each quadrotor has its own rate loops: they fight.")
@@ -174,10 +163,10 @@ own_loops_option = click.option("--own-loops", is_flag=True, help="Each quadroto
 @click.argument("mission", default="crazyflie-stick", shell_complete=MISSIONS)
 @click.option("--udp-port", type=int, default=19850, show_default=True, help="UDP port of the first Crazyflie.")
 @own_loops_option
-@engine_option
+@flying.engine_option
 @port_option
 @no_browser_option
-@set_option
+@flying.set_option
 def crazyflie(mission: str, udp_port: int, **options: Any) -> None:
     """Fly MISSION in real time, each quadrotor as a Crazyflie.
 
@@ -199,10 +188,10 @@ def crazyflie(mission: str, udp_port: int, **options: Any) -> None:
 @click.argument("mission", default="two-x500", shell_complete=MISSIONS)
 @click.option("--udp-port", type=int, default=14540, show_default=True, help="UDP port of the first one's clients.")
 @own_loops_option
-@engine_option
+@flying.engine_option
 @port_option
 @no_browser_option
-@set_option
+@flying.set_option
 def mavlink(mission: str, udp_port: int, **options: Any) -> None:
     """Fly MISSION in real time, each quadrotor as a MAVLink vehicle.
 
@@ -229,7 +218,7 @@ def _fly_by_clients(
     from tandemlift.apps.live.page_files import page_files
     from tandemlift.apps.live.server import PageServer, serve_until_interrupt
 
-    flown = load(mission, (*PILOT_ASIDE, *settings))
+    flown = flying.load(mission, (*PILOT_ASIDE, *settings))
     quadrotors = quadrotors_of(flown, "own" if own_loops else "shared")
     flight = RealTimeFlight(flown, quadrotors, engine, OUT)
     with serve(quadrotors, flight) as server:

@@ -8,23 +8,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tandemlift.apps.cli import flying
 from tandemlift.apps.cli.completion import MISSIONS, names
 from tandemlift.apps.cli.console import echo, progress_bar
-from tandemlift.apps.cli.flying import (
-    FILES,
-    after_crash_option,
-    chosen_controller,
-    controller_option,
-    exit_if_amiss,
-    figures_option,
-    load,
-    parse_setting,
-    set_option,
-    strict_option,
-    style_option,
-    with_after_crash,
-    write_flight,
-)
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import write_file
@@ -45,12 +31,12 @@ if TYPE_CHECKING:
     help="Engine that simulates the vehicle; see `tandemlift engines`.  [default: that of the recording, or compiled]",
 )
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
-@set_option
-@controller_option()
-@after_crash_option
-@figures_option
-@style_option
-@strict_option
+@flying.set_option
+@flying.controller_option()
+@flying.after_crash_option
+@flying.figures_option
+@flying.style_option
+@flying.strict_option
 def run(
     mission: str | None,
     study: str | None,
@@ -92,14 +78,14 @@ def run(
     from tandemlift.engines.registry import engine_named
 
     began = time.perf_counter()
-    chosen = None if controller is None else chosen_controller(controller)
+    chosen = None if controller is None else flying.chosen_controller(controller)
     if engine is not None:
         engine_named(engine)
-    loaded, own, name = _selected(mission, study, row, with_after_crash(settings, after_crash), chosen)
-    with results_folder(out, Path("out") / name, FILES) as folder:
+    loaded, own, name = _selected(mission, study, row, flying.with_after_crash(settings, after_crash), chosen)
+    with results_folder(out, Path("out") / name, flying.FILES) as folder:
         flight = _fly(loaded, engine or own, chosen)
         write_results(flight, folder, began, loaded.person.recording, figures=not no_figures)
-    exit_if_amiss({flight.name: flight}, strict=strict)
+    flying.exit_if_amiss({flight.name: flight}, strict=strict)
 
 
 def _selected(
@@ -114,7 +100,7 @@ def _selected(
     if study is None and row is None:
         if mission is None:
             raise click.UsageError("Missing argument 'MISSION'; `tandemlift missions` lists them.")
-        loaded = load(mission, settings, controller)
+        loaded = flying.load(mission, settings, controller)
         return loaded, None, loaded.mission.name
     if study is None or row is None:
         raise InputError("--from STUDY --row N: give both, or neither")
@@ -123,7 +109,7 @@ def _selected(
         raise InputError(f"{given}: a row of a study has its own; leave it out with --from")
     from tandemlift.analysis.studies.study import mission_of_row
 
-    return mission_of_row(Path(study), row, dict(map(parse_setting, settings)))
+    return mission_of_row(Path(study), row, dict(map(flying.parse_setting, settings)))
 
 
 def _fly(mission: Mission, engine: str | None, controller: Controller | None) -> Flight:
@@ -153,5 +139,5 @@ def write_results(flight: Flight, folder: Path, began: float, recording: str | N
     echo("\n".join(summary_lines(flight)))
     if recording is not None:  # so that the folder can be flown anywhere
         write_file(folder / Path(recording).name, recording_bytes(recording))
-    write_flight(flight, folder, figures=figures)
+    flying.write_flight(flight, folder, figures=figures)
     echo(f"  report: {folder / 'report.html'} ({time.perf_counter() - began:.2f} s in all)")

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tandemlift.apps.cli import flying
 from tandemlift.apps.cli.completion import CONTROLLERS, MISSIONS, names, separated
 from tandemlift.apps.cli.console import compile_notices, echo, progress_bar
-from tandemlift.apps.cli.flying import chosen_controller, engine_option, exit_if_amiss, load, set_option, strict_option
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import parse_setting, write_file
@@ -183,16 +183,16 @@ KINDS = ("json", "csv", "tex")
     shell_complete=separated(CONTROLLERS),
     help="Controllers: names, or your .py files.  [default: all]",
 )
-@engine_option
+@flying.engine_option
 @click.option(
     "--engines",
     metavar="A,B,…",
     shell_complete=separated(names("engine")),
     help="Compare engines instead: fly the mission once in each.",
 )
-@set_option
+@flying.set_option
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
-@strict_option
+@flying.strict_option
 def compare(
     mission: str,
     controllers: str | None,
@@ -238,7 +238,7 @@ def compare(
             echo(line)
         write_comparison(found, folder, stem)
         echo(f"  numbers: {folder / stem}.json")
-    exit_if_amiss(found.flights, strict=strict)
+    flying.exit_if_amiss(found.flights, strict=strict)
 
 
 def _entered(
@@ -249,9 +249,9 @@ def _entered(
     from tandemlift.engines.registry import engine_named
 
     if engines is not None:
-        return in_engines(load(mission, settings), names_in("--engines", engines, "compiled,mujoco"))
+        return in_engines(flying.load(mission, settings), names_in("--engines", engines, "compiled,mujoco"))
     engine_named(engine)
     changes, chosen = dict(map(parse_setting, settings)), None
     if controllers is not None:
-        chosen = [chosen_controller(name) for name in names_in("--controllers", controllers, "nftsmc,pid")]
+        chosen = [flying.chosen_controller(name) for name in names_in("--controllers", controllers, "nftsmc,pid")]
     return with_controllers(mission, changes, chosen, engine)

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tandemlift.apps.cli import flying
 from tandemlift.apps.cli.completion import MISSIONS, keys, names
 from tandemlift.apps.cli.console import compile_notices, echo, print_checks
-from tandemlift.apps.cli.flying import FAILED, chosen_controller, controller_option, load, parse_setting, set_option
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import without_flight_warnings
 
@@ -30,7 +30,7 @@ def search_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """The options of a search."""
     for option in (
         click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-tuned]"),
-        set_option,
+        flying.set_option,
         click.option("--strict", is_flag=True, help="A flight with findings counts as a bad outcome, too."),
         click.option("--threads", type=click.IntRange(min=1), help="Threads that fly.  [default: one a processor]"),
         click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of search and draws."),
@@ -63,7 +63,7 @@ def search_options(command: Callable[..., Any]) -> Callable[..., Any]:
 )
 @click.option("--draws", default="8", show_default=True, metavar="N|FILE", help="Flights that compare candidates.")
 @click.option("--aim", default="mean", show_default=True, metavar="mean|worst", help="Which of all draws counts.")
-@controller_option("Tune this controller")
+@flying.controller_option("Tune this controller")
 @search_options
 def tune(
     mission: str,
@@ -100,7 +100,7 @@ def tune(
     from tandemlift.analysis.studies.tuning.parameters import range_of
     from tandemlift.analysis.studies.tuning.tune import tune as tuned
 
-    chosen = controller and chosen_controller(controller).name
+    chosen = controller and flying.chosen_controller(controller).name
     given = int(draws) if re.fullmatch("[0-9]{1,9}", draws) else draws
     how |= {"goals": dict(map(goal_of, goals)), "parameters": dict(map(range_of, parameters))}
     _search(tuned, mission, settings, out, {**how, "draws": given, "controller": chosen})
@@ -135,7 +135,7 @@ def _search(
     from tandemlift.missions import load_mission
     from tandemlift.pictures.report.study.tuning_report import tuning_lines, write_results
 
-    changes = dict(map(parse_setting, settings))
+    changes = dict(map(flying.parse_setting, settings))
     name = load_mission(mission, changes, controller=how.get("controller")).mission.name
     with results_folder(out, Path("out") / f"{name}-tuned", FILES) as folder:
         with compile_notices.together(), _progress() as progress:
@@ -168,7 +168,7 @@ def _progress() -> Iterator[TuneProgress | None]:
 
 @click.command()
 @click.argument("mission", shell_complete=MISSIONS)
-@set_option
+@flying.set_option
 @click.option("--strict", is_flag=True, help="Exit with code 3 if a check fails.")
 def feel(mission: str, settings: tuple[str, ...], strict: bool) -> None:
     """Show the response to a push with the keys of MISSION.
@@ -187,10 +187,10 @@ def feel(mission: str, settings: tuple[str, ...], strict: bool) -> None:
     from tandemlift.analysis.studies.feel import feel as examined
 
     with without_flight_warnings():  # of pushes that are not flown here
-        found = examined(load(mission, settings))
+        found = examined(flying.load(mission, settings))
     echo(f"{found.mission.mission.name}: the response to a standard push, by the closed form of the admittance")
     for line in found.lines():
         echo(f"  {line}")
     print_checks(found.checks)
     if strict and found.fails:
-        sys.exit(FAILED)
+        sys.exit(flying.FAILED)

@@ -10,17 +10,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from tandemlift.apps.clients.setpoints import (
-    ZERO,
-    AttitudeSetpoint,
-    FullStateSetpoint,
-    PositionSetpoint,
-    QuadrotorState,
-    RateSetpoint,
-    Setpoint,
-    Vector,
-    VelocitySetpoint,
-)
+from tandemlift.apps.clients import setpoints as sp
 
 GRAVITY = 9.81
 APART = 2.0  # between the bandwidths of a loop and of the one inside, so that each is damped by about 0.7
@@ -79,8 +69,8 @@ class Demand(NamedTuple):
     roll: float = 0.0
     pitch: float = 0.0
     yaw: float = 0.0
-    rates: Vector | None = None
-    target: Vector | None = None
+    rates: sp.Vector | None = None
+    target: sp.Vector | None = None
 
 
 class OuterLoops:
@@ -101,34 +91,37 @@ class OuterLoops:
 
     def reset(self) -> None:
         """Forget the integrals, and the yaw that was commanded."""
-        self.integral: Vector = ZERO
+        self.integral: sp.Vector = sp.ZERO
         self._yaw: float | None = None
 
-    def demand(self, s: QuadrotorState, setpoint: Setpoint, dt: float) -> Demand:
+    def demand(self, s: sp.QuadrotorState, setpoint: sp.Setpoint, dt: float) -> Demand:
         """The demand of a setpoint, `dt` [s] after the last one."""
-        if isinstance(setpoint, RateSetpoint):
-            self._yaw, self.integral = None, ZERO
+        if isinstance(setpoint, sp.RateSetpoint):
+            self._yaw, self.integral = None, sp.ZERO
             x, y, z = setpoint.rates
             rates = tuple(clip(r, MAX_COMMANDED_RATE) for r in (x, y, z))
             return Demand(self._within(setpoint.thrust), rates=(rates[0], rates[1], rates[2]))
-        if isinstance(setpoint, AttitudeSetpoint):
+        if isinstance(setpoint, sp.AttitudeSetpoint):
             yaw = self._turned(s, setpoint.yaw, setpoint.yaw_rate, dt)
             roll, pitch = (clip(angle, MAX_COMMANDED_TILT) for angle in (setpoint.roll, setpoint.pitch))
             if setpoint.height is None:
-                self.integral = ZERO
+                self.integral = sp.ZERO
                 return Demand(self._within(setpoint.thrust), roll, pitch, yaw)
             climb = self._acceleration(s, (s.velocity[0], s.velocity[1], self._climb(s, setpoint.height)), dt)[2]
             return Demand(self._lift(s, climb), roll, pitch, yaw)
-        if isinstance(setpoint, VelocitySetpoint | PositionSetpoint | FullStateSetpoint):
+        if isinstance(setpoint, sp.VelocitySetpoint | sp.PositionSetpoint | sp.FullStateSetpoint):
             return self._towards(s, setpoint, dt)
         raise TypeError(setpoint)
 
     def _towards(
-        self, s: QuadrotorState, setpoint: VelocitySetpoint | PositionSetpoint | FullStateSetpoint, dt: float
+        self,
+        s: sp.QuadrotorState,
+        setpoint: sp.VelocitySetpoint | sp.PositionSetpoint | sp.FullStateSetpoint,
+        dt: float,
     ) -> Demand:
         """The demand of a setpoint of position or velocity."""
-        ahead, target = ZERO, None
-        if isinstance(setpoint, VelocitySetpoint):
+        ahead, target = sp.ZERO, None
+        if isinstance(setpoint, sp.VelocitySetpoint):
             vx, vy, vz = (clip(v, MAX_COMMANDED_SPEED) for v in setpoint.velocity)
             if setpoint.heading:
                 vx, vy = turned(vx, vy, s.euler[2])
@@ -141,7 +134,7 @@ class OuterLoops:
             slower = max(math.hypot(dx, dy) / MAX_SPEED, 1.0)
             vx, vy, vz = dx / slower, dy / slower, self._climb(s, target[2])
             yaw = self._turned(s, setpoint.yaw, 0.0, dt)
-            if isinstance(setpoint, FullStateSetpoint):
+            if isinstance(setpoint, sp.FullStateSetpoint):
                 v, a = setpoint.velocity, setpoint.acceleration
                 vx, vy, vz = (x + clip(y, MAX_COMMANDED_SPEED) for x, y in zip((vx, vy, vz), v, strict=True))
                 ahead = (clip(a[0], GRAVITY), clip(a[1], GRAVITY), clip(a[2], GRAVITY))
@@ -150,7 +143,7 @@ class OuterLoops:
         pitch, roll = math.atan(forward / GRAVITY), -math.atan(left / GRAVITY)
         return Demand(self._lift(s, az + ahead[2]), clip(roll, MAX_TILT), clip(pitch, MAX_TILT), yaw, target=target)
 
-    def _acceleration(self, s: QuadrotorState, velocity: Vector, dt: float) -> Vector:
+    def _acceleration(self, s: sp.QuadrotorState, velocity: sp.Vector, dt: float) -> sp.Vector:
         """The acceleration that brings a velocity about [m/s²], without the feedforward."""
         g = self._gains
         along = (g.velocity, g.velocity, g.climb)
@@ -163,10 +156,10 @@ class OuterLoops:
         self.integral = (x, y, z)
         return errors[0] + x, errors[1] + y, errors[2] + z
 
-    def _climb(self, s: QuadrotorState, height: float) -> float:
+    def _climb(self, s: sp.QuadrotorState, height: float) -> float:
         return clip(self._gains.height * (height - s.position[2]), MAX_SPEED)
 
-    def _lift(self, s: QuadrotorState, climb: float) -> float:
+    def _lift(self, s: sp.QuadrotorState, climb: float) -> float:
         """The thrust for a vertical acceleration [N]."""
         roll, pitch, _ = s.euler
         upright = max(math.cos(roll) * math.cos(pitch), 0.5)
@@ -175,7 +168,7 @@ class OuterLoops:
     def _within(self, thrust: float) -> float:
         return min(max(thrust, 0.0), self._max_thrust)
 
-    def _turned(self, s: QuadrotorState, yaw: float | None, rate: float, dt: float) -> float:
+    def _turned(self, s: sp.QuadrotorState, yaw: float | None, rate: float, dt: float) -> float:
         """The yaw that is commanded now: the given one, or the last one turned at a rate."""
         now = s.euler[2]
         before = now if self._yaw is None else self._yaw
@@ -199,7 +192,7 @@ class InnerLoops:
         rate_integral: the moment of the integrators of the rate loops [N m].
     """
 
-    def __init__(self, gains: LoopGains, inertia: Vector, max_moment: Vector) -> None:
+    def __init__(self, gains: LoopGains, inertia: sp.Vector, max_moment: sp.Vector) -> None:
         self._inertia = inertia
         self._max = [share * most for share, most in zip(MOMENT_SHARES, max_moment, strict=True)]
         accelerations = [most / J for most, J in zip(self._max, inertia, strict=True)]
@@ -210,10 +203,10 @@ class InnerLoops:
 
     def reset(self) -> None:
         """Forget the integrals."""
-        self._tilt: Vector = ZERO
-        self.rate_integral: Vector = ZERO
+        self._tilt: sp.Vector = sp.ZERO
+        self.rate_integral: sp.Vector = sp.ZERO
 
-    def moment(self, s: QuadrotorState, demand: Demand, dt: float) -> Vector:
+    def moment(self, s: sp.QuadrotorState, demand: Demand, dt: float) -> sp.Vector:
         """The moment about x, y and z [N m], `dt` [s] after the last one."""
         rates = self._rates(s, demand, dt) if demand.rates is None else demand.rates
         along = zip(self.rate_gains, self._inertia, rates, s.rates, strict=True)
@@ -225,7 +218,7 @@ class InnerLoops:
         self.rate_integral = (x, y, z)
         return clip(errors[0] + x, self._max[0]), clip(errors[1] + y, self._max[1]), clip(errors[2] + z, self._max[2])
 
-    def _rates(self, s: QuadrotorState, demand: Demand, dt: float) -> Vector:
+    def _rates(self, s: sp.QuadrotorState, demand: Demand, dt: float) -> sp.Vector:
         """The rates that bring an attitude about [rad/s, body]."""
         roll, pitch, yaw = s.euler
         error = (demand.roll - roll, demand.pitch - pitch, wrapped(demand.yaw - yaw))

@@ -15,19 +15,9 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from tandemlift import InputError, Vehicle
+from tandemlift.apps.clients import setpoints as sp
 from tandemlift.apps.clients.cascade import GRAVITY, Demand, OuterLoops, gains_for
 from tandemlift.apps.clients.one_body import LoopGroup, rotation, tilt, together, vector
-from tandemlift.apps.clients.setpoints import (
-    AttitudeSetpoint,
-    EstimateError,
-    QuadrotorState,
-    RateSetpoint,
-    Setpoint,
-    Stop,
-    VelocitySetpoint,
-    is_finite,
-    mean_attitude,
-)
 
 Control = Literal["own", "shared"]
 INNER_EVERY, OUTER_EVERY = 0.002, 0.01  # s; crazyflie-firmware, stabilizer_types.h: ATTITUDE_RATE, POSITION_RATE
@@ -86,12 +76,12 @@ class Quadrotors:
         step: float,
         control: Control = "shared",
         fail_safe: FailSafe = CRAZYFLIE,
-        errors: Sequence[EstimateError] = (),
+        errors: Sequence[sp.EstimateError] = (),
     ) -> None:
         if control not in ("own", "shared"):
             raise InputError(f"control = {control!r}: must be 'own' or 'shared'")
         self.vehicle, self.count, self.control = vehicle, vehicle.count, control
-        self._errors = errors or [EstimateError()] * self.count
+        self._errors = errors or [sp.EstimateError()] * self.count
         self._fail_safe, self._every = fail_safe, max(round(INNER_EVERY / step), 1)
         self._outer_every, self._dt = max(round(OUTER_EVERY / INNER_EVERY), 1), self._every * step
         gains = gains_for(lag + self._dt)
@@ -109,11 +99,11 @@ class Quadrotors:
     def _begin(self) -> None:
         """Begin a flight: nothing is armed or commanded."""
         self.supervision = [ArmingState.DISARMED] * self.count
-        self._setpoints: list[tuple[Setpoint, float] | None] = [None] * self.count
+        self._setpoints: list[tuple[sp.Setpoint, float] | None] = [None] * self.count
         self._demands: list[Demand | None] = [None] * self.count
-        self._flown: list[Setpoint | None] = [None] * self.count
-        self._levels: list[Setpoint] = [Stop()] * self.count
-        self._states: list[QuadrotorState] = []
+        self._flown: list[sp.Setpoint | None] = [None] * self.count
+        self._levels: list[sp.Setpoint] = [sp.Stop()] * self.count
+        self._states: list[sp.QuadrotorState] = []
         self._thrusts, self._k, self._now = np.zeros(4 * self.count), 0, 0.0
         for outer in self._outer:
             outer.reset()
@@ -132,13 +122,13 @@ class Quadrotors:
         """Whether the flight has begun."""
         return bool(self._states)
 
-    def state(self, i: int) -> QuadrotorState:
+    def state(self, i: int) -> sp.QuadrotorState:
         """The state of quadrotor `i`, from 0 on, at the last control step."""
         return self._states[i]
 
-    def command(self, i: int, setpoint: Setpoint) -> bool:
+    def command(self, i: int, setpoint: sp.Setpoint) -> bool:
         """Command a setpoint to quadrotor `i`; False, and the one before stays, if a number is not finite."""
-        if not is_finite(setpoint):
+        if not sp.is_finite(setpoint):
             return False
         self._setpoints[i] = setpoint, self._now
         return True
@@ -193,7 +183,7 @@ class Quadrotors:
         self._k += 1
         return self._thrusts
 
-    def _states_at(self, time: float, numbers: Iterable[float]) -> list[QuadrotorState]:
+    def _states_at(self, time: float, numbers: Iterable[float]) -> list[sp.QuadrotorState]:
         position, velocity, attitude, rates = np.split(np.fromiter(numbers, float, 13), (3, 6, 10))
         R, arms = rotation(attitude), self.vehicle.lever_arms
         places, velocities = position + arms @ R.T, velocity + np.cross(rates, arms) @ R.T
@@ -203,7 +193,7 @@ class Quadrotors:
         rows = zip(places, velocities, forces, thrusts, self._errors, strict=True)
         q, w = tuple(attitude.tolist()), vector(rates)
         return [
-            error.of(QuadrotorState(time, vector(p), vector(v), q, w, vector(f), tuple(u.tolist())))
+            error.of(sp.QuadrotorState(time, vector(p), vector(v), q, w, vector(f), tuple(u.tolist())))
             for p, v, f, u, error in rows
         ]
 
@@ -216,7 +206,7 @@ class Quadrotors:
                 if self.is_armed(i) and self.is_tumbled(i):
                     self.lock(i)
                 commanded = self._setpoints[i]
-                if not self.is_armed(i) or commanded is None or isinstance(commanded[0], Stop):
+                if not self.is_armed(i) or commanded is None or isinstance(commanded[0], sp.Stop):
                     continue
                 age = now - max(last.values())
                 if age <= self._fail_safe.level:
@@ -226,23 +216,23 @@ class Quadrotors:
                 elif self.is_flying(i):
                     self._flown[i] = self._without_setpoint(i, commanded[0], age)
 
-    def _without_setpoint(self, i: int, last: Setpoint, age: float) -> Setpoint | None:
+    def _without_setpoint(self, i: int, last: sp.Setpoint, age: float) -> sp.Setpoint | None:
         """What quadrotor `i` does as no setpoint has come after the `last` one, for a time [s]."""
         safe, state = self._fail_safe, self._states[i]
         if safe.sink:
             if age > safe.level + SETTLING and abs(state.velocity[2]) < 0.2 * safe.sink:  # it stands
                 self.disarm(i)
                 return None
-            level: Setpoint = VelocitySetpoint((0.0, 0.0, -safe.sink))
+            level: sp.Setpoint = sp.VelocitySetpoint((0.0, 0.0, -safe.sink))
         elif age > safe.stop:
             self.lock(i)
             return None
         elif self.supervision[i] is ArmingState.WARNING:
             level = self._levels[i]
-        elif isinstance(last, AttitudeSetpoint | RateSetpoint):
-            level = AttitudeSetpoint(0.0, 0.0, last.thrust, height=getattr(last, "height", None))
+        elif isinstance(last, sp.AttitudeSetpoint | sp.RateSetpoint):
+            level = sp.AttitudeSetpoint(0.0, 0.0, last.thrust, height=getattr(last, "height", None))
         else:
-            level = AttitudeSetpoint(0.0, 0.0, 0.0, height=state.position[2])
+            level = sp.AttitudeSetpoint(0.0, 0.0, 0.0, height=state.position[2])
         self.supervision[i], self._levels[i] = ArmingState.WARNING, level
         return level
 
@@ -264,7 +254,7 @@ class Quadrotors:
             numbers, demands = zip(*flown, strict=True)
             self._agree(numbers)
             demand = together(demands, [self._arms[i] for i in numbers])
-            moment = group.inner.moment(mean_attitude([self._states[i] for i in numbers]), demand, self._dt)
+            moment = group.inner.moment(sp.mean_attitude([self._states[i] for i in numbers]), demand, self._dt)
             wrench = (demand.thrust * len(group.members) / len(flown), *moment)
             turning = tuple(self.supervision[i] is not ArmingState.LOCKED for i in group.members)
             self._thrusts[group.rotors] = group.thrusts(wrench, turning, self._max[group.rotors])

@@ -15,20 +15,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.apps.export import topics
 from tandemlift.apps.export.coordinate_frames import eulers
 from tandemlift.apps.export.messages import NUMBERS, SECOND
 from tandemlift.apps.export.recipes import MeasuredPose, Recipe
-from tandemlift.apps.export.topics import (
-    ALWAYS,
-    DIAGNOSTICS,
-    JOINTS,
-    MISSION,
-    PILOT,
-    ROOT,
-    SOMETIMES,
-    all_recipes,
-    topics_from,
-)
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.files import toml_tables
 from tandemlift.core.types import Array
@@ -37,8 +27,8 @@ from tandemlift.flight.record import LATE, Flight
 from tandemlift.missions import check_keys
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
-BASE = f"{ROOT}/odometry"
-VALUES = f"{ROOT}/pilot"
+BASE = f"{topics.ROOT}/odometry"
+VALUES = f"{topics.ROOT}/pilot"
 PILOT_SAYS = "tandemlift: pilot"  # the name of events in diagnostics
 Stamped = dict[int, Any]  # messages by their stamps [ns]
 
@@ -64,27 +54,29 @@ def read_bag(path: str | os.PathLike[str]) -> Flight:
 
 def _flight(path: Path, said: dict[str, Stamped]) -> Flight:
     stamps = np.array(sorted(said[BASE]))
-    mission = _mission(path, said[MISSION.name])
+    mission = _mission(path, said[topics.MISSION.name])
     time = (stamps - stamps[0]) / SECOND
     vehicle = Vehicle.from_mission(mission)
     channels = _channels(said, stamps, vehicle)
-    missing = [name for recipe in ALWAYS for name in recipe.needs if name not in channels]
+    missing = [name for recipe in topics.ALWAYS for name in recipe.needs if name not in channels]
     if missing:
         raise InputError(f"{path}: lacks the topics of {', '.join(missing)}, which every flight has")
     flight = Flight(time, {name: channels[name] for name in CHANNELS if name in channels}, mission, {})
-    topics_from(flight, vehicle)  # reports incomplete data
-    return Flight(time, flight.channels, mission, _metrics(flight, _events(said[DIAGNOSTICS.name], int(stamps[0]))))
+    topics.topics_from(flight, vehicle)  # reports incomplete data
+    return Flight(
+        time, flight.channels, mission, _metrics(flight, _events(said[topics.DIAGNOSTICS.name], int(stamps[0])))
+    )
 
 
 def _mission(path: Path, said: Stamped) -> dict[str, Any]:
     """The final mission."""
     if not said:
-        raise InputError(f"{path}: has no {MISSION.name}, the mission that was flown")
+        raise InputError(f"{path}: has no {topics.MISSION.name}, the mission that was flown")
     try:
         tables = toml_tables(said[max(said)].data)
         check_keys(tables)
     except (ValueError, RecursionError) as error:
-        raise InputError(f"{path}: {MISSION.name} is no mission: {error}") from error
+        raise InputError(f"{path}: {topics.MISSION.name} is no mission: {error}") from error
     return tables
 
 
@@ -94,7 +86,7 @@ def _messages(path: Path) -> dict[str, Stamped]:
     with reading_bag(path) as bag:
         for topic, at, message in bag.messages({topic for topic in bag.topics if _is_read(topic)}):
             stamp = stamp_of(message, at)
-            if topic == DIAGNOSTICS.name:
+            if topic == topics.DIAGNOSTICS.name:
                 found[topic].setdefault(stamp, []).append(message)
             else:
                 found[topic][stamp] = message
@@ -102,8 +94,8 @@ def _messages(path: Path) -> dict[str, Stamped]:
 
 
 def _is_read(topic: str) -> bool:
-    ours = topic.startswith(f"{ROOT}/") and "/markers/" not in topic and not topic.endswith("path")
-    return ours or topic == DIAGNOSTICS.name
+    ours = topic.startswith(f"{topics.ROOT}/") and "/markers/" not in topic and not topic.endswith("path")
+    return ours or topic == topics.DIAGNOSTICS.name
 
 
 class Bag(NamedTuple):
@@ -155,15 +147,15 @@ def stamp_of(message: Any, at: int) -> int:
 
 def _channels(said: dict[str, Stamped], stamps: Array, vehicle: Vehicle) -> dict[str, Array]:
     """The channels of all topics that there are."""
-    there = {name for r in (*ALWAYS, *SOMETIMES) if said[f"{ROOT}/{r.name}"] for name in r.needs}
-    there |= set(JOINTS[1][1:3]) if said[f"{ROOT}/joint_1/measured"] else set()
-    there |= {name.partition(".")[0] for m in list(said[VALUES].values())[:1] for name in m.name} & {*PILOT}
+    there = {name for r in (*topics.ALWAYS, *topics.SOMETIMES) if said[f"{topics.ROOT}/{r.name}"] for name in r.needs}
+    there |= set(topics.JOINTS[1][1:3]) if said[f"{topics.ROOT}/joint_1/measured"] else set()
+    there |= {name.partition(".")[0] for m in list(said[VALUES].values())[:1] for name in m.name} & {*topics.PILOT}
     parts: dict[str, list[Array]] = defaultdict(list)
     seen = MeasuredPose(np.zeros((0, 4)), vehicle)
-    for recipe in all_recipes(there, vehicle):
-        if not said[f"{ROOT}/{recipe.name}"]:
+    for recipe in topics.all_recipes(there, vehicle):
+        if not said[f"{topics.ROOT}/{recipe.name}"]:
             continue
-        found = recipe.back(_rows(recipe, said[f"{ROOT}/{recipe.name}"], stamps), seen)
+        found = recipe.back(_rows(recipe, said[f"{topics.ROOT}/{recipe.name}"], stamps), seen)
         seen = seen._replace(attitude=found["attitude"]) if "attitude" in found else seen
         for name, values in found.items():
             parts[name].append(values)

@@ -7,17 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.apps.export.coordinate_frames import (
-    ALIGNED,
-    BASE,
-    PAYLOAD,
-    WORLD,
-    eulers,
-    joint,
-    quaternions,
-    to_body,
-    to_world,
-)
+from tandemlift.apps.export import coordinate_frames as frames
 from tandemlift.apps.export.csv_file import components
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
@@ -131,7 +121,7 @@ def force(name: str, channel: str) -> Recipe:
     def rows(take: Source) -> Array:
         return np.pad(take(channel), ((0, 0), (0, 3)))
 
-    return Recipe(name, WRENCH, ALIGNED, (channel,), rows, lambda rows, _: {channel: rows[:, :3]})
+    return Recipe(name, WRENCH, frames.ALIGNED, (channel,), rows, lambda rows, _: {channel: rows[:, :3]})
 
 
 def odometry(name: str, prefix: str = "") -> Recipe:
@@ -140,14 +130,14 @@ def odometry(name: str, prefix: str = "") -> Recipe:
 
     def rows(take: Source) -> Array:
         position, attitude, velocity, rates = map(take, needs)
-        return np.hstack([position, attitude, to_body(attitude, velocity), rates])
+        return np.hstack([position, attitude, frames.to_body(attitude, velocity), rates])
 
     def back(rows: Array, _: MeasuredPose) -> dict[str, Array]:
         attitude = rows[:, 3:7]
-        found = rows[:, :3], attitude, to_world(attitude, rows[:, 7:10]), rows[:, 10:]
+        found = rows[:, :3], attitude, frames.to_world(attitude, rows[:, 7:10]), rows[:, 10:]
         return dict(zip(needs, found, strict=True))
 
-    return Recipe(name, ODOMETRY, WORLD, needs, rows, back)
+    return Recipe(name, ODOMETRY, frames.WORLD, needs, rows, back)
 
 
 def wrench(name: str, force: str, moment: str, at: Callable[[Vehicle], Array] | None = None) -> Recipe:
@@ -157,17 +147,17 @@ def wrench(name: str, force: str, moment: str, at: Callable[[Vehicle], Array] | 
     """
 
     def lever(attitude: Array, vehicle: Vehicle, f: Array) -> Array:
-        return np.cross(to_world(attitude, np.broadcast_to(at(vehicle), f.shape)), f) if at else np.zeros_like(f)
+        return np.cross(frames.to_world(attitude, np.broadcast_to(at(vehicle), f.shape)), f) if at else np.zeros_like(f)
 
     def rows(take: Source) -> Array:
         f, m, attitude = map(take, (force, moment, "attitude"))
-        return np.hstack([f, to_world(attitude, m) + lever(attitude, take.vehicle, f)])
+        return np.hstack([f, frames.to_world(attitude, m) + lever(attitude, take.vehicle, f)])
 
     def back(rows: Array, seen: MeasuredPose) -> dict[str, Array]:
         f, m = rows[:, :3], rows[:, 3:]
-        return {force: f, moment: to_body(seen.attitude, m - lever(seen.attitude, seen.vehicle, f))}
+        return {force: f, moment: frames.to_body(seen.attitude, m - lever(seen.attitude, seen.vehicle, f))}
 
-    return Recipe(name, WRENCH, ALIGNED, (force, moment, "attitude"), rows, back)
+    return Recipe(name, WRENCH, frames.ALIGNED, (force, moment, "attitude"), rows, back)
 
 
 def command(name: str, thrust: str, moment: str) -> Recipe:
@@ -179,13 +169,13 @@ def command(name: str, thrust: str, moment: str) -> Recipe:
     def back(rows: Array, _: MeasuredPose) -> dict[str, Array]:
         return {thrust: rows[:, 2], moment: rows[:, 3:]}
 
-    return Recipe(name, WRENCH, BASE, (thrust, moment), rows, back)
+    return Recipe(name, WRENCH, frames.BASE, (thrust, moment), rows, back)
 
 
 def joint_wrench(number: int, name: str, force: str, torque: str) -> Recipe:
     """The wrench at the joint of one quadrotor, from 1."""
     own = slice(3 * number - 3, 3 * number)
-    frame = joint(number)
+    frame = frames.joint(number)
 
     def rows(take: Source) -> Array:
         return np.hstack([take(force)[:, own], take(torque)[:, own]])
@@ -201,12 +191,12 @@ def pose_of_reference(name: str) -> Recipe:
     needs = ("reference_position", "reference_euler")
 
     def rows(take: Source) -> Array:
-        return np.hstack([take(needs[0]), quaternions(take(needs[1]))])
+        return np.hstack([take(needs[0]), frames.quaternions(take(needs[1]))])
 
     def back(rows: Array, _: MeasuredPose) -> dict[str, Array]:
-        return {needs[0]: rows[:, :3], needs[1]: eulers(rows[:, 3:])}
+        return {needs[0]: rows[:, :3], needs[1]: frames.eulers(rows[:, 3:])}
 
-    return Recipe(name, POSE, WORLD, needs, rows, back)
+    return Recipe(name, POSE, frames.WORLD, needs, rows, back)
 
 
 def point_on_beam(name: str, channel: str) -> Recipe:
@@ -215,7 +205,7 @@ def point_on_beam(name: str, channel: str) -> Recipe:
     def rows(take: Source) -> Array:
         return np.pad(take(channel), ((0, 0), (1, 1)))
 
-    return Recipe(name, POINT, PAYLOAD, (channel,), rows, lambda rows, _: {channel: rows[:, 1]})
+    return Recipe(name, POINT, frames.PAYLOAD, (channel,), rows, lambda rows, _: {channel: rows[:, 1]})
 
 
 def values(name: str, channels: tuple[str, ...], vehicle: Vehicle) -> Recipe:

@@ -7,25 +7,8 @@ import logging
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from tandemlift.apps.live.session.page_messages import (
-    CompareMessage,
-    FlyMessage,
-    GrabMessage,
-    KillMessage,
-    MoveMessage,
-    PageMessage,
-    PingMessage,
-    Refusal,
-    ResetMessage,
-    RestoreMessage,
-    RewindMessage,
-    SaveMessage,
-    SetMessage,
-    TareMessage,
-    TurnMessage,
-    read_message,
-    subject_of,
-)
+from tandemlift.apps.live.session import page_messages as page
+from tandemlift.apps.live.session.page_messages import Refusal
 from tandemlift.apps.live.session.server_messages import Answer, PongMessage
 from tandemlift.apps.live.viewers import Viewer, Viewers
 from tandemlift.core.errors import InputError
@@ -35,15 +18,15 @@ if TYPE_CHECKING:
 
 MAX_WAITING = 16  # changes that wait for their turn
 SLOW = (
-    SetMessage,
-    RestoreMessage,
-    TareMessage,
-    KillMessage,
-    ResetMessage,
-    RewindMessage,
-    FlyMessage,
-    CompareMessage,
-    SaveMessage,
+    page.SetMessage,
+    page.RestoreMessage,
+    page.TareMessage,
+    page.KillMessage,
+    page.ResetMessage,
+    page.RewindMessage,
+    page.FlyMessage,
+    page.CompareMessage,
+    page.SaveMessage,
 )  # may compile or write
 
 log = logging.getLogger(__name__)
@@ -65,12 +48,12 @@ class Dispatcher:
     def receive(self, viewer: Viewer, text: str | bytes) -> None:
         """Handle a text of a viewer, or send the reason of its refusal."""
         try:
-            message = read_message(text)
-            if isinstance(message, GrabMessage):
+            message = page.read_message(text)
+            if isinstance(message, page.GrabMessage):
                 viewer.last_grab = message.seq
-            if isinstance(message, PingMessage):
+            if isinstance(message, page.PingMessage):
                 viewer.send(PongMessage(type="pong", t=message.t))
-            elif isinstance(message, TurnMessage):
+            elif isinstance(message, page.TurnMessage):
                 if self._viewers.take_turn(viewer, message):
                     self._viewers.let_go()
                     self._flight.release()
@@ -82,7 +65,7 @@ class Dispatcher:
             else:
                 self._answer(viewer, self._apply(message))
                 self._viewers.note(viewer, message)
-                if isinstance(message, MoveMessage):
+                if isinstance(message, page.MoveMessage):
                     viewer.echo(self._flight.frame)
         except Refusal as refusal:
             viewer.refuse(refusal)
@@ -92,7 +75,7 @@ class Dispatcher:
         for task in self._tasks:
             task.cancel()
 
-    def _apply(self, message: PageMessage) -> Sequence[Answer]:
+    def _apply(self, message: page.PageMessage) -> Sequence[Answer]:
         """The answer of the flight.
 
         Raises:
@@ -101,10 +84,10 @@ class Dispatcher:
         try:
             return self._flight.apply(message)
         except InputError as error:
-            raise Refusal(subject_of(message), str(error)) from error
+            raise Refusal(page.subject_of(message), str(error)) from error
         except Exception as error:
-            log.exception("%s failed", subject_of(message))
-            raise Refusal(subject_of(message), f"an error in tandemlift: {error!r}"[:300]) from error
+            log.exception("%s failed", page.subject_of(message))
+            raise Refusal(page.subject_of(message), f"an error in tandemlift: {error!r}"[:300]) from error
 
     def _answer(self, viewer: Viewer, answers: Sequence[Answer]) -> None:
         for answer in answers:
@@ -115,16 +98,16 @@ class Dispatcher:
             else:
                 viewer.send(answer)
 
-    def _start_change(self, viewer: Viewer, message: PageMessage) -> None:
+    def _start_change(self, viewer: Viewer, message: page.PageMessage) -> None:
         """Make a change that may take long in another thread, one after another; the hand does not wait for it."""
         if len(self._tasks) >= MAX_WAITING:
-            raise Refusal(subject_of(message), f"{MAX_WAITING} changes are waiting already")
+            raise Refusal(page.subject_of(message), f"{MAX_WAITING} changes are waiting already")
         task = asyncio.create_task(self._change(viewer, message))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
-    async def _change(self, viewer: Viewer, message: PageMessage) -> None:
-        async with self._saving if isinstance(message, SaveMessage) else self._changing:
+    async def _change(self, viewer: Viewer, message: page.PageMessage) -> None:
+        async with self._saving if isinstance(message, page.SaveMessage) else self._changing:
             try:
                 self._answer(viewer, await asyncio.to_thread(self._apply, message))
             except Refusal as refusal:

@@ -9,19 +9,9 @@ import functools
 from collections.abc import Sequence
 from typing import Any, get_args, get_origin
 
-from tandemlift.apps.live.session import checks, pacing
+from tandemlift.apps.live.session import checks, frames, pacing
 from tandemlift.apps.live.session.challenge import SCORE_FILE
 from tandemlift.apps.live.session.checks import TouchRule, touch_refusal
-from tandemlift.apps.live.session.frames import (
-    ECHO,
-    FRESH,
-    RATE,
-    PhaseTimes,
-    channel_columns,
-    fields_of_samples,
-    frame_of_samples,
-    phase_times,
-)
 from tandemlift.apps.live.session.hand_control import REQUEST_TIME, grip_offset
 from tandemlift.apps.live.session.interactive_mission import NEVER
 from tandemlift.apps.live.session.page_messages import NAME_PATTERN, NAME_RULE, PAGE_MESSAGES, SILENT, NumberedMessage
@@ -49,13 +39,13 @@ from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND, HAND_RELEA
 from tandemlift.simulation.stepping import GUIDANCE_MEMORY
 
 ENDING_PARTS = (("limits",), *[("flight_state", name) for name in ("crash", "ended", "state", "impulse")])
-LEVEL, TIMES, RULE = Quat(1.0, 0.0, 0.0, 0.0), PhaseTimes(0.0, 0.0, 0.0), TouchRule(0.0, 0.0, 0.0)
+LEVEL, TIMES, RULE = Quat(1.0, 0.0, 0.0, 0.0), frames.PhaseTimes(0.0, 0.0, 0.0), TouchRule(0.0, 0.0, 0.0)
 
 
 def page_functions(plan: FlightPlan) -> Sequence[ValuesFunction]:
     """The functions of a mission's module."""
     return (
-        ValuesFunction("frame", frame_of_samples(plan.sample), (zeroed(plan.sample), 0.0, TIMES)),
+        ValuesFunction("frame", frames.frame_of_samples(plan.sample), (zeroed(plan.sample), 0.0, TIMES)),
         ValuesFunction("touch_refusal", touch_refusal, (RULE, 0.0, 0.0, ZERO)),
         ValuesFunction("grip_offset", grip_offset, (LEVEL, ZERO)),
         ValuesFunction("ending", ending_from, (*flight_parts(plan), 0.0)),
@@ -80,7 +70,7 @@ def pilot_parts(plan: FlightPlan) -> tuple[Any, Any]:
 
 def frame_fields(plan: FlightPlan) -> list[tuple[str, int]]:
     """The fields that `frame` returns, with the number of their components."""
-    fields = fields_of_samples(plan.sample)(zeroed(plan.sample), 0.0, TIMES)
+    fields = frames.fields_of_samples(plan.sample)(zeroed(plan.sample), 0.0, TIMES)
     return [(name, len(parts)) for name, parts in fields.items()]
 
 
@@ -130,7 +120,7 @@ ENGINE = "compiled"
 ONLY_SERVER = "{what}: only a flight of `tandemlift live` has it"
 OTHER_LAWS = "{key}: the module of this page cannot take it in flight; `tandemlift live` can"
 MOST_NUMBERS = 6  # of a list that a key takes
-STATUS_EVERY = RATE // 4  # frames
+STATUS_EVERY = frames.RATE // 4  # frames
 
 
 def page_manifest(plan: FlightPlan) -> dict[str, Any]:
@@ -161,7 +151,7 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
         "ending": [plan.place(*path) for path in ENDING_PARTS],
         "frame": frame_fields(plan),
         "challenge": _challenge(plan),
-        "phase_times": list(phase_times(tables["phases"])),
+        "phase_times": list(frames.phase_times(tables["phases"])),
         "touch_rule": list(rule),
         "ramp": RAMP,
         "request_time": REQUEST_TIME,
@@ -175,7 +165,7 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
 
 def _challenge(plan: FlightPlan) -> dict[str, Any]:
     """How the page scores a flight through a corridor: steps of a row of the log, and the columns in a sample."""
-    columns = channel_columns(plan.sample)
+    columns = frames.channel_columns(plan.sample)
     return {
         "every": plan.every,
         "columns": {name: columns[name].tolist() for name in corridor_score.SCORED if name in columns},
@@ -224,8 +214,8 @@ def _pacing() -> dict[str, float]:
         "window": pacing.WINDOW,
         "batch": pacing.BATCH,
         "pause": pacing.PAUSE,
-        "echo": ECHO,
-        "fresh": FRESH,
+        "echo": frames.ECHO,
+        "fresh": frames.FRESH,
         "silent": SILENT,
         "status_every": STATUS_EVERY,
     }

@@ -7,16 +7,10 @@ from __future__ import annotations
 
 from typing import cast
 
+from tandemlift.apps.live.session import page_messages as page
 from tandemlift.apps.live.session.checks import check_repeatable
 from tandemlift.apps.live.session.hand_control import HandControl
 from tandemlift.apps.live.session.interactive_mission import with_whole_rotors
-from tandemlift.apps.live.session.page_messages import (
-    CompareMessage,
-    FlyMessage,
-    PageMessage,
-    ResetMessage,
-    RewindMessage,
-)
 from tandemlift.apps.live.session.parameters import scene_at
 from tandemlift.apps.live.session.server_messages import Answer, FlightScene, FlightStatus
 from tandemlift.apps.live.session.session import Session
@@ -45,32 +39,32 @@ class TwoFlights(Session):
             ghost.hold(flight.hand)
         ghost.advance()
 
-    def apply(self, message: PageMessage) -> list[Answer]:
+    def apply(self, message: page.PageMessage) -> list[Answer]:
         """Apply a message; return the answers.
 
         Raises:
             InputError: it cannot be done; the text says why.
         """
         ghost = self._ghost
-        if isinstance(message, CompareMessage) and self.is_ready:
+        if isinstance(message, page.CompareMessage) and self.is_ready:
             self._compare(message)
             self.generation += 1
             return []
-        if ghost is None or not isinstance(message, (ResetMessage, RewindMessage, FlyMessage)):
+        if ghost is None or not isinstance(message, (page.ResetMessage, page.RewindMessage, page.FlyMessage)):
             return super().apply(message)
         with self._parameters.turn:
-            if isinstance(message, RewindMessage):
+            if isinstance(message, page.RewindMessage):
                 self.pacer.paused = True
                 steps = min(round(message.time / ghost.dt) + 1, self._flight.step)
                 again = self._flown_again(ghost, steps)
-            elif isinstance(message, ResetMessage):
+            elif isinstance(message, page.ResetMessage):
                 again = RecordedFlight(with_whole_rotors(ghost.now, self._mission), self._engine)
                 again.hold()
                 again.advance()
             with self._lock:
                 answers = super().apply(message)
-                self._ghost = None if isinstance(message, FlyMessage) else again
-                if isinstance(message, RewindMessage):
+                self._ghost = None if isinstance(message, page.FlyMessage) else again
+                if isinstance(message, page.RewindMessage):
                     again.hold(self._flight.hand)
         return answers
 
@@ -79,7 +73,7 @@ class TwoFlights(Session):
         again.repeat(past, min(steps, past.step))
         return again
 
-    def _compare(self, message: CompareMessage) -> None:
+    def _compare(self, message: page.CompareMessage) -> None:
         check_repeatable(self._engine, "compare")
         with self._parameters.turn:
             if message.what == "keep":

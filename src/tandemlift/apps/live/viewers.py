@@ -12,18 +12,9 @@ from typing import Any, Literal, Protocol
 from pydantic_core import to_json
 from websockets.asyncio.server import ServerConnection, broadcast
 
+from tandemlift.apps.live.session import page_messages as page
 from tandemlift.apps.live.session.frames import ECHO, FRESH
-from tandemlift.apps.live.session.page_messages import (
-    SILENT,
-    ForceMessage,
-    GrabMessage,
-    MoveMessage,
-    PageMessage,
-    Refusal,
-    ReleaseMessage,
-    SaveMessage,
-    TurnMessage,
-)
+from tandemlift.apps.live.session.page_messages import Refusal
 from tandemlift.apps.live.session.server_messages import FlightStatus, RefusedMessage, TurnStatus
 
 IDLE = 30.0  # s without a message, after which the hand goes on to a page that waits
@@ -209,7 +200,7 @@ class Viewers:
 
     def is_hung(self) -> bool:
         """Whether the holder has been silent for too long; the page pings while it holds the beam."""
-        return self.holder is not None and time.monotonic() - self.holder.last_message > SILENT
+        return self.holder is not None and time.monotonic() - self.holder.last_message > page.SILENT
 
     def send_frame(self, frame: bytes) -> None:
         """Send a frame to all who can take it."""
@@ -234,36 +225,36 @@ class Viewers:
             seen = {**status, "viewers": len(self), "holder": holder, "last_grab": viewer.last_grab, "turns": turns}
             viewer.send({"type": "status", **seen})
 
-    def admits(self, viewer: Viewer, message: PageMessage) -> bool:
+    def admits(self, viewer: Viewer, message: page.PageMessage) -> bool:
         """Whether a message is passed to the flight: all of the holder's, of others those that do not touch the beam.
 
         Raises:
             Refusal: another viewer has the hand; or the message needs the beam, and another viewer holds it.
         """
-        if isinstance(message, (MoveMessage, ReleaseMessage)) or (
-            isinstance(message, ForceMessage) and not any(message.force)
+        if isinstance(message, (page.MoveMessage, page.ReleaseMessage)) or (
+            isinstance(message, page.ForceMessage) and not any(message.force)
         ):
             return self.holder is viewer
-        if self.turns.player not in (None, viewer) and not isinstance(message, SaveMessage):
+        if self.turns.player not in (None, viewer) and not isinstance(message, page.SaveMessage):
             raise Refusal(
                 message.type, f"page {self.turns.numbers[0]} has the hand: ask for it, and wait for your turn"
             )
-        if isinstance(message, (GrabMessage, ForceMessage)) and self.holder not in (None, viewer):
+        if isinstance(message, (page.GrabMessage, page.ForceMessage)) and self.holder not in (None, viewer):
             raise Refusal(message.type, "another page holds the beam: wait until it is released")
         return True
 
-    def take_turn(self, viewer: Viewer, message: TurnMessage) -> bool:
+    def take_turn(self, viewer: Viewer, message: page.TurnMessage) -> bool:
         """Let a viewer ask for the hand or give it on; returns whether the beam is to be released."""
         self.turns.take(viewer, message.what, time.monotonic())
         return self.holder is not None and self.holder is not self.turns.player
 
-    def note(self, viewer: Viewer, message: PageMessage) -> None:
+    def note(self, viewer: Viewer, message: page.PageMessage) -> None:
         """Update the holder of the beam after an applied message."""
-        if isinstance(message, ReleaseMessage):
+        if isinstance(message, page.ReleaseMessage):
             self.let_go()
-        elif isinstance(message, GrabMessage):
+        elif isinstance(message, page.GrabMessage):
             self.holder, self.pulls = viewer, True
-        elif isinstance(message, ForceMessage):
+        elif isinstance(message, page.ForceMessage):
             self.pushes = any(message.force)
             self.holder = viewer if self.pulls or self.pushes else None
 

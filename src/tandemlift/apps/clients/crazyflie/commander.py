@@ -10,71 +10,62 @@ import math
 import struct
 from collections.abc import Callable
 
-from tandemlift.apps.clients.setpoints import (
-    AttitudeSetpoint,
-    FullStateSetpoint,
-    PositionSetpoint,
-    RateSetpoint,
-    Setpoint,
-    Stop,
-    VelocitySetpoint,
-    euler_of,
-)
+from tandemlift.apps.clients import setpoints as sp
 
 MIN_THRUST, FULL_THRUST = 1000, 65535.0  # of a commanded thrust: below, rotors stand; linear in force
 RAD = math.pi / 180.0
-Decoder = Callable[[bytes, float], Setpoint]
+Decoder = Callable[[bytes, float], sp.Setpoint]
 
 
-def attitude_setpoint(data: bytes, full: float) -> Setpoint:
+def attitude_setpoint(data: bytes, full: float) -> sp.Setpoint:
     """A setpoint of port 3: roll, pitch, rate of yaw (clockwise) and thrust; `full`: the largest thrust [N]."""
     roll, pitch, rate, thrust = struct.unpack("<fffH", data)
     return _manual(roll, pitch, -rate, thrust, full, rates=False)
 
 
-def _manual(roll: float, pitch: float, yaw_rate: float, thrust: int, full: float, *, rates: bool) -> Setpoint:
+def _manual(roll: float, pitch: float, yaw_rate: float, thrust: int, full: float, *, rates: bool) -> sp.Setpoint:
     if thrust < MIN_THRUST:
-        return Stop()
+        return sp.Stop()
     force = full * thrust / FULL_THRUST
     if rates:
-        return RateSetpoint((roll * RAD, -pitch * RAD, yaw_rate * RAD), force)
-    return AttitudeSetpoint(roll * RAD, -pitch * RAD, force, yaw_rate=yaw_rate * RAD)
+        return sp.RateSetpoint((roll * RAD, -pitch * RAD, yaw_rate * RAD), force)
+    return sp.AttitudeSetpoint(roll * RAD, -pitch * RAD, force, yaw_rate=yaw_rate * RAD)
 
 
-def _velocity(data: bytes, _: float) -> Setpoint:
+def _velocity(data: bytes, _: float) -> sp.Setpoint:
     x, y, z, rate = struct.unpack("<ffff", data)
-    return VelocitySetpoint((x, y, z), yaw_rate=rate * RAD)
+    return sp.VelocitySetpoint((x, y, z), yaw_rate=rate * RAD)
 
 
-def _z_distance(data: bytes, _: float) -> Setpoint:
+def _z_distance(data: bytes, _: float) -> sp.Setpoint:
     roll, pitch, rate, height = struct.unpack("<ffff", data)
-    return AttitudeSetpoint(roll * RAD, -pitch * RAD, 0.0, yaw_rate=rate * RAD, height=height)
+    return sp.AttitudeSetpoint(roll * RAD, -pitch * RAD, 0.0, yaw_rate=rate * RAD, height=height)
 
 
-def _hover(data: bytes, _: float) -> Setpoint:
+def _hover(data: bytes, _: float) -> sp.Setpoint:
     x, y, rate, height = struct.unpack("<ffff", data)
-    return VelocitySetpoint((x, y, 0.0), yaw_rate=rate * RAD, height=height, heading=True)
+    return sp.VelocitySetpoint((x, y, 0.0), yaw_rate=rate * RAD, height=height, heading=True)
 
 
-def _full_state(data: bytes, _: float) -> Setpoint:
+def _full_state(data: bytes, _: float) -> sp.Setpoint:
     *numbers, packed, _roll, _pitch, _yaw = struct.unpack("<hhhhhhhhhIhhh", data)
     x, y, z, vx, vy, vz, ax, ay, az = (n / 1000.0 for n in numbers)
-    yaw = euler_of(unpacked_quaternion(packed))[2]
-    return FullStateSetpoint((x, y, z), (vx, vy, vz), (ax, ay, az), yaw)
+    yaw = sp.euler_of(unpacked_quaternion(packed))[2]
+    return sp.FullStateSetpoint((x, y, z), (vx, vy, vz), (ax, ay, az), yaw)
 
 
-def _position(data: bytes, _: float) -> Setpoint:
+def _position(data: bytes, _: float) -> sp.Setpoint:
     x, y, z, yaw = struct.unpack("<ffff", data)
-    return PositionSetpoint((x, y, z), yaw * RAD)
+    return sp.PositionSetpoint((x, y, z), yaw * RAD)
 
 
-def _manual_type(data: bytes, full: float) -> Setpoint:
+def _manual_type(data: bytes, full: float) -> sp.Setpoint:
     roll, pitch, rate, thrust, rates = struct.unpack("<fffHB", data)
     return _manual(roll, pitch, rate, thrust, full, rates=bool(rates))
 
 
 GENERIC: dict[int, Decoder] = {  # by the type of port 7, channel 0; types 1 to 5 are of older clients
-    0: lambda data, _: Stop(),
+    0: lambda data, _: sp.Stop(),
     6: _full_state,
     7: _position,
     8: _velocity,

@@ -10,30 +10,9 @@ import threading
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from tandemlift.apps.live.session.checks import (
-    FAILED_ALREADY,
-    NO_NUMBER,
-    OUT_OF_BOUNDS,
-    OVER,
-    TARE,
-    UNKNOWN,
-    WHOLE_ROTORS,
-    check_in_time,
-    tare_start_for,
-)
+from tandemlift.apps.live.session import checks
+from tandemlift.apps.live.session import server_messages as server
 from tandemlift.apps.live.session.interactive_mission import NEVER
-from tandemlift.apps.live.session.server_messages import (
-    MAX_FORCE,
-    STIFFNESS,
-    THRESHOLD,
-    Answer,
-    ChangedMessage,
-    FlightScene,
-    RefusedMessage,
-    SceneMission,
-    SceneParameter,
-    SceneSpring,
-)
 from tandemlift.core.errors import InputError, shown
 from tandemlift.missions import Mission, built_in, tables_of
 from tandemlift.missions.changes import MISSING, Tables, place_of, value_at
@@ -59,11 +38,11 @@ TUNABLE = (
     TunableParameter("admittance.mass", "virtual mass", "admittance", "kg", 0.3, 20.0),
     TunableParameter("admittance.damping", "damping", "admittance", "N s/m", 0.2, 30.0),
     TunableParameter("admittance.stiffness", "stiffness", "admittance", "N/m", 0.0, 20.0),
-    TunableParameter(THRESHOLD, "threshold", "admittance", "N", 0.05, 5.0),
+    TunableParameter(server.THRESHOLD, "threshold", "admittance", "N", 0.05, 5.0),
     TunableParameter("compliance.max_speed", "maximum speed", "admittance", "m/s", 0.1, 3.0),
-    TunableParameter(STIFFNESS, "stiffness", "hand spring", "N/m", 1.0, 40.0),
+    TunableParameter(server.STIFFNESS, "stiffness", "hand spring", "N/m", 1.0, 40.0),
     TunableParameter("person.damping", "damping", "hand spring", "N s/m", 0.0, 20.0),
-    TunableParameter(MAX_FORCE, "maximum force", "hand spring", "N", 0.5, 20.0),
+    TunableParameter(server.MAX_FORCE, "maximum force", "hand spring", "N", 0.5, 20.0),
     TunableParameter("controller.gains.xi", "ξ", "controller", "1/s", 0.05, 20.0),
     TunableParameter("controller.gains.lambda_1", "λ₁", "controller", "1/s", 0.05, 40.0),
     TunableParameter("controller.gains.lambda_2", "λ₂", "controller", "m/s², rad/s²", 0.05, 40.0),
@@ -114,13 +93,15 @@ def bounds_of(parameter: TunableParameter, first: Tables) -> tuple[float, float]
     return min([parameter.low, *own]), max([parameter.high, *own])
 
 
-def parameters_of(tables: Tables, first: Tables) -> Iterator[SceneParameter]:
+def parameters_of(tables: Tables, first: Tables) -> Iterator[server.SceneParameter]:
     """The parameters of a mission as a scene has them; `first`: tables of the mission that they can be restored to."""
     for p in tunables_of(first).values():
         value = value_of(tables, p.key)
         if value is not MISSING and _is_tunable(tables, p.key):
             low, high = bounds_of(p, first)
-            shown = SceneParameter(key=p.key, label=p.label, group=p.group, unit=p.unit, value=value, min=low, max=high)
+            shown = server.SceneParameter(
+                key=p.key, label=p.label, group=p.group, unit=p.unit, value=value, min=low, max=high
+            )
             restored = value_of(first, p.key)
             if restored is not MISSING:
                 shown["initial"] = restored
@@ -130,22 +111,22 @@ def parameters_of(tables: Tables, first: Tables) -> Iterator[SceneParameter]:
         yield _choice(tables, first, GATE, "admittance", ["hard", "soft"])
 
 
-def scene_at(scene: FlightScene, now: Mission, first: Mission) -> FlightScene:
+def scene_at(scene: server.FlightScene, now: Mission, first: Mission) -> server.FlightScene:
     """A scene with the present parameters, and the missions that a page may choose; `first`: as `parameters_of`."""
     hand = now.person
     return {
         **scene,
         "controller": now.controller.name,
         "threshold": list(now.admittance.threshold),
-        "spring": SceneSpring(stiffness=hand.stiffness, damping=hand.damping, max_force=hand.max_force),
+        "spring": server.SceneSpring(stiffness=hand.stiffness, damping=hand.damping, max_force=hand.max_force),
         "parameters": list(parameters_of(tables_of(now), tables_of(first))),
-        "missions": [SceneMission(name=name, title=title) for name, title in built_in().items()],
+        "missions": [server.SceneMission(name=name, title=title) for name, title in built_in().items()],
     }
 
 
-def _choice(tables: Tables, first: Tables, key: str, group: str, choices: list[str]) -> SceneParameter:
+def _choice(tables: Tables, first: Tables, key: str, group: str, choices: list[str]) -> server.SceneParameter:
     label, value, initial = LABELS[key], value_of(tables, key), value_of(first, key)
-    return SceneParameter(key=key, label=label, group=group, value=value, initial=initial, choices=choices)
+    return server.SceneParameter(key=key, label=label, group=group, value=value, initial=initial, choices=choices)
 
 
 def _is_tunable(tables: Tables, key: str) -> bool:
@@ -175,7 +156,7 @@ class ParameterControl:
         self.first, self._lock = first, lock
         self.turn = threading.RLock()
 
-    def set(self, flight: RecordedFlight, key: str, value: object) -> list[Answer]:
+    def set(self, flight: RecordedFlight, key: str, value: object) -> list[server.Answer]:
         """Set a parameter; return a message about it.
 
         Raises:
@@ -184,14 +165,14 @@ class ParameterControl:
         self._check(key, value)
         return self._set_to(flight, key, [value] * len(keys_of(self.first, key)))
 
-    def restore(self, flight: RecordedFlight, key: str | None) -> list[Answer]:
+    def restore(self, flight: RecordedFlight, key: str | None) -> list[server.Answer]:
         """Set a parameter, or all, back to the first mission; return messages, refusals among them."""
-        answers: list[Answer] = []
+        answers: list[server.Answer] = []
         for one in [*CHOICES, *tunables_of(self.first)] if key is None else [key]:
             try:
                 answers += self._restore(flight, one)
             except InputError as error:
-                answers.append(RefusedMessage(type="refused", what=f"restore {one}", reason=str(error)))
+                answers.append(server.RefusedMessage(type="refused", what=f"restore {one}", reason=str(error)))
         return answers
 
     def stop_rotor(self, flight: RecordedFlight, rotor: int) -> None:
@@ -203,9 +184,9 @@ class ParameterControl:
         faults = flight.now.faults
         at = [i for i, f in enumerate(faults) if 4 * (f.quadrotor - 1) + f.rotor - 1 == rotor]
         if not at:
-            raise InputError(WHOLE_ROTORS.format(rotor=rotor))
+            raise InputError(checks.WHOLE_ROTORS.format(rotor=rotor))
         if faults[at[0]].time < NEVER:
-            raise InputError(FAILED_ALREADY.format(rotor=rotor, time=faults[at[0]].time))
+            raise InputError(checks.FAILED_ALREADY.format(rotor=rotor, time=faults[at[0]].time))
         self._change(flight, f"faults.{at[0]}.time", flight.step * flight.dt, 0.0)
 
     def tare(self, flight: RecordedFlight) -> str:
@@ -215,11 +196,11 @@ class ParameterControl:
             InputError: the mission has no tare that can be scheduled, or preparing it took too long.
         """
         with self.turn:
-            start = tare_start_for(flight)
-            due = flight.prepare(TARE, start)
+            start = checks.tare_start_for(flight)
+            due = flight.prepare(checks.TARE, start)
             with self._lock:
-                check_in_time(flight, start)
-                flight.change(due, TARE, start)
+                checks.check_in_time(flight, start)
+                flight.change(due, checks.TARE, start)
         return f"from {start:g} s to {start + flight.now.estimator.tare_duration:g} s"
 
     def _check(self, key: str, value: object) -> None:
@@ -227,34 +208,34 @@ class ParameterControl:
         if key in CHOICES:
             return
         if key not in (known := tunables_of(self.first)):
-            raise InputError(UNKNOWN.format(key=key, known=", ".join([*CHOICES, *known])))
+            raise InputError(checks.UNKNOWN.format(key=key, known=", ".join([*CHOICES, *known])))
         low, high = bounds_of(known[key], self.first)
         for number in value if isinstance(value, list) else [value]:
             if isinstance(number, bool) or not isinstance(number, (int, float)):
-                raise InputError(NO_NUMBER.format(key=key, value=shown(value)))
+                raise InputError(checks.NO_NUMBER.format(key=key, value=shown(value)))
             if not low <= number <= high:
-                raise InputError(OUT_OF_BOUNDS.format(key=key, value=shown(value), low=low, high=high))
+                raise InputError(checks.OUT_OF_BOUNDS.format(key=key, value=shown(value), low=low, high=high))
 
-    def _restore(self, flight: RecordedFlight, key: str) -> list[Answer]:
+    def _restore(self, flight: RecordedFlight, key: str) -> list[server.Answer]:
         now, keys = tables_of(flight.now), keys_of(self.first, key)
         values = [value_of(self.first, one) for one in keys]
         if MISSING in values or values == [value_of(now, one) for one in keys]:
             return []
         return self._set_to(flight, key, values)
 
-    def _set_to(self, flight: RecordedFlight, key: str, values: list[Any]) -> list[Answer]:
+    def _set_to(self, flight: RecordedFlight, key: str, values: list[Any]) -> list[server.Answer]:
         """Set the keys that a parameter stands for, one value each."""
         duration = 0.0 if key in CHOICES else RAMP
         for one, value in zip(keys_of(self.first, key), values, strict=True):
             self._change(flight, one, value, duration)
         now = value_of(tables_of(flight.now), key)
-        return [ChangedMessage(type="changed", key=key, value=now, duration=duration)]
+        return [server.ChangedMessage(type="changed", key=key, value=now, duration=duration)]
 
     def _change(self, flight: RecordedFlight, key: str, value: object, duration: float) -> None:
         """Prepare a change beside the flight, and let it begin."""
         with self.turn:
             if flight.over:
-                raise InputError(OVER.format(key=key))
+                raise InputError(checks.OVER.format(key=key))
             if key == CONTROLLER and value == self.first["controller"]["name"]:  # with the mission's own settings
                 key, value = "controller", self.first["controller"]
             due = flight.prepare(key, value, duration)

@@ -9,27 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.apps.live.session.frames import (
-    RATE,
-    Components,
-    channel_columns,
-    field_values,
-    layout_for,
-    pack_frames,
-    phase_times,
-)
-from tandemlift.apps.live.session.server_messages import (
-    FlightScene,
-    SceneCorridor,
-    SceneParameter,
-    ScenePayload,
-    SceneQuadrotor,
-    SceneRotor,
-    SceneShape,
-    SceneSpring,
-    SceneVehicle,
-    SceneWall,
-)
+from tandemlift.apps.live.session import frames
+from tandemlift.apps.live.session import server_messages as server
 from tandemlift.core.faults import ALARM_TEXTS
 from tandemlift.core.files import __version__
 from tandemlift.core.phases import PHASE_NAMES
@@ -43,15 +24,19 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 from tandemlift.simulation.plan import FlightPlan
 
-SPRING = SceneSpring(stiffness=8.0, damping=2.0, max_force=8.0)  # of a page's hand, where a mission has none
+SPRING = server.SceneSpring(stiffness=8.0, damping=2.0, max_force=8.0)  # of a page's hand, where a mission has none
 WALL_THICKNESS = 0.02  # m, as drawn; walls have none
 TURNING = ("blades", "rotor")  # begin the names of the shapes that turn
 DIGITS = 6  # decimals of shapes [m]
 
 
 def scene_of(
-    mission: Mission, engine: str, *, parameters: Sequence[SceneParameter] = (), spring: SceneSpring = SPRING
-) -> FlightScene:
+    mission: Mission,
+    engine: str,
+    *,
+    parameters: Sequence[server.SceneParameter] = (),
+    spring: server.SceneSpring = SPRING,
+) -> server.FlightScene:
     """The scene of a mission.
 
     Args:
@@ -68,15 +53,15 @@ def scene_of(
     return scene
 
 
-def scene_of_tables(tables: Mapping[str, Any], vehicle: Vehicle, engine: str, floor: float) -> FlightScene:
+def scene_of_tables(tables: Mapping[str, Any], vehicle: Vehicle, engine: str, floor: float) -> server.FlightScene:
     """The scene of a mission given as nested tables; `floor` [m] is the height of the floor, or of the level drawn."""
-    return FlightScene(
+    return server.FlightScene(
         mission=tables["mission"]["name"],
         controller=tables["controller"]["name"],
         engine=engine,
         version=__version__,
         step=tables["mission"]["step"],
-        rate=RATE,
+        rate=frames.RATE,
         vehicle=_vehicle(vehicle),
         ground=tables.get("ground", {}).get("model", "none") != "none",
         floor=floor,
@@ -86,7 +71,7 @@ def scene_of_tables(tables: Mapping[str, Any], vehicle: Vehicle, engine: str, fl
         spring=SPRING,
         phases=list(PHASE_NAMES),
         alarms=list(ALARM_TEXTS),
-        fields=list(layout_for(vehicle.rotor_count)),
+        fields=list(frames.layout_for(vehicle.rotor_count)),
         parameters=[],
     )
 
@@ -96,7 +81,7 @@ def _lowest(height: float, vehicle: Vehicle) -> float:
     return float(height + np.min(vehicle.soles[:, 2]))
 
 
-def _vehicle(vehicle: Vehicle) -> SceneVehicle:
+def _vehicle(vehicle: Vehicle) -> server.SceneVehicle:
     payload = vehicle.payload
     low, high = payload.box
     if payload.hulls:
@@ -111,18 +96,22 @@ def _vehicle(vehicle: Vehicle) -> SceneVehicle:
     blades, discs = ([_shape(s) for s in shapes if s.name.startswith(name)] for name in TURNING)
     turning = list(zip(blades, discs, strict=True))
     parts = zip(vehicle.quadrotors, vehicle.lever_arms, strict=True)
-    return SceneVehicle(
+    return server.SceneVehicle(
         quadrotors=[_quadrotor(q, center, turning[4 * i : 4 * i + 4]) for i, (q, center) in enumerate(parts)],
-        payload=ScenePayload(position=_list(middle), length=float(length), width=float(width), height=float(height)),
+        payload=server.ScenePayload(
+            position=_list(middle), length=float(length), width=float(width), height=float(height)
+        ),
         shapes=[_shape(s) for s in shapes if not s.name.startswith(TURNING)],
         mass=vehicle.mass,
     )
 
 
-def _quadrotor(quadrotor: Quadrotor, center: Array, shapes: Sequence[tuple[SceneShape, SceneShape]]) -> SceneQuadrotor:
+def _quadrotor(
+    quadrotor: Quadrotor, center: Array, shapes: Sequence[tuple[server.SceneShape, server.SceneShape]]
+) -> server.SceneQuadrotor:
     """A quadrotor at `center`; `shapes`: blades and disc of each rotor."""
     rotors = [
-        SceneRotor(
+        server.SceneRotor(
             position=_list(center + np.array([x, y, 0.0])),
             spin=int(spin),
             radius=quadrotor.rotor_radius,
@@ -133,11 +122,11 @@ def _quadrotor(quadrotor: Quadrotor, center: Array, shapes: Sequence[tuple[Scene
         )
         for (x, y), spin, (blades, disc) in zip(quadrotor.rotors, quadrotor.spins, shapes, strict=True)
     ]
-    return SceneQuadrotor(position=_list(center), guard=quadrotor.guard_radius, rotors=rotors)
+    return server.SceneQuadrotor(position=_list(center), guard=quadrotor.guard_radius, rotors=rotors)
 
 
-def _shape(shape: VisualShape) -> SceneShape:
-    return SceneShape(
+def _shape(shape: VisualShape) -> server.SceneShape:
+    return server.SceneShape(
         kind=shape.kind,
         size=_list(np.round(shape.size, DIGITS)),
         position=_list(np.round(shape.position, DIGITS)),
@@ -146,20 +135,20 @@ def _shape(shape: VisualShape) -> SceneShape:
     )
 
 
-def _wall(wall: Mapping[str, Any], floor: float) -> SceneWall:
+def _wall(wall: Mapping[str, Any], floor: float) -> server.SceneWall:
     """A wall from the floor to its top."""
     (x, y), (end_x, end_y), top = wall["start"], wall["end"], wall["top"]
-    return SceneWall(
+    return server.SceneWall(
         center=[(x + end_x) / 2.0, (y + end_y) / 2.0, (floor + top) / 2.0],
         size=[math.hypot(end_x - x, end_y - y), WALL_THICKNESS, top - floor],
         heading=math.atan2(end_y - y, end_x - x),
     )
 
 
-def _corridor(corridor: Mapping[str, Any]) -> SceneCorridor | None:
+def _corridor(corridor: Mapping[str, Any]) -> server.SceneCorridor | None:
     if not corridor.get("centreline"):
         return None
-    return SceneCorridor(centreline=corridor["centreline"], width=corridor["width"], height=corridor["height"])
+    return server.SceneCorridor(centreline=corridor["centreline"], width=corridor["width"], height=corridor["height"])
 
 
 def _list(values: Array) -> list[float]:
@@ -179,18 +168,21 @@ class FrameBuilder:
     def __init__(self, plan: FlightPlan) -> None:
         mission = plan.mission
         self.scene = scene_of(mission, plan.engine)
-        self._layout = layout_for(Vehicle.from_settings(mission.vehicle).rotor_count)
-        self._phases, self._columns = phase_times(tables_of(mission)["phases"]), channel_columns(plan.sample)
+        self._layout = frames.layout_for(Vehicle.from_settings(mission.vehicle).rotor_count)
+        self._phases, self._columns = (
+            frames.phase_times(tables_of(mission)["phases"]),
+            frames.channel_columns(plan.sample),
+        )
         self._start = plan.model.flight_state.state
 
-    def values(self, sample: Array, at: float) -> dict[str, Components]:
+    def values(self, sample: Array, at: float) -> dict[str, frames.Components]:
         """The values of the fields in a sample, at a time [s], component by component."""
         channels = {name: tuple(map(float, sample[columns])) for name, columns in self._columns.items()}
-        return field_values(channels, at, self._phases)
+        return frames.field_values(channels, at, self._phases)
 
     def frame(self, values: Mapping[str, ArrayLike]) -> bytes:
         """The frame of some values."""
-        return pack_frames(self._layout, values).tobytes()
+        return frames.pack_frames(self._layout, values).tobytes()
 
     def first(self) -> bytes:
         """The frame of a flight that has not begun."""

@@ -16,6 +16,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from tandemlift.apps.live.session import page_messages as page
+from tandemlift.apps.live.session import server_messages as server
 from tandemlift.apps.live.session.checks import check_may_tare, check_repeatable, check_takes_requests
 from tandemlift.apps.live.session.hand_control import HandControl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission, other_mission, with_whole_rotors
@@ -23,14 +24,6 @@ from tandemlift.apps.live.session.pacing import Pacer, RealTimeThread
 from tandemlift.apps.live.session.parameters import CHOICES, ParameterControl, scene_at
 from tandemlift.apps.live.session.saving import save_in_process
 from tandemlift.apps.live.session.scene_builder import FrameBuilder
-from tandemlift.apps.live.session.server_messages import (
-    Answer,
-    DoneMessage,
-    FlightScene,
-    FlightStatus,
-    RefusedMessage,
-    SceneMessage,
-)
 from tandemlift.apps.live.session.status import FlightFindings, Preparation, phase_of, refusals_now, status_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import Refusals
@@ -141,7 +134,7 @@ class Session:
         return self._flight.step - before
 
     @property
-    def scene(self) -> FlightScene:
+    def scene(self) -> server.FlightScene:
         """The scene with the present parameters."""
         return scene_at(self._frames.scene, self._flight.now if self.is_ready else self._mission, self._mission)
 
@@ -159,7 +152,7 @@ class Session:
         """The channels of the latest sample (1, …)."""
         return dict(channels_of(self._flight.layout, self._flight.sample[None, :].copy()))
 
-    def status(self) -> FlightStatus:
+    def status(self) -> server.FlightStatus:
         """The state of the flight in words, and its pace; before it flies, the progress of its preparation."""
         if not self.is_ready:
             return self._preparation.status()
@@ -179,7 +172,7 @@ class Session:
     def _values(self) -> dict[str, Any]:
         return self._frames.values(*self._flight.moment)
 
-    def apply(self, message: page.PageMessage) -> list[Answer]:
+    def apply(self, message: page.PageMessage) -> list[server.Answer]:
         """Apply a message; return the answers.
 
         Raises:
@@ -204,7 +197,7 @@ class Session:
         check_takes_requests(self._mission.pilot.guidance, self._mission.mission.name, what)
 
     @singledispatchmethod
-    def _handle(self, message: Any) -> list[Answer] | None:
+    def _handle(self, message: Any) -> list[server.Answer] | None:
         raise InputError(f"{message.type}: cannot be handled here")
 
     @_handle.register
@@ -213,12 +206,12 @@ class Session:
             self._hand.take(m, lambda: Quat(*self._values()["attitude"]))
 
     @_handle.register
-    def _ask(self, m: page.AskMessage) -> list[Answer]:
+    def _ask(self, m: page.AskMessage) -> list[server.Answer]:
         self._check_takes_requests(m.what)
         with self._lock:
             self._hand.request(m)
         refusal = None if m.what == "stop" else getattr(self.refusals, m.what)
-        return [RefusedMessage(type="refused", what=m.type, reason=str(refusal))] if refusal else []
+        return [server.RefusedMessage(type="refused", what=m.type, reason=str(refusal))] if refusal else []
 
     @_handle.register
     def _enable(self, m: page.EnableMessage) -> None:
@@ -256,44 +249,44 @@ class Session:
             self.generation += 1
 
     @_handle.register
-    def _fly_another(self, m: page.FlyMessage) -> list[Answer]:
+    def _fly_another(self, m: page.FlyMessage) -> list[server.Answer]:
         with self._parameters.turn:
             mission = other_mission(m)
             setup = self._setup(mission)
             self._begin(setup, FrameBuilder(setup.plan), mission)
             self.generation += 1
         self._flight.optimise()
-        return [DoneMessage(type="done", what="fly", detail=m.mission)]
+        return [server.DoneMessage(type="done", what="fly", detail=m.mission)]
 
     @_handle.register
-    def _save(self, m: page.SaveMessage) -> list[Answer]:
+    def _save(self, m: page.SaveMessage) -> list[server.Answer]:
         with self._lock:
             snapshot = self._flight.snapshot()
         folder = self._out / m.name
         save_in_process(snapshot, folder)
-        return [DoneMessage(type="done", what="save", detail=str(folder))]
+        return [server.DoneMessage(type="done", what="save", detail=str(folder))]
 
     @_handle.register
-    def _tare(self, m: page.TareMessage) -> list[Answer]:
+    def _tare(self, m: page.TareMessage) -> list[server.Answer]:
         with self._lock:
             phase = phase_of(self._flight, int(self._values()["phase"][0]), self._failed)
             check_may_tare(self._flight, self._frames.scene["vehicle"], phase)
-        return [DoneMessage(type="done", what="tare", detail=self._parameters.tare(self._flight))]
+        return [server.DoneMessage(type="done", what="tare", detail=self._parameters.tare(self._flight))]
 
     @_handle.register
     def _stop_rotor(self, m: page.KillMessage) -> None:
         self._parameters.stop_rotor(self._flight, m.rotor)
 
     @_handle.register
-    def _set(self, m: page.SetMessage) -> list[Answer]:
+    def _set(self, m: page.SetMessage) -> list[server.Answer]:
         value = list(m.value) if isinstance(m.value, tuple) else m.value
         return self._with_scene(self._parameters.set(self._flight, m.key, value))
 
     @_handle.register
-    def _restore(self, m: page.RestoreMessage) -> list[Answer]:
+    def _restore(self, m: page.RestoreMessage) -> list[server.Answer]:
         return self._with_scene(self._parameters.restore(self._flight, m.key))
 
-    def _with_scene(self, answers: list[Answer]) -> list[Answer]:
+    def _with_scene(self, answers: list[server.Answer]) -> list[server.Answer]:
         """Answers, and after a choice the scene, as there may be other parameters now."""
         chosen = any(one["type"] == "changed" and one["key"] in CHOICES for one in answers)
-        return [*answers, SceneMessage(type="scene", **self.scene)] if chosen else answers
+        return [*answers, server.SceneMessage(type="scene", **self.scene)] if chosen else answers

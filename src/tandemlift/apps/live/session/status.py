@@ -7,18 +7,10 @@ import time
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from tandemlift.apps.live.session import server_messages as server
 from tandemlift.apps.live.session.challenge import score_so_far
 from tandemlift.apps.live.session.checks import failed_rotors, tare_left
 from tandemlift.apps.live.session.pacing import Pacer
-from tandemlift.apps.live.session.server_messages import (
-    LOST,
-    PREPARING,
-    FlightStatus,
-    SceneEnding,
-    SceneVehicle,
-    StatusFinding,
-    StatusRefusals,
-)
 from tandemlift.core.faults import ALARM_TEXTS
 from tandemlift.core.findings import Finding
 from tandemlift.core.phases import PHASE_NAMES
@@ -28,7 +20,7 @@ from tandemlift.flight.record import Ending
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 FINDINGS_EVERY = 1.0  # s
-NO_REFUSALS = StatusRefusals(lift="", land="", push="")
+NO_REFUSALS = server.StatusRefusals(lift="", land="", push="")
 
 
 class Preparation:
@@ -42,11 +34,11 @@ class Preparation:
     def __init__(self) -> None:
         self.step, self.failure, self._began = "putting the flight together", "", time.perf_counter()
 
-    def status(self) -> FlightStatus:
+    def status(self) -> server.FlightStatus:
         """The status of a flight that has not begun."""
         seconds = round(time.perf_counter() - self._began, 1)
-        return FlightStatus(
-            phase="failed" if self.failure else PREPARING,
+        return server.FlightStatus(
+            phase="failed" if self.failure else server.PREPARING,
             alarm="",
             enabled=True,
             paused=False,
@@ -73,7 +65,7 @@ class FlightFindings:
     def __init__(self) -> None:
         self._of: RecordedFlight | None = None
         self._numbers: Array | None = None
-        self._due, self._found = 0, list[StatusFinding]()
+        self._due, self._found = 0, list[server.StatusFinding]()
 
     def look(self, flight: RecordedFlight) -> None:
         """Take the numbers of a flight if they are due; while it stands still."""
@@ -81,13 +73,13 @@ class FlightFindings:
             self._of, self._due = flight, flight.step + round(FINDINGS_EVERY / flight.dt)
             self._numbers = flight.numbers()
 
-    def add_to(self, status: FlightStatus) -> None:
+    def add_to(self, status: server.FlightStatus) -> None:
         """Add the findings at the last update, and the score so far; the flight may continue meanwhile."""
         status["findings"] = self._formed()
         if self._of and (score := score_so_far(self._of)):
             status["score"] = score
 
-    def _formed(self) -> list[StatusFinding]:
+    def _formed(self) -> list[server.StatusFinding]:
         flight, numbers = self._of, self._numbers
         if flight and numbers is not None:
             self._numbers = None
@@ -95,9 +87,9 @@ class FlightFindings:
         return self._found
 
 
-def told(findings: Iterable[Finding]) -> list[StatusFinding]:
+def told(findings: Iterable[Finding]) -> list[server.StatusFinding]:
     """Findings in the form of a page's message."""
-    return [StatusFinding(kind=f.kind, time=f.time, text=f.text) for f in findings]
+    return [server.StatusFinding(kind=f.kind, time=f.time, text=f.text) for f in findings]
 
 
 def phase_of(flight: RecordedFlight, number: int, failed: bool) -> str:
@@ -111,7 +103,7 @@ def phase_of(flight: RecordedFlight, number: int, failed: bool) -> str:
 
 def phase_after(ending: Ending) -> str:
     """The phase of a flight that was stopped before its end."""
-    return ending.outcome if ending.outcome in LOST else "failed"
+    return ending.outcome if ending.outcome in server.LOST else "failed"
 
 
 def refusals_now(flight: RecordedFlight, failed: bool) -> Refusals:
@@ -123,27 +115,27 @@ def refusals_now(flight: RecordedFlight, failed: bool) -> Refusals:
     return flight.refusals
 
 
-def scene_ending(ending: Ending | None, place: Iterable[float]) -> SceneEnding | None:
+def scene_ending(ending: Ending | None, place: Iterable[float]) -> server.SceneEnding | None:
     """Reason and place [m, world] of a flight stopped before its end, for a page; None if it was not."""
     if ending is None:
         return None
     at = [float(x) for x in place]
     known = at if all(map(math.isfinite, at)) else None
-    return SceneEnding(outcome=phase_after(ending), text=str(ending), time=ending.time, place=known)
+    return server.SceneEnding(outcome=phase_after(ending), text=str(ending), time=ending.time, place=known)
 
 
-def in_sentences(refusals: Refusals) -> StatusRefusals:
+def in_sentences(refusals: Refusals) -> server.StatusRefusals:
     """Refusals in the form of a page's message."""
     lift, land, push = (str(refusal or "") for refusal in refusals)
-    return StatusRefusals(lift=lift, land=land, push=push)
+    return server.StatusRefusals(lift=lift, land=land, push=push)
 
 
 def status_of(
-    flight: RecordedFlight, pacer: Pacer, values: Mapping[str, Any], vehicle: SceneVehicle, failed: bool
-) -> FlightStatus:
+    flight: RecordedFlight, pacer: Pacer, values: Mapping[str, Any], vehicle: server.SceneVehicle, failed: bool
+) -> server.FlightStatus:
     """The status of a flight, without its findings; `values`: of the fields of its latest frame."""
     most, pacer.most_behind = pacer.most_behind, 0.0
-    return FlightStatus(
+    return server.FlightStatus(
         phase=phase_of(flight, int(values["phase"][0]), failed),
         alarm=ALARM_TEXTS[int(values["alarm"][0])] if "alarm" in values else "",
         enabled=bool(flight.hand.enabled),
