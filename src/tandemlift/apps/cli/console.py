@@ -25,10 +25,11 @@ CLOSEST = 3  # checks that are named above the table
 AGAIN = 0.02  # s, until an interrupt that Python has swallowed is raised again
 
 
-def echo(text: str, *, nl: bool = True) -> None:
-    """Print to standard output; if it is closed (`| head`), continue without it."""
+def echo(*lines: str, nl: bool = True) -> None:
+    """Print lines to standard output; if it is closed (`| head`), continue without it."""
     try:
-        click.echo(text, nl=nl)
+        for line in lines:
+            click.echo(line, nl=nl)
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 

@@ -58,8 +58,7 @@ def shadow(
 
     began, loaded = time.perf_counter(), flying.load(mission, settings)
     taken = tl.read_log(log, **reading)
-    for note in taken.notes:
-        echo(note)
+    echo(*taken.notes)
     with results_folder(out, Path("out") / f"{loaded.mission.name}-shadow", flying.FILES) as folder:
         with progress_bar("Shadowing", "steps", shown=sys.stderr.isatty()) as progress:
             flight = tl.shadow(taken, loaded, progress=progress)
@@ -113,8 +112,7 @@ def identify(
     start, masses = flying.load(mission, settings), dict(map(_weighed, weighed))
     paths = [*logs, *([predict] if predict else [])]
     read = [tl.read_log(path, **reading) for path in paths]
-    for note in (note for log in read for note in log.notes):
-        echo(note)
+    echo(*(note for log in read for note in log.notes))
     other = read.pop() if predict else None
     keys = parameters.split(",") if parameters else None
     with results_folder(out, Path("out") / f"{start.mission.name}-identification", ()) as folder:
@@ -122,8 +120,7 @@ def identify(
             found = tl.identify(
                 read, start, parameters=keys, weighed=masses, window=window, predict=other, progress=progress
             )
-        for line in found.lines():
-            echo(line)
+        echo(*found.lines())
         for path in [*found.save(folder), write_identification(found.as_dict(), folder)]:
             echo(f"  {path.suffix[1:]}: {path}")
 

@@ -83,8 +83,7 @@ def new(
     if mass is not None and mass > beam.largest_mass:
         raise InputError(f"--mass {mass:g}: {heaviest_words(beam)}")
     beam = beam._replace(mass=_answer("mass", mass, min(beam.mass, beam.largest_mass), 1e-4, beam.largest_mass, "kg"))
-    for line in hover_words(beam):
-        echo(line)
+    echo(*hover_words(beam))
     with atomic_write(path) as partial_file:
         partial_file.write_text(new_mission(path.stem, beam), "utf-8")
         load_mission(partial_file.absolute())
@@ -162,8 +161,7 @@ def completion(shell: str) -> None:
 
 def _print_table(rows: Mapping[str, str]) -> None:
     width = max(map(len, rows)) + 2
-    for name, summary in rows.items():
-        echo(f"{name:{width}}{summary}")
+    echo(*(f"{name:{width}}{summary}" for name, summary in rows.items()))
 
 
 @click.command()

@@ -52,8 +52,7 @@ def linearize(
             file_path(option, path, *endings)
     count, names = how.pop("count"), {name: how[name] and how[name].split(",") for name in ("inputs", "outputs")}
     model = tl.linearize(load(mission, settings, controller), **{**how, **names})
-    for line in model.lines(count):
-        echo(line)
+    echo(*model.lines(count))
     if out:
         model.save(out)
         echo(f"model: {out}")
@@ -136,8 +135,7 @@ def certify(
     with results_folder(out, Path("out") / f"{loaded.mission.name}-certificate", ()) as folder:
         with progress_bar("Certifying", "tiers", shown=sys.stderr.isatty()) as shown:
             found = certified(loaded, chosen, folder=folder / "statistics", progress=shown, **how)
-        for line in certificate_lines(found):
-            echo(line)
+        echo(*certificate_lines(found))
         for path in write_certificate(found, folder):
             echo(f"  {path.suffix[1:]}: {path}")
     if strict and found.missed:
@@ -173,6 +171,5 @@ def excite(mission: str, time: float, room: str, push: float, out: str | None, s
     path = file_path("--out", out or f"{loaded.mission.name}-excited.toml", ".toml")
     design = tl.excite(loaded, time, room=sizes, push=push)
     write_file(path, design.text())
-    for line in design.lines():
-        echo(line)
+    echo(*design.lines())
     echo(f"mission: {path}")

@@ -102,12 +102,12 @@ def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
     _, saved = flight_file(flight)
     if saved is None:
         raise InputError(f"{flight}: there is no flight.npz; give the file, or the folder that `tandemlift run` wrote")
-    if html:
-        path, loaded = file_path("--html", html, *HTML), Flight.load(saved)
+    path = file_path("--html", html, *HTML) if html else None
+    loaded = Flight.load(saved)
+    if path:
         write_file(path, replay_html(loaded, page_files()))
         echo(f"{loaded.name}: {path}")
         return
-    loaded = Flight.load(saved)
     from tandemlift.apps.live.server import PageServer, serve_until_interrupt
 
     server = PageServer(replay_files(loaded, page_files()), host=HOST, port=port)
@@ -181,8 +181,7 @@ def score(folder: Path, mission: str, free: tuple[str, ...], settings: tuple[str
 
     with progress_bar("Flying", "flights") as progress:
         table, refused = ranked(folder, load(mission, settings), free, progress)
-    for line in table:
-        echo(line)
+    echo(*table)
     sys.exit(FAILED if refused else 0)
 
 
@@ -215,8 +214,7 @@ def grade(folder: Path, exercises: Path, seconds: float, out: str | None) -> Non
     with progress_bar("Grading", "notebooks", shown=sys.stderr.isatty()) as progress:
         grades = graded_class(notebooks, exercises, seconds, progress)
     table = table_of(grades)
-    for line in lines_of(table, [*remarks_of(grades), *others]):
-        echo(line)
+    echo(*lines_of(table, [*remarks_of(grades), *others]))
     if path:
         write_file(path, csv_of(table))
     sys.exit(FAILED if any(one.failure for one in grades.values()) else 0)

@@ -93,19 +93,10 @@ def cli() -> None:
     """
 
 
-_shown: set[str] = set()
-
-
-def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
-    if str(message) not in _shown:
-        _shown.add(str(message))
-        click.echo(f"warning: {message}", err=True)
-
-
 def main() -> None:
     """Run the command line: bad input ends with one message and exit code 2, never with a traceback."""
-    warnings.simplefilter("always", FlightWarning)
-    warnings.showwarning = _show_warning
+    warnings.simplefilter("once", FlightWarning)
+    warnings.showwarning = lambda message, *_, **__: click.echo(f"warning: {message}", err=True)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: child processes are ended too
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="replace")  # a terminal that lacks a character shows '?'

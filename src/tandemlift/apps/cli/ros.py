@@ -80,7 +80,7 @@ def ros(
     from tandemlift.engines.registry import engine_named
 
     if folder:
-        echo(str(ros1.folder()))
+        echo(str(ros1.FOLDER))
         return
     mission, arguments = split_words(words, DEFAULT)
     engine_named(engine)

@@ -136,7 +136,7 @@ def write_results(flight: Flight, folder: Path, began: float, recording: str | N
     from tandemlift.flight.summary import summary_lines
     from tandemlift.missions.recording import recording_bytes
 
-    echo("\n".join(summary_lines(flight)))
+    echo(*summary_lines(flight))
     if recording is not None:  # so that the folder can be flown anywhere
         write_file(folder / Path(recording).name, recording_bytes(recording))
     flying.write_flight(flight, folder, figures=figures)

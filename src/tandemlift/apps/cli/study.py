@@ -93,8 +93,7 @@ def study(
 
         with compile_notices.together():
             expected = estimate(plan)
-        for line in expected.lines(threads or os.cpu_count() or 1):
-            echo(f"  {line}")
+        echo(*(f"  {line}" for line in expected.lines(threads or os.cpu_count() or 1)))
         return
     folder = _fly(plan, out, part, threads)
     _print_outcomes(folder.path, metrics, report=not no_report)
@@ -118,8 +117,7 @@ def _print_outcomes(folder: Path, metrics: tuple[str, ...], *, report: bool) -> 
     from tandemlift.pictures.report.study.study_report import write_study_report
 
     study = load_study(folder)
-    for line in outcome_lines(study):
-        echo(f"  {line}")
+    echo(*(f"  {line}" for line in outcome_lines(study)))
     if report and not study.missing:
         echo(f"  report: {write_study_report(study, folder / 'report.html', metrics)}")
     echo(f"  table: tl.load_study({str(folder)!r})")
@@ -166,7 +164,7 @@ def benchmark(file: Path | None, quick: bool, out: str | None) -> None:
                 own = {entry.name: scores_of(entry, quick=quick, progress=progress)}
                 tables = {entry.kind: {**shipped_tables(quick=quick)[entry.kind], **own}}
         for kind, rows in tables.items():
-            echo("\n".join(lines_of(kind, rows)))
+            echo(*lines_of(kind, rows))
         for path, text in zip(SCORES, (json_of(tables), csv_of(tables)), strict=True):
             write_file(folder / path, text)
 
@@ -234,8 +232,7 @@ def compare(
     with results_folder(out, Path("out") / entered.name, [f"{stem}.{kind}" for kind in KINDS]) as folder:
         with progress_bar("Flying", "flights", shown=sys.stderr.isatty()) as progress:
             found = entered.fly(progress)
-        for line in found.lines():
-            echo(line)
+        echo(*found.lines())
         write_comparison(found, folder, stem)
         echo(f"  numbers: {folder / stem}.json")
     flying.exit_if_amiss(found.flights, strict=strict)

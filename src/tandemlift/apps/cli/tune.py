@@ -141,9 +141,7 @@ def _search(
         with compile_notices.together(), _progress() as progress:
             found = search(mission, changes=changes, progress=progress, **how)
         write_results(found, folder)
-    places = f"  mission: {folder / 'tuned.toml'}", f"  page: {folder / 'tune.html'}"
-    for line in (*tuning_lines(found), *places):
-        echo(line)
+    echo(*tuning_lines(found), f"  mission: {folder / 'tuned.toml'}", f"  page: {folder / 'tune.html'}")
     if not found.is_finished:
         click.echo("stopped; the best so far is written, and was not flown on holdout draws", err=True)
         sys.exit(INTERRUPTED)
@@ -189,8 +187,7 @@ def feel(mission: str, settings: tuple[str, ...], strict: bool) -> None:
     with without_flight_warnings():  # of pushes that are not flown here
         found = examined(flying.load(mission, settings))
     echo(f"{found.mission.mission.name}: the response to a standard push, by the closed form of the admittance")
-    for line in found.lines():
-        echo(f"  {line}")
+    echo(*(f"  {line}" for line in found.lines()))
     print_checks(found.checks)
     if strict and found.fails:
         sys.exit(flying.FAILED)
