@@ -23,7 +23,7 @@ from tandemlift.apps.live.session.session import Session
 from tandemlift.apps.ros.dds_types import PACKAGES
 from tandemlift.apps.ros.node import FlightNode
 from tandemlift.apps.ros.rclpy_node import RclpyNode
-from tandemlift.apps.ros.ros1 import VIEWS, folder
+from tandemlift.apps.ros.ros1 import FOLDER, VIEWS
 from tandemlift.apps.ros.sample_queue import Clock
 from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
@@ -60,16 +60,16 @@ def test_bad_input_is_refused_before_anything_is_compiled(arguments, words):
 
 def test_the_files_of_ros_s_tools_are_a_package_whose_node_can_be_run():
     result = CliRunner().invoke(cli, ["ros", "--folder"])
-    assert Path(result.output.strip()) == folder()
-    assert ElementTree.parse(folder() / "package.xml").getroot().findtext("name") == "tandemlift"
-    launch = ElementTree.parse(folder() / "launch" / "tandemlift.launch").getroot()
+    assert Path(result.output.strip()) == FOLDER
+    assert ElementTree.parse(FOLDER / "package.xml").getroot().findtext("name") == "tandemlift"
+    launch = ElementTree.parse(FOLDER / "launch" / "tandemlift.launch").getroot()
     own = launch.find("node")
     assert (own.get("pkg"), own.get("type")) == ("tandemlift", "node")
-    assert os.access(folder() / "node", os.X_OK)
+    assert os.access(FOLDER / "node", os.X_OK)
 
 
 def test_the_launch_file_of_ros_2_starts_our_command_with_options_that_it_has_and_a_view_that_is_there():
-    launch = ElementTree.parse(folder() / "launch" / "tandemlift.launch.xml").getroot()
+    launch = ElementTree.parse(FOLDER / "launch" / "tandemlift.launch.xml").getroot()
     values = {arg.get("name"): arg.get("default") for arg in launch.findall("arg")}
     node, rviz = (executable.get("cmd") for executable in launch.findall("executable"))
     command = re.sub(r"\$\(var (\w+)\)", lambda found: values.pop(found[1]), node).split()
@@ -77,7 +77,7 @@ def test_the_launch_file_of_ros_2_starts_our_command_with_options_that_it_has_an
     with cli.get_command(None, "ros").make_context("ros", command[2:]) as context:
         assert context.params["words"] == ("zigzag",)
         assert (context.params["version"], context.params["rate"]) == ("2", 100.0)
-    assert (folder() / "launch" / rviz.split("$(dirname)/")[1]).is_file()
+    assert (FOLDER / "launch" / rviz.split("$(dirname)/")[1]).is_file()
 
 
 def test_what_follows_ros_args_is_no_option_of_ours():
@@ -89,7 +89,7 @@ def test_what_follows_ros_args_is_no_option_of_ours():
 
 @pytest.mark.parametrize("view", VIEWS.values())
 def test_rviz_shows_topics_that_there_are(trial, view):
-    lines = (folder() / view).read_text("utf-8").splitlines()
+    lines = (FOLDER / view).read_text("utf-8").splitlines()
     named = ("Topic:", "Marker Topic:", "Value: /")
     shown = {last for line in lines if line.strip().startswith(named) and (last := line.split()[-1])[0] == "/"}
     assert len(shown) > 5

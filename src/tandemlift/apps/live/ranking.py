@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from tandemlift.apps.live.session.challenge import SCORE_FILE
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
+from tandemlift.apps.live.session.parameters import dotted_values
 from tandemlift.core.errors import InputError, shown, without_flight_warnings
 from tandemlift.core.types import Progress
 from tandemlift.flight.corridor_score import CorridorScore, score_of
@@ -64,7 +65,7 @@ def _flown_again(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]
         mission = load_mission(path if path.suffix == ".zip" else path / MISSION_FILE)
         if mission.person.recording is None:
             raise InputError(f"{path.name}: has no recording of a hand")
-        _check_unchanged(dict(_keys_of(tables_of(mission))), challenge, free)
+        _check_unchanged(dict(dotted_values(tables_of(mission))), challenge, free)
         hand = read_recording(mission.person.recording)
         score = score_of(fly(mission))
     claimed = _claimed(path)
@@ -96,14 +97,6 @@ def _check_unchanged(theirs: dict[str, Any], ours: Mapping[str, Any], free: tupl
             raise InputError(f"{key} = {shown(theirs.get(key))}: the challenge has {shown(ours.get(key))}")
 
 
-def _keys_of(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
-    for name, value in tables.items():
-        if isinstance(value, Mapping):
-            yield from _keys_of(value, f"{above}{name}.")
-        else:
-            yield above + name, value
-
-
 def ranked(
     folder: Path, challenge: Mission, free: Iterable[str] = (), progress: Progress | None = None
 ) -> tuple[list[str], int]:
@@ -119,7 +112,7 @@ def ranked(
         InputError: nothing was handed in.
     """
     (paths, others), results = handed_in(folder), list[HandedIn]()
-    keys = dict(_keys_of(tables_of(interactive_mission(challenge))))
+    keys = dict(dotted_values(tables_of(interactive_mission(challenge))))
     for path in paths:
         results.append(scored(path, keys, (*FREE, *free)))
         if progress:

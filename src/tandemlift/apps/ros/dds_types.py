@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
+import functools
 import importlib.util
 from collections.abc import Callable
 from typing import Any
 
 from tandemlift.apps.export.messages import modern
-from tandemlift.core.errors import extra
 
 PACKAGES = ("cyclonedds", "rosbags")
 NUMBERS = {"byte": "uint8", "char": "uint8"}  # what IDL calls otherwise
@@ -26,17 +26,6 @@ def missing_packages() -> list[str]:
     return [name for name in PACKAGES if importlib.util.find_spec(name) is None]
 
 
-def check_installed() -> None:
-    """Check that the extra `ros2` is installed.
-
-    Raises:
-        InputError: a package is missing.
-    """
-    with extra("ros2", "ROS 2"):
-        import cyclonedds  # noqa: F401
-        import rosbags  # noqa: F401
-
-
 class DdsTypes:
     """The classes of ROS 2's messages, by their names in ROS 1."""
 
@@ -46,16 +35,11 @@ class DdsTypes:
 
         self._idl = idl
         self._definitions = get_typestore(Stores.ROS2_HUMBLE).fielddefs
-        self._made: dict[str, Any] = {}
+        self._class_of = functools.cache(self._make)  # one class for each name, as Cyclone DDS compares them
 
     def __call__(self, name: str) -> type:
         """The class of a type, such as `nav_msgs/Odometry`."""
         return self._class_of(modern(name))
-
-    def _class_of(self, name: str) -> type:
-        if name not in self._made:
-            self._made[name] = self._make(name)
-        return self._made[name]
 
     def _make(self, name: str) -> type:
         package, _, kind = name.split("/")

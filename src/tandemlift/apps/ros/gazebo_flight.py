@@ -30,39 +30,26 @@ from tandemlift.simulation.fly import fly
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 
-class GazeboSession:
-    """A Gazebo server for one flight, which engine `gazebo` joins while the context of this is open.
+@contextmanager
+def _gazebo(mission: Mission, *, window: bool, real_time: bool) -> Iterator[str]:
+    """A Gazebo server for one flight, which engine `gazebo` joins within; the address of Gazebo's own transport.
 
     Args:
         mission: the mission that will be flown.
         window: whether to open Gazebo's window.
         real_time: whether to fly in real time.
 
-    Attributes:
-        master: address of Gazebo's own transport.
-        port: of the plugin, UDP.
-        check: raises a `ConnectionError` if the server has ended.
-
     Raises:
         InputError: there is no Gazebo, or no display for the window.
     """
-
-    def __init__(self, mission: Mission, *, window: bool = False, real_time: bool = False) -> None:
-        self.port = free_port(socket.SOCK_DGRAM)
-        with ExitStack() as closing:
-            self._server = GazeboServer(world_from(mission, self.port))
-            closing.callback(self._server.close)
-            self.master, self.check = self._server.master, self._server.check
-            if window:
-                closing.enter_context(_window(self.master))
-            closing.enter_context(_joined(self.port, self.check, real_time=real_time))
-            self._closing = closing.pop_all()
-
-    def __enter__(self) -> GazeboSession:
-        return self
-
-    def __exit__(self, *error: object) -> None:
-        self._closing.close()
+    port = free_port(socket.SOCK_DGRAM)
+    with ExitStack() as closing:
+        server = GazeboServer(world_from(mission, port))
+        closing.callback(server.close)
+        if window:
+            closing.enter_context(_window(server.master))
+        closing.enter_context(_joined(port, server.check, real_time=real_time))
+        yield server.master
 
 
 @contextmanager
@@ -124,23 +111,6 @@ def _window(master: str) -> Iterator[None]:
             client.wait()
 
 
-def fly_by_hand(mission: Mission, begun: Callable[[GazeboSession], None], *, window: bool) -> Flight:
-    """Fly a mission without its own pushes until Ctrl-C, in real time; pushes come by Gazebo's topic.
-
-    Args:
-        mission: whose pushes and person are left out.
-        begun: called before the first step.
-        window: whether to open Gazebo's window.
-    """
-    mission = interactive_mission(mission)
-    with GazeboSession(mission, window=window, real_time=True) as gazebo, _stop_signals() as stopped:
-        recorded = RecordedFlight(mission, "gazebo")
-        begun(gazebo)
-        while not (stopped() or recorded.over):
-            recorded.advance()
-        return recorded.snapshot().alone()
-
-
 @contextmanager
 def _stop_signals() -> Iterator[Callable[[], bool]]:
     """A function that returns whether SIGINT or SIGTERM has arrived; neither interrupts a step."""
@@ -162,16 +132,22 @@ def fly_in_gazebo(
     window: bool,
     real_time: bool,
 ) -> Flight:
-    """Fly a mission to its end, or by hand until Ctrl-C."""
+    """Fly a mission to its end; or, by hand, without its pushes and its person until Ctrl-C: Gazebo's topic pushes."""
 
-    def begun(gazebo: GazeboSession) -> None:
+    def begun(master: str) -> None:
         push = """gz topic -p /gazebo/default/tandemlift/push -m 'data: "force 2 0 0 point 0 0 0 duration 2"'"""
         say(f"{mission.mission.name} flies in Gazebo. To push it, run in another terminal:")
-        say(f"  {shell_command_for_user(gazebo.master, push)}" + "\n  Ctrl-C ends it" * by_hand)
+        say(f"  {shell_command_for_user(master, push)}" + "\n  Ctrl-C ends it" * by_hand)
         sys.stdout.flush()
 
-    if by_hand:
-        return fly_by_hand(mission, begun, window=window)
-    with GazeboSession(mission, window=window, real_time=real_time) as gazebo:
-        begun(gazebo)
-        return fly(mission, "gazebo", progress=progress)
+    if not by_hand:
+        with _gazebo(mission, window=window, real_time=real_time) as master:
+            begun(master)
+            return fly(mission, "gazebo", progress=progress)
+    mission = interactive_mission(mission)
+    with _gazebo(mission, window=window, real_time=real_time) as master, _stop_signals() as stopped:
+        recorded = RecordedFlight(mission, "gazebo")
+        begun(master)
+        while not (stopped() or recorded.over):
+            recorded.advance()
+        return recorded.snapshot().alone()

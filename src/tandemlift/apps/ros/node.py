@@ -240,8 +240,6 @@ def _save(session: Session, save: str | None, say: Callable[[str], None]) -> Non
 
 # ---- Which ROS it speaks
 
-VERSIONS = ("1", "2", "2-dds")
-
 
 def has_rclpy() -> bool:
     """Whether this Python has rclpy; nothing is imported."""
@@ -252,7 +250,7 @@ def version_for(asked: str | None) -> str:
     """The version of ROS to speak: 2 if there is rclpy, else 1 if there is rospy, else 2 by DDS, unless one is chosen.
 
     Args:
-        asked: one of `VERSIONS`, or None to take what is there.
+        asked: "1", "2" or "2-dds"; None to take what is there.
 
     Raises:
         InputError: none is chosen, and there is none; the text names the package to install.
@@ -275,7 +273,7 @@ def middleware_for(version: str, arguments: Sequence[str], say: Callable[[str], 
     """Connect to a ROS.
 
     Args:
-        version: one of `VERSIONS`; 2 is by rclpy where that can be used, else by DDS.
+        version: "1", "2" (by rclpy where that can be used, else by DDS) or "2-dds".
         arguments: remappings NAME:=VALUE, or `--ros-args` and what follows, as a launch file gives them.
         say: told why rclpy is not used although it is there.
         asked: whether a person chose this version; if not, the error names the other if there is one.

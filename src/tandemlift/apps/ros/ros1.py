@@ -7,10 +7,10 @@ import io
 import shutil
 import subprocess
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from tandemlift.apps.export.messages import MessageTypes
+from tandemlift.apps.live.session.parameters import dotted_values
 from tandemlift.apps.ros.middleware import Answer, ParameterFacts, TopicPublisher
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import DATA
@@ -18,7 +18,7 @@ from tandemlift.engines.gazebo_ros import PLACES
 from tandemlift.engines.rospy import import_rospy, message_type
 
 NAME = "tandemlift"
-FOLDER = DATA / "ros"
+FOLDER = DATA / "ros"  # of the ROS package `tandemlift`
 VIEWS = {"rviz": "tandemlift.rviz", "rviz2": "tandemlift_ros2.rviz"}
 OF_GAZEBO = {place.rpartition("/")[2] for place in PLACES}  # parameters of Gazebo's own below those of a node `NAME`
 OLD = {"builtin_interfaces/Time": "Time"}  # types without a message in ROS 1: of the package genpy
@@ -82,7 +82,7 @@ class Ros1:
         with self._master():
             tree = self._rospy.get_param("~", {})
         own = {name: value for name, value in tree.items() if name not in OF_GAZEBO} if tree else {}
-        self._seen = found = dict(_leaves(own))
+        self._seen = found = dict(dotted_values(own))
         return {key: value for key, value in found.items() if key not in self._kept or self._kept[key] != value}
 
     def keep(self, values: Mapping[str, Any]) -> None:
@@ -128,20 +128,6 @@ class Ros1:
 def _private(key: str) -> str:
     """A parameter's name in the node's namespace."""
     return "~" + key.replace(".", "/")
-
-
-def _leaves(tree: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
-    """The values of nested dictionaries by their keys with dots."""
-    for key, value in tree.items():
-        if isinstance(value, dict):
-            yield from _leaves(value, f"{above}{key}.")
-        else:
-            yield f"{above}{key}", value
-
-
-def folder() -> Path:
-    """The folder of the ROS package `tandemlift`."""
-    return FOLDER
 
 
 def start_rviz(name: str) -> subprocess.Popen[bytes]:

@@ -16,9 +16,9 @@ from typing import Any
 
 from tandemlift.apps.export.messages import MessageTypes
 from tandemlift.apps.export.topics import ROOT, OtherTopic
-from tandemlift.apps.ros.dds_types import DdsTypes, UntypedWriter, check_installed, encoded
+from tandemlift.apps.ros.dds_types import DdsTypes, UntypedWriter, encoded
 from tandemlift.apps.ros.middleware import Answer, ParameterFacts, TopicPublisher
-from tandemlift.core.errors import InputError, unknown
+from tandemlift.core.errors import InputError, extra, unknown
 from tandemlift.core.files import toml_tables
 
 TEXT = "std_msgs/String"
@@ -46,9 +46,10 @@ class Ros2:
     """
 
     def __init__(self, domain: int | None = None) -> None:
-        check_installed()
-        from cyclonedds.core import WaitSet
-        from cyclonedds.domain import DomainParticipant
+        with extra("ros2", "ROS 2"):
+            import rosbags  # noqa: F401
+            from cyclonedds.core import WaitSet
+            from cyclonedds.domain import DomainParticipant
 
         self._participant = DomainParticipant(_domain() if domain is None else domain)
         self.types, self.name, self.over = MessageTypes(DdsTypes(), numbered=False), "ROS 2 by DDS", False

@@ -137,10 +137,10 @@ class MarkerTopics:
 
     def extend_paths(self, flight: Flight, stamp: int) -> None:
         """Extend the paths by the last sample, and publish them."""
-        poses = (flight["position"], flight["attitude"]), (flight["reference_position"], None)
-        for path, (place, attitude) in zip(self._paths, poses, strict=True):
-            turned = quaternions(flight["reference_euler"][-1:]) if attitude is None else attitude[-1:]
-            path.extend(stamp, [*place[-1].tolist(), *turned[0].tolist()])
+        flown = flight["position"][-1], flight["attitude"][-1]
+        asked = flight["reference_position"][-1], quaternions(flight["reference_euler"][-1:])[0]
+        for path, (place, attitude) in zip(self._paths, (flown, asked), strict=True):
+            path.extend(stamp, [*place.tolist(), *attitude.tolist()])
 
 
 class PathTopic:

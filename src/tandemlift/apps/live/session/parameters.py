@@ -7,7 +7,7 @@ other; the flight does not wait for it.
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from tandemlift.apps.live.session import checks
@@ -65,6 +65,15 @@ def keys_of(tables: Tables, key: str) -> list[str]:
     if not key.startswith(EVERY):
         return [key]
     return [f"vehicle.quadrotors.{i}.{key.removeprefix(EVERY)}" for i in range(len(tables["vehicle"]["quadrotors"]))]
+
+
+def dotted_values(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
+    """The values of nested tables by their dotted keys."""
+    for name, value in tables.items():
+        if isinstance(value, Mapping):
+            yield from dotted_values(value, f"{above}{name}.")
+        else:
+            yield f"{above}{name}", value
 
 
 def value_of(tables: Tables, key: str) -> Any:
