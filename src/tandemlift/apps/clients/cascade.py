@@ -60,7 +60,7 @@ def gains_for(lag: float) -> LoopGains:
 
 
 class Demand(NamedTuple):
-    """What the outer loops ask of the inner ones: thrust [N], and roll, pitch, yaw [rad] or, if given, rates [rad/s].
+    """The demand on the inner loops: thrust [N], and roll, pitch, yaw [rad] or, if given, rates [rad/s].
 
     `target` is the position that is asked for [m], if there is one.
     """

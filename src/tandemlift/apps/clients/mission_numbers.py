@@ -7,11 +7,11 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any
 
 from tandemlift import InputError
 from tandemlift.apps.clients.flight import RealTimeFlight
 from tandemlift.apps.live.session.page_messages import SetMessage
+from tandemlift.apps.live.session.server_messages import SceneParameter
 
 
 @dataclass
@@ -36,35 +36,33 @@ def mission_numbers(flight: RealTimeFlight) -> Iterator[tuple[str, str, MissionN
         value = shown["value"]
         if isinstance(value, str):
             continue
-        numbers = list(value) if isinstance(value, list | tuple) else [value]
+        numbers = list(value) if isinstance(value, list) else [value]
         for n, number in enumerate(numbers):
             name = rest.replace(".", "_") + (f"_{n + 1}" if len(numbers) > 1 else "")
-            change = _changer(flight, shown["key"], numbers if len(numbers) > 1 else None, n, shown)
-            yield table, name, MissionNumber(number, change)
+            yield table, name, MissionNumber(number, _changer(flight, shown, numbers, n))
 
 
 PENDING = threading.BoundedSemaphore(8)  # changes at a time; a client that sends more is refused until some are made
 
 
-def _changer(
-    flight: RealTimeFlight, key: str, numbers: list[float] | None, n: int, shown: Any
-) -> Callable[[float], bool]:
-    """What changes a number in flight, in a thread: it may compile; False if it is out of bounds, or too many wait."""
+def _changer(flight: RealTimeFlight, shown: SceneParameter, numbers: list[float], n: int) -> Callable[[float], bool]:
+    """A function that changes the number `n` of a parameter in flight, in a thread, as that may compile.
+
+    It returns False for a number that is out of bounds, or if too many changes wait.
+    """
 
     def change(number: float) -> bool:
         if not shown.get("min", number) <= number <= shown.get("max", number):
             return False
         if not PENDING.acquire(blocking=False):
             return False
-        value: Any = number
-        if numbers is not None:
-            numbers[n] = number
-            value = tuple(numbers)
+        numbers[n] = number
+        value = tuple(numbers) if len(numbers) > 1 else number
 
         def apply() -> None:
             try:
                 with suppress(InputError):  # it has no effect in this mission, or the flight is over
-                    flight.session.apply(SetMessage(seq=0, key=key, value=value))
+                    flight.session.apply(SetMessage(seq=0, key=shown["key"], value=value))
             finally:
                 PENDING.release()
 

@@ -1,4 +1,4 @@
-"""What quadrotors on one rigid body have in common: its rotation, its inner loops, one demand in place of several."""
+"""Quadrotors on one rigid body: the inner loops that they share, and one demand in place of several."""
 
 from __future__ import annotations
 
@@ -16,18 +16,6 @@ def vector(values: np.ndarray) -> Vector:
     """Three numbers."""
     x, y, z = values.tolist()
     return x, y, z
-
-
-def rotation(quaternion: np.ndarray) -> np.ndarray:
-    """The rotation matrix (3 × 3), body to world, of a unit quaternion (w, x, y, z)."""
-    w, x, y, z = quaternion.tolist()
-    return np.array(
-        [
-            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
-            [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
-            [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
-        ]
-    )
 
 
 def tilt(quaternion: Sequence[float]) -> float:

@@ -17,7 +17,9 @@ import numpy as np
 from tandemlift import InputError, Vehicle
 from tandemlift.apps.clients import setpoints as sp
 from tandemlift.apps.clients.cascade import GRAVITY, Demand, OuterLoops, gains_for
-from tandemlift.apps.clients.one_body import LoopGroup, rotation, tilt, together, vector
+from tandemlift.apps.clients.one_body import LoopGroup, tilt, together, vector
+from tandemlift.core.vector import Quat
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 Control = Literal["own", "shared"]
 INNER_EVERY, OUTER_EVERY = 0.002, 0.01  # s; crazyflie-firmware, stabilizer_types.h: ATTITUDE_RATE, POSITION_RATE
@@ -28,7 +30,7 @@ IDLE = 0.05  # of the weight: more thrust than this is a flight
 
 
 class FailSafe(NamedTuple):
-    """What happens without a new setpoint: after `level` [s] the quadrotor levels out, after `stop` [s] it stops.
+    """The reaction to lost setpoints: after `level` [s] the quadrotor levels out, after `stop` [s] it stops.
 
     With a `sink` [m/s], it sinks at this speed from `level` on, and stops once it stands.
 
@@ -185,7 +187,7 @@ class Quadrotors:
 
     def _states_at(self, time: float, numbers: Iterable[float]) -> list[sp.QuadrotorState]:
         position, velocity, attitude, rates = np.split(np.fromiter(numbers, float, 13), (3, 6, 10))
-        R, arms = rotation(attitude), self.vehicle.lever_arms
+        R, arms = np.array(rotation_from_quaternion(Quat(*attitude.tolist()))), self.vehicle.lever_arms
         places, velocities = position + arms @ R.T, velocity + np.cross(rates, arms) @ R.T
         before = [s.velocity for s in self._states] or velocities
         forces = ((velocities - before) / self._dt + (0.0, 0.0, GRAVITY)) @ R
@@ -217,7 +219,7 @@ class Quadrotors:
                     self._flown[i] = self._without_setpoint(i, commanded[0], age)
 
     def _without_setpoint(self, i: int, last: sp.Setpoint, age: float) -> sp.Setpoint | None:
-        """What quadrotor `i` does as no setpoint has come after the `last` one, for a time [s]."""
+        """The setpoint of quadrotor `i` if none came for a time [s] after the `last` one; None: its rotors stop."""
         safe, state = self._fail_safe, self._states[i]
         if safe.sink:
             if age > safe.level + SETTLING and abs(state.velocity[2]) < 0.2 * safe.sink:  # it stands
@@ -255,6 +257,7 @@ class Quadrotors:
             self._agree(numbers)
             demand = together(demands, [self._arms[i] for i in numbers])
             moment = group.inner.moment(sp.mean_attitude([self._states[i] for i in numbers]), demand, self._dt)
+            # a quadrotor without a setpoint is carried: the others' mean thrust stands for its share
             wrench = (demand.thrust * len(group.members) / len(flown), *moment)
             turning = tuple(self.supervision[i] is not ArmingState.LOCKED for i in group.members)
             self._thrusts[group.rotors] = group.thrusts(wrench, turning, self._max[group.rotors])

@@ -1,4 +1,4 @@
-"""What a client sends to a quadrotor, and what it reads of it: SI units; world z up, body x ahead, y left, z up.
+"""Setpoints that a client sends, and the state that it reads: SI units; world z up, body x ahead, y left, z up.
 
 A quaternion is (w, x, y, z), body to world. Roll, pitch and yaw are about x, y and z, right-handed: R = Rz(yaw)
 Ry(pitch) Rx(roll), so a positive pitch lowers the nose. Protocols with other signs convert at their border.
@@ -43,7 +43,7 @@ class QuadrotorState(NamedTuple):
 
 
 class EstimateError(NamedTuple):
-    """What a quadrotor's own estimate is off: a rotation [rad, body], rates [rad/s, body], a position [m, world]."""
+    """The error of a quadrotor's own estimate: a rotation [rad, body], rates [rad/s, body], a position [m, world]."""
 
     rotation: Vector = ZERO
     rates: Vector = ZERO

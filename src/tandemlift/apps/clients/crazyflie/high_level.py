@@ -151,7 +151,7 @@ class HighLevelCommander:
         return NO_COMMAND
 
     def _start(self, state: QuadrotorState) -> Moment:
-        """Where a path begins: on the present one, or at the quadrotor."""
+        """The begin of a path: on the present one, or at the quadrotor."""
         if self.plan is not None:
             return self.plan.at(state.time)
         return Moment((*state.position, state.euler[2]), (*state.velocity, 0.0), (0.0,) * 4)

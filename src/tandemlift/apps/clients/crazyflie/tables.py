@@ -20,11 +20,9 @@ LOG_TYPES = {"B": 1, "H": 2, "I": 3, "b": 4, "h": 5, "i": 6, "f": 7, "e": 8}  # 
 LOG_FORMATS = {number: letter for letter, number in LOG_TYPES.items()}
 PARAMETER_TYPES = {"b": 0, "h": 1, "i": 2, "f": 6, "d": 7, "B": 8, "H": 9, "I": 10}
 EXTENDED, READ_ONLY, PERSISTENT = 0x10, 0x40, 1
-RANGES = {"B": (0, 2**8 - 1), "H": (0, 2**16 - 1), "I": (0, 2**32 - 1)} | {
-    "b": (-(2**7), 2**7 - 1),
-    "h": (-(2**15), 2**15 - 1),
-    "i": (-(2**31), 2**31 - 1),
-}
+BITS = {"b": 8, "h": 16, "i": 32}  # of whole numbers; those without a sign have capital letters
+RANGES = {letter.upper(): (0, 2**n - 1) for letter, n in BITS.items()}
+RANGES |= {letter: (-(2 ** (n - 1)), 2 ** (n - 1) - 1) for letter, n in BITS.items()}
 LARGEST_HALF, LARGEST_SINGLE = 65504.0, 3.4028234e38
 
 
