@@ -98,7 +98,7 @@ Words = dict[str, dict[str, str]]
 
 @cache
 def known_words() -> Words:
-    """By kind, the words and what each is: as the install has them, or else formed."""
+    """The words by kind, each with its meaning: as the install has them, or else formed."""
     shipped = shipped_text()
     return json.loads(shipped) if shipped else formed_words()
 

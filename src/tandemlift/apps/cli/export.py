@@ -1,4 +1,4 @@
-"""What one takes elsewhere: `tandemlift export`, `compile` and `render`.
+"""Files for use elsewhere: `tandemlift export`, `compile` and `render`.
 
 A saved flight becomes a ROS bag or a table, a mission a model or code for other machines, and both a picture or an
 animation, drawn without a display.

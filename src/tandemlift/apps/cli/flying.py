@@ -1,4 +1,4 @@
-"""What commands that fly missions share: options, loading, the files of a flight, findings and exit codes."""
+"""Common to commands that fly missions: options, loading, the files of a flight, findings and exit codes."""
 
 from __future__ import annotations
 

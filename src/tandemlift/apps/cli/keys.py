@@ -1,4 +1,4 @@
-"""What one looks up or begins with: `tandemlift new`, `missions`, `controllers`, `engines`, keys, words for shells."""
+"""Commands to begin with and to look up: `new`, `missions`, `controllers`, `engines`, keys, and words for shells."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ OF_ALL = ("time", "time_unit")  # keys that a map may give for all streams at on
 
 
 class Way(NamedTuple):
-    """Where a stream is: a table of a map.
+    """The place of a stream in a log: a table of a map.
 
     Attributes:
         columns: their names, in the order of the stream's.

@@ -92,7 +92,7 @@ class NewBeam(NamedTuple):
 
 
 def hover_words(beam: NewBeam) -> Iterator[str]:
-    """What a vehicle can lift, and how far it is from its limits, in lines."""
+    """Lines that say what a vehicle can lift, and how far it is from its limits."""
     hover = beam.mission.hover
     yield f"two {beam.model} and a beam of {beam.length:g} m and {beam.mass:g} kg: {hover.mass:.3g} kg"
     yield f"  thrust over weight          {hover.lift / hover.weight:.2f}"

@@ -42,7 +42,7 @@ class TopicPublisher:
 
 
 class ParameterFacts(NamedTuple):
-    """What a tool shows of a parameter: its meaning with unit and choices, and the bounds of its numbers if any."""
+    """Facts of a parameter that tools show: its meaning with unit and choices, and the bounds of its numbers if any."""
 
     meaning: str
     low: float | None = None

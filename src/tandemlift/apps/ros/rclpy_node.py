@@ -196,14 +196,14 @@ class RclpyNode:
         self._keeper = 0
 
     def _descriptor(self, key: str, value: Any) -> Any:
-        """What tools show of a parameter; its type is left to our own check, whose text says more."""
+        """The descriptor that tools show of a parameter; its type is left to our own check, whose text says more."""
         from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
 
         about = self._facts.get(key, ParameterFacts(key))
         made = ParameterDescriptor(description=about.meaning, dynamic_typing=True)
         if about.low is not None and about.high is not None:
             made.additional_constraints = f"each from {about.low:g} to {about.high:g}"
-            if isinstance(value, float):
+            if isinstance(value, float):  # rclpy applies a range to single numbers only
                 made.floating_point_range = [FloatingPointRange(from_value=about.low, to_value=about.high)]
         return made
 

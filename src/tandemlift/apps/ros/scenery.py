@@ -1,4 +1,4 @@
-"""What RViz displays: vehicle, floor and walls once, push and reference as they move; each shape a `Marker`."""
+"""The scene in RViz: vehicle, floor and walls once, push and reference as they move; each shape a `Marker`."""
 
 from __future__ import annotations
 
@@ -30,7 +30,10 @@ FAINTEST = 0.05  # N
 
 
 def quaternion_from(R: Array) -> tuple[float, float, float, float]:
-    """The quaternion w, x, y, z of a rotation (3 × 3): the eigenvector of Bar-Itzhack's K (2000) for its value 1."""
+    """The quaternion w, x, y, z of a rotation (3 × 3): the eigenvector of Bar-Itzhack's K (2000) for its value 1.
+
+    Unlike Shepperd's formulas it needs no case for each largest component.
+    """
     K = np.empty((4, 4))
     K[0, 0], K[1:, 1:] = np.trace(R), R + R.T - np.trace(R) * np.eye(3)
     K[0, 1:] = K[1:, 0] = R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]
