@@ -231,6 +231,7 @@ class InnerLoops:
             clip(rate, math.sqrt(2.0 * brake * abs(e)) + RATE_AT_GOAL)
             for rate, brake, e in zip((a, b, c), self._brakes, error, strict=True)
         )
+        # body rates from the rates of the angles of Rz(yaw) Ry(pitch) Rx(roll)
         sin_roll, cos_roll, cos_pitch = math.sin(roll), math.cos(roll), math.cos(pitch)
         return (
             clip(a - math.sin(pitch) * c, MAX_COMMANDED_RATE),

@@ -203,20 +203,21 @@ class Quadrotors:
         """Find the setpoint of each quadrotor that is flown now, and lock those that must not fly on."""
         self._flown = [None] * self.count
         for group in self._groups:
-            last = {i: at for i in group.members if (commanded := self._setpoints[i]) for at in [commanded[1]]}
+            heard = [commanded[1] for i in group.members if (commanded := self._setpoints[i])]
             for i in group.members:
                 if self.is_armed(i) and self.is_tumbled(i):
                     self.lock(i)
                 commanded = self._setpoints[i]
                 if not self.is_armed(i) or commanded is None or isinstance(commanded[0], sp.Stop):
                     continue
-                age = now - max(last.values())
+                setpoint, at = commanded
+                age = now - max([at, *heard])  # of the last one of any: a member without commands is no loss
                 if age <= self._fail_safe.level:
                     self.supervision[i] = ArmingState.ARMED
-                    if now - last[i] <= self._fail_safe.level:  # else it is carried, by what the others are commanded
-                        self._flown[i] = commanded[0]
+                    if now - at <= self._fail_safe.level:  # else it is carried, by what the others are commanded
+                        self._flown[i] = setpoint
                 elif self.is_flying(i):
-                    self._flown[i] = self._without_setpoint(i, commanded[0], age)
+                    self._flown[i] = self._without_setpoint(i, setpoint, age)
 
     def _without_setpoint(self, i: int, last: sp.Setpoint, age: float) -> sp.Setpoint | None:
         """The setpoint of quadrotor `i` if none came for a time [s] after the `last` one; None: its rotors stop."""
