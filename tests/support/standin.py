@@ -34,7 +34,7 @@ class StandIn:
     def __init__(self, mission: str = "hover", *, wait: threading.Event | None = None) -> None:
         self.mission = load_mission(mission)
         parameters = [{"key": "admittance.mass", "label": "virtual mass", "value": [1.0], "min": [0.1], "max": [9.0]}]
-        self.scene = scene_of(self.mission, "compiled", parameters=parameters)
+        self.scene = {**scene_of(self.mission, "compiled"), "parameters": parameters}
         self.fields = layout_for(8)
         self.generation, self.steps, self.released = 0, 0, 0
         self.heard: list[PageMessage] = []

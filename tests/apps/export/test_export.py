@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from exported import SAMPLES, eventful, flight_of, mcap_of, numbers, stamps, xyz
+from exported import SAMPLES, flight_of, mcap_of, numbers, stamps, xyz
 from patience import completed
 from reference_tables.topics import other_topics, topics_of_every_flight, topics_of_some_flights
 from repository import SUPPORT
@@ -28,16 +28,6 @@ MD5 = {  # as ROS Noetic's own packages have them
     "std_msgs/String": "992ce8a1687cec8c8bd883ec73ca41d1",
     "tf2_msgs/TFMessage": "94810edda583a504dfda3829e70d7eec",
 }
-
-
-@pytest.fixture(scope="module")
-def flight():
-    return eventful()
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return tmp_path_factory.mktemp("exported")
 
 
 @pytest.fixture(scope="module")

@@ -8,21 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from exported import SAMPLES, eventful, flight_of
+from exported import SAMPLES, flight_of
 
 import tandemlift as tl
 from tandemlift.apps.export import write
 from tandemlift.apps.export.write import export
-
-
-@pytest.fixture(scope="module")
-def flight():
-    return eventful()
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return tmp_path_factory.mktemp("exported")
 
 
 def check_table_of(path):

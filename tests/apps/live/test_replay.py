@@ -19,6 +19,7 @@ import pytest
 from live_page import PAGE, Running, put_page
 from patience import PATIENCE, said
 from scipy.spatial.transform import Rotation
+from sessions import read_frames
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
@@ -26,7 +27,7 @@ from tandemlift.apps.live import page_files as pages
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.replay import replay_files, replay_html, scene_and_frames
 from tandemlift.apps.live.server import PageServer
-from tandemlift.apps.live.session.frames import layout_for, read_frames
+from tandemlift.apps.live.session.frames import layout_for
 from tandemlift.apps.live.session.scene_builder import scene_of
 from tandemlift.engines.models.visuals import FRONT, REAR
 
@@ -169,7 +170,7 @@ def test_samples_that_are_no_numbers_are_left_out(flight):
 
 def test_a_scene_is_the_vehicle_of_the_mission():
     mission = tl.load_mission("zigzag")
-    scene = json.loads(json.dumps(scene_of(mission, "compiled", parameters=[{"key": "a"}]), allow_nan=False))
+    scene = json.loads(json.dumps(scene_of(mission, "compiled"), allow_nan=False))
     vehicle = scene["vehicle"]
     assert vehicle["mass"] == 3.5
     assert [len(q["rotors"]) for q in vehicle["quadrotors"]] == [4, 4]
@@ -183,7 +184,7 @@ def test_a_scene_is_the_vehicle_of_the_mission():
     assert scene["ground"] is True
     assert scene["floor"] == pytest.approx(0.03 + first["position"][2] - 0.18, abs=1e-3)  # it stands on its feet
     assert scene["threshold"] == list(mission.admittance.threshold)
-    assert scene["parameters"] == [{"key": "a"}]
+    assert scene["parameters"] == []
     assert scene["fields"][-1] == ["thrusts", 8]
 
 

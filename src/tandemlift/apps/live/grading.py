@@ -41,7 +41,7 @@ class Graded(NamedTuple):
 
 
 class Grade(NamedTuple):
-    """What a notebook got: each check, and the reason why it could not be run to its end."""
+    """The grade of a notebook: each check, and the reason why it could not be run to its end."""
 
     checks: tuple[Graded, ...] = ()
     failure: str = ""
@@ -95,7 +95,7 @@ def _is_blank(answer: Any) -> bool:
 
 
 def _place(error: BaseException) -> str:
-    """Where an answer raised: "`step`, line 3: "."""
+    """The place where an answer raised: "`step`, line 3: "."""
     frames = traceback.extract_tb(error.__traceback__)
     ours = [f for f in frames if f.filename.startswith("cell ") or "ipykernel" in f.filename]
     return f"`{ours[-1].name}`, line {ours[-1].lineno}: " if ours else ""
@@ -121,7 +121,7 @@ class Notebook(NamedTuple):
 
 
 def notebooks_in(folder: Path) -> tuple[list[Notebook], list[str]]:
-    """What a class handed in: notebooks by name and exercise; and a line for each that is none of an exercise.
+    """The notebooks that a class handed in, by name and exercise; and a line for each that is none of an exercise.
 
     Raises:
         InputError: there is no such folder, or no notebook in it.
@@ -216,7 +216,7 @@ def _run_apart(notebook: Notebook, checks: SimpleNamespace, report: Connection) 
 def graded_class(
     notebooks: Iterable[Notebook], exercises: Path, seconds: float = 20.0, progress: Progress | None = None
 ) -> dict[Notebook, Grade]:
-    """What each notebook got, each run in a process of its own, as many together as there are processors.
+    """The grade of each notebook, each run in a process of its own, as many together as there are processors.
 
     Args:
         notebooks: from `notebooks_in`.

@@ -78,17 +78,12 @@ OWN = ("type", "seq")  # fields that the page writes by itself
 
 
 def message_rules() -> dict[str, dict[str, dict[str, Any]]]:
-    """By message and field: count of numbers (0 if they are not named separately), their bounds, and the refusal."""
+    """The rules by message and field: count of numbers (0 if they have no names of their own), bounds, and refusal."""
     found = {}
     for name, kind in PAGE_MESSAGES.items():
         rules = {field: _rule(name, field, kind) for field in kind.model_fields if field not in OWN}
         found[name] = {field: rule for field, rule in rules.items() if rule}
     return {name: rules for name, rules in found.items() if rules}
-
-
-def name_rule() -> tuple[str, str]:
-    """The regular expression of the name of a saved flight, and the refusal of another."""
-    return NAME_PATTERN, f"save.name = {{value}}: must {NAME_RULE}"
 
 
 def _rule(message: str, field: str, kind: type[NumberedMessage]) -> dict[str, Any] | None:
@@ -120,14 +115,13 @@ ENGINE = "compiled"
 ONLY_SERVER = "{what}: only a flight of `tandemlift live` has it"
 OTHER_LAWS = "{key}: the module of this page cannot take it in flight; `tandemlift live` can"
 MOST_NUMBERS = 6  # of a list that a key takes
-STATUS_EVERY = frames.RATE // 4  # frames
 
 
 def page_manifest(plan: FlightPlan) -> dict[str, Any]:
     """The manifest of a mission that was made interactive."""
     mission = plan.mission
     scene = scene_of(mission, ENGINE)
-    rule = checks.touch_rule(mission, scene["vehicle"])
+    rule = checks.touch_rule(mission.pilot.push, mission.estimator, scene["vehicle"])
     tables = tables_of(mission)
     tables.pop("changes", None)
     parameters = list(parameters_of(tables, tables))
@@ -158,13 +152,13 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
         "pacing": _pacing(),
         "texts": _texts(plan, rule),
         "rules": message_rules(),
-        "save_name": name_rule()[0],
+        "save_name": NAME_PATTERN,
         "files": {"mission": MISSION, "hand": HAND, "score": SCORE_FILE},
     }
 
 
 def _challenge(plan: FlightPlan) -> dict[str, Any]:
-    """How the page scores a flight through a corridor: steps of a row of the log, and the columns in a sample."""
+    """The numbers by which a page scores a flight through a corridor: rules, steps of a row of the log, columns."""
     columns = frames.channel_columns(plan.sample)
     return {
         "every": plan.every,
@@ -217,7 +211,7 @@ def _pacing() -> dict[str, float]:
         "echo": frames.ECHO,
         "fresh": frames.FRESH,
         "silent": SILENT,
-        "status_every": STATUS_EVERY,
+        "status_every": frames.STATUS_EVERY,
     }
 
 
@@ -254,6 +248,6 @@ def _texts(plan: FlightPlan, rule: checks.TouchRule) -> dict[str, Any]:
         "refused_at_end": {key: in_sentences(refusals_for(key)) for key in ("over", "stopped_early", "error")},
         "endings": _endings(plan),
         "empty": EMPTY_FLIGHT,
-        "name": name_rule()[1],
+        "name": f"save.name = {{value}}: must {NAME_RULE}",
         "only_server": ONLY_SERVER,
     }

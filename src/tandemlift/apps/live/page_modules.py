@@ -78,7 +78,7 @@ def _packed(name: str, title: str, data: bytes) -> PackedFlight:
 def _data_of(mission: Mission) -> bytes:
     manifest, code = flight_manifest(mission)
     text = json.dumps(manifest, allow_nan=False, separators=(",", ":")).encode()
-    return gzip.compress(len(text).to_bytes(4, "little") + text + code, 9, mtime=0)
+    return gzip.compress(len(text).to_bytes(4, "little") + text + code, 9, mtime=0)  # no time: the same bytes again
 
 
 class PageFlight:

@@ -23,7 +23,7 @@ EQUAL = 1e-6  # s: scores are the same
 
 
 class HandedIn(NamedTuple):
-    """What a participant handed in: name, and its score, or the reason for which it has none; its recording."""
+    """A flight that was handed in: name, score or the reason for which it has none, and its recording."""
 
     name: str
     score: CorridorScore | None
@@ -32,7 +32,7 @@ class HandedIn(NamedTuple):
 
 
 def handed_in(folder: Path) -> tuple[list[Path], list[Path]]:
-    """What a folder holds, by name: saved flights, a folder or a .zip each, as pages save them; and all else.
+    """The content of a folder, by name: saved flights, a folder or a .zip each, as pages save them; and all else.
 
     Raises:
         InputError: there is no such folder, or no flight in it.

@@ -30,13 +30,12 @@ with extra("live", "the live page"):
 from tandemlift.apps.live.access import HOST, PORT, AccessControl, RequestHead, listen
 from tandemlift.apps.live.dispatch import Dispatcher
 from tandemlift.apps.live.page_files import media_type_of
-from tandemlift.apps.live.session.frames import RATE
+from tandemlift.apps.live.session.frames import RATE, STATUS_EVERY
 from tandemlift.apps.live.session.page_messages import MAX_SIZE
 from tandemlift.apps.live.session.server_messages import SceneMessage
 from tandemlift.apps.live.session.session import Session
 from tandemlift.apps.live.viewers import FAREWELL, Viewer, Viewers, dismiss
 
-STATUS_EVERY = RATE // 4  # frames
 MAX_VIEWERS = 16
 DISMISSED = 5.0  # s, for which a page that was disconnected for flooding keeps its place
 SEND_BUFFER = 16_384  # bytes that the system may hold back for a page; more would be outdated when it arrives

@@ -9,12 +9,11 @@ from typing import cast
 
 from tandemlift.apps.live.session import page_messages as page
 from tandemlift.apps.live.session.checks import check_repeatable
-from tandemlift.apps.live.session.hand_control import HandControl
+from tandemlift.apps.live.session.hand_control import HandControl, hands_off
 from tandemlift.apps.live.session.interactive_mission import with_whole_rotors
 from tandemlift.apps.live.session.parameters import scene_at
 from tandemlift.apps.live.session.server_messages import Answer, FlightScene, FlightStatus
 from tandemlift.apps.live.session.session import Session
-from tandemlift.core.vector import ZERO
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 
@@ -68,11 +67,6 @@ class TwoFlights(Session):
                     again.hold(self._flight.hand)
         return answers
 
-    def _flown_again(self, past: RecordedFlight, steps: int) -> RecordedFlight:
-        again = RecordedFlight(past.start, self._engine)
-        again.repeat(past, min(steps, past.step))
-        return again
-
     def _compare(self, message: page.CompareMessage) -> None:
         check_repeatable(self._engine, "compare")
         with self._parameters.turn:
@@ -87,7 +81,7 @@ class TwoFlights(Session):
             elif self._ghost is not None:
                 with self._lock:
                     for one in (self._flight, self._ghost):
-                        one.hold(one.hand._replace(held=0.0, force=ZERO, lift=0.0, land=0.0))
+                        hands_off(one)
                     self._flight, self._ghost, self._failed = self._ghost, self._flight, False
                     self._hand = HandControl(self._flight, self._frames.scene["vehicle"])
                     self._swaps += 1

@@ -7,38 +7,31 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from time import thread_time
-from typing import Any, Literal, Protocol
+from typing import Any, Literal
 
 from pydantic_core import to_json
 from websockets.asyncio.server import ServerConnection, broadcast
 
 from tandemlift.apps.live.session import page_messages as page
 from tandemlift.apps.live.session.frames import ECHO, FRESH
-from tandemlift.apps.live.session.page_messages import Refusal
+from tandemlift.apps.live.session.page_messages import SILENT, Refusal
 from tandemlift.apps.live.session.server_messages import FlightStatus, RefusedMessage, TurnStatus
 
 IDLE = 30.0  # s without a message, after which the hand goes on to a page that waits
 
 
-class Player(Protocol):
-    """A page that takes turns: its number, and the time of its last message [s]."""
-
-    number: int
-    last_message: float
-
-
 class Turns:
-    """The queue of players, of whom the first has the hand since a time [s].
+    """The queue of pages that take turns, of which the first has the hand since a time [s].
 
     While nobody has it, each page may use the flight. A page that has it and does nothing passes it on.
     """
 
     def __init__(self) -> None:
-        self._queue: list[Player] = []
+        self._queue: list[Viewer] = []
         self._since = 0.0
 
     @property
-    def player(self) -> Player | None:
+    def player(self) -> Viewer | None:
         """Who has the hand."""
         return self._queue[0] if self._queue else None
 
@@ -47,7 +40,7 @@ class Turns:
         """The numbers of the players, in the order of their turns."""
         return [player.number for player in self._queue]
 
-    def take(self, player: Player, what: Literal["ask", "give"], now: float) -> None:
+    def take(self, player: Viewer, what: Literal["ask", "give"], now: float) -> None:
         """Let a player queue up (at most once), or give the hand or the place in the queue away."""
         before = self.player
         if what == "give":
@@ -200,7 +193,7 @@ class Viewers:
 
     def is_hung(self) -> bool:
         """Whether the holder has been silent for too long; the page pings while it holds the beam."""
-        return self.holder is not None and time.monotonic() - self.holder.last_message > page.SILENT
+        return self.holder is not None and time.monotonic() - self.holder.last_message > SILENT
 
     def send_frame(self, frame: bytes) -> None:
         """Send a frame to all who can take it."""

@@ -16,7 +16,7 @@ from tandemlift.core.algebra import Number, sqrt, where
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, PHASE_NAMES
 from tandemlift.core.vector import ZERO, Vec3, dot
-from tandemlift.missions import Mission
+from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 TARE = "estimator.tare_start"
@@ -53,14 +53,14 @@ class TouchRule(NamedTuple):
     tare_end: Number
 
 
-def touch_rule(mission: Mission, vehicle: SceneVehicle) -> TouchRule:
-    """The rule of the present mission."""
-    reach, estimator, start = max(_reaches(vehicle)), mission.estimator, mission.estimator.tare_start
-    if mission.pilot.push != "truth" and estimator.tare == "hover":
-        return TouchRule(reach, estimator.tare_duration, 0.0)
-    if mission.pilot.push == "truth" or start is None:
+def touch_rule(push: str, estimator: EstimatorTable, vehicle: SceneVehicle) -> TouchRule:
+    """The rule for a vehicle whose pilot receives the push so (`pilot.push`), and whose sensors are tared so."""
+    reach, start = max(_reaches(vehicle)), estimator.tare_start
+    if push == "truth":  # no force sensor is read, so none is tared
         return TouchRule(reach, 0.0, 0.0)
-    return TouchRule(reach, 0.0, start + estimator.tare_duration)
+    if estimator.tare == "hover":
+        return TouchRule(reach, estimator.tare_duration, 0.0)
+    return TouchRule(reach, 0.0, 0.0 if start is None else start + estimator.tare_duration)
 
 
 def touch_refusal(rule: TouchRule, at: Number, hover_time: Number, point: Vec3) -> Number:
@@ -96,7 +96,7 @@ def check_touch(flight: RecordedFlight, vehicle: SceneVehicle, point: Sequence[f
     Raises:
         InputError: it is refused.
     """
-    rule = touch_rule(flight.now, vehicle)
+    rule = touch_rule(flight.now.pilot.push, flight.now.estimator, vehicle)
     refusal = touch_refusal(rule, flight.step * flight.dt, _hover_time(flight, rule), Vec3(*point))
     if refusal != ALLOWED:
         raise InputError(touch_texts(rule)[refusal].format(point=list(point)))
@@ -104,28 +104,13 @@ def check_touch(flight: RecordedFlight, vehicle: SceneVehicle, point: Sequence[f
 
 def tare_left(flight: RecordedFlight, vehicle: SceneVehicle) -> float:
     """The time for which nobody may touch the vehicle, as its force sensors are tared [s]; else 0."""
-    rule = touch_rule(flight.now, vehicle)
+    rule = touch_rule(flight.now.pilot.push, flight.now.estimator, vehicle)
     return max(rule.tare_end - flight.step * flight.dt, rule.tare_duration - _hover_time(flight, rule), 0.0)
 
 
 def _hover_time(flight: RecordedFlight, rule: TouchRule) -> float:
     """For how long the vehicle has hovered [s]; 0 where no tare needs it."""
     return flight.number(*HOVER_TIME) if rule.tare_duration else 0.0
-
-
-def check_takes_requests(guidance: str, mission: str, what: str) -> None:
-    """Refuse a request to a scheduled pilot.
-
-    Args:
-        guidance: of the pilot, as `pilot.guidance` has it.
-        mission: its name.
-        what: the request.
-
-    Raises:
-        InputError: it is.
-    """
-    if guidance == "scheduled":
-        raise InputError(NO_REQUESTS.format(what=what, mission=mission))
 
 
 def check_repeatable(engine: str, what: str = "rewind") -> None:

@@ -20,6 +20,7 @@ from tandemlift.core.vector import Quat, Vec3, cross, dot
 from tandemlift.simulation.results import channels_of
 
 RATE = 60  # frames a second, at most
+STATUS_EVERY = RATE // 4  # frames, from one status to the next
 ECHO = 0.003  # s, within which the flight has followed a move
 FRESH = 0.012  # s after an echo, in which a page needs no other frame
 
@@ -90,16 +91,6 @@ def pack_frames(layout: FrameLayout, values: Mapping[str, ArrayLike], count: int
             table[:, at : at + columns] = np.asarray(values[name]).reshape(-1, columns)
         at += columns
     return table
-
-
-def read_frames(layout: FrameLayout, data: bytes) -> dict[str, NDArray[Any]]:
-    """The values (count, columns) of each field in frames that follow one another."""
-    table, at = np.frombuffer(data, dtype="<f4").reshape(-1, width_of(layout)), 0
-    found = {}
-    for name, columns in layout:
-        found[name] = table[:, at : at + columns]
-        at += columns
-    return found
 
 
 # values of the fields

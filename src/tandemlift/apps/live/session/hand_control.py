@@ -20,6 +20,11 @@ def grip_offset(attitude: Quat, point: Vec3) -> Vec3:
     return -apply(rotation_from_quaternion(attitude), point)
 
 
+def hands_off(flight: RecordedFlight) -> None:
+    """Let go on a flight that takes the place of another: no hand holds there, and no request is made."""
+    flight.hold(flight.hand._replace(held=0.0, force=ZERO, lift=0.0, land=0.0))
+
+
 class HandControl:
     """Moves the hand of a flight. Callers hold the flight's lock.
 
@@ -37,40 +42,31 @@ class HandControl:
         self._requests: dict[str, int] = {}  # last step of each
 
     def take(self, m: page.BeamMessage, attitude: Callable[[], Quat]) -> None:
-        """Grab, move, push or release, as a message says; `attitude`: of the vehicle, if it is needed."""
-        match m:
-            case page.GrabMessage():
-                self.grab(m, attitude)
-            case page.MoveMessage():
-                self.move(m)
-            case page.ForceMessage():
-                self.push(m)
-            case page.ReleaseMessage():
-                self.release()
-
-    def grab(self, m: page.GrabMessage, attitude: Callable[[], Quat]) -> None:
-        """Take hold of the beam at a point, or at the centre of mass; `attitude`: of the vehicle, if it is needed.
+        """Grab, move, push or release, as a message says; `attitude`: of the vehicle, if it is needed.
 
         Raises:
             InputError: the vehicle may not be touched now, or not there.
         """
-        check_touch(self._flight, self._vehicle, m.point)
+        match m:
+            case page.GrabMessage():
+                check_touch(self._flight, self._vehicle, m.point)
+                self._grab(m, attitude)
+            case page.MoveMessage() if self._flight.hand.held:
+                self._change(target=Vec3(*m.target) + self._offset)
+            case page.ForceMessage():
+                self._push(m)
+            case page.ReleaseMessage():
+                self.release()
+
+    def _grab(self, m: page.GrabMessage, attitude: Callable[[], Quat]) -> None:
+        """Take hold of the beam at a point, or at the centre of mass."""
         point, centre = Vec3(*m.point), m.at == "centre"
         self._offset = grip_offset(attitude(), point) if centre else ZERO
         target = Vec3(*m.target) + self._offset
         self._change(held=1.0, grip=ZERO if centre else point, target=target)
 
-    def move(self, m: page.MoveMessage) -> None:
-        """Pull to another target, if the hand holds."""
-        if self._flight.hand.held:
-            self._change(target=Vec3(*m.target) + self._offset)
-
-    def push(self, m: page.ForceMessage) -> None:
-        """Push with a force.
-
-        Raises:
-            InputError: the vehicle may not be touched now, or not there.
-        """
+    def _push(self, m: page.ForceMessage) -> None:
+        """Push with a force; a hand that holds the beam keeps its grip."""
         if any(m.force):
             check_touch(self._flight, self._vehicle, m.point)
         grip = {"grip": Vec3(*m.point)} if any(m.force) and not self._flight.hand.held else {}

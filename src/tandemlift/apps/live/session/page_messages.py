@@ -1,4 +1,4 @@
-"""What a page may say: one model a message, strict, finite and bounded; and how a text is read as one.
+"""The messages of a page: one model each, strict, finite and bounded; and how a text is read as one.
 
 Each message is a JSON object of a `type` and a number `seq` that grows from message to message. Refusals name the key,
 the value and the allowed values. A text in an annotation says what a value is, with its unit and axes;
@@ -69,7 +69,7 @@ NewValue = bool | Number | Word | Annotated[tuple[Number, ...], Field(max_length
 
 
 class NumberedMessage(BaseModel):
-    """What all messages of a page have in common."""
+    """The part that all messages of a page have in common."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
 

@@ -30,27 +30,12 @@ TURNING = ("blades", "rotor")  # begin the names of the shapes that turn
 DIGITS = 6  # decimals of shapes [m]
 
 
-def scene_of(
-    mission: Mission,
-    engine: str,
-    *,
-    parameters: Sequence[server.SceneParameter] = (),
-    spring: server.SceneSpring = SPRING,
-) -> server.FlightScene:
-    """The scene of a mission.
-
-    Args:
-        mission: the flown one.
-        engine: name of the body's engine.
-        parameters: those that may be changed in flight.
-        spring: the virtual hand by which a page pulls.
-    """
+def scene_of(mission: Mission, engine: str) -> server.FlightScene:
+    """The scene of a mission in an engine, without the parameters that may be changed in flight."""
     vehicle = Vehicle.from_settings(mission.vehicle)
     floor = floor_from(mission, vehicle)
     height = _lowest(mission.initial.position[2], vehicle) if isinstance(floor, Absent) else float(floor.height)
-    scene = scene_of_tables(tables_of(mission), vehicle, engine, height)
-    scene["spring"], scene["parameters"] = spring, list(parameters)
-    return scene
+    return scene_of_tables(tables_of(mission), vehicle, engine, height)
 
 
 def scene_of_tables(tables: Mapping[str, Any], vehicle: Vehicle, engine: str, floor: float) -> server.FlightScene:
@@ -187,10 +172,5 @@ class FrameBuilder:
     def first(self) -> bytes:
         """The frame of a flight that has not begun."""
         s = self._start
-        at: dict[str, Any] = {
-            "position": s.position,
-            "attitude": s.attitude,
-            "velocity": s.velocity,
-            "reference": s.position,
-        }
+        at = {"position": s.position, "attitude": s.attitude, "velocity": s.velocity, "reference": s.position}
         return self.frame({name: np.array(value) for name, value in at.items()})

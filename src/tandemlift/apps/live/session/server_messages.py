@@ -1,4 +1,4 @@
-"""What the server says to a page besides frames: the scene, which gives frames their meaning, status and answers.
+"""The messages of the server to a page besides frames: the scene, which gives frames their meaning, status and answers.
 
 Each message is a JSON object with a `type`. SI units. All of the vehicle is in body axes from its centre of mass, with
 the beam along y; the rest is in world axes, z up. The vehicle is the nominal one that the pilot is designed for.

@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike
 
 from tandemlift.apps.live.session import page_messages as page
 from tandemlift.apps.live.session import server_messages as server
-from tandemlift.apps.live.session.checks import check_may_tare, check_repeatable, check_takes_requests
-from tandemlift.apps.live.session.hand_control import HandControl
+from tandemlift.apps.live.session.checks import NO_REQUESTS, check_may_tare, check_repeatable
+from tandemlift.apps.live.session.hand_control import HandControl, hands_off
 from tandemlift.apps.live.session.interactive_mission import interactive_mission, other_mission, with_whole_rotors
 from tandemlift.apps.live.session.pacing import Pacer, RealTimeThread
 from tandemlift.apps.live.session.parameters import CHOICES, ParameterControl, scene_at
@@ -28,7 +28,7 @@ from tandemlift.apps.live.session.status import FlightFindings, Preparation, pha
 from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array
-from tandemlift.core.vector import ZERO, Quat
+from tandemlift.core.vector import Quat
 from tandemlift.missions import Mission, tables_of
 from tandemlift.simulation.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.simulation.results import channels_of
@@ -194,7 +194,8 @@ class Session:
                 self._hand.release()
 
     def _check_takes_requests(self, what: str) -> None:
-        check_takes_requests(self._mission.pilot.guidance, self._mission.mission.name, what)
+        if self._mission.pilot.guidance == "scheduled":
+            raise InputError(NO_REQUESTS.format(what=what, mission=self._mission.mission.name))
 
     @singledispatchmethod
     def _handle(self, message: Any) -> list[server.Answer] | None:
@@ -240,13 +241,18 @@ class Session:
         check_repeatable(self._engine)
         with self._parameters.turn:
             past, self.pacer.paused = self._flight, True
-            again = RecordedFlight(past.start, self._engine)
-            again.repeat(past, min(round(m.time / past.dt) + 1, past.step))
-            again.hold(again.hand._replace(held=0.0, force=ZERO, lift=0.0, land=0.0))
+            again = self._flown_again(past, round(m.time / past.dt) + 1)
+            hands_off(again)
             with self._lock:
                 self._flight, self._failed = again, False
                 self._hand = HandControl(again, self._frames.scene["vehicle"])
             self.generation += 1
+
+    def _flown_again(self, past: RecordedFlight, steps: int) -> RecordedFlight:
+        """A flight with the same start, hand and changes as a past one, for so many of its steps at most."""
+        again = RecordedFlight(past.start, self._engine)
+        again.repeat(past, min(steps, past.step))
+        return again
 
     @_handle.register
     def _fly_another(self, m: page.FlyMessage) -> list[server.Answer]:
