@@ -184,7 +184,6 @@ def test_a_scene_is_the_vehicle_of_the_mission():
     assert scene["ground"] is True
     assert scene["floor"] == pytest.approx(0.03 + first["position"][2] - 0.18, abs=1e-3)  # it stands on its feet
     assert scene["threshold"] == list(mission.admittance.threshold)
-    assert scene["parameters"] == []
     assert scene["fields"][-1] == ["thrusts", 8]
 
 
