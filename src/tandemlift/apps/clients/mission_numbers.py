@@ -36,7 +36,7 @@ def mission_numbers(flight: RealTimeFlight) -> Iterator[tuple[str, str, MissionN
         value = shown["value"]
         if isinstance(value, str):
             continue
-        numbers = list(value) if isinstance(value, list) else [value]
+        numbers = list(value) if isinstance(value, list | tuple) else [value]
         for n, number in enumerate(numbers):
             name = rest.replace(".", "_") + (f"_{n + 1}" if len(numbers) > 1 else "")
             yield table, name, MissionNumber(number, _changer(flight, shown, numbers, n))
