@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Mapping
-from functools import partial
 
 import click
 
@@ -21,18 +20,16 @@ controller_option = click.option(
 )
 
 
-def _number(option: str, low: float, high: float, unit: str, text: float | str) -> float:
-    """A number within bounds, or the error of the option, after which a terminal is asked again."""
-    value = float(click.FLOAT(text))
-    if not low <= value <= high:
-        hint = f"--{option}"
-        raise click.BadParameter(f"{value:g}: must be from {low:.3g} to {high:.3g} {unit}", param_hint=hint)
-    return value
-
-
 def _answer(option: str, given: float | None, default: float, low: float, high: float, unit: str) -> float:
-    """The number of an option: as given, as the terminal answers, or without one the default."""
-    checked = partial(_number, option, low, high, unit)
+    """The number of an option within its bounds: as given, as the terminal answers, or without one the default."""
+
+    def checked(text: float | str) -> float:
+        value = float(click.FLOAT(text))
+        if not low <= value <= high:  # after which a terminal is asked again
+            bounds = f"must be from {low:.3g} to {high:.3g} {unit}"
+            raise click.BadParameter(f"{value:g}: {bounds}", param_hint=f"--{option}")
+        return value
+
     if given is None and sys.stdin.isatty():
         return float(click.prompt(f"{option} [{unit}], {low:.3g} to {high:.3g}", default=default, value_proc=checked))
     return checked(default if given is None else given)

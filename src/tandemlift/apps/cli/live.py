@@ -157,9 +157,7 @@ def page(
 @click.option(
     "--mission", default=DEFAULT, show_default=True, shell_complete=MISSIONS, help="The mission that all were to fly."
 )
-@click.option(
-    "--free", "free", metavar="KEY", multiple=True, help="A key, or a table of keys, that participants may change."
-)
+@click.option("--free", metavar="KEY", multiple=True, help="A key, or a table of keys, that participants may change.")
 @set_option
 def score(folder: Path, mission: str, free: tuple[str, ...], settings: tuple[str, ...]) -> None:
     """Rank the flights of a challenge: through a corridor by hand.
