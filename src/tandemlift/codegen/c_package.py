@@ -15,6 +15,7 @@ from tandemlift.codegen.c.text import wrapped
 from tandemlift.codegen.c_flight import FlightFile
 from tandemlift.codegen.c_pilot import PilotFile
 from tandemlift.codegen.prepare import PrepareFile
+from tandemlift.core.files import write_file
 from tandemlift.core.types import Array, leaves
 from tandemlift.missions import Mission, tables_of
 from tandemlift.simulation.caller_values import portable_mission
@@ -95,11 +96,9 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
 
 def written(texts: dict[str, str], folder: Path) -> list[Path]:
     """Write texts to files of a folder."""
-    folder.mkdir(parents=True, exist_ok=True)
-    paths = [folder / name for name in texts]
-    for path, text in zip(paths, texts.values(), strict=True):
-        path.write_text(text, encoding="utf-8")
-    return paths
+    for name, text in texts.items():
+        write_file(folder / name, text)
+    return [folder / name for name in texts]
 
 
 # ---- Programs that compare pilot and flight with stored samples of native flights

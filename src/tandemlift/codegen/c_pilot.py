@@ -58,8 +58,8 @@ class PilotFile:
         for name in ("pilot", "input", "dt", "thrusts"):
             body.taken.new(name)
         given = [
-            body.argument("pilot", x.input_of("pilot", self.start), pointer=True).removeprefix("const "),
-            body.argument("input", x.input_of("pilot_input", INPUT), pointer=True),
+            body.argument("pilot", x.graph.inputs("pilot", self.start), pointer=True).removeprefix("const "),
+            body.argument("input", x.graph.inputs("pilot_input", INPUT), pointer=True),
             body.argument("dt", x.graph.input("dt")),
         ]
         if x.limits:

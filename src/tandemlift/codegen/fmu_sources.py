@@ -56,10 +56,8 @@ class FmuPart(NamedTuple):
 def pilot_part(mission: Mission) -> FmuPart:
     """The pilot of a mission, which is portable."""
     file, traced = source_file(mission), trace_assembly(mission, pilot_at_start)
-    pilot, prepare = (
-        PilotFile(file, assembled_by_graph(mission, pilot_at_start)),
-        PrepareFile(source_file(mission), traced, "pilot"),
-    )
+    pilot = PilotFile(file, assembled_by_graph(mission, pilot_at_start))
+    prepare = PrepareFile(source_file(mission), traced, "pilot")
     effective = _effective(traced, [*symbols(traced.graph, traced.assembled), *_conditions(traced)])
     count, start = len(traced.keys), [float(x) for x in flat(INPUT)]
     found = [*parameters(mission, traced, effective), *pilot_inputs(count, start)]
@@ -74,10 +72,8 @@ def flight_part(mission: Mission, part: str) -> FmuPart:
     """The whole flight of a mission, which is portable, or its vehicle: `part` is "flight" or "vehicle"."""
     is_whole, plan, traced = part == "flight", FlightPlan(mission, interactive=True), trace_assembly(mission)
     step: Any = {} if is_whole else {"step": VehicleStep}
-    flight, prepare = (
-        FlightFile(source_file(mission), plan, **step),
-        PrepareFile(source_file(mission), traced, "flight"),
-    )
+    flight = FlightFile(source_file(mission), plan, **step)
+    prepare = PrepareFile(source_file(mission), traced, "flight")
     found, spans = prepared_numbers(traced)
     if is_whole:
         found += _conditions(traced)

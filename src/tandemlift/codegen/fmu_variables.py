@@ -12,16 +12,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from tandemlift.codegen.number_facts import CALLER, FIELDS, PUSH, REQUESTS, STATE, STATUS, number_facts
-from tandemlift.core.types import leaves
 from tandemlift.flight.channels import Channel, channel_of
 from tandemlift.flight.data_frames import column_names
 from tandemlift.missions import Mission
 from tandemlift.simulation.caller_values import held_inputs
 from tandemlift.simulation.preparation.traced_assembly import TracedAssembly
-from tandemlift.simulation.results import channels_of
+from tandemlift.simulation.results import channel_columns
 
 ENTRY = re.compile(r"(.+?)((?:\.\d+)+)")  # a key of a number in a list
 
@@ -97,13 +94,12 @@ def _labelled(name: str, channel: Channel, size: int, shape: tuple[int, ...]) ->
 def outputs(sample: Any, first: int, names: Iterable[str]) -> tuple[list[FmuVariable], list[int]]:
     """Outputs for the channels of these names, and the places of their numbers in a sample laid out like `sample`."""
     found, places = list[FmuVariable](), list[int]()
-    row = np.arange(leaves(sample), dtype=float)[None, :]
-    for name, columns in channels_of(sample, row):
+    for name, columns in channel_columns(sample).items():
         if name in names:
-            channel, shape = channel_of(name), columns.shape[1:]
+            channel, shape = channel_of(name), columns.shape
             labels = _labelled(name, channel, columns.size, shape)
             found.append(FmuVariable(name, "output", channel, first + len(places), labels, bool(shape)))
-            places += columns.ravel().astype(int).tolist()
+            places += columns.ravel().tolist()
     return found, places
 
 

@@ -101,17 +101,13 @@ def primitive(name: str, scalar: Callable[..., Any]) -> Callable[..., Any]:
     return operation
 
 
-def _exp_of_float(x: float) -> float:
-    return math.exp(min(x, 709.0))
-
-
 _sqrt = primitive("sqrt", lambda x: math.sqrt(x) if x >= 0.0 else math.nan)
 _sin = primitive("sin", lambda x: math.sin(x) if math.isfinite(x) else math.nan)
 _cos = primitive("cos", lambda x: math.cos(x) if math.isfinite(x) else math.nan)
 _atan2 = primitive("atan2", math.atan2)
 _tanh = primitive("tanh", math.tanh)
 _tan = primitive("tan", math.tan)
-_exp = primitive("exp", _exp_of_float)
+_exp = primitive("exp", lambda x: math.exp(min(x, 709.0)))
 _expm1 = primitive("expm1", lambda x: math.expm1(min(x, 709.0)))
 _log = primitive("log", math.log)
 _absolute = primitive("absolute", abs)

@@ -22,6 +22,7 @@ from tandemlift.parts.controllers import control
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.refusals import refusals_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
+from tandemlift.simulation.loop.step import FlightState
 from tandemlift.simulation.parameter_changes import ParameterChanges, ScheduledChange, hand_place
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import GIVEN, FlightMemory, leaf_offset
@@ -105,8 +106,7 @@ class Stepper:
 
     def _exchange_laws(self, p: FlightPlan) -> None:
         """Continue with other laws. A controller of another layout starts with an initial memory; ramps end at once."""
-        size, hand, row = leaves(self.p.model.flight_state), self.a[self.hand].copy(), self.row
-        flight_state = unflat(self.a[:size], self.p.model.flight_state)
+        hand, row, flight_state = self.a[self.hand].copy(), self.row, self.flight_state
         memory, fresh = flight_state.memory, p.model.flight_state.memory.controller
         if layout(memory.controller) != layout(fresh):
             memory = memory._replace(controller=fresh)
@@ -200,6 +200,11 @@ class Stepper:
         return unflat(self.a[at : at + size], like)
 
     @property
+    def flight_state(self) -> FlightState:
+        """The state of the flight as it is now."""
+        return self._part(self.p.model.flight_state, "flight_state")
+
+    @property
     def lost(self) -> bool:
         """Whether the flight has crashed or diverged."""
         return bool(self.a[self.at_lost] != 0.0)
@@ -247,6 +252,4 @@ def fly_stepwise(
                 raise Stopped
             if progress:
                 progress(k, p.steps)
-    like = stepper.p.model.flight_state
-    flight_state = unflat(stepper.a[: leaves(like)], like)
-    return RawResult(flight_state, early, k, log, last, time.perf_counter() - began, ending)
+    return RawResult(stepper.flight_state, early, k, log, last, time.perf_counter() - began, ending)

@@ -93,7 +93,7 @@ class Function(GraphText):
         """The values of symbols in all lanes, as text."""
         nodes = [s.node for s in symbols]
         self.write(nodes)
-        return [self._operand(node, spread=True) for node in nodes]
+        return [self.operand(node) for node in nodes]
 
     def value(self, symbol: Symbol) -> str:
         """The value of a symbol in all lanes, as text."""
@@ -102,11 +102,7 @@ class Function(GraphText):
     def scalar(self, symbol: Symbol) -> str:
         """The scalar of a symbol that is equal in all lanes, as text."""
         self.write([symbol.node])
-        return self._operand(symbol.node, spread=False)
-
-    def operand(self, node: int) -> str:
-        """A number already computed in this function, in all lanes."""
-        return self._operand(node, spread=True)
+        return self.operand(symbol.node, spread=False)
 
     def known(self) -> set[int]:
         """The nodes already computed in this function."""
@@ -115,7 +111,8 @@ class Function(GraphText):
     def _kind(self, type: str, uniform: bool) -> str:
         return BASE[type] if uniform or self.lanes == 1 else f"<{self.lanes} x {BASE[type]}>"
 
-    def _operand(self, node: int, spread: bool) -> str:
+    def operand(self, node: int, *, spread: bool = True) -> str:
+        """A number already computed in this function, in all lanes, or as a scalar that is equal in all."""
         g, node = self.graph, self.same.get(node, node)
         if g.ops[node] == "const":
             text = constant(g.args[node][0])
@@ -190,7 +187,7 @@ class Function(GraphText):
 
     def hold(self, nodes: Iterable[int]) -> None:
         """Read inputs now, whatever is written to memory later."""
-        self._values |= {node: self._operand(node, spread=False) for node in nodes}
+        self._values |= {node: self.operand(node, spread=False) for node in nodes}
 
     def update(
         self,
@@ -235,13 +232,13 @@ class Function(GraphText):
         if op == "const" or node in self._values:  # the reader of an input may compute other nodes
             return
         if self.is_leaf(node):
-            self._values[node] = self._operand(node, spread=False)
+            self._values[node] = self.operand(node, spread=False)
         elif op.startswith("get "):
             at = self.sets.places[args[0]]
             self._values[node] = self.load(at.base, self.integer("add", at.first, int(op[4:]) * at.stride))
         else:
             uniform = self.lanes > 1 and self.is_uniform(node)
-            operands = [self._operand(a, not uniform) for a in args]
+            operands = [self.operand(a, spread=not uniform) for a in args]
             self._values[node] = self.op(self.instruction(node, lambda t: self._kind(t, uniform), operands))
 
     def _text_of(self, given: str | Place, kind: str) -> str:

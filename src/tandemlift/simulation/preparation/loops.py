@@ -81,7 +81,7 @@ class LoopWriter(StepWriter):
         """Move the body over the step."""
         if not self.traced.body_in_free_air:
             if self.graph.rolls_from or self.largest:
-                self.store_values(f, self.moved, self.traced.body_in_contact)
+                f.update("%work", self.moved, self.traced.body_in_contact)
             elif f.orders:
                 f.same |= {self.graph.input("moved", i).node: s.node for i, s in enumerate(self.traced.body_in_contact)}
             else:
@@ -95,7 +95,7 @@ class LoopWriter(StepWriter):
             f.store(double(float(name == near)), "%work", self.near * self.lanes, "double")
             f.seldom = name == near
             with f.scope():
-                self.store_values(f, self.moved, values if name == near else values[: self.moved_touches])
+                f.update("%work", self.moved, values if name == near else values[: self.moved_touches])
             f.do(f"br label %{done}")
         f.seldom = False
         f.lines.append(f"{done}:")
@@ -253,11 +253,11 @@ class LoopWriter(StepWriter):
                 kept.bind(f)
                 self.bind_inputs(f, k)
             if part == "ask":
-                self.store_values(f, self.asked, x.asked)
+                f.update("%work", self.asked, x.asked)
             elif part == "decide":
                 self.limit_thrusts(f)
-                self.store_values(f, self.acting, x.body.acting)
-                self.store_values(f, self.push, x.body.push)
+                f.update("%work", self.acting, x.body.acting)
+                f.update("%work", self.push, x.body.push)
             else:
                 self._complete(f, k, leaves_body)
             kept.store_for_later(f, later[part])

@@ -46,7 +46,7 @@ class PythonController(NamedTuple):
 
 @control.register(PythonController)
 def _layout_of_command(gains: PythonController, memory: Any, measured: Measured, reference: Reference) -> Any:
-    return Command(Wrench(0.0, ZERO), ZERO), memory
+    return COMMAND, memory
 
 
 class Templates(NamedTuple):

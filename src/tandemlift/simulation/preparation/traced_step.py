@@ -165,7 +165,7 @@ class TracedStep:
 
     def _limit_thrusts(self, output: PilotOutput) -> PilotOutput:
         pilot, memory = self.model.pilot, self.model.flight_state.memory
-        self.limits, decision, memory = limit_thrusts(self, pilot, memory, output, self.t)
+        self.limits, decision, memory = limit_thrusts(self.graph, self.trace, pilot, memory, output, self.t)
         return output._replace(decision=decision, memory=memory)
 
     def _stepped_body(self, plant: CompiledPlant, acting: Any) -> BodyStep:
@@ -194,16 +194,11 @@ class TracedStep:
 
     # values computed before the step
 
-    @property
-    def when(self) -> Symbol:
-        """The time at which a push is evaluated."""
-        return self.graph.input("when")
-
     @cached_property
     def push(self) -> Symbols:
         """A row of the table of pushes at the time `when`."""
         row = self.input_of("push", ROWS.pushes)
-        return self.numbers(self.trace(push_at)(self.templates.given.hand.start, row, self.when))
+        return self.numbers(self.trace(push_at)(self.templates.given.hand.start, row, self.graph.input("when")))
 
     @cached_property
     def push_is_active(self) -> Symbol:
