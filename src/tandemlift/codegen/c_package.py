@@ -146,6 +146,7 @@ def sum_over(log: Array) -> int:
     """The sum over the bits of all numbers of a log, each times an odd weight; NaN counts as one number."""
     numbers = np.ascontiguousarray(log).ravel()
     bits = np.where(np.isnan(numbers), np.uint64(NAN), numbers.view(np.uint64))
+    # an odd factor has an inverse modulo 2⁶⁴, so a change of any single bit changes the sum
     weights = 2 * np.arange(len(bits), dtype=np.uint64) + 1
     return int(np.sum(bits * weights, dtype=np.uint64))
 

@@ -1,7 +1,7 @@
 """The LLVM text of a mission's module: its loop over steps, the ramps of its numbers, and functions of values.
 
     prepare(numbers, prepared, work) → 0, or 1 + …               see `prepare`
-    fly(context) → the step reached                              as in `loop_code`
+    fly(context) → the step reached                              as `LoopCode.loop`
     ramp(flight, before, after, active, first, count, k, begin, steps) → 1 while the ramp goes on
     NAME(x, y) → 0                                               y = function(x), numbers one after another
 
@@ -34,7 +34,7 @@ class ValuesFunction(NamedTuple):
 
 
 def write_flight_loop(loop_code: LoopCode, draw_lanes: int, largest: int) -> LoopWriter:
-    """The loop for one flight, whose module goes on to grow; arguments as for `loop_code.step_writer.StepWriter`."""
+    """The loop for one flight, whose module goes on to grow; arguments as for `StepWriter`."""
     writer = LoopWriter(loop_code.traced, 1, draw_lanes, largest)
     writer.write_loop()
     return writer

@@ -142,7 +142,7 @@ class GazeboBody:
         Raises:
             OSError: the session is over, the server has ended, or does not answer.
         """
-        if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:
+        if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:  # also NaN, which is below nothing
             self.state.fill(np.nan)
             self.readings.fill(np.nan)
             return

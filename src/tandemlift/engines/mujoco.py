@@ -99,7 +99,7 @@ class MuJoCoBody:
 
     def advance(self, thrusts: Array, loads: Array, force: Array, moment: Array) -> None:
         """Advance by one step; see `registry.EngineBody`."""
-        if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:
+        if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:  # also NaN, which is below nothing
             self.state.fill(np.nan)
             self.readings.fill(np.nan)
             return

@@ -100,7 +100,7 @@ class Flight(Mapping[str, Array]):
 
     @property
     def outcome(self) -> str:
-        """The outcome, one of `core.outcomes.OUTCOMES`; "unknown" for a flight that was read from a bag."""
+        """The outcome, one of `core.phases.OUTCOMES`; "unknown" for a flight that was read from a bag."""
         return self.results.get("outcome", "unknown")
 
     @property

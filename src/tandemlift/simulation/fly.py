@@ -219,6 +219,7 @@ class _FlightGroups:
         self.read, self.refusals = 0, refusals
         self._finished, self._total = 0, len(missions) if isinstance(missions, Sized) else None
         self._groups, self._progress = self._grouped(missions), progress
+        # apart, because a group is prepared, which takes long, while the first is held
         self._taking, self._counting = threading.Lock(), threading.Lock()
 
     def take(self) -> _FlightGroup | None:

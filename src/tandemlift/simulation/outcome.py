@@ -34,7 +34,7 @@ DEGREE = 57.29577951308232  # 180/π
 
 
 class EndingMoment(NamedTuple):
-    """The moment of an ending: its number in `core.outcomes`, 0 for none; time [s]; state; impulse [N·s]."""
+    """The moment of an ending: its number in `core.phases`, 0 for none; time [s]; state; impulse [N·s]."""
 
     number: Number
     time: Number
