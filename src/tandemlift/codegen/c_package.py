@@ -57,16 +57,10 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
     return written(code_texts(mission, single) | selftests, Path(folder))
 
 
-def mission_hash(mission: Mission) -> str:
-    """The first 16 digits of the SHA-256 of a mission's tables as JSON with sorted keys."""
-    text = json.dumps(tables_of(mission), sort_keys=True, ensure_ascii=False, default=str)
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
 def source_file(mission: Mission, single: bool = False) -> SourceFile:
-    """A file of C of a mission, as yet empty."""
-    m = mission.mission
-    return SourceFile(m.name, single, m.step, mission_hash(mission))
+    """A file of C of a mission, as yet empty, with the first 16 digits of a hash of the mission's tables."""
+    m, tables = mission.mission, json.dumps(tables_of(mission), sort_keys=True, ensure_ascii=False, default=str)
+    return SourceFile(m.name, single, m.step, hashlib.sha256(tables.encode()).hexdigest()[:16])
 
 
 def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:

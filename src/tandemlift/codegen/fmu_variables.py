@@ -67,7 +67,8 @@ def parameters(mission: Mission, traced: TracedAssembly, effective: set[int]) ->
     for name, group in itertools.groupby(places, lambda i: _list_of(traced.keys[i])):
         own = list(group)
         keys = tuple(traced.keys[i] for i in own)
-        is_whole = keys[0] != name and _is_whole(keys, name) and own == list(range(own[0], own[0] + len(own)))
+        is_list = keys == tuple([f"{name}.{i}" for i in range(len(keys))])
+        is_whole = is_list and own == list(range(own[0], own[0] + len(own)))
         for members in [own] if is_whole else [[i] for i in own]:
             labels = tuple(traced.keys[i] for i in members)
             facts = number_facts(mission, labels[0])
@@ -80,11 +81,6 @@ def parameters(mission: Mission, traced: TracedAssembly, effective: set[int]) ->
 def _list_of(key: str) -> str:
     match = ENTRY.fullmatch(key)
     return match[1] if match else key
-
-
-def _is_whole(keys: tuple[str, ...], name: str) -> bool:
-    """Whether keys are those of a list of numbers, from the first on."""
-    return keys == tuple(f"{name}.{i}" for i in range(len(keys)))
 
 
 def _labelled(name: str, channel: Channel, size: int, shape: tuple[int, ...]) -> tuple[str, ...]:

@@ -45,11 +45,7 @@ class MissionModule(NamedTuple):
     manifest: dict[str, Any]
 
 
-def _nothing_more(plan: FlightPlan) -> Sequence[ValuesFunction]:
-    return ()
-
-
-def module_of(mission: Mission, target: str, functions: Functions = _nothing_more) -> MissionModule:
+def module_of(mission: Mission, target: str, functions: Functions | None = None) -> MissionModule:
     """Compile a mission for a machine; earlier results are taken from the cache.
 
     Args:
@@ -62,7 +58,7 @@ def module_of(mission: Mission, target: str, functions: Functions = _nothing_mor
     """
     machine = machine_named(target)
     plan = FlightPlan(portable_mission(mission))
-    traced, more = trace_assembly(plan.mission), functions(plan)
+    traced, more = trace_assembly(plan.mission), functions(plan) if functions else ()
     facts = _identity(traced), _sources(more), [(f.name, f.likes) for f in more]
     key = store.key_of((plan.model, plan.given), "module", machine, facts)
     entry = store.read(key)

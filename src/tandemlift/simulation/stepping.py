@@ -81,20 +81,17 @@ class Stepper:
 
     def _bind_views(self) -> None:
         """Bind views of the memory that the parts of a step exchange with Python or another engine."""
-        view = {
-            name: self.memory.work[self.memory.span(name)]
-            for name in ("asked", "answer", "external", "acting", "push", "moved", "outside")
-        }
-        acting = self.p.loop_code.templates.acting
-        thrusts, air = leaf_offset(acting, "thrusts"), leaf_offset(acting, "wind", "loads")
-        self.x, self.y, self.v, self.push = view["asked"], view["answer"], view["moved"], view["push"]
-        self.external, self.outside = view["external"], view["outside"]
+        names = ("asked", "answer", "moved", "push", "external", "outside", "acting")
+        views = [self.memory.work[self.memory.span(name)] for name in names]
+        self.asked, self.answer, self.moved, self.push, self.external, self.outside, acting = views
+        layout_of_acting = self.p.loop_code.templates.acting
+        thrusts, air = leaf_offset(layout_of_acting, "thrusts"), leaf_offset(layout_of_acting, "wind", "loads")
+        self.thrusts = acting[thrusts.at : thrusts.at + thrusts.size]
+        self.loads = acting[air.at : air.at + air.size]
         if self.body is not None:
             moved = self.p.loop_code.templates.moved
             self.touches = self.body.touches if isinstance(self.body, TouchingBody) else NO_TOUCHES
-            self.v[:] = flat(moved._replace(touches=self.p.model.flight_state.touches))
-        self.thrusts = view["acting"][thrusts.at : thrusts.at + thrusts.size]
-        self.loads = view["acting"][air.at : air.at + air.size]
+            self.moved[:] = flat(moved._replace(touches=self.p.model.flight_state.touches))
 
     def change(self, due: ScheduledChange) -> None:
         """Change the mission: ramp its numbers, or exchange the laws at once."""
@@ -166,9 +163,9 @@ class Stepper:
         """Call the controller in plain Python."""
         assert self.interpreted
         gains, memory = self.interpreted
-        measured, reference = unflat(self.x, GIVEN)
+        measured, reference = unflat(self.asked, GIVEN)
         command, memory = control(gains, memory, measured, reference)
-        self.interpreted, self.y[:] = (gains, memory), flat(command)
+        self.interpreted, self.answer[:] = (gains, memory), flat(command)
 
     def _advance(self, body: EngineBody) -> None:
         try:
@@ -176,10 +173,10 @@ class Stepper:
         except OSError as error:
             self.a[:] = self.before
             raise EngineLost(error) from error
-        self.v[:STATE] = body.state
-        self.v[STATE : STATE + body.readings.size] = body.readings
+        self.moved[:STATE] = body.state
+        self.moved[STATE : STATE + body.readings.size] = body.readings
         if self.touches.size:
-            self.v[self.v.size - self.touches.size :] = self.touches
+            self.moved[self.moved.size - self.touches.size :] = self.touches
         if self._pushed is not None:
             self.outside[:] = self._pushed
 

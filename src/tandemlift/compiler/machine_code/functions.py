@@ -12,9 +12,8 @@ from tandemlift.compiler.machine_code import machine
 from tandemlift.compiler.tracer.fused import traced
 from tandemlift.compiler.tracer.graph import Graph, symbols
 from tandemlift.compiler.tracer.llvm import Function
-from tandemlift.compiler.tracer.rolled import Place
 from tandemlift.compiler.tracer.symbol import Symbol
-from tandemlift.compiler.tracer.text import Module
+from tandemlift.compiler.tracer.text import Module, Place
 from tandemlift.core.types import Array, leaves
 
 

@@ -13,9 +13,9 @@ from typing import Any
 
 from tandemlift.compiler.tracer.graph import LEAVES, Graph
 from tandemlift.compiler.tracer.order import NumbersInMemory, best_order, urgency
-from tandemlift.compiler.tracer.rolled import GraphText, Place, Sets
+from tandemlift.compiler.tracer.rolled import Sets
 from tandemlift.compiler.tracer.symbol import Symbol
-from tandemlift.compiler.tracer.text import BASE, Module, constant
+from tandemlift.compiler.tracer.text import BASE, Module, Place, Text, constant
 
 BINARY = frozenset(["fadd", "fsub", "fmul", "fdiv", "add", "sub", "mul", "and", "or", "xor", "shl", "ashr"])
 INTRINSICS = {"fma": "fma", "sqrt": "sqrt", "fabs": "fabs", "floor": "floor"}
@@ -23,7 +23,7 @@ NOWHERE = Place("", 0)
 Read = Callable[[int], "str | Place"]
 
 
-class Function(GraphText):
+class Function(Text):
     """One function over the nodes of a graph.
 
     Args:
@@ -35,8 +35,6 @@ class Function(GraphText):
             the first place of its vector in memory.
 
     Attributes:
-        read: for each kind of input, a function from its index to its text or place.
-        kept: nodes computed elsewhere before, each with a function to its text or place.
         same: inputs that are computed in this function, each with the node that computes it.
         sets: large sets of numbers.
         orders: whether nodes are written in an order of few waiting values, and memory is read where it is used.
@@ -44,11 +42,9 @@ class Function(GraphText):
     """
 
     def __init__(self, module: Module, graph: Graph, lanes: int, head: str, uniform: Iterable[Any] = ()) -> None:
-        super().__init__(module, lanes, head)
-        self.graph, self.sets, self.orders = graph, Sets(self), lanes > 1 and not graph.rolls_from
+        super().__init__(module, graph, lanes, head)
+        self.sets, self.orders = Sets(self), lanes > 1 and not graph.rolls_from
         self.same, self.seldom = dict[int, int](), False
-        self.read: dict[str, Read] = {}
-        self.kept: dict[int, Callable[[], str | Place]] = {}
         self._uniform_kinds = frozenset(uniform)
         self._uniform = graph.uniform.setdefault(self._uniform_kinds, [])
         self._values: dict[int, str] = {}
