@@ -18,7 +18,7 @@ from tandemlift.compiler.tracer.symbol import Symbol
 from tandemlift.compiler.tracer.text import BASE, Module, Place, Text, constant
 
 BINARY = frozenset(["fadd", "fsub", "fmul", "fdiv", "add", "sub", "mul", "and", "or", "xor", "shl", "ashr"])
-INTRINSICS = {"fma": "fma", "sqrt": "sqrt", "fabs": "fabs", "floor": "floor"}
+INTRINSICS = ("fma", "sqrt", "fabs", "floor")
 NOWHERE = Place("", 0)
 Read = Callable[[int], "str | Place"]
 
@@ -258,7 +258,7 @@ class Function(Text):
         if op in BINARY:
             return f"{op} {kind} {x[0]}, {x[1]}"
         if op in INTRINSICS:
-            return self._intrinsic(f"llvm.{INTRINSICS[op]}", kind, kind, x)
+            return self._intrinsic(f"llvm.{op}", kind, kind, x)
         given = kind_of(g.types[g.args[node][0]])
         if op == "select":
             return f"select {given} {x[0]}, {kind} {x[1]}, {kind} {x[2]}"

@@ -60,6 +60,10 @@ def _comparison(predicate: str, whole: str) -> Any:
     return lambda symbol, other: _compared(predicate, whole, symbol, other)
 
 
+def _of_bits(op: str) -> Any:
+    return lambda symbol, other: _bitwise(op, symbol, other)
+
+
 class Symbol:
     """A number that is not known yet, or a large set of such numbers, which machine code handles in loops."""
 
@@ -111,25 +115,12 @@ class Symbol:
     def __abs__(self) -> Symbol:
         return made(self.graph, "fabs", self)
 
-    def __and__(self, other: object) -> Symbol:
-        return _bitwise("and", self, other)
-
-    def __or__(self, other: object) -> Symbol:
-        return _bitwise("or", self, other)
-
-    def __xor__(self, other: object) -> Symbol:
-        return _bitwise("xor", self, other)
-
+    __and__, __or__, __xor__ = _of_bits("and"), _of_bits("or"), _of_bits("xor")
     __rand__, __ror__, __rxor__ = __and__, __or__, __xor__
+    __lshift__, __rshift__ = _of_bits("shl"), _of_bits("ashr")
 
     def __invert__(self) -> Symbol:
         return _bitwise("xor", self, self.type == "b" or -1)
-
-    def __lshift__(self, count: int) -> Symbol:
-        return _bitwise("shl", self, count)
-
-    def __rshift__(self, count: int) -> Symbol:
-        return _bitwise("ashr", self, count)
 
     def __pow__(self, power: object) -> Any:
         return self.graph.power(self, power)
