@@ -158,8 +158,7 @@ def assemble(mission: Mission) -> AssembledFlight:
     weights, over = mission.allocation.weights, plant.floor.height if mission.ground.effect else None
     given: Any = {"weights": weights, "floor": over, "delayed": bool(delays[2]), "scale": mission.plant.thrust_scale}
     rotors, spinning, thrusts = start_rotors(mission.actuators, mission.faults, vehicle, step, **given)
-    # `chance` is drawn from by the wind, then by the sensors: another order would change the bits of every mission
-    wind, wind_state = start_wind(mission.wind, vehicle, step, chance)
+    wind, wind_state = start_wind(mission.wind, vehicle, step, chance)  # before the sensors: bits hang on the order
     near, hand = near_walls_from(plant.walls), push_kind(mission.pushes, mission.person)
     at_rest = lambda: readings_at_rest(plant, state, grip, near, thrusts, hand)  # noqa: E731
     senses = start_perception(mission, vehicle, state, chance, at_rest, over)
