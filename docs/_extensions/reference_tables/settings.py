@@ -17,7 +17,7 @@ from tandemlift.parts.controllers import CascadeTable
 
 def value_types() -> str:
     """Every type of a value, and the allowed values of its keys."""
-    rows = [(f"`{name}`", allowed(kind)) for name, kind in vars(keys).items() if get_origin(kind)]
+    rows = [(f"`{name}`", allowed(kind)) for name in keys.__all__ if get_origin(kind := getattr(keys, name))]
     return table(("type", "allowed values"), rows)
 
 

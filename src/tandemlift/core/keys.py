@@ -10,6 +10,33 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validat
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError, core_schema
 
+__all__ = [
+    "AtLeastOne",
+    "AtLeastOne6",
+    "Axes3",
+    "Bandwidth",
+    "Delay",
+    "Exactly3",
+    "Fraction",
+    "KeyDescription",
+    "Length",
+    "NonNegative",
+    "NonNegative3",
+    "NonNegative6",
+    "PerAxis",
+    "Positive",
+    "Positive3",
+    "Positive6",
+    "Scale",
+    "Share",
+    "Size",
+    "Table",
+    "Tilt",
+    "Triple",
+    "description_of",
+    "key",
+]
+
 SMALLEST = 1e-300  # of a divisor: its inverse is finite
 
 
