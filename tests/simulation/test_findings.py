@@ -245,3 +245,17 @@ def test_a_part_that_meets_the_floor_is_named_with_its_place_and_force():
     assert touched[0].value > 0.0
     assert flight.time[(contact > 0.0).argmax()] == pytest.approx(touched[0].time, abs=0.02)
     assert not any(f.kind == "touched" for f in tl.fly(tl.load_mission("iris", WATCHED)).findings)
+
+
+def test_a_landing_by_fault_is_found_while_the_supervision_also_notes_a_contact():
+    p = FlightPlan(tl.load_mission("iris", {"supervision.model": "on"}))
+    state = p.model.flight_state
+    guidance = state.memory.guidance
+    log = guidance.supervision.events
+    contact, land, tilted = 1e8, 3e6, 160e2  # factors in the code of an event: a contact, phase "land", alarm 160
+    codes = [contact + land + tilted, *log.code[1:]]
+    events = log._replace(time=type(log.time)(2.5, *log.time[1:]), code=type(log.code)(*codes), count=1.0)
+    guidance = guidance._replace(supervision=guidance.supervision._replace(events=events))
+    state = state._replace(memory=state.memory._replace(guidance=guidance))
+    (found,) = [f for f in findings_of(p, state, 1, "flying") if f.kind == "landed-by-fault"]
+    assert (found.time, found.text) == (2.5, "landed because of a fault: tilted too far")

@@ -103,7 +103,7 @@ def test_flights_are_sorted_by_when_rotors_fail_and_come_back_in_the_order_given
         *[9.0 + i for i in range(LANES)],
     ]
     missions = [template.mission({"mission.seed": i, "faults.0.time": float(t)}) for i, t in enumerate(times)]
-    groups = fly_module._FlightGroups(missions, False)
+    groups = fly_module._FlightGroups(missions)
     blocks = [sorted(times[place] for place in group.places) for group in iter(groups.take, None)]
     assert sorted(map(len, blocks)) == [3, LANES, LANES, LANES]
     assert [9.0 + i for i in range(LANES)] in blocks  # after the end, where they are alike and wait for no others

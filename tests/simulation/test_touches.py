@@ -21,7 +21,7 @@ from tandemlift.parts.contact.touches import (
 )
 from tandemlift.simulation.fly import _fly_compiled
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.touches import struck_rotors, touches_of
+from tandemlift.simulation.touches import touches_of
 
 ON_ITS_BACK = THROWN | {"initial.euler": [0.3, 1.4, 0.5], "initial.rates": [0.8, 3.0, 0.0], "mission.name": "crash"}
 
@@ -62,7 +62,7 @@ def test_a_flight_that_stands_flies_and_lands_touches_nothing():
     )
     p = FlightPlan(mission)
     (raw,) = _fly_compiled([p], p.steps // p.every + 1, p.every)
-    assert touches_of(raw.flight_state) == struck_rotors(raw.flight_state) == []
+    assert touches_of(raw.flight_state) == []
 
 
 def test_the_impulse_of_the_record_is_the_momentum_that_the_floor_gives():

@@ -15,7 +15,7 @@ from tandemlift.codegen.c.laws import write_call, write_functions
 from tandemlift.codegen.c.source import SourceFile
 from tandemlift.codegen.c.statements import Statements
 from tandemlift.codegen.c.text import FunctionHead, function
-from tandemlift.codegen.c_limits import write_limits, write_solver
+from tandemlift.codegen.c_pilot import write_limits, write_solver
 from tandemlift.codegen.number_facts import described
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import ZERO

@@ -15,6 +15,7 @@ from tandemlift.codegen.c.text import wrapped
 from tandemlift.codegen.c_flight import FlightFile
 from tandemlift.codegen.c_pilot import PilotFile
 from tandemlift.codegen.prepare import PrepareFile
+from tandemlift.core.files import write_file
 from tandemlift.core.types import Array, leaves
 from tandemlift.missions import Mission, tables_of
 from tandemlift.simulation.caller_values import portable_mission
@@ -56,16 +57,10 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
     return written(code_texts(mission, single) | selftests, Path(folder))
 
 
-def mission_hash(mission: Mission) -> str:
-    """The first 16 digits of the SHA-256 of a mission's tables as JSON with sorted keys."""
-    text = json.dumps(tables_of(mission), sort_keys=True, ensure_ascii=False, default=str)
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
 def source_file(mission: Mission, single: bool = False) -> SourceFile:
-    """A file of C of a mission, as yet empty."""
-    m = mission.mission
-    return SourceFile(m.name, single, m.step, mission_hash(mission))
+    """A file of C of a mission, as yet empty, with the first 16 digits of a hash of the mission's tables."""
+    m, tables = mission.mission, json.dumps(tables_of(mission), sort_keys=True, ensure_ascii=False, default=str)
+    return SourceFile(m.name, single, m.step, hashlib.sha256(tables.encode()).hexdigest()[:16])
 
 
 def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
@@ -95,11 +90,9 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
 
 def written(texts: dict[str, str], folder: Path) -> list[Path]:
     """Write texts to files of a folder."""
-    folder.mkdir(parents=True, exist_ok=True)
-    paths = [folder / name for name in texts]
-    for path, text in zip(paths, texts.values(), strict=True):
-        path.write_text(text, encoding="utf-8")
-    return paths
+    for name, text in texts.items():
+        write_file(folder / name, text)
+    return [folder / name for name in texts]
 
 
 # ---- Programs that compare pilot and flight with stored samples of native flights
@@ -147,6 +140,7 @@ def sum_over(log: Array) -> int:
     """The sum over the bits of all numbers of a log, each times an odd weight; NaN counts as one number."""
     numbers = np.ascontiguousarray(log).ravel()
     bits = np.where(np.isnan(numbers), np.uint64(NAN), numbers.view(np.uint64))
+    # an odd factor has an inverse modulo 2⁶⁴, so a change of any single bit changes the sum
     weights = 2 * np.arange(len(bits), dtype=np.uint64) + 1
     return int(np.sum(bits * weights, dtype=np.uint64))
 

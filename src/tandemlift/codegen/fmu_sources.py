@@ -4,18 +4,11 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from tandemlift.codegen import fmu_variables
 from tandemlift.codegen.c.expressions import number
 from tandemlift.codegen.c_flight import FlightFile
 from tandemlift.codegen.c_package import source_file
 from tandemlift.codegen.c_pilot import PilotFile
-from tandemlift.codegen.fmu_variables import (
-    FmuVariable,
-    caller_inputs,
-    outputs,
-    parameters,
-    pilot_inputs,
-    thrust_output,
-)
 from tandemlift.codegen.prepare import PrepareFile, prepared_numbers
 from tandemlift.codegen.vehicle_step import VehicleStep, is_of_vehicle
 from tandemlift.compiler.tracer import symbols
@@ -47,7 +40,7 @@ class FmuPart(NamedTuple):
 
     identifier: str
     meaning: str
-    variables: list[FmuVariable]
+    variables: list[fmu_variables.FmuVariable]
     texts: dict[str, str]
     step: float
     duration: float
@@ -56,14 +49,12 @@ class FmuPart(NamedTuple):
 def pilot_part(mission: Mission) -> FmuPart:
     """The pilot of a mission, which is portable."""
     file, traced = source_file(mission), trace_assembly(mission, pilot_at_start)
-    pilot, prepare = (
-        PilotFile(file, assembled_by_graph(mission, pilot_at_start)),
-        PrepareFile(source_file(mission), traced, "pilot"),
-    )
+    pilot = PilotFile(file, assembled_by_graph(mission, pilot_at_start))
+    prepare = PrepareFile(source_file(mission), traced, "pilot")
     effective = _effective(traced, [*symbols(traced.graph, traced.assembled), *_conditions(traced)])
     count, start = len(traced.keys), [float(x) for x in flat(INPUT)]
-    found = [*parameters(mission, traced, effective), *pilot_inputs(count, start)]
-    found.append(thrust_output(count + len(start), len(pilot.thrusts)))
+    found = [*fmu_variables.parameters(mission, traced, effective), *fmu_variables.pilot_inputs(count, start)]
+    found.append(fmu_variables.thrust_output(count + len(start), len(pilot.thrusts)))
     code = {"pilot.c": pilot.source(), "pilot.h": pilot.header()}
     code |= {"pilot_prepare.c": prepare.source(), "pilot_prepare.h": prepare.header(mission)}
     words = {"STARTS": _numbers(start), "ENDS": "", "PLACES": "", "COPIES": ""}
@@ -74,10 +65,8 @@ def flight_part(mission: Mission, part: str) -> FmuPart:
     """The whole flight of a mission, which is portable, or its vehicle: `part` is "flight" or "vehicle"."""
     is_whole, plan, traced = part == "flight", FlightPlan(mission, interactive=True), trace_assembly(mission)
     step: Any = {} if is_whole else {"step": VehicleStep}
-    flight, prepare = (
-        FlightFile(source_file(mission), plan, **step),
-        PrepareFile(source_file(mission), traced, "flight"),
-    )
+    flight = FlightFile(source_file(mission), plan, **step)
+    prepare = PrepareFile(source_file(mission), traced, "flight")
     found, spans = prepared_numbers(traced)
     if is_whole:
         found += _conditions(traced)
@@ -86,9 +75,9 @@ def flight_part(mission: Mission, part: str) -> FmuPart:
         found = [x for i, x in enumerate(found) if i >= model or i in used]
     count, external = len(traced.keys), plan.given.external
     names = [name for name in channel_names(plan) if is_whole or is_of_vehicle(name)]
-    shown, places = outputs(flight.templates.sample, count + leaves(external), names)
-    variables = [*parameters(mission, traced, _effective(traced, found))]
-    variables += [*caller_inputs(external, count, has_pilot=is_whole), *shown]
+    shown, places = fmu_variables.outputs(flight.templates.sample, count + leaves(external), names)
+    variables = [*fmu_variables.parameters(mission, traced, _effective(traced, found))]
+    variables += [*fmu_variables.caller_inputs(external, count, has_pilot=is_whole), *shown]
     code = {"flight.c": flight.source(), "flight.h": flight.header()}
     code["flight_prepare.c"] = prepare.source(flight.traced_tables)
     code["flight_prepare.h"] = prepare.header(mission, flight.traced_tables)
@@ -120,7 +109,7 @@ def _part(
     mission: Mission,
     part: str,
     traced: TracedAssembly,
-    variables: list[FmuVariable],
+    variables: list[fmu_variables.FmuVariable],
     code: dict[str, str],
     has: set[str],
     words: dict[str, str],
@@ -156,7 +145,7 @@ def _lines(sizes: list[int]) -> str:
     return ",\n".join("    " + ", ".join(map(str, sizes[i : i + 32])) for i in range(0, len(sizes), 32))
 
 
-def _bounds(traced: TracedAssembly, variables: list[FmuVariable]) -> list[str]:
+def _bounds(traced: TracedAssembly, variables: list[fmu_variables.FmuVariable]) -> list[str]:
     """A row of key and bounds for each number of the mission; NaN is in no bounds."""
     bounds = {v.at + i: v.bounds for v in variables for i in range(len(v.labels)) if v.causality == "parameter"}
     rows = list[str]()

@@ -12,16 +12,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from tandemlift.codegen.number_facts import CALLER, FIELDS, PUSH, REQUESTS, STATE, STATUS, number_facts
-from tandemlift.core.types import leaves
 from tandemlift.flight.channels import Channel, channel_of
 from tandemlift.flight.data_frames import column_names
 from tandemlift.missions import Mission
 from tandemlift.simulation.caller_values import held_inputs
 from tandemlift.simulation.preparation.traced_assembly import TracedAssembly
-from tandemlift.simulation.results import channels_of
+from tandemlift.simulation.results import channel_columns
 
 ENTRY = re.compile(r"(.+?)((?:\.\d+)+)")  # a key of a number in a list
 
@@ -70,7 +67,8 @@ def parameters(mission: Mission, traced: TracedAssembly, effective: set[int]) ->
     for name, group in itertools.groupby(places, lambda i: _list_of(traced.keys[i])):
         own = list(group)
         keys = tuple(traced.keys[i] for i in own)
-        is_whole = keys[0] != name and _is_whole(keys, name) and own == list(range(own[0], own[0] + len(own)))
+        is_list = keys == tuple([f"{name}.{i}" for i in range(len(keys))])
+        is_whole = is_list and own == list(range(own[0], own[0] + len(own)))
         for members in [own] if is_whole else [[i] for i in own]:
             labels = tuple(traced.keys[i] for i in members)
             facts = number_facts(mission, labels[0])
@@ -85,11 +83,6 @@ def _list_of(key: str) -> str:
     return match[1] if match else key
 
 
-def _is_whole(keys: tuple[str, ...], name: str) -> bool:
-    """Whether keys are those of a list of numbers, from the first on."""
-    return keys == tuple(f"{name}.{i}" for i in range(len(keys)))
-
-
 def _labelled(name: str, channel: Channel, size: int, shape: tuple[int, ...]) -> tuple[str, ...]:
     return tuple(column_names(name, channel, shape)) if size > 1 or shape else (name,)
 
@@ -97,13 +90,12 @@ def _labelled(name: str, channel: Channel, size: int, shape: tuple[int, ...]) ->
 def outputs(sample: Any, first: int, names: Iterable[str]) -> tuple[list[FmuVariable], list[int]]:
     """Outputs for the channels of these names, and the places of their numbers in a sample laid out like `sample`."""
     found, places = list[FmuVariable](), list[int]()
-    row = np.arange(leaves(sample), dtype=float)[None, :]
-    for name, columns in channels_of(sample, row):
+    for name, columns in channel_columns(sample).items():
         if name in names:
-            channel, shape = channel_of(name), columns.shape[1:]
+            channel, shape = channel_of(name), columns.shape
             labels = _labelled(name, channel, columns.size, shape)
             found.append(FmuVariable(name, "output", channel, first + len(places), labels, bool(shape)))
-            places += columns.ravel().astype(int).tolist()
+            places += columns.ravel().tolist()
     return found, places
 
 

@@ -22,8 +22,9 @@ from tandemlift.compiler.machine_code.code import Written
 from tandemlift.compiler.machine_code.machine import MACHINES, Machine, machine_named, object_code
 from tandemlift.compiler.machine_code.wasm_linker import linked
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import __version__, atomic_write
+from tandemlift.core.files import __version__, write_file
 from tandemlift.core.types import flat, leaves
+from tandemlift.flight.channels import channel_of
 from tandemlift.missions import Mission, MissionLike, mission_of, tables_of
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.parameter_changes import hand_place
@@ -31,7 +32,7 @@ from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation.assemble import assemble
 from tandemlift.simulation.preparation.memory import POINTERS, WORDS
 from tandemlift.simulation.preparation.traced_assembly import TracedAssembly, trace_assembly
-from tandemlift.simulation.results import channel_places
+from tandemlift.simulation.results import channel_columns
 
 FUNCTIONS = ("prepare", "fly", "ramp")
 Functions = Callable[[FlightPlan], Sequence[ValuesFunction]]
@@ -44,11 +45,7 @@ class MissionModule(NamedTuple):
     manifest: dict[str, Any]
 
 
-def _nothing_more(plan: FlightPlan) -> Sequence[ValuesFunction]:
-    return ()
-
-
-def module_of(mission: Mission, target: str, functions: Functions = _nothing_more) -> MissionModule:
+def module_of(mission: Mission, target: str, functions: Functions | None = None) -> MissionModule:
     """Compile a mission for a machine; earlier results are taken from the cache.
 
     Args:
@@ -61,7 +58,7 @@ def module_of(mission: Mission, target: str, functions: Functions = _nothing_mor
     """
     machine = machine_named(target)
     plan = FlightPlan(portable_mission(mission))
-    traced, more = trace_assembly(plan.mission), functions(plan)
+    traced, more = trace_assembly(plan.mission), functions(plan) if functions else ()
     facts = _identity(traced), _sources(more), [(f.name, f.likes) for f in more]
     key = store.key_of((plan.model, plan.given), "module", machine, facts)
     entry = store.read(key)
@@ -179,16 +176,13 @@ def compile_mission(
     if target == "c":
         return write_c(mission_of(mission), folder, single)
     module = module_of(mission_of(mission), target)
-    manifest = json.dumps(module.manifest, indent=1, ensure_ascii=False).encode()
-    Path(folder).mkdir(parents=True, exist_ok=True)
-    files = {
-        Path(folder) / f"{module.manifest['mission']}.{ending}": content
-        for ending, content in ((ENDINGS.get(target, "o"), module.code), ("json", manifest))
-    }
-    for path, content in files.items():
-        with atomic_write(path) as partial:
-            partial.write_bytes(content)
-    return list(files)
+    manifest = json.dumps(module.manifest, indent=1, ensure_ascii=False)
+    code, description = (
+        Path(folder) / f"{module.manifest['mission']}.{end}" for end in (ENDINGS.get(target, "o"), "json")
+    )
+    write_file(code, module.code)
+    write_file(description, manifest)
+    return [code, description]
 
 
 # ---- The manifest: meanings and places of a module's numbers, for a caller without Python
@@ -232,8 +226,14 @@ def manifest_of(plan: FlightPlan, traced: TracedAssembly, about: dict[str, Any])
         "dt": plan.dt,
         "hand": [hand.start, hand.stop - hand.start],
         "functions": about["functions"],
-        "channels": channel_places(plan.sample),
+        "channels": _described(plan.sample),
     }
+
+
+def _described(like: Any) -> list[dict[str, Any]]:
+    """Of every channel of samples laid out like `like`: name, places of its numbers, unit, frame and meaning."""
+    columns = channel_columns(like).items()
+    return [{"name": name, "columns": at.ravel().tolist(), **channel_of(name).described} for name, at in columns]
 
 
 def number(value: float) -> float | str:

@@ -1,7 +1,7 @@
 """The LLVM text of a mission's module: its loop over steps, the ramps of its numbers, and functions of values.
 
     prepare(numbers, prepared, work) → 0, or 1 + …               see `prepare`
-    fly(context) → the step reached                              as in `loop_code`
+    fly(context) → the step reached                              as `LoopCode.loop`
     ramp(flight, before, after, active, first, count, k, begin, steps) → 1 while the ramp goes on
     NAME(x, y) → 0                                               y = function(x), numbers one after another
 
@@ -10,11 +10,11 @@ Addresses are those of the machine; the loop takes them from 64-bit words of its
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from tandemlift.compiler.tracer import Function, Graph, Module, Place, double, rounded_twice, symbols
+from tandemlift.compiler.machine_code.functions import results_of
+from tandemlift.compiler.tracer import Function, Graph, Module, Place, double, rounded_twice
 from tandemlift.core.types import leaves
 from tandemlift.simulation.preparation import LoopCode
 from tandemlift.simulation.preparation.loops import LoopWriter
@@ -34,7 +34,7 @@ class ValuesFunction(NamedTuple):
 
 
 def write_flight_loop(loop_code: LoopCode, draw_lanes: int, largest: int) -> LoopWriter:
-    """The loop for one flight, whose module goes on to grow; arguments as for `loop_code.step_writer.StepWriter`."""
+    """The loop for one flight, whose module goes on to grow; arguments as for `StepWriter`."""
     writer = LoopWriter(loop_code.traced, 1, draw_lanes, largest)
     writer.write_loop()
     return writer
@@ -42,9 +42,8 @@ def write_flight_loop(loop_code: LoopCode, draw_lanes: int, largest: int) -> Loo
 
 def write_values_function(module: Module, wanted: ValuesFunction) -> int:
     """Add a function of values to a module; return the number of its results."""
-    graph, ends = Graph(), list(itertools.accumulate(map(leaves, wanted.likes), initial=0))
-    arguments = [graph.inputs("x", like, first) for like, first in zip(wanted.likes, ends, strict=False)]
-    found = symbols(graph, rounded_twice(wanted.function)(*arguments))
+    graph = Graph()
+    found = results_of(graph, rounded_twice(wanted.function), wanted.likes)
     f = Function(module, graph, 1, f"i64 @{wanted.name}(ptr %x, ptr %y) #0")
     f.read["x"] = lambda i: Place("%x", i)
     f.put("%y", 0, found)

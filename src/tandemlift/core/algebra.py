@@ -50,27 +50,11 @@ __all__ = [
     "vec3",
     "where",
 ]
-_NAMES = {  # ours: (NumPy and jax.numpy, CasADi)
-    "sqrt": ("sqrt", "sqrt"),
-    "sin": ("sin", "sin"),
-    "cos": ("cos", "cos"),
-    "atan2": ("arctan2", "atan2"),
-    "tanh": ("tanh", "tanh"),
-    "tan": ("tan", "tan"),
-    "exp": ("exp", "exp"),
-    "expm1": ("expm1", "expm1"),
-    "log": ("log", "log"),
-    "absolute": ("abs", "fabs"),
-    "minimum": ("minimum", "fmin"),
-    "maximum": ("maximum", "fmax"),
-    "where": ("where", "if_else"),
-}
-
 OURS = 2
 
 
 def _library(args: tuple[Any, ...]) -> tuple[Any, int] | None:
-    """The array library that the arguments ask for, and its column in the table of names; None for plain numbers."""
+    """The array library that the arguments ask for, and which name an operation has there; None for plain numbers."""
     found = None
     for a in args:
         if isinstance(a, (float, int)):  # np.float64 too: a scalar, best served by math
@@ -87,39 +71,41 @@ def _library(args: tuple[Any, ...]) -> tuple[Any, int] | None:
     return found
 
 
-def primitive(name: str, scalar: Callable[..., Any]) -> Callable[..., Any]:
-    """An elementary operation: `scalar` for plain numbers, else the function of that name in the arguments' library."""
+PRIMITIVES: list[Callable[..., Any]] = []
+
+
+def primitive(name: str, scalar: Callable[..., Any], *, numpy: str = "", casadi: str = "") -> Callable[..., Any]:
+    """An elementary operation: `scalar` for plain numbers, else the function of that name in the arguments' library.
+
+    `numpy` and `casadi`: its names there, and in jax.numpy, where they differ.
+    """
+    names = numpy or name, casadi or name, name
 
     def operation(*args: Any) -> Any:
         library = _library(args)
         if library is None:
             return scalar(*args)
-        module, column = library
-        return getattr(module, name if column == OURS else _NAMES[name][column])(*args)
+        module, place = library
+        return getattr(module, names[place])(*args)
 
     operation.__name__ = operation.__qualname__ = f"_{name}"
+    PRIMITIVES.append(operation)
     return operation
-
-
-def _exp_of_float(x: float) -> float:
-    return math.exp(min(x, 709.0))
 
 
 _sqrt = primitive("sqrt", lambda x: math.sqrt(x) if x >= 0.0 else math.nan)
 _sin = primitive("sin", lambda x: math.sin(x) if math.isfinite(x) else math.nan)
 _cos = primitive("cos", lambda x: math.cos(x) if math.isfinite(x) else math.nan)
-_atan2 = primitive("atan2", math.atan2)
-_tanh = primitive("tanh", math.tanh)
 _tan = primitive("tan", math.tan)
-_exp = primitive("exp", _exp_of_float)
+_atan2 = primitive("atan2", math.atan2, numpy="arctan2")
+_tanh = primitive("tanh", math.tanh)
+_exp = primitive("exp", lambda x: math.exp(min(x, 709.0)))
 _expm1 = primitive("expm1", lambda x: math.expm1(min(x, 709.0)))
 _log = primitive("log", math.log)
-_absolute = primitive("absolute", abs)
-_minimum = primitive("minimum", lambda a, b: a if a < b else b)
-_maximum = primitive("maximum", lambda a, b: a if a > b else b)
-_where = primitive("where", lambda condition, a, b: a if condition else b)
-
-PRIMITIVES = (_sqrt, _sin, _cos, _tan, _atan2, _tanh, _exp, _expm1, _log, _absolute, _minimum, _maximum, _where)
+_absolute = primitive("absolute", abs, numpy="abs", casadi="fabs")
+_minimum = primitive("minimum", lambda a, b: a if a < b else b, casadi="fmin")
+_maximum = primitive("maximum", lambda a, b: a if a > b else b, casadi="fmax")
+_where = primitive("where", lambda condition, a, b: a if condition else b, casadi="if_else")
 
 
 @elementwise

@@ -25,15 +25,17 @@ def _no_order(a: object, b: object) -> bool:
 
 
 def linear(cls: C) -> C:
-    """Mark a NamedTuple whose values add, subtract and scale field by field; its fields may be linear themselves."""
+    """Mark a NamedTuple whose values add, subtract and scale field by field; its fields may be linear themselves.
+
+    Operators in its body have no effect: they are there for a type checker.
+    """
     cls.linear = True  # type: ignore[attr-defined]
     cls.componentwise = getattr(cls, "componentwise", False)  # type: ignore[attr-defined]
     cls.__array_ufunc__ = None  # type: ignore[attr-defined]  # a NumPy scalar on the left defers to our operators
     for name in ("__lt__", "__le__", "__gt__", "__ge__"):
         setattr(cls, name, _no_order)
     for name, operation in OPERATORS.items():
-        if name not in vars(cls):
-            setattr(cls, name, operation)
+        setattr(cls, name, operation)
     return cls
 
 
@@ -63,6 +65,8 @@ def minus(a: V, b: V) -> V:
 
 def times(a: V, k: Any) -> V:
     """a scaled by a number, or, for vectors of one kind, the product component by component."""
+    if isinstance(a, Quat) and isinstance(k, tuple):
+        raise TypeError("a quaternion is only scaled by numbers; write hamilton(a, b) for the product")
     if isinstance(k, tuple) or (is_set(a) and is_rolled(k)):
         return _by_fields(operator.mul, a, k)
     return type(a)(*[x * k for x in a])
@@ -98,23 +102,12 @@ class Vec3(NamedTuple):
     y: Any
     z: Any
 
-    def __add__(self, other: Vec3) -> Vec3:
-        return plus(self, other)
-
-    def __sub__(self, other: Vec3) -> Vec3:
-        return minus(self, other)
-
-    def __mul__(self, k: Any) -> Vec3:
-        return times(self, k)
-
-    def __rmul__(self, k: Any) -> Vec3:
-        return times(self, k)
-
-    def __truediv__(self, k: Any) -> Vec3:
-        return over(self, k)
-
-    def __neg__(self) -> Vec3:
-        return negative(self)
+    def __add__(self, other: Vec3) -> Vec3: ...
+    def __sub__(self, other: Vec3) -> Vec3: ...
+    def __mul__(self, k: Any) -> Vec3: ...
+    def __rmul__(self, k: Any) -> Vec3: ...
+    def __truediv__(self, k: Any) -> Vec3: ...
+    def __neg__(self) -> Vec3: ...
 
 
 @linear
@@ -126,22 +119,11 @@ class Quat(NamedTuple):
     y: Any
     z: Any
 
-    def __add__(self, other: Quat) -> Quat:
-        return plus(self, other)
-
-    def __sub__(self, other: Quat) -> Quat:
-        return minus(self, other)
-
-    def __mul__(self, k: Any) -> Quat:
-        if isinstance(k, tuple):
-            raise TypeError("a quaternion is only scaled by numbers; write hamilton(a, b) for the product")
-        return times(self, k)
-
-    def __rmul__(self, k: Any) -> Quat:
-        return self * k
-
-    def __neg__(self) -> Quat:
-        return negative(self)
+    def __add__(self, other: Quat) -> Quat: ...
+    def __sub__(self, other: Quat) -> Quat: ...
+    def __mul__(self, k: Any) -> Quat: ...
+    def __rmul__(self, k: Any) -> Quat: ...
+    def __neg__(self) -> Quat: ...
 
 
 @linear
@@ -152,14 +134,9 @@ class Mat3(NamedTuple):
     y: Vec3
     z: Vec3
 
-    def __add__(self, other: Mat3) -> Mat3:
-        return plus(self, other)
-
-    def __sub__(self, other: Mat3) -> Mat3:
-        return minus(self, other)
-
-    def __mul__(self, k: Any) -> Mat3:
-        return times(self, k)
+    def __add__(self, other: Mat3) -> Mat3: ...
+    def __sub__(self, other: Mat3) -> Mat3: ...
+    def __mul__(self, k: Any) -> Mat3: ...
 
 
 ZERO = Vec3(0.0, 0.0, 0.0)

@@ -122,10 +122,8 @@ def advance(
 
     Walls strike at its start, before all else. Its touches are left out; `touches.touches_in` gives them.
     """
-    b, u = (
-        BodySurroundings(plant, load_about_center(air, plant.frame, s.attitude), grip, near),
-        wrench(plant.effect, thrusts),
-    )
+    b = BodySurroundings(plant, load_about_center(air, plant.frame, s.attitude), grip, near)
+    u = wrench(plant.effect, thrusts)
     struck, q = struck_by_walls(plant.walls, b, s, u, hand.start, dt), s.attitude
     k1 = motion(b, struck.state, u, hand.start)
     after = rk4(b, struck.state, k1, u, hand, dt)

@@ -22,14 +22,15 @@ from xml.etree import ElementTree
 import numpy as np
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.types import Array
-from tandemlift.core.vector import Absent, Quat, vec3
+from tandemlift.core.types import Array, flat
+from tandemlift.core.vector import Absent, Quat
+from tandemlift.engines.compiled import start_state
 from tandemlift.engines.gazebo_server import GazeboServer, free_port
-from tandemlift.engines.gazebo_wire import STATE, PluginAnswer, Wire
+from tandemlift.engines.gazebo_wire import PluginAnswer, Wire
 from tandemlift.engines.models import sdf
 from tandemlift.engines.models.scene import Scene
 from tandemlift.engines.touches import KINDS, SURFACES, ContactLog
-from tandemlift.parts.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 NONE = Absent()
@@ -141,7 +142,7 @@ class GazeboBody:
         Raises:
             OSError: the session is over, the server has ended, or does not answer.
         """
-        if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:
+        if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:  # also NaN, which is below nothing
             self.state.fill(np.nan)
             self.readings.fill(np.nan)
             return
@@ -224,10 +225,7 @@ def world_from(scene: Scene, plugin: int | str, **more: str) -> str:
 
 def start_state_from(scene: Scene) -> Array:
     """The state (13,) that a mission starts in, of the real centre of mass."""
-    initial = scene.initial
-    attitude = quaternion_from_euler(vec3(initial.euler))
-    state = np.array([*initial.position, *initial.velocity, *attitude, *initial.rates])
-    assert state.size == STATE
+    state = np.array(flat(start_state(scene)))
     move_state(state, np.array(scene.plant.center_of_mass_offset))
     return state
 

@@ -85,19 +85,16 @@ class GazeboServer:
         self.folder = Path(tempfile.mkdtemp(prefix="tandemlift-", dir=None if inside is None else inside / "tmp"))
         seen = self.folder if inside is None else Path("/tmp") / self.folder.name
         (self.folder / "vehicle.world").write_text(world, "utf-8")
+        script = f"cd {shlex.quote(str(seen))}\nexec gzserver --verbose vehicle.world"
+        script = export_lines(environment) + with_gazebo_environment(self.master, script, seen)
         with (self.folder / "log").open("wb") as log:
             self._process = subprocess.Popen(
-                shell_command(inside, export_lines(environment) + self._script(seen)),
+                shell_command(inside, script),
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=subprocess.STDOUT,
                 start_new_session=True,  # Ctrl-C is ours
             )
-
-    def _script(self, folder: Path) -> str:
-        return with_gazebo_environment(
-            self.master, f"cd {shlex.quote(str(folder))}\nexec gzserver --verbose vehicle.world", folder
-        )
 
     def check(self) -> None:
         """Check that the server still runs and has loaded the plugin.

@@ -79,11 +79,6 @@ class PluginAnswer:
         self.touches = touches.reshape(2, 5 * count + 1, 4)
 
 
-def hello_size(count: int) -> int:
-    """Numbers of a HELLO to N quadrotors."""
-    return 2 + STATE + 12 * count
-
-
 def step_size(count: int) -> int:
     """Numbers of a STEP of N quadrotors."""
     return 10 * count + 12
@@ -142,7 +137,6 @@ class Wire:
         )
         place = np.array([0.0] * 6 + [1.0] + [0.0] * 6) if state is None else state
         content = np.concatenate([[float(asked), dt], np.ravel(place), np.ravel(rotors)])
-        assert content.size == hello_size(self.count)
         self._session, self._sequence = secrets.randbits(32), 0
         self._request(self._head(MessageKind.HELLO) + content.tobytes(), MessageKind.WELCOME)
         self._step[: HEADER.size] = self._head(MessageKind.STEP)

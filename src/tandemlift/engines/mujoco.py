@@ -59,10 +59,7 @@ class MuJoCoBody:
         on_quadrotors = d.xfrc_applied[2 : N + 2].T
         self._force_on_quadrotors, self._moment_on_quadrotors = on_quadrotors[:3], on_quadrotors[3:]
         self._specific_force, self._accelerometer = readings[:3], d.sensordata[:3]
-        self._at_joints, self._rotor_loads_at_joints = (
-            readings[joints].reshape(2, 3, N),
-            self._of_rotors.reshape(2, 3, N),
-        )
+        self._at_joints, self._rotor_loads_at_joints = (x.reshape(2, 3, N) for x in (readings[joints], self._of_rotors))
         self._joint_sensors = d.sensordata[joints].reshape(2, N, 3).transpose(0, 2, 1)
         self._contact_force, self._contact_sensor = readings[6 * N + 3 :], d.sensordata[6 * N + 3 :]
         self._touching = touching
@@ -102,7 +99,7 @@ class MuJoCoBody:
 
     def advance(self, thrusts: Array, loads: Array, force: Array, moment: Array) -> None:
         """Advance by one step; see `registry.EngineBody`."""
-        if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:
+        if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:  # also NaN, which is below nothing
             self.state.fill(np.nan)
             self.readings.fill(np.nan)
             return

@@ -116,7 +116,7 @@ class Engine(NamedTuple):
     pushable: bool = False
 
     def start(self, scene: Scene, vehicle: Vehicle, floor: Any, walls: Any) -> EngineBody:
-        """The body of a mission at t = 0; `floor`: a `Floor`, `walls`: a `Walls` (laws.mechanics), or `Absent`.
+        """The body of a mission at t = 0; `floor`: a `Floor`, `walls`: a `Walls` (`parts.contact`), each or `Absent`.
 
         Raises:
             InputError: the engine is not installed, or cannot take the scene.

@@ -108,9 +108,7 @@ def parts_touched(contact: HullContact | NearWallContact | Absent, s: State) -> 
     """The `SurfaceContacts` of a contact with floor or walls in state `s`, or `Absent`."""
 
 
-@parts_touched.register(HullContact)
-def _on_floor(contact: HullContact, s: State) -> SurfaceContacts:
-    return floor_contacts(contact, s)
+parts_touched.register(HullContact)(floor_contacts)
 
 
 @parts_touched.register(NearWallContact)

@@ -31,6 +31,11 @@ class Channel(NamedTuple):
     width: int = 3
     per: str = ""
 
+    @property
+    def described(self) -> dict[str, str]:
+        """Unit, frame and meaning, for a file whose readers do not have this list."""
+        return {"unit": self.unit, "frame": self.frame, "meaning": self.meaning}
+
     def columns(self, quadrotors: int, rotors: int) -> int:
         """The length of a sample, for a vehicle with that many quadrotors and that many rotors in all."""
         return self.width * {"": 1, "quadrotor": quadrotors, "rotor": rotors}[self.per]

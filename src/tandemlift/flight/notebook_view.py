@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 import math
+import textwrap
 from collections.abc import Iterable, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
 
 MOST_FINDINGS = 3
+WIDE = 48  # characters of a line
 CELL = "padding:0.1em 0.8em 0.1em 0;text-align:left;vertical-align:top;white-space:nowrap"
 METRICS = (  # name in metrics.json, label here, displayed unit, and that unit in SI units
     ("position_rmse_after_10s_m", "position error after 10 s (RMS)", "mm", 1e-3),
@@ -54,12 +56,13 @@ def flight_html(flight: LoggedFlight, outcome: str, failure: str, findings: Sequ
 
 
 def _facts(flight: LoggedFlight, outcome: str, failure: str, findings: Sequence[Any]) -> list[tuple[str, str]]:
+    lines = textwrap.wrap(failure or outcome, WIDE, break_long_words=False)
     flown = f"{flight.time[-1]:g} s, {len(flight.time):,} samples" if len(flight.time) else "nothing logged"
     return [
         ("mission", f"<b>{escape(flight.name)}</b>"),
         ("engine", escape(flight.version.get("engine", "unknown"))),
         ("flown", flown),
-        ("outcome", f"{'✗' if failure else '✓'} {escape(_wrapped(failure or outcome))}".replace("\n", "<br>")),
+        ("outcome", f"{'✗' if failure else '✓'} {'<br>'.join(map(escape, lines))}"),
         ("findings", _findings(findings)),
     ]
 
@@ -91,16 +94,6 @@ def _numbers(value: object, size: float) -> str:
 def _number(value: float) -> str:
     """A number with three digits, and 0 if it is negligible."""
     return f"{value:.3g}".replace("-", "−") if abs(value) >= 5e-4 else "0"
-
-
-def _wrapped(text: str, width: int = 48) -> str:
-    """A long text in lines of some 48 characters."""
-    lines = [""]
-    for word in text.split():
-        if lines[-1] and len(lines[-1]) + len(word) >= width:
-            lines.append("")
-        lines[-1] = f"{lines[-1]} {word}".strip()
-    return "\n".join(lines)
 
 
 BLUE, VERMILLION, GREY = "#2a8bcc", "#e0701f", "#8c8c8c"  # visible on white and on black

@@ -100,7 +100,7 @@ class Flight(Mapping[str, Array]):
 
     @property
     def outcome(self) -> str:
-        """The outcome, one of `core.outcomes.OUTCOMES`; "unknown" for a flight that was read from a bag."""
+        """The outcome, one of `core.phases.OUTCOMES`; "unknown" for a flight that was read from a bag."""
         return self.results.get("outcome", "unknown")
 
     @property
@@ -188,7 +188,7 @@ class Flight(Mapping[str, Array]):
             "ending": _written(self.ending),
             "version": self.version,
             "findings": [f.as_table() for f in self.findings],
-            "channels": {name: _described(self.info(name)) for name in self.channels},
+            "channels": {name: self.info(name).described for name in self.channels},
         }
         text = np.array(json.dumps(header, allow_nan=False))
         with atomic_write(path) as partial, partial.open("wb") as file:
@@ -215,11 +215,6 @@ class Flight(Mapping[str, Array]):
             raise InputError(f"{path}: {error.strerror or error}") from None
         except Exception as error:  # all errors that arbitrary content can cause in the readers of ZIP, NPY and JSON
             raise InputError(f"{path} is damaged or no flight that tandemlift saved ({error})") from error
-
-
-def _described(channel: Channel) -> dict[str, str]:
-    """The description of a channel in a file's header, for readers without tandemlift."""
-    return {"unit": channel.unit, "frame": channel.frame, "meaning": channel.meaning}
 
 
 def _written(ending: Ending | None) -> list[Any] | None:
@@ -250,7 +245,7 @@ def _read(file: BinaryIO) -> tuple[dict[str, Any], dict[str, Array]]:
 def _check_names(header: dict[str, Any]) -> None:
     """Reject channels of other versions; channels of user code keep their own description."""
     for name, said in header["channels"].items():
-        if channel_of(name) == OTHER and said != _described(OTHER) and not name.startswith("measured_"):
+        if channel_of(name) == OTHER and said != OTHER.described and not name.startswith("measured_"):
             raise unknown("channel", name, CHANNELS)
 
 

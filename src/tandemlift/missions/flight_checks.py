@@ -13,17 +13,10 @@ from tandemlift.missions.mission import Mission
 from tandemlift.missions.outcomes import promise_of
 from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.interaction.passage import passage_checks, way_checks
+from tandemlift.parts.pilot import schedule_checks
 from tandemlift.parts.pilot.excitation import excitation_checks
 from tandemlift.parts.pilot.loop_checks import loop_checks
 from tandemlift.parts.pilot.push_checks import point_checks, push_checks
-from tandemlift.parts.pilot.schedule_checks import (
-    Schedule,
-    descent_checks,
-    haste_checks,
-    landing_checks,
-    lift_checks,
-    push_time_checks,
-)
 from tandemlift.parts.pilot.sensing_checks import sensing_checks
 from tandemlift.parts.pilot.start_checks import start_checks
 from tandemlift.parts.pilot.stiffness_checks import gain_checks, offset_checks
@@ -206,7 +199,7 @@ def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
     """The results of all checks of a mission, by closed forms, in the order of the parts."""
     step, end, pilot, controller, hover = m.mission.step, m.mission.duration, m.pilot, m.controller, m.hover
     wind = WindOnParts(m.wind, hover.vehicle, m.initial.euler[2], step)
-    by_hand, schedule = m.by_hand, Schedule(m.phases, m.pushes, m.admittance, m.by_hand, end)
+    by_hand, schedule = m.by_hand, schedule_checks.Schedule(m.phases, m.pushes, m.admittance, m.by_hand, end)
     compliant_yaw = by_hand is not None and by_hand.yaw.model == "compliant"
     loads = loads_of(m.disturbance, wind, m.pushes, end, yielding_yaw=compliant_yaw)
     usable = None if by_hand is None else by_hand.thrust_fraction
@@ -226,11 +219,11 @@ def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
         "loop checks": loop_checks(m.control_loop),
         "sensing checks": sensing_checks(m.sensors, pilot, m.estimator, schedule, wind),
         "schedule checks": itertools.chain(
-            lift_checks(schedule, m.outcome.lifted_height),
-            haste_checks(schedule, hover),
-            push_time_checks(schedule, m.estimator, pilot.push),
-            descent_checks(schedule) if m.ground.model == "floor" else (),
-            landing_checks(schedule),
+            schedule_checks.lift_checks(schedule, m.outcome.lifted_height),
+            schedule_checks.haste_checks(schedule, hover),
+            schedule_checks.push_time_checks(schedule, m.estimator, pilot.push),
+            schedule_checks.descent_checks(schedule) if m.ground.model == "floor" else (),
+            schedule_checks.landing_checks(schedule),
             way_checks(m.person, m.corridor, m.initial, m.phases, schedule.landing_duration, end),
         ),
         "push checks": push_checks(() if joined else m.pushes, m.admittance.threshold, compliant_yaw=compliant_yaw),

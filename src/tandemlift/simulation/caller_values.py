@@ -92,18 +92,15 @@ def numbers(name: str, value: Any, count: int, what: str) -> Array:
     return array
 
 
-def count_of(name: str, value: Any, least: int = 1) -> int:
-    """A whole number of at least `least`.
+def count_of(name: str, value: Any) -> int:
+    """A whole number of at least 1.
 
     Raises:
         InputError: the value is something else.
     """
-    try:
-        number = operator.index(value)
-    except TypeError:
-        number = least - 1
-    if number < least:
-        raise InputError(f"{name} = {shown(value)}: must be a whole number of at least {least}")
+    number = _whole(value)
+    if number is None or number < 1:
+        raise InputError(f"{name} = {shown(value)}: must be a whole number of at least 1")
     return number
 
 
@@ -113,10 +110,14 @@ def checked_seed(seed: Any) -> int:
     Raises:
         InputError: the seed is not allowed.
     """
-    try:
-        number = operator.index(seed)
-    except TypeError:
-        number = -1
-    if not 0 <= number <= MOST_SEED:
+    number = _whole(seed)
+    if number is None or not 0 <= number <= MOST_SEED:
         raise InputError(f"seed = {shown(seed)}: must be a whole number from 0 to {MOST_SEED:g}")
     return number
+
+
+def _whole(value: Any) -> int | None:
+    try:
+        return operator.index(value)
+    except TypeError:
+        return None

@@ -11,12 +11,12 @@ from tandemlift.core.phases import IDLE, LAND, LIFT, REASONS, STOPPED
 from tandemlift.core.vector import Absent, dot, total
 from tandemlift.missions.outcomes import FindingsTable, Promise, promise_of
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
-from tandemlift.parts.guidance.supervision import ALARM, PHASE, EventLog, SupervisionState
+from tandemlift.parts.guidance.supervision import ALARM, CONTACT, PHASE, SupervisionState
 from tandemlift.parts.interaction.requests import RequestTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.simulation.loop.detectors import Detectors
 from tandemlift.simulation.loop.excess import Excess
-from tandemlift.simulation.loop.oscillation import HalfPeriods, Swings
+from tandemlift.simulation.loop.oscillation import Swings
 from tandemlift.simulation.loop.step import FlightState
 from tandemlift.simulation.outcome import landing_time
 from tandemlift.simulation.plan import FlightPlan
@@ -61,34 +61,39 @@ def findings_of(p: FlightPlan, flight_state: FlightState, steps: int, outcome: s
 def _oscillations(swings: Swings, f: FindingsTable) -> Iterator[Finding]:
     for name, m in zip(swings._fields, swings, strict=True):
         if m.halves:
-            limit = f.oscillation_speed if name == "vertical" else f.oscillation_rate
-            yield _oscillation(m, *SIGNALS[name], limit)
-
-
-def _oscillation(m: HalfPeriods, what: str, unit: str, limit: float) -> Finding:
-    lasted = m.last - m.first
-    frequency = m.halves / (2.0 * lasted)
-    text = f"the {what} swings at {frequency:.3g} Hz with an amplitude of {m.amplitude:.3g} {unit} for {lasted:.3g} s"
-    return finding(
-        "oscillating",
-        text,
-        time=m.first,
-        duration=lasted,
-        quantity=f"{what} at {frequency:.3g} Hz",
-        value=m.amplitude,
-        unit=unit,
-        limit=limit,
-    )
+            (what, unit), lasted = SIGNALS[name], m.last - m.first
+            swings_at = f"at {m.halves / (2.0 * lasted):.3g} Hz"
+            yield finding(
+                "oscillating",
+                f"the {what} swings {swings_at} with an amplitude of {m.amplitude:.3g} {unit} for {lasted:.3g} s",
+                time=m.first,
+                duration=lasted,
+                quantity=f"{what} {swings_at}",
+                value=m.amplitude,
+                unit=unit,
+                limit=f.oscillation_speed if name == "vertical" else f.oscillation_rate,
+            )
 
 
 def _excess(
-    kind: FindingName, text: str, m: Excess, dt: float, quantity: str, value: float, unit: str, limit: float | None
+    kind: FindingName,
+    text: str,
+    m: Excess,
+    dt: float,
+    quantity: str,
+    value: float,
+    unit: str,
+    limit: float | None = None,
+    *,
+    worst: bool = True,
 ) -> Finding:
-    """A finding of a limit that was exceeded."""
+    """A finding of a limit that was exceeded; `worst`: whether the text has the time of the worst value."""
     lasted = m.steps * dt
+    if worst:
+        text = f"{text}, worst at {m.at:.5g} s; beyond it for {lasted:.3g} s"
     return finding(
         kind,
-        f"{text}, worst at {m.at:.5g} s; beyond it for {lasted:.3g} s",
+        text,
         time=m.start,
         duration=lasted,
         place=m.place,
@@ -144,17 +149,9 @@ def _saturations(m: Excess | Absent, steps: int, f: FindingsTable, dt: float) ->
     if not long and fraction <= f.saturated_fraction:
         return
     text = f"a rotor is at its limit for {m.stretch:.3g} s without interruption, {100.0 * fraction:.3g} % of the flight"
-    yield finding(
-        "saturated",
-        text,
-        time=m.start,
-        duration=m.steps * dt,
-        place=m.place,
-        quantity="longest time with a rotor at its limit" if long else "fraction of the time with a rotor at its limit",
-        value=m.stretch if long else fraction,
-        unit="s" if long else "1",
-        limit=f.saturated_time if long else f.saturated_fraction,
-    )
+    of_time = "longest time with a rotor at its limit", m.stretch, "s", f.saturated_time
+    of_flight = "fraction of the time with a rotor at its limit", fraction, "1", f.saturated_fraction
+    yield _excess("saturated", text, m, dt, *(of_time if long else of_flight), worst=False)
 
 
 def _out_of_reach(m: Excess | Absent, p: FlightPlan) -> Iterator[Finding]:
@@ -168,17 +165,8 @@ def _out_of_reach(m: Excess | Absent, p: FlightPlan) -> Iterator[Finding]:
 def _unanswered(m: Excess, dt: float) -> Iterator[Finding]:
     """The finding of a push without response."""
     if m.steps:
-        text = f"the vehicle does not respond to a push of up to {m.worst:.3g} N"
-        yield finding(
-            "no-response-to-push",
-            f"{text} for {m.steps * dt:.3g} s",
-            time=m.start,
-            duration=m.steps * dt,
-            place=m.place,
-            quantity="push",
-            value=m.worst,
-            unit="N",
-        )
+        text = f"the vehicle does not respond to a push of up to {m.worst:.3g} N for {m.steps * dt:.3g} s"
+        yield _excess("no-response-to-push", text, m, dt, "push", m.worst, "N", worst=False)
 
 
 def _unpushed(m: Excess, limit: float, dt: float) -> Iterator[Finding]:
@@ -193,7 +181,7 @@ def _refuted(m: Excess, longest: float, dt: float) -> Iterator[Finding]:
     if m.stretch > longest:
         size = math.sqrt(m.worst)
         text = f"the joint sensors measured a push of up to {size:.3g} N along which the vehicle does not move"
-        yield _excess("push-refuted", text, m, dt, "push that the motion refutes", size, "N", None)
+        yield _excess("push-refuted", text, m, dt, "push that the motion refutes", size, "N")
 
 
 def _cannot_follow(flight_state: FlightState, limit: float) -> Iterator[Finding]:
@@ -221,21 +209,12 @@ def _touches(flight_state: FlightState) -> Iterator[Finding]:
 
 def _by_events(flight_state: FlightState) -> Iterator[Finding]:
     """Findings from the events of the supervision."""
-    supervising = getattr(flight_state.memory.guidance, "supervision", None)
-    if not isinstance(supervising, SupervisionState):
-        return
-    log = supervising.events
-    happened = [(t, code // PHASE, int(code % PHASE // ALARM), int(code % ALARM)) for t, code in _events(log)]
-    before, refused = IDLE, None
-    for t, phase, alarm, check in happened:
+    before: float = IDLE
+    refused = None
+    for t, (phase, alarm, check, _) in supervision_events(flight_state):
         if phase in (LAND, STOPPED) and phase != before and alarm:
-            did = "landed" if phase == LAND else "stopped its rotors"
-            yield finding(
-                "landed-by-fault",
-                f"{did} because of a fault: {ALARM_TEXTS[alarm]}",
-                time=t,
-                quantity=ALARM_TEXTS[alarm],
-            )
+            cause, did = ALARM_TEXTS[alarm], "landed" if phase == LAND else "stopped its rotors"
+            yield finding("landed-by-fault", f"{did} because of a fault: {cause}", time=t, quantity=cause)
         refused = (t, check) if phase == IDLE and check else None if phase == LIFT else refused
         before = phase
     if refused:
@@ -243,8 +222,20 @@ def _by_events(flight_state: FlightState) -> Iterator[Finding]:
         yield finding("lift-refused", f"a lift was refused: {text}", time=refused[0], quantity=text)
 
 
-def _events(log: EventLog) -> list[tuple[float, float]]:
-    return list(zip(log.time, log.code, strict=True))[: int(log.count)]
+EventCode = tuple[int, int, int, int]  # phase, alarm, failed check, contact
+
+
+def supervision_events(flight_state: FlightState) -> list[tuple[float, EventCode]]:
+    """Time [s] and content of each event of the supervision, in the order of time; none without supervision."""
+    supervising = getattr(flight_state.memory.guidance, "supervision", None)
+    if not isinstance(supervising, SupervisionState):
+        return []
+    log = supervising.events
+    return [(t, _event(code)) for t, code in zip(log.time, log.code, strict=True)][: int(log.count)]
+
+
+def _event(code: float) -> EventCode:
+    return int(code % CONTACT // PHASE), int(code % PHASE // ALARM), int(code % ALARM), int(code // CONTACT)
 
 
 def _by_lost_rotor(p: FlightPlan, flight_state: FlightState) -> Iterator[Finding]:

@@ -31,8 +31,7 @@ WAITING = 64 * LANES  # flights, at most, that wait for others of their variant
 def _stretches(p: FlightPlan, memory: FlightMemory, going: Callable[[], bool]) -> Iterator[int]:
     """Fly to the end in stretches of some tenth of a second; yields the step reached after each."""
     pace = memory.code.pace or FIRST_STRETCH  # few stretches seldom wait for Python's lock
-    ends = sorted({s for s in (p.late_step,) if s < p.steps} | {p.steps + 1})
-    for end in ends:
+    for end in [p.late_step, p.steps + 1] if p.late_step < p.steps else [p.steps + 1]:
         while memory.k < min(end, p.steps):
             if not going():
                 raise Stopped
@@ -83,19 +82,6 @@ def _fly_compiled(
     ]
 
 
-def _fly_together(
-    flights: Sequence[FlightPlan],
-    rows: int,
-    every: int,
-    progress: Progress | None = None,
-    going: Callable[[], bool] = always,
-) -> list[RawResult]:
-    """Fly flights of one group, as a block if there are several."""
-    if flights[0].stepwise:
-        return [fly_stepwise(flights[0], rows, every, progress, going=going)]
-    return _fly_compiled(flights, rows, every, progress, going)
-
-
 def fly(mission: MissionLike, engine: str | None = None, *, progress: Progress | None = None) -> Flight:
     """Fly a mission.
 
@@ -117,10 +103,10 @@ def fly(mission: MissionLike, engine: str | None = None, *, progress: Progress |
     p = FlightPlan(mission, engine)
     rows, body = p.steps // p.every + 1, body_of(p)
     with progress_or_own(mission.mission.name, progress, "steps") as shown:
-        if body is not None:
+        if body is not None or p.stepwise:
             return flight_of(p, fly_stepwise(p, rows, p.every, shown, body), engine)
-        (flown,) = _fly_together([p], rows, p.every, shown)
-    return flight_of(p, flown)
+        (flown,) = _fly_compiled([p], rows, p.every, shown)
+    return flight_of(p, flown, engine)
 
 
 def fly_many(
@@ -156,12 +142,11 @@ def fly_many(
         raise InputError(f"keep = {keep!r}: must be 'flights' or 'metrics'")
     if threads is not None and (not isinstance(threads, int) or threads < 1):
         raise InputError(f"threads = {threads!r}: must be a whole number of at least 1")
-    groups = _FlightGroups(missions, refusals)
     with progress_or_own("Flown", progress, "flights") as shown:
-        return _flown_by_threads(groups, keep, threads or os.cpu_count() or 1, _Counter(groups, missions, shown))
+        return _flown_by_threads(_FlightGroups(missions, refusals, shown), keep, threads or os.cpu_count() or 1)
 
 
-def _flown_by_threads(groups: _FlightGroups, keep: str, count: int, finished: _Counter) -> list[Any]:
+def _flown_by_threads(groups: _FlightGroups, keep: str, count: int) -> list[Any]:
     """The results of all missions, in the order given, by some threads."""
     results, going = dict[int, Any](), threading.Event()
     going.set()
@@ -169,7 +154,7 @@ def _flown_by_threads(groups: _FlightGroups, keep: str, count: int, finished: _C
     def work() -> None:
         while going.is_set() and (group := groups.take()):
             results.update(zip(group.places, groups.results_of(group, keep, going.is_set), strict=True))
-            finished.add(len(group.places))
+            groups.finish(group)
 
     pool = ThreadPoolExecutor(count)
     try:
@@ -184,26 +169,13 @@ def _flown_by_threads(groups: _FlightGroups, keep: str, count: int, finished: _C
 
 
 def _flown(flights: list[FlightPlan], keep: str, going: Callable[[], bool]) -> list[Any]:
-    """The flights of a group, flown, or their metrics."""
+    """The flights of a group, flown as a block if there are several, or their metrics."""
     p = flights[0]
-    if keep == "flights":
-        return list(map(flight_of, flights, _fly_together(flights, p.steps // p.every + 1, p.every, going=going)))
-    return list(map(metrics_of, flights, _fly_together(flights, 1, p.steps + 1, going=going)))
-
-
-class _Counter:
-    """Counts the finished flights of all threads."""
-
-    def __init__(self, groups: _FlightGroups, missions: Iterable[MissionLike], progress: Progress | None) -> None:
-        self.flown, self.groups, self.progress = 0, groups, progress
-        self.total = len(missions) if isinstance(missions, Sized) else None
-        self.lock = threading.Lock()
-
-    def add(self, count: int) -> None:
-        with self.lock:
-            self.flown += count
-            if self.progress:
-                self.progress(self.flown, self.groups.read if self.total is None else self.total)
+    rows, every = (p.steps // p.every + 1, p.every) if keep == "flights" else (1, p.steps + 1)
+    raw = (
+        [fly_stepwise(p, rows, every, going=going)] if p.stepwise else _fly_compiled(flights, rows, every, going=going)
+    )
+    return list(map(flight_of if keep == "flights" else metrics_of, flights, raw))
 
 
 class _FlightGroup(NamedTuple):
@@ -235,20 +207,32 @@ class _FlightGroups:
     Args:
         missions: an iterable, of which one mission is read after the other.
         refusals: whether an `InputError` is a result.
+        progress: called with the flights that are finished, and all of them.
 
     Attributes:
         read: the number of missions read so far.
     """
 
-    def __init__(self, missions: Iterable[MissionLike], refusals: bool) -> None:
+    def __init__(
+        self, missions: Iterable[MissionLike], refusals: bool = False, progress: Progress | None = None
+    ) -> None:
         self.read, self.refusals = 0, refusals
-        self._groups = self._grouped(missions)
-        self._lock = threading.Lock()
+        self._finished, self._total = 0, len(missions) if isinstance(missions, Sized) else None
+        self._groups, self._progress = self._grouped(missions), progress
+        # apart, because a group is prepared, which takes long, while the first is held
+        self._taking, self._counting = threading.Lock(), threading.Lock()
 
     def take(self) -> _FlightGroup | None:
         """The next group; None if there is no other. An `InputError` if a mission cannot be built."""
-        with self._lock:
+        with self._taking:
             return next(self._groups, None)
+
+    def finish(self, group: _FlightGroup) -> None:
+        """Count a group that has flown."""
+        with self._counting:
+            self._finished += len(group.places)
+            if self._progress:
+                self._progress(self._finished, self.read if self._total is None else self._total)
 
     def results_of(self, group: _FlightGroup, keep: str, going: Callable[[], bool]) -> list[Any]:
         """The flights of a group, flown, or their metrics; or their refusal."""

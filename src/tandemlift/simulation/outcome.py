@@ -1,18 +1,27 @@
-"""The outcome of a flight, by the definitions of `core.outcomes`, and the reason of an early end."""
+"""The outcome of a flight, by the definitions of `core.phases`, and the reason of an early end.
+
+The ending as numbers is a law, which modules for other machines have too; the words are added here.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
+from tandemlift.core.algebra import atan2, chosen, maximum, sqrt, where
+from tandemlift.core.law import law
 from tandemlift.core.phases import ENDING_OF, FAR, LEFT_FENCE, STRUCK, TURNED_OVER
-from tandemlift.core.vector import ZERO, Absent, Vec3
+from tandemlift.core.types import Number
+from tandemlift.core.vector import ZERO, Absent, Vec3, dot
 from tandemlift.flight.record import Ending
 from tandemlift.parts.guidance.compliance_table import ComplianceTable
+from tandemlift.parts.guidance.fault_detection import distance_outside
 from tandemlift.parts.interaction.requests import RequestTable
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import body_z_axis
 from tandemlift.parts.mechanics.trajectories import PhasesTable
-from tandemlift.simulation.ending_numbers import EndingMoment, ending_numbers
+from tandemlift.simulation.loop.ending import CrashLimits, CrashMemory, OuterFence, Strike
 from tandemlift.simulation.loop.log_sample import Sample
 from tandemlift.simulation.loop.step import FlightState
 from tandemlift.simulation.plan import FlightPlan
@@ -21,6 +30,72 @@ NOT_FINITE = "must be finite"
 STEEPEST = 1.875  # slope of the smooth step that a landing follows
 MARGIN = 1.0  # s, in which a landing should touch down after its reference
 BORNE = 0.5  # of the weight: the part that the floor carries of a standing vehicle
+DEGREE = 57.29577951308232  # 180/π
+
+
+class EndingMoment(NamedTuple):
+    """The moment of an ending: its number in `core.phases`, 0 for none; time [s]; state; impulse [N·s]."""
+
+    number: Number
+    time: Number
+    state: State
+    impulse: Number | Absent
+
+
+class EndingNumbers(NamedTuple):
+    """Number and time [s] of an ending; the value that broke its limit; position of the vehicle [m, world].
+
+    `not_finite`: from 1, the place of the part of the state that is not finite, of which the value is one; else 0.
+    """
+
+    number: Number
+    time: Number
+    value: Number
+    not_finite: Number
+    place: Vec3
+
+
+@law(absent="now")
+def moment_of(crash: CrashMemory, now: EndingMoment) -> EndingMoment:
+    """The `EndingMoment` of a crash that is remembered; without one, that of now."""
+    before = EndingMoment(crash.number, crash.time, crash.state, crash.impulse)
+    return chosen(crash.number, before, now)
+
+
+@law(absent=0.0)
+def impulse_of(strike: Strike, impulse: Number) -> Number:
+    """The impulse of contact [N·s]; 0 if there is nothing to touch."""
+    return impulse
+
+
+@law(absent=0.0)
+def outside_of(fence: OuterFence, position: Vec3) -> Number:
+    """The distance of a position outside the fence [m]."""
+    return distance_outside(fence.low, fence.high, position)
+
+
+@law
+def ending_numbers(limits: CrashLimits, crash: CrashMemory | Absent, now: EndingMoment) -> EndingNumbers:
+    """The ending of a flight as numbers.
+
+    Args:
+        limits: those that end a flight.
+        crash: the memory of a crash, or `Absent`.
+        now: the number of the ending that stops the flight now, at this time and in this state.
+    """
+    found = moment_of(crash, now)
+    number, state = found.number, found.state
+    upright = body_z_axis(state.attitude).z
+    tilt = DEGREE * atan2(sqrt(maximum(1.0 - upright * upright, 0.0)), upright)
+    value = where(number == TURNED_OVER, tilt, sqrt(dot(state.position, state.position)))
+    value = where(number == STRUCK, impulse_of(limits.strike, found.impulse), value)
+    value = where(number == LEFT_FENCE, outside_of(limits.fence, state.position), value)
+    bad = 0.0
+    for place, part in reversed(list(enumerate(state, start=1))):
+        for component in part:
+            finite = component - component == 0.0
+            value, bad = where(finite, value, component), where(finite, bad, float(place))
+    return EndingNumbers(number, found.time, value, bad, state.position)
 
 
 def ending_of(p: FlightPlan, s: FlightState, step: int, interruption: Ending | None = None) -> Ending | None:

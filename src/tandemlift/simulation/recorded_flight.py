@@ -25,7 +25,6 @@ from tandemlift.missions.recording import HAND_FILE, MISSION_FILE, WIDTH, Record
 from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED, VirtualHandInput
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
-from tandemlift.simulation.loop.step import FlightState
 from tandemlift.simulation.outcome import ending_of, place_of
 from tandemlift.simulation.parameter_changes import ScheduledChange, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
@@ -171,7 +170,7 @@ class RecordedFlight:
     @property
     def ending(self) -> Ending | None:
         """The reason if it was stopped as crashed, diverged or interrupted, or None."""
-        return ending_of(self._p, self._flight_state(), self.step, self.interruption) if self.lost else None
+        return ending_of(self._p, self._stepper.flight_state, self.step, self.interruption) if self.lost else None
 
     def logged(self) -> tuple[Array, Array]:
         """Times [s] and rows of the log so far; rows that are written are never written again."""
@@ -189,10 +188,7 @@ class RecordedFlight:
     @property
     def ending_place(self) -> Vec3:
         """The place at which it was stopped [m, world]."""
-        return place_of(self._p, self._flight_state())
-
-    def _flight_state(self) -> FlightState:
-        return unflat(self._stepper.a[: leaves(self._like)], self._like)
+        return place_of(self._p, self._stepper.flight_state)
 
     def number(self, *path: str) -> float:
         """A number of the flight's memory, by its path from `FlightState`."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tandemlift.core.errors import suggestion
 from tandemlift.core.faults import ALARM_TEXTS, CHECKS
@@ -16,12 +17,11 @@ from tandemlift.core.phases import CONTACT as PHASE_CONTACT
 from tandemlift.core.phases import FAILURES, IDLE, PHASE_NAMES
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import Absent, Vec3, dot
-from tandemlift.flight.channels import DERIVED, channel_of
+from tandemlift.flight.channels import DERIVED
 from tandemlift.flight.record import Ending, Flight
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
-from tandemlift.parts.guidance.supervision import ALARM, CONTACT, PHASE, SupervisionState
-from tandemlift.simulation.findings import findings_of
+from tandemlift.simulation.findings import EventCode, findings_of, supervision_events
 from tandemlift.simulation.loop.running_metrics import EMPTY, RunningMetrics, summary
 from tandemlift.simulation.loop.step import FlightModel, FlightState
 from tandemlift.simulation.outcome import ending_of, outcome_of
@@ -114,24 +114,16 @@ def metric_names(p: FlightPlan) -> list[str]:
 
 def channel_names(p: FlightPlan) -> list[str]:
     """The names of the channels of a flight, known before it is flown."""
-    return [name for name, _ in channels_of(p.sample, np.zeros((1, leaves(p.sample))))]
+    return list(channel_columns(p.sample))
 
 
 def events_of(flight_state: FlightState) -> list[list[Any]]:
     """Events of the supervision, as [time [s], text], in the order of time; none without supervision."""
-    supervising = getattr(flight_state.memory.guidance, "supervision", None)
-    if not isinstance(supervising, SupervisionState):
-        return []
-    happened = list(zip(supervising.events.time, supervising.events.code, strict=True))[: int(supervising.events.count)]
     story, before = [], (0, 0, 0, 0)
-    for at, code in happened:
-        now = (int(code % CONTACT // PHASE), int(code % PHASE // ALARM), int(code % ALARM), int(code // CONTACT))
+    for at, now in supervision_events(flight_state):
         story.append([round(float(at), 6), describe_event(now, before)])
         before = now
     return story
-
-
-EventCode = tuple[int, int, int, int]
 
 
 def describe_event(now: EventCode, before: EventCode) -> str:
@@ -174,24 +166,19 @@ def channels_of(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
         at += leaves(part)
 
 
-def channel_places(like: Any) -> list[dict[str, Any]]:
-    """Of every channel of samples laid out like `like`: name, places of its numbers, unit, frame and meaning."""
-    row, found = np.arange(leaves(like), dtype=np.float64)[None, :], []
-    for name, columns in channels_of(like, row):
-        channel, places = channel_of(name), columns.ravel().astype(int).tolist()
-        facts = {"unit": channel.unit, "frame": channel.frame, "meaning": channel.meaning}
-        found.append({"name": name, "columns": places, **facts})
-    return found
+def channel_columns(like: Any) -> dict[str, NDArray[np.intp]]:
+    """The places of the numbers of every channel in samples laid out like `like`, in the shape of the channel."""
+    row = np.arange(leaves(like), dtype=np.float64)[None, :]
+    return {name: places[0].astype(np.intp) for name, places in channels_of(like, row)}
 
 
 class SampleChannels:
     """The channels of samples laid out like `like`, by name; `names`: of those that a flight records."""
 
     def __init__(self, like: Any) -> None:
-        row = np.arange(leaves(like), dtype=np.float64)[None, :]
         self._places: dict[str, Any] = {}
-        for name, at in channels_of(like, row):
-            first, place = int(at.flat[0]), at[0].astype(np.intp)
+        for name, place in channel_columns(like).items():
+            first = int(place.flat[0])
             joined = place.ndim and np.array_equal(place, np.arange(first, first + place.size))
             self._places[name] = slice(first, first + place.size) if joined else place
         self.names = tuple(self._places)

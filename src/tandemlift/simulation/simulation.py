@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from tandemlift.core.errors import InputError, accepted, shown
 from tandemlift.core.refusals import Refusals
-from tandemlift.core.types import Array, leaves, unflat
+from tandemlift.core.types import Array, leaves
 from tandemlift.engines.registry import EngineLost
 from tandemlift.flight.channels import DERIVED, Channel, channel_of
 from tandemlift.flight.record import Ending, Flight, interruption
@@ -125,7 +125,8 @@ class Simulation:
             OSError: the engine in another process is lost; the flight is over.
         """
         if self.over:
-            raise InputError(f"{self._why_over()}; reset() begins anew")
+            reason = self.ending or f"the flight is over: mission.duration = {self.mission.mission.duration:g} s"
+            raise InputError(f"{reason}; reset() begins anew")
         self._set_inputs(push, thrusts, point, velocity)
         began, left = time.perf_counter(), steps if steps == 1 else count_of("steps", steps)
         try:
@@ -211,16 +212,12 @@ class Simulation:
     @property
     def ending(self) -> Ending | None:
         """The end of a lost flight: quantity, time, value and limit, or a reason; None if it is not lost."""
-        flown = self._result(np.empty((0, 0)), np.empty(0))
-        return ending_of(self._p, flown.flight_state, self.k, flown.interruption)
+        return ending_of(self._p, self._stepper.flight_state, self.k, self._interruption)
 
     @property
     def refusals(self) -> Refusals:
         """The refusals of a lift, a landing and following a push that would apply now, with reasons and remedies."""
         return self._stepper.refusals(self.time)
-
-    def _why_over(self) -> str:
-        return str(self.ending or f"the flight is over: mission.duration = {self.mission.mission.duration:g} s")
 
     def __getitem__(self, name: str) -> Any:
         """A channel of the last sample: an array (n,), or a number where the channel has one column.
@@ -271,9 +268,8 @@ class Simulation:
         return flight_of(self._p, self._result(np.array(rows), last), self.engine)
 
     def _result(self, log: Array, last: Array) -> RawResult:
-        like = self._stepper.p.model.flight_state
         return RawResult(
-            flight_state=unflat(self._stepper.a[: leaves(like)], like),
+            flight_state=self._stepper.flight_state,
             early=self._early,
             step=self.k,
             log=log,

@@ -22,6 +22,7 @@ from tandemlift.parts.controllers import control
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.refusals import refusals_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
+from tandemlift.simulation.loop.step import FlightState
 from tandemlift.simulation.parameter_changes import ParameterChanges, ScheduledChange, hand_place
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import GIVEN, FlightMemory, leaf_offset
@@ -80,20 +81,17 @@ class Stepper:
 
     def _bind_views(self) -> None:
         """Bind views of the memory that the parts of a step exchange with Python or another engine."""
-        view = {
-            name: self.memory.work[self.memory.span(name)]
-            for name in ("asked", "answer", "external", "acting", "push", "moved", "outside")
-        }
-        acting = self.p.loop_code.templates.acting
-        thrusts, air = leaf_offset(acting, "thrusts"), leaf_offset(acting, "wind", "loads")
-        self.x, self.y, self.v, self.push = view["asked"], view["answer"], view["moved"], view["push"]
-        self.external, self.outside = view["external"], view["outside"]
+        names = ("asked", "answer", "moved", "push", "external", "outside", "acting")
+        views = [self.memory.work[self.memory.span(name)] for name in names]
+        self.asked, self.answer, self.moved, self.push, self.external, self.outside, acting = views
+        layout_of_acting = self.p.loop_code.templates.acting
+        thrusts, air = leaf_offset(layout_of_acting, "thrusts"), leaf_offset(layout_of_acting, "wind", "loads")
+        self.thrusts = acting[thrusts.at : thrusts.at + thrusts.size]
+        self.loads = acting[air.at : air.at + air.size]
         if self.body is not None:
             moved = self.p.loop_code.templates.moved
             self.touches = self.body.touches if isinstance(self.body, TouchingBody) else NO_TOUCHES
-            self.v[:] = flat(moved._replace(touches=self.p.model.flight_state.touches))
-        self.thrusts = view["acting"][thrusts.at : thrusts.at + thrusts.size]
-        self.loads = view["acting"][air.at : air.at + air.size]
+            self.moved[:] = flat(moved._replace(touches=self.p.model.flight_state.touches))
 
     def change(self, due: ScheduledChange) -> None:
         """Change the mission: ramp its numbers, or exchange the laws at once."""
@@ -105,8 +103,7 @@ class Stepper:
 
     def _exchange_laws(self, p: FlightPlan) -> None:
         """Continue with other laws. A controller of another layout starts with an initial memory; ramps end at once."""
-        size, hand, row = leaves(self.p.model.flight_state), self.a[self.hand].copy(), self.row
-        flight_state = unflat(self.a[:size], self.p.model.flight_state)
+        hand, row, flight_state = self.a[self.hand].copy(), self.row, self.flight_state
         memory, fresh = flight_state.memory, p.model.flight_state.memory.controller
         if layout(memory.controller) != layout(fresh):
             memory = memory._replace(controller=fresh)
@@ -166,9 +163,9 @@ class Stepper:
         """Call the controller in plain Python."""
         assert self.interpreted
         gains, memory = self.interpreted
-        measured, reference = unflat(self.x, GIVEN)
+        measured, reference = unflat(self.asked, GIVEN)
         command, memory = control(gains, memory, measured, reference)
-        self.interpreted, self.y[:] = (gains, memory), flat(command)
+        self.interpreted, self.answer[:] = (gains, memory), flat(command)
 
     def _advance(self, body: EngineBody) -> None:
         try:
@@ -176,10 +173,10 @@ class Stepper:
         except OSError as error:
             self.a[:] = self.before
             raise EngineLost(error) from error
-        self.v[:STATE] = body.state
-        self.v[STATE : STATE + body.readings.size] = body.readings
+        self.moved[:STATE] = body.state
+        self.moved[STATE : STATE + body.readings.size] = body.readings
         if self.touches.size:
-            self.v[self.v.size - self.touches.size :] = self.touches
+            self.moved[self.moved.size - self.touches.size :] = self.touches
         if self._pushed is not None:
             self.outside[:] = self._pushed
 
@@ -198,6 +195,11 @@ class Stepper:
         """A part of the flight as it is now, by its path from `FlightModel`."""
         at, size = leaf_offset(self.p.model, *path)
         return unflat(self.a[at : at + size], like)
+
+    @property
+    def flight_state(self) -> FlightState:
+        """The state of the flight as it is now."""
+        return self._part(self.p.model.flight_state, "flight_state")
 
     @property
     def lost(self) -> bool:
@@ -247,6 +249,4 @@ def fly_stepwise(
                 raise Stopped
             if progress:
                 progress(k, p.steps)
-    like = stepper.p.model.flight_state
-    flight_state = unflat(stepper.a[: leaves(like)], like)
-    return RawResult(flight_state, early, k, log, last, time.perf_counter() - began, ending)
+    return RawResult(stepper.flight_state, early, k, log, last, time.perf_counter() - began, ending)

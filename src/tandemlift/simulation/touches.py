@@ -64,14 +64,6 @@ def touches_of(flight_state: FlightState) -> list[TouchReport]:
     return sorted(found, key=lambda report: report.time)
 
 
-def struck_rotors(flight_state: FlightState) -> list[tuple[int, int]]:
-    """The rotors that have stopped at a touch: numbers of quadrotor and rotor, from 1."""
-    touches: Any = flight_state.touches
-    if not isinstance(touches, Touches):
-        return []
-    return [(i // 4 + 1, i % 4 + 1) for i, turning in enumerate(touches.turning) if not turning > 0.5]
-
-
 def _of_surface(records: SurfaceTouches | Absent, surface: str) -> list[TouchReport]:
     if not isinstance(records, SurfaceTouches):
         return []

@@ -31,8 +31,7 @@ from tandemlift.missions import tables_of
 from tandemlift.missions.changes import Tables
 from tandemlift.missions.keys import allowed, bounds, plain
 from tandemlift.parts.pilot.refusals import refusal_numbers
-from tandemlift.simulation.ending_numbers import EndingMoment, EndingNumbers, ending_numbers
-from tandemlift.simulation.outcome import NOT_FINITE, cause_of, limit_of
+from tandemlift.simulation.outcome import NOT_FINITE, EndingMoment, EndingNumbers, cause_of, ending_numbers, limit_of
 from tandemlift.simulation.parameter_changes import HAND_PARTS, LATER, NO_EFFECT, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND, HAND_RELEASED, MISSION

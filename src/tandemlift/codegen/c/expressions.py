@@ -76,7 +76,7 @@ ARITHMETIC = {
 WRAPPING = {"add": "+", "sub": "-", "mul": "*", "and": "&", "or": "|", "xor": "^"}
 TRUTHS = {"and": "&&", "or": "||", "xor": "!="}
 COMPARISONS = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "eq": "==", "ne": "!="}
-LIBRARY = {"sqrt": "sqrt", "fabs": "fabs", "floor": "floor"}
+LIBRARY = ("sqrt", "fabs", "floor")
 
 
 def expression(op: str, kind: str, given: str, x: list[Expression], real: str) -> Expression:
@@ -95,7 +95,7 @@ def expression(op: str, kind: str, given: str, x: list[Expression], real: str) -
     if op == "fneg":
         return Expression(f"-{x[0].within(ATOM)}", UNARY)
     if op in LIBRARY:
-        return Expression(f"{LIBRARY[op]}{'f' * (real == 'float')}({x[0].text})", ATOM)
+        return Expression(f"{op}{'f' * (real == 'float')}({x[0].text})", ATOM)
     if op == "select":
         return Expression(f"{x[0].within(UNARY)} ? {x[1].within(SUM)} : {x[2].within(SUM)}", CHOSEN)
     if op[1:4] == "cmp":

@@ -43,13 +43,12 @@ class FunctionHead(NamedTuple):
     result: str
     name: str
     parameters: Sequence[str]
-    static: bool = True
 
     @property
     def text(self) -> str:
         """The lines up to the body."""
         given = ", ".join(p.replace(" ", JOINED) for p in self.parameters) or "void"
-        line = f"{'static ' * self.static}{self.result} {self.name}({given})"
+        line = f"static {self.result} {self.name}({given})"
         return self.comment + wrapped(line, "")
 
 

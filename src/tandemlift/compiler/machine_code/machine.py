@@ -20,6 +20,7 @@ class Level(NamedTuple):
     vectors: bool = False
 
 
+# a block fills the vectors already, and its text is in its final order: passes and vectors of neighbours gain nothing
 QUICK, BEST, BEST_OF_VECTORS = Level(0, 0), Level(1, 2, vectors=True), Level(0, 2)
 BLOCK = 800  # instructions, beyond which unoptimised compilation of a block takes time with the square of its length
 LIBRARIES = iter(range(1 << 62))

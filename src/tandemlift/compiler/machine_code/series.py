@@ -13,6 +13,7 @@ import numpy as np
 
 from tandemlift.compiler.machine_code import machine
 from tandemlift.compiler.machine_code.differentiated import tangents
+from tandemlift.compiler.machine_code.functions import in_lanes, in_rows
 from tandemlift.compiler.tracer import Function, Graph, Module, Place, Symbol, symbols, traced
 from tandemlift.core.caching import cached_for_a_trace
 from tandemlift.core.types import Array, leaves
@@ -80,11 +81,14 @@ class Series:
         blocks, height = -(-rows // LANES), self._sizes[3]
         y = np.empty((blocks, steps, height, LANES))
         dy = np.empty((blocks, steps, height, LANES)) if direction else y[:0]
-        own = [_in_lanes(x), _uniform(p), _in_lanes(u)]
-        along = [_in_lanes(direction[0]), _uniform(direction[1]), _in_lanes(direction[2])] if direction else own
+        own = [in_lanes(x, LANES), _uniform(p), in_lanes(u, LANES)]
+        along = own
+        if direction:
+            dx, dp, du = direction
+            along = [in_lanes(dx, LANES), _uniform(dp), in_lanes(du, LANES)]
         arrays = [*own, y, *along, dy]
         CALL(self._code.addresses["series"])(*[a.ctypes.data for a in arrays], steps, blocks)
-        return _in_rows(y, rows), _in_rows(dy, rows) if direction else dy, _in_rows(own[0], rows)
+        return in_rows(y, rows), in_rows(dy, rows) if direction else dy, in_rows(own[0], rows)
 
 
 def _tangents(graph: Graph, results: Sequence[Symbol]) -> list[Symbol]:
@@ -132,16 +136,3 @@ def _place(base: str) -> Callable[[int], Place]:
 def _uniform(p: Array) -> Array:
     """Numbers that stand in the first lane."""
     return np.ascontiguousarray(np.repeat(np.asarray(p, dtype=float)[:, None], LANES, axis=1))
-
-
-def _in_lanes(rows: Array) -> Array:
-    """Rows as blocks of lanes, the lanes last; the last row is repeated up to a multiple of the lanes."""
-    blocks = -(-len(rows) // LANES)
-    filled = np.concatenate([rows, np.repeat(rows[-1:], blocks * LANES - len(rows), axis=0)])
-    return np.ascontiguousarray(np.moveaxis(filled.reshape(blocks, LANES, *rows.shape[1:]), 1, -1))
-
-
-def _in_rows(blocks: Array, rows: int) -> Array:
-    """Blocks of lanes as rows."""
-    back = np.moveaxis(blocks, -1, 1)
-    return back.reshape(-1, *back.shape[2:])[:rows]

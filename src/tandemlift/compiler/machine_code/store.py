@@ -186,11 +186,6 @@ def described(value: Any) -> str:
     return f"{kind.__module__}.{kind.__qualname__}({','.join(map(described, value))})"
 
 
-def _of_compiler() -> list[Path]:
-    """The sources of tracer and compiler."""
-    return list((PACKAGE / "compiler").rglob("*.py"))
-
-
 def key_of_module(text: str, about: Mapping[str, Any]) -> str:
     """The key of a module as text, with the data that its callers need."""
     from tandemlift.compiler.machine_code.machine import processor
@@ -211,6 +206,6 @@ def key_of(value: Any, *more: Any, files: Iterable[Path] = ()) -> str:
 
     versions = sys.version_info[:2], metadata.version("llvmlite"), processor()
     digest = hashlib.sha256(f"{versions} {described(value)} {more}".encode())
-    for path in sorted([*files, *_of_compiler()]) if files else sources(value):
+    for path in sorted([*files, *(PACKAGE / "compiler").rglob("*.py")]) if files else sources(value):
         digest.update(path.name.encode() + b"\0" + content(path) + b"\0")
     return digest.hexdigest()[:32]

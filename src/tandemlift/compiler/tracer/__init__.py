@@ -9,9 +9,8 @@ from tandemlift.compiler.tracer.fused import rounded_twice, traced, tracer
 from tandemlift.compiler.tracer.graph import LEAVES, Graph, symbols, written_out
 from tandemlift.compiler.tracer.llvm import Function
 from tandemlift.compiler.tracer.refusal import TraceError, refused
-from tandemlift.compiler.tracer.rolled import Place
 from tandemlift.compiler.tracer.symbol import Symbol
-from tandemlift.compiler.tracer.text import Module, double
+from tandemlift.compiler.tracer.text import Module, Place, double
 
 __all__ = [
     "LEAVES",

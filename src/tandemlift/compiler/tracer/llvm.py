@@ -13,17 +13,17 @@ from typing import Any
 
 from tandemlift.compiler.tracer.graph import LEAVES, Graph
 from tandemlift.compiler.tracer.order import NumbersInMemory, best_order, urgency
-from tandemlift.compiler.tracer.rolled import GraphText, Place, Sets
+from tandemlift.compiler.tracer.rolled import Sets
 from tandemlift.compiler.tracer.symbol import Symbol
-from tandemlift.compiler.tracer.text import BASE, Module, constant
+from tandemlift.compiler.tracer.text import BASE, Module, Place, Text, constant
 
 BINARY = frozenset(["fadd", "fsub", "fmul", "fdiv", "add", "sub", "mul", "and", "or", "xor", "shl", "ashr"])
-INTRINSICS = {"fma": "fma", "sqrt": "sqrt", "fabs": "fabs", "floor": "floor"}
+INTRINSICS = ("fma", "sqrt", "fabs", "floor")
 NOWHERE = Place("", 0)
 Read = Callable[[int], "str | Place"]
 
 
-class Function(GraphText):
+class Function(Text):
     """One function over the nodes of a graph.
 
     Args:
@@ -35,8 +35,6 @@ class Function(GraphText):
             the first place of its vector in memory.
 
     Attributes:
-        read: for each kind of input, a function from its index to its text or place.
-        kept: nodes computed elsewhere before, each with a function to its text or place.
         same: inputs that are computed in this function, each with the node that computes it.
         sets: large sets of numbers.
         orders: whether nodes are written in an order of few waiting values, and memory is read where it is used.
@@ -44,11 +42,9 @@ class Function(GraphText):
     """
 
     def __init__(self, module: Module, graph: Graph, lanes: int, head: str, uniform: Iterable[Any] = ()) -> None:
-        super().__init__(module, lanes, head)
-        self.graph, self.sets, self.orders = graph, Sets(self), lanes > 1 and not graph.rolls_from
+        super().__init__(module, graph, lanes, head)
+        self.sets, self.orders = Sets(self), lanes > 1 and not graph.rolls_from
         self.same, self.seldom = dict[int, int](), False
-        self.read: dict[str, Read] = {}
-        self.kept: dict[int, Callable[[], str | Place]] = {}
         self._uniform_kinds = frozenset(uniform)
         self._uniform = graph.uniform.setdefault(self._uniform_kinds, [])
         self._values: dict[int, str] = {}
@@ -93,7 +89,7 @@ class Function(GraphText):
         """The values of symbols in all lanes, as text."""
         nodes = [s.node for s in symbols]
         self.write(nodes)
-        return [self._operand(node, spread=True) for node in nodes]
+        return [self.operand(node) for node in nodes]
 
     def value(self, symbol: Symbol) -> str:
         """The value of a symbol in all lanes, as text."""
@@ -102,11 +98,7 @@ class Function(GraphText):
     def scalar(self, symbol: Symbol) -> str:
         """The scalar of a symbol that is equal in all lanes, as text."""
         self.write([symbol.node])
-        return self._operand(symbol.node, spread=False)
-
-    def operand(self, node: int) -> str:
-        """A number already computed in this function, in all lanes."""
-        return self._operand(node, spread=True)
+        return self.operand(symbol.node, spread=False)
 
     def known(self) -> set[int]:
         """The nodes already computed in this function."""
@@ -115,7 +107,8 @@ class Function(GraphText):
     def _kind(self, type: str, uniform: bool) -> str:
         return BASE[type] if uniform or self.lanes == 1 else f"<{self.lanes} x {BASE[type]}>"
 
-    def _operand(self, node: int, spread: bool) -> str:
+    def operand(self, node: int, *, spread: bool = True) -> str:
+        """A number already computed in this function, in all lanes, or as a scalar that is equal in all."""
         g, node = self.graph, self.same.get(node, node)
         if g.ops[node] == "const":
             text = constant(g.args[node][0])
@@ -190,7 +183,7 @@ class Function(GraphText):
 
     def hold(self, nodes: Iterable[int]) -> None:
         """Read inputs now, whatever is written to memory later."""
-        self._values |= {node: self._operand(node, spread=False) for node in nodes}
+        self._values |= {node: self.operand(node, spread=False) for node in nodes}
 
     def update(
         self,
@@ -235,13 +228,13 @@ class Function(GraphText):
         if op == "const" or node in self._values:  # the reader of an input may compute other nodes
             return
         if self.is_leaf(node):
-            self._values[node] = self._operand(node, spread=False)
+            self._values[node] = self.operand(node, spread=False)
         elif op.startswith("get "):
             at = self.sets.places[args[0]]
             self._values[node] = self.load(at.base, self.integer("add", at.first, int(op[4:]) * at.stride))
         else:
             uniform = self.lanes > 1 and self.is_uniform(node)
-            operands = [self._operand(a, not uniform) for a in args]
+            operands = [self.operand(a, spread=not uniform) for a in args]
             self._values[node] = self.op(self.instruction(node, lambda t: self._kind(t, uniform), operands))
 
     def _text_of(self, given: str | Place, kind: str) -> str:
@@ -265,7 +258,7 @@ class Function(GraphText):
         if op in BINARY:
             return f"{op} {kind} {x[0]}, {x[1]}"
         if op in INTRINSICS:
-            return self._intrinsic(f"llvm.{INTRINSICS[op]}", kind, kind, x)
+            return self._intrinsic(f"llvm.{op}", kind, kind, x)
         given = kind_of(g.types[g.args[node][0]])
         if op == "select":
             return f"select {given} {x[0]}, {kind} {x[1]}, {kind} {x[2]}"

@@ -7,71 +7,17 @@ without loops.
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import NamedTuple
 
-from tandemlift.compiler.tracer.graph import Graph
 from tandemlift.compiler.tracer.symbol import Symbol
-from tandemlift.compiler.tracer.text import BASE, Text, constant, double
+from tandemlift.compiler.tracer.text import BASE, Place, Text, constant, double
 
 WIDEST = 8  # values of a set per instruction in a flight alone
 
 
-class Place(NamedTuple):
-    """Values in memory: base address, offset of the first value, and stride, both in numbers of all lanes."""
-
-    base: str
-    first: str | int
-    stride: str | int = 1
-
-
-class GraphText(Text):
-    """The text of a function over the nodes of a graph, as sets need it; `llvm.Function` writes it.
-
-    Attributes:
-        graph: the graph.
-        read: for each kind of input, a function from its index to its text or place.
-        kept: nodes computed elsewhere before, each with a function to its text or place.
-        sets: large sets of numbers.
-    """
-
-    graph: Graph
-    read: dict[str, Callable[[int], str | Place]]
-    kept: dict[int, Callable[[], str | Place]]
-    sets: Sets
-
-    def offset(self, to: Place, i: int) -> str:
-        """The offset of value `i` of a place."""
-        return self.integer("add", to.first, i if to.stride == 1 else self.integer("mul", i, to.stride))
-
-    @abstractmethod
-    def values(self, symbols: Iterable[Symbol]) -> list[str]:
-        """The values of symbols in all lanes, as text."""
-
-    @abstractmethod
-    def operand(self, node: int) -> str:
-        """A number already computed in this function, in all lanes."""
-
-    @abstractmethod
-    def is_leaf(self, node: int) -> bool:
-        """Whether a node is available without its arguments."""
-
-    @abstractmethod
-    def write(self, roots: list[int]) -> None:
-        """Compute nodes and all their arguments."""
-
-    @abstractmethod
-    def write_number(self, node: int) -> None:
-        """Compute a number whose arguments are already computed."""
-
-    @abstractmethod
-    def instruction(self, node: int, kind_of: Callable[[str], str], x: list[str]) -> str:
-        """The instruction that computes a node from operands; `kind_of`: LLVM's name for a type of the graph."""
-
-
-def stages(f: GraphText, nodes: Iterable[int]) -> dict[int, int]:
+def stages(f: Text, nodes: Iterable[int]) -> dict[int, int]:
     """The stage of each node: a number computed from a set comes one stage after it."""
     g, found = f.graph, dict[int, int]()
     for node in nodes:
@@ -84,7 +30,7 @@ def stages(f: GraphText, nodes: Iterable[int]) -> dict[int, int]:
     return found
 
 
-def width_of(f: GraphText, count: int) -> int:
+def width_of(f: Text, count: int) -> int:
     """Values of a set per instruction; 1 in a block, whose lanes fill the vectors already."""
     if f.lanes > 1:
         return 1
@@ -94,8 +40,8 @@ def width_of(f: GraphText, count: int) -> int:
 class Loop:
     """The loop over the values of sets of one size; an iteration handles `width` values from `i` on."""
 
-    def __init__(self, f: GraphText, count: int, i: str) -> None:
-        self.f, self.i, self.width = f, i, width_of(f, count)
+    def __init__(self, sets: Sets, count: int, i: str) -> None:
+        self.f, self.sets, self.i, self.width = sets.f, sets, i, width_of(sets.f, count)
         self.values: dict[int, str] = {}
 
     def kind(self, type: str) -> str:
@@ -109,7 +55,7 @@ class Loop:
         f, g = self.f, self.f.graph
         if g.counts[node]:
             if node not in self.values:
-                self.values[node] = self.truth(node, self.loaded(f.sets.places[node]))
+                self.values[node] = self.truth(node, self.loaded(self.sets.places[node]))
             return self.values[node]
         value = f.operand(node)
         return value if self.width == 1 or value.startswith("splat") else self.repeated(node, value)
@@ -159,11 +105,11 @@ class Loop:
 
 
 @contextmanager
-def loop_over(f: GraphText, count: int) -> Iterator[Loop]:
+def loop_over(sets: Sets, count: int) -> Iterator[Loop]:
     """A loop over the values of sets of one size."""
-    width = width_of(f, count)
+    f, width = sets.f, width_of(sets.f, count)
     with f.repeat(count // width) as i:
-        yield Loop(f, count, i if width == 1 else f.integer("mul", i, width))
+        yield Loop(sets, count, i if width == 1 else f.integer("mul", i, width))
 
 
 class Part(NamedTuple):
@@ -182,7 +128,7 @@ class Sets:
         room: allocates memory for a set of a number of values.
     """
 
-    def __init__(self, f: GraphText) -> None:
+    def __init__(self, f: Text) -> None:
         self.f, self.places = f, dict[int, Place]()
         self.room: Callable[[int], Place] = lambda count: Place(f.own_memory(count), 0)
 
@@ -218,7 +164,7 @@ class Sets:
         if not computed:
             return
         waits = {node: self.room(count) for node in computed if node in awaited}
-        with loop_over(f, count) as loop:
+        with loop_over(self, count) as loop:
             for node in computed:
                 operands = [loop.operand(a) for a in g.args[node]]
                 loop.values[node] = f.op(f.instruction(node, loop.kind, operands))
@@ -296,5 +242,5 @@ class Sets:
 
     def _copy(self, source: Place, count: int, to: Place) -> None:
         f = self.f
-        with loop_over(f, count) as loop:
+        with loop_over(self, count) as loop:
             f.do(f"store {loop.kind('f')} {loop.loaded(source)}, ptr {loop.address(to)}, align 8")

@@ -34,12 +34,12 @@ def is_nested(value: object) -> TypeGuard[tuple[Any, ...] | list[Any]]:
     return isinstance(value, (tuple, list))
 
 
-def numbers_in(value: object) -> Iterator[Any]:
-    """The numbers of a nested value, depth first: symbols and floats."""
+def numbers_in(value: object, counts: bool = False) -> Iterator[Any]:
+    """The numbers of a nested value, depth first: symbols and floats, and integers if these count."""
     if is_nested(value):
         for part in value:
-            yield from numbers_in(part)
-    elif isinstance(value, (Symbol, float)):
+            yield from numbers_in(part, counts)
+    elif isinstance(value, (Symbol, float)) or (counts and _is_integer(value)):
         yield value
 
 
@@ -203,7 +203,7 @@ class Laws:
         return made
 
     def _call(self, called: TracedLaw, args: tuple[Any, ...], counts: bool) -> Any:
-        numbers = list(_arguments(args, counts))
+        numbers = list(numbers_in(args, counts))
         graph = next(x.graph for x in numbers if isinstance(x, Symbol))
         given = [x.node if isinstance(x, Symbol) else graph.constant(x) for x in numbers]
         call = graph.node(f"call {called.number}", tuple(given[i] for i in called.used), "c", 0)
@@ -221,7 +221,7 @@ def _has_integers(value: object) -> bool:
 
 
 def _shape(value: object, counts: bool) -> object:
-    """The key of a law\'s trace; `counts`: whether integers are numbers of it, and not its structure."""
+    """The key of a law's trace; `counts`: whether integers are numbers of it, and not its structure."""
     if is_nested(value):
         return (type(value), *[_shape(part, counts) for part in value])
     if isinstance(value, Symbol):
@@ -233,15 +233,6 @@ def _shape(value: object, counts: bool) -> object:
     if isinstance(value, types.FunctionType) and value.__closure__:
         raise _NotOnItsOwn
     return "is", type(value), value
-
-
-def _arguments(value: object, counts: bool) -> Iterator[Any]:
-    """The numbers of arguments, depth first, with the integers among them if these count."""
-    if is_nested(value):
-        for part in value:
-            yield from _arguments(part, counts)
-    elif isinstance(value, (Symbol, float)) or (counts and _is_integer(value)):
-        yield value
 
 
 def _inputs(graph: Graph, arguments: dict[str, Any], counts: bool) -> dict[str, Any]:

@@ -48,6 +48,22 @@ class Nodes(Protocol):
         """A power, written as `**`, of which the base or the exponent is a symbol."""
 
 
+def _operators(op: str, whole: str) -> Any:
+    """An operator with a symbol on its left, and one with it on its right; `whole`: the operation of two integers."""
+    return (
+        lambda symbol, other: _arithmetic(op, whole, symbol, other),
+        lambda symbol, other: _arithmetic(op, whole, other, symbol),
+    )
+
+
+def _comparison(predicate: str, whole: str) -> Any:
+    return lambda symbol, other: _compared(predicate, whole, symbol, other)
+
+
+def _of_bits(op: str) -> Any:
+    return lambda symbol, other: _bitwise(op, symbol, other)
+
+
 class Symbol:
     """A number that is not known yet, or a large set of such numbers, which machine code handles in loops."""
 
@@ -82,29 +98,13 @@ class Symbol:
             return Symbol(graph, graph.take(self.node, first, step, len(range(count)[which])), "f")
         return Symbol(graph, graph.get(self.node, range(count)[which]), "f")
 
-    def __add__(self, other: object) -> Any:
-        return _arithmetic("fadd", "add", self, other)
-
-    def __radd__(self, other: object) -> Any:
-        return _arithmetic("fadd", "add", other, self)
-
-    def __sub__(self, other: object) -> Any:
-        return _arithmetic("fsub", "sub", self, other)
-
-    def __rsub__(self, other: object) -> Any:
-        return _arithmetic("fsub", "sub", other, self)
-
-    def __mul__(self, other: object) -> Any:
-        return _arithmetic("fmul", "mul", self, other)
-
-    def __rmul__(self, other: object) -> Any:
-        return _arithmetic("fmul", "mul", other, self)
-
-    def __truediv__(self, other: object) -> Any:
-        return _arithmetic("fdiv", "", self, other)
-
-    def __rtruediv__(self, other: object) -> Any:
-        return _arithmetic("fdiv", "", other, self)
+    __add__, __radd__ = _operators("fadd", "add")
+    __sub__, __rsub__ = _operators("fsub", "sub")
+    __mul__, __rmul__ = _operators("fmul", "mul")
+    __truediv__, __rtruediv__ = _operators("fdiv", "")
+    __lt__, __le__ = _comparison("olt", "slt"), _comparison("ole", "sle")
+    __gt__, __ge__ = _comparison("ogt", "sgt"), _comparison("oge", "sge")
+    __eq__, __ne__ = _comparison("oeq", "eq"), _comparison("une", "ne")
 
     def __neg__(self) -> Symbol:
         return made(self.graph, "fneg", self)
@@ -115,43 +115,12 @@ class Symbol:
     def __abs__(self) -> Symbol:
         return made(self.graph, "fabs", self)
 
-    def __lt__(self, other: object) -> Any:
-        return _compared("olt", "slt", self, other)
-
-    def __le__(self, other: object) -> Any:
-        return _compared("ole", "sle", self, other)
-
-    def __gt__(self, other: object) -> Any:
-        return _compared("ogt", "sgt", self, other)
-
-    def __ge__(self, other: object) -> Any:
-        return _compared("oge", "sge", self, other)
-
-    def __eq__(self, other: object) -> Any:
-        return _compared("oeq", "eq", self, other)
-
-    def __ne__(self, other: object) -> Any:
-        return _compared("une", "ne", self, other)
-
-    def __and__(self, other: object) -> Symbol:
-        return _bitwise("and", self, other)
-
-    def __or__(self, other: object) -> Symbol:
-        return _bitwise("or", self, other)
-
-    def __xor__(self, other: object) -> Symbol:
-        return _bitwise("xor", self, other)
-
+    __and__, __or__, __xor__ = _of_bits("and"), _of_bits("or"), _of_bits("xor")
     __rand__, __ror__, __rxor__ = __and__, __or__, __xor__
+    __lshift__, __rshift__ = _of_bits("shl"), _of_bits("ashr")
 
     def __invert__(self) -> Symbol:
         return _bitwise("xor", self, self.type == "b" or -1)
-
-    def __lshift__(self, count: int) -> Symbol:
-        return _bitwise("shl", self, count)
-
-    def __rshift__(self, count: int) -> Symbol:
-        return _bitwise("ashr", self, count)
 
     def __pow__(self, power: object) -> Any:
         return self.graph.power(self, power)

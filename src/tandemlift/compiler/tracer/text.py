@@ -5,9 +5,12 @@ from __future__ import annotations
 import operator
 import struct
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager
-from typing import Any
+from typing import Any, NamedTuple
+
+from tandemlift.compiler.tracer.graph import Graph
+from tandemlift.compiler.tracer.symbol import Symbol
 
 BASE = {"f": "double", "b": "i1", "i": "i64"}  # LLVM's name for each type of the graph
 WIDE = '"prefer-vector-width"="512" "min-legal-vector-width"="512"'
@@ -33,17 +36,32 @@ class Module:
         return "\n".join([*sorted(self.declared), *self.functions, *ATTRIBUTES]) + "\n"
 
 
+class Place(NamedTuple):
+    """Values in memory: base address, offset of the first value, and stride, both in numbers of all lanes."""
+
+    base: str
+    first: str | int
+    stride: str | int = 1
+
+
 class Text(ABC):
-    """The text of one function.
+    """The text of one function over the nodes of a graph; `llvm.Function` writes the nodes.
 
     Args:
         module: the module that it belongs to.
+        graph: the graph.
         lanes: numbers in a value, one for each flight.
         head: its name and parameters, as in `i64 @fly(ptr %c)`.
+
+    Attributes:
+        read: for each kind of input, a function from its index to its text or place.
+        kept: nodes computed elsewhere before, each with a function to its text or place.
     """
 
-    def __init__(self, module: Module, lanes: int, head: str) -> None:
-        self.module, self.lanes, self.head = module, lanes, head
+    def __init__(self, module: Module, graph: Graph, lanes: int, head: str) -> None:
+        self.module, self.graph, self.lanes, self.head = module, graph, lanes, head
+        self.read: dict[str, Callable[[int], str | Place]] = {}
+        self.kept: dict[int, Callable[[], str | Place]] = {}
         self.vector = "double" if lanes == 1 else f"<{lanes} x double>"
         self.zero = "0.0" if lanes == 1 else "zeroinitializer"
         self.lines: list[str] = ["entry:"]
@@ -60,6 +78,30 @@ class Text(ABC):
     @abstractmethod
     def scope(self) -> AbstractContextManager[None]:
         """A context after which the values computed inside are forgotten."""
+
+    @abstractmethod
+    def values(self, symbols: Iterable[Symbol]) -> list[str]:
+        """The values of symbols in all lanes, as text."""
+
+    @abstractmethod
+    def operand(self, node: int) -> str:
+        """A number already computed in this function, in all lanes."""
+
+    @abstractmethod
+    def is_leaf(self, node: int) -> bool:
+        """Whether a node is available without its arguments."""
+
+    @abstractmethod
+    def write(self, roots: list[int]) -> None:
+        """Compute nodes and all their arguments."""
+
+    @abstractmethod
+    def write_number(self, node: int) -> None:
+        """Compute a number whose arguments are already computed."""
+
+    @abstractmethod
+    def instruction(self, node: int, kind_of: Callable[[str], str], x: list[str]) -> str:
+        """The instruction that computes a node from operands; `kind_of`: LLVM's name for a type of the graph."""
 
     def do(self, text: str) -> None:
         """Write an instruction without a result."""
@@ -133,6 +175,10 @@ class Text(ABC):
     def store(self, value: str, base: str, index: str | int = 0, kind: str = "") -> None:
         """Write a value of all lanes, or of another kind."""
         self.do(f"store {kind or self.vector} {value}, ptr {self.at(base, index, kind)}, align 8")
+
+    def offset(self, to: Place, i: int) -> str:
+        """The offset of value `i` of a place."""
+        return self.integer("add", to.first, i if to.stride == 1 else self.integer("mul", i, to.stride))
 
     def integer(self, op: str, a: str | int, b: str | int) -> str:
         """Arithmetic of 64-bit integers."""

@@ -16,12 +16,12 @@ import numpy as np
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.core.vector import vec3
+from tandemlift.engines.models import visuals
 from tandemlift.engines.models.links import Link, links_of
 from tandemlift.engines.models.mujoco_bodies import principal_axes, specification
 from tandemlift.engines.models.mujoco_contact import HULL, set_contact_stiffness
 from tandemlift.engines.models.mujoco_import import mujoco
 from tandemlift.engines.models.scene import Scene, floor_from, walls_from
-from tandemlift.engines.models.visuals import GLASS, SUN, WALL, VisualShape, payload_shapes, quadrotor_shapes
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
@@ -116,28 +116,34 @@ def _add_visuals(spec: Any, scene: Scene, vehicle: Vehicle) -> None:
     """Add colours, light and visual shapes without contact; hide the contact shapes."""
     for geom in spec.geoms:
         if geom.name == "floor":
-            geom.rgba = _rgba(GROUND)
+            geom.rgba = visuals.rgba_of(GROUND)
         elif geom.name.startswith("wall"):
-            geom.rgba = _rgba(WALL, GLASS)
+            geom.rgba = visuals.rgba_of(visuals.WALL, visuals.GLASS)
         else:
             geom.group = CONTACT_GROUP
     depth = float(vehicle.payload.box[1][2])
-    _add_shapes(spec.body("payload"), payload_shapes(vehicle.payload, tuple(vehicle.quadrotors)), vehicle.origin)
+    _add_shapes(
+        spec.body("payload"), visuals.payload_shapes(vehicle.payload, tuple(vehicle.quadrotors)), vehicle.origin
+    )
     for i, q in enumerate(vehicle.quadrotors, 1):
-        _add_shapes(spec.body(f"quadrotor{i}"), quadrotor_shapes(q, depth), np.zeros(3))
-    sun = spec.worldbody.add_light(name="sun", pos=20.0 * SUN, dir=-SUN, castshadow=not scene.all_walls)
+        _add_shapes(spec.body(f"quadrotor{i}"), visuals.quadrotor_shapes(q, depth), np.zeros(3))
+    sun = spec.worldbody.add_light(name="sun", pos=20.0 * visuals.SUN, dir=-visuals.SUN, castshadow=not scene.all_walls)
     sun.type = mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
     sky = spec.add_texture(name="sky", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX, width=64, height=384)
-    sky.builtin, sky.rgb1, sky.rgb2 = mujoco.mjtBuiltin.mjBUILTIN_GRADIENT, _rgba(SKY)[:3], _rgba(ZENITH)[:3]
+    sky.builtin, sky.rgb1, sky.rgb2 = (
+        mujoco.mjtBuiltin.mjBUILTIN_GRADIENT,
+        visuals.rgba_of(SKY)[:3],
+        visuals.rgba_of(ZENITH)[:3],
+    )
     spec.stat.center, spec.stat.extent = scene.initial.position, float(np.abs(vehicle.lever_arms).max()) + 1.0
 
 
-def _add_shapes(body: Any, shapes: Sequence[VisualShape], origin: Array) -> None:
+def _add_shapes(body: Any, shapes: Sequence[visuals.VisualShape], origin: Array) -> None:
     """Add visual shapes; `origin` (3) is theirs in the body's frame [m]."""
     kinds, quat = mujoco.mjtGeom, np.empty(4)
     for shape in shapes:
         if shape.kind == "hull":
-            place: dict[str, Any] = {"type": kinds.mjGEOM_MESH, "meshname": HULL, "rgba": _rgba(shape.color)}
+            place: dict[str, Any] = {"type": kinds.mjGEOM_MESH, "meshname": HULL, "rgba": visuals.rgba_of(shape.color)}
             body.add_geom(name=f"{body.name} visual", pos=origin, mass=0.0, contype=0, conaffinity=0, **place)
             continue
         mujoco.mju_mat2Quat(quat, np.ascontiguousarray(shape.axes).ravel())
@@ -152,15 +158,11 @@ def _add_shapes(body: Any, shapes: Sequence[VisualShape], origin: Array) -> None
             size=size * halves,
             pos=origin + shape.position,
             quat=quat,
-            rgba=_rgba(shape.color, shape.opacity),
+            rgba=visuals.rgba_of(shape.color, shape.opacity),
             mass=0.0,
             contype=0,
             conaffinity=0,
         )
-
-
-def _rgba(color: str, opacity: float = 1.0) -> list[float]:
-    return [*(int(color[i : i + 2], 16) / 255.0 for i in (1, 3, 5)), opacity]
 
 
 def _with_all_digits(text: str, model: Any) -> str:

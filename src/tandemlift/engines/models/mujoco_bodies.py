@@ -16,13 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.core.types import GRAVITY, Array
-from tandemlift.engines.models.mujoco_contact import (
-    add_floor,
-    add_vehicle_shapes,
-    add_walls,
-    hull_name,
-    set_contact_stiffness,
-)
+from tandemlift.engines.models import mujoco_contact
 from tandemlift.engines.models.mujoco_import import mujoco
 from tandemlift.engines.models.scene import Scene
 from tandemlift.parts.contact.feet import Floor
@@ -58,7 +52,7 @@ def model_of(scene: Scene, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
     quadrotors = [(q.mass, principal_axes(q.tensor)[0]) for q in vehicle.quadrotors]
     _set_inertias(model, [(vehicle.payload.mass, principal_axes(vehicle.payload.tensor)[0]), *quadrotors, *difference])
     model.dof_damping[:] = [*vehicle.drag.force, *vehicle.drag.moment]
-    set_contact_stiffness(model, floor, walls)
+    mujoco_contact.set_contact_stiffness(model, floor, walls)
     return model
 
 
@@ -70,17 +64,17 @@ def specification(scene: Scene, vehicle: Vehicle, floor: Any, walls: Any) -> Any
     """
     spec, standing, walled = mujoco.MjSpec(), isinstance(floor, Floor), isinstance(walls, Walls)
     if scene.all_walls and not walled:
-        raise TypeError("a mission with walls needs a laws.contact.walls.Walls with their contact parameters")
+        raise TypeError("a mission with walls needs a parts.contact.walls.Walls with their contact parameters")
     _set_options(spec, scene.mission.step, touching=standing or walled)
     _add_payload(spec, vehicle)
     for i, (quadrotor, center) in enumerate(zip(vehicle.quadrotors, vehicle.lever_arms, strict=True), 1):
         _add_quadrotor(spec, f"quadrotor{i}", quadrotor, center)
     _add_sensors(spec, vehicle.count, touching=standing or walled)
-    shapes = add_vehicle_shapes(spec, floor, walls, vehicle)
+    shapes = mujoco_contact.add_vehicle_shapes(spec, floor, walls, vehicle)
     if standing:
-        add_floor(spec, floor, shapes)
+        mujoco_contact.add_floor(spec, floor, shapes)
     if walled:
-        add_walls(spec, walls, scene.all_walls, shapes)
+        mujoco_contact.add_walls(spec, walls, scene.all_walls, shapes)
     return spec
 
 
@@ -101,7 +95,7 @@ def _add_payload(spec: Any, vehicle: Vehicle) -> None:
     body.add_joint(name="free", type=mujoco.mjtJoint.mjJNT_FREE, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
     body.add_site(name="payload", pos=vehicle.origin)
     for k, hull in enumerate(vehicle.payload.hulls):
-        spec.add_mesh(name=hull_name(k), uservert=hull.corners.ravel(), userface=hull.triangles.ravel())
+        spec.add_mesh(name=mujoco_contact.hull_name(k), uservert=hull.corners.ravel(), userface=hull.triangles.ravel())
 
 
 def _add_quadrotor(spec: Any, name: str, quadrotor: Quadrotor, center: Array) -> None:

@@ -21,41 +21,22 @@ from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTabl
 class Timing(Protocol):
     """Name of the flight, and its time step [s]."""
 
-    @property
-    def name(self) -> str:
-        """Name of the flight."""
-
-    @property
-    def step(self) -> float:
-        """Time step [s]."""
+    name: str
+    step: float
 
 
 class Scene(Protocol):
     """The tables of a mission that an engine reads; every `Mission` is one."""
 
+    vehicle: VehicleTable
+    initial: InitialTable
+    plant: PlantTable
+    disturbance: DisturbanceTable
+    ground: GroundTable
+
     @property
     def mission(self) -> Timing:
         """Name and step."""
-
-    @property
-    def vehicle(self) -> VehicleTable:
-        """The body's parts."""
-
-    @property
-    def initial(self) -> InitialTable:
-        """State at the start."""
-
-    @property
-    def plant(self) -> PlantTable:
-        """The differences of the real body."""
-
-    @property
-    def disturbance(self) -> DisturbanceTable:
-        """Constant force and moment."""
-
-    @property
-    def ground(self) -> GroundTable:
-        """The floor."""
 
     @property
     def all_walls(self) -> tuple[WallTable, ...]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.core.types import Array
-from tandemlift.engines.models.visuals import LEVEL
+from tandemlift.engines.models.visuals import LEVEL, rgba_of
 
 Element = ElementTree.Element
 
@@ -52,7 +52,7 @@ def pose(parent: Element, position: ArrayLike, R: Array = LEVEL, digits: int | N
 
 def rgba(color: str, opacity: float = 1.0) -> str:
     """A colour #rrggbb and an opacity as four numbers from 0 to 1."""
-    return numbers([*(int(color[i : i + 2], 16) / 255.0 for i in (1, 3, 5)), opacity], 3)
+    return numbers(rgba_of(color, opacity), 3)
 
 
 def geometry(parent: Element, kind: str, size: Sequence[float], digits: int | None = None) -> None:

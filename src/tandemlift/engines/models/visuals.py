@@ -36,6 +36,11 @@ LEVEL = np.eye(3)
 SHORTEST = 1e-6  # m, a shorter cylinder is left out
 
 
+def rgba_of(color: str, opacity: float = 1.0) -> list[float]:
+    """A colour #rrggbb and an opacity as four numbers from 0 to 1."""
+    return [*(int(color[i : i + 2], 16) / 255.0 for i in (1, 3, 5)), opacity]
+
+
 def mean_arm(quadrotor: Quadrotor) -> float:
     """Mean distance of the rotors from the quadrotor's centre [m], a measure of its size."""
     return float(np.linalg.norm(quadrotor.rotors, axis=1).mean())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.core.law import choice, law
 from tandemlift.core.types import Number
@@ -56,13 +56,9 @@ class ContactEstimateChannels(NamedTuple):
     contact_on_map: Number
 
 
-@choice(absent="contact")
-def contact_channels(contact: ContactEstimate | Absent) -> ContactEstimateChannels | Absent:
+@law(absent="contact")
+def contact_channels(contact: ContactEstimate) -> ContactEstimateChannels:
     """The channels of an estimated contact."""
-
-
-@contact_channels.register(ContactEstimate)
-def _contact(contact: ContactEstimate) -> ContactEstimateChannels:
     return ContactEstimateChannels(
         contact_part=contact.part,
         contact_force_estimate=contact.force,
@@ -74,16 +70,11 @@ def _contact(contact: ContactEstimate) -> ContactEstimateChannels:
     )
 
 
-def channels_of_additional(readings: Any) -> Any:
-    """The type of the channels of additional sensors: `measured_NAME` for each."""
-    return by_name(tuple(f"measured_{name}" for name in readings._fields))
-
-
 @law(absent="readings")
 def measured_channels(readings: Readings) -> MeasuredChannels:
     """The channels of readings."""
     m, u = readings.motion, readings.imu
-    more = [reading.value for reading in readings.additional]
+    named = by_name(tuple([f"measured_{name}" for name in readings.additional._fields]))
     return MeasuredChannels(
         measured_position=m.position,
         measured_velocity=m.velocity,
@@ -92,7 +83,7 @@ def measured_channels(readings: Readings) -> MeasuredChannels:
         measured_specific_force=u.specific_force,
         measured_joint_force=u.joint_force,
         measured_joint_torque=u.joint_torque,
-        additional=channels_of_additional(readings.additional)(*more),
+        additional=named(*[reading.value for reading in readings.additional]),
     )
 
 

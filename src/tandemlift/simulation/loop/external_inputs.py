@@ -7,7 +7,6 @@ steps are drawn at once, several in a vector. `input_tables_from` makes the tabl
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -17,7 +16,7 @@ from numpy.typing import NDArray
 from tandemlift.core.arrays import array
 from tandemlift.core.caching import cached
 from tandemlift.core.law import law
-from tandemlift.core.types import Condition, Number, is_value, layout_and_numbers, leaves
+from tandemlift.core.types import Condition, Number, layout_and_numbers, leaves
 from tandemlift.core.vector import ZERO, Absent, Vec3, mat3, vec3
 from tandemlift.parts.contact.clearance import is_fast
 from tandemlift.parts.contact.corridor import WallTable
@@ -75,17 +74,13 @@ def push_is_active(row: GaussianPush, opens: Number, closes: Number) -> Conditio
 @law
 def with_push(hand: Push, row: GaussianPush, when: Number) -> Push:
     """A push at a time [s] added to others."""
-    return _added(hand, push_at(hand, row, when))
-
-
-def _added(a: Any, b: Any) -> Any:
-    return type(a)(*map(_added, a, b)) if is_value(a) else operator.add(a, b)
+    return hand + push_at(hand, row, when)
 
 
 @law
 def with_gust(sum: Vec3, row: Gust, t: Number) -> Vec3:
     """The velocity of a gust at time t [s] added to that of others."""
-    return _added(sum, gust_velocity(row, t))
+    return sum + gust_velocity(row, t)
 
 
 @law

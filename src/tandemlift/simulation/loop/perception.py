@@ -37,7 +37,7 @@ from tandemlift.parts.interaction.admittance import AdmittanceState
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.off_center import about_center
-from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState, sense
+from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, sense
 from tandemlift.simulation.loop.sources import EstimatedFlight, KnownWalls, NominalVehicle, PilotSources
 
 M = TypeVar("M")
@@ -116,11 +116,7 @@ def measure(
     """(Readings of a step, the sensors' memory)."""
 
 
-@measure.register(Sensors)
-def _sensed(
-    sensors: Sensors, memory: SensorState, state: State, perfect: PerfectReadings, believed: Quat, noise: SensorNoise
-) -> tuple[Readings, SensorState]:
-    return sense(sensors, memory, state, perfect, believed, noise)
+measure.register(Sensors)(sense)
 
 
 @law(instead={TareAtTime: "t"})
@@ -129,13 +125,9 @@ def tare_begun(tare: TareInHover, guidance: HandGuidanceState, t: Number) -> Num
     return guidance.phase.hover_time
 
 
-@choice(absent="t")
-def tare_time(estimators: object, guidance: AdmittanceState | HandGuidanceState, t: Number) -> Number:
+@law(absent="t")
+def tare_time(estimators: Estimators, guidance: AdmittanceState | HandGuidanceState, t: Number) -> Number:
     """The time [s] by which the estimators tare."""
-
-
-@tare_time.register(Estimators)
-def _tare(estimators: Estimators, guidance: AdmittanceState | HandGuidanceState, t: Number) -> Number:
     return tare_begun(estimators.tare, guidance, t)
 
 
@@ -244,13 +236,9 @@ def known_surroundings(
     return KnownSurroundings(walls_known(sources.map, near), in_the_air(m), is_in(m, LAND), m.ground)
 
 
-@choice(instead={AdmittanceState: 1.0})
-def aloft(guidance: AdmittanceState | HandGuidanceState) -> Number:
+@law(instead={AdmittanceState: 1.0})
+def aloft(guidance: HandGuidanceState) -> Number:
     """1 in flight, except in lift and landing, else 0; 1 where guidance is scheduled."""
-
-
-@aloft.register(HandGuidanceState)
-def _aloft(guidance: HandGuidanceState) -> Number:
     return in_the_air(guidance.phase)
 
 
@@ -274,13 +262,9 @@ def _surroundings(
     return with_flight_phase(estimators.push, known, guidance)
 
 
-@choice(absent="readings")
-def usable(known: EstimatedFlight | Absent, readings: Readings | Absent) -> Readings | Absent:
+@law(absent="readings")
+def usable(known: Estimates, readings: Readings) -> Readings:
     """The readings that may be used."""
-
-
-@usable.register(Estimates)
-def _as_given(known: Estimates, readings: Readings) -> Readings:
     return readings
 
 

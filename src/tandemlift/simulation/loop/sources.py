@@ -189,7 +189,7 @@ def leaf_offset(value: Any, *path: str) -> LeafSpan:
     at = 0
     for name in path:
         if name not in value._fields:
-            return LeafSpan(0, 0)
+            return NONE
         i = value._fields.index(name)
         at += sum(map(leaves, value[:i]))
         value = value[i]

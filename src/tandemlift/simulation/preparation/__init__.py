@@ -6,18 +6,17 @@ A flight is a flat array of the numbers of a `FlightModel`; a block holds LANES 
 instruction serves all of them. The laws are the same, and so is every bit of the result.
 """
 
-from tandemlift.simulation.loop.external_inputs import GAUSSIAN, GUST, HALVES, LANES, SPAN, InputTables
+from tandemlift.simulation.loop.external_inputs import GAUSSIAN, GUST, LANES, SPAN, InputTables
 from tandemlift.simulation.loop.sources import LeafSpan, delayed_spans, leaf_offset
 from tandemlift.simulation.preparation.compiled_flight import LoopCode
 from tandemlift.simulation.preparation.memory import FlightMemory, FlightStart, TimeGrid
-from tandemlift.simulation.preparation.templates import COMMAND, GIVEN, PythonController, Templates
+from tandemlift.simulation.preparation.templates import COMMAND, GIVEN, PythonController
 
 __all__ = [
     "COMMAND",
     "GAUSSIAN",
     "GIVEN",
     "GUST",
-    "HALVES",
     "LANES",
     "SPAN",
     "FlightMemory",
@@ -26,7 +25,6 @@ __all__ = [
     "LeafSpan",
     "LoopCode",
     "PythonController",
-    "Templates",
     "TimeGrid",
     "delayed_spans",
     "leaf_offset",

@@ -95,9 +95,11 @@ def delay_lines_from(names: Sequence[str], delays: NDArray[np.int64]) -> DelayLi
     return DelayLines(imu, motion, command, view, by_name(tuple(names))(*more))
 
 
-def start_metrics(mission: Mission, far: Clearance | Absent, person: PersonState | Absent) -> RunningMetrics:
-    """The running metrics before the first step; `far`: the clearance before the first search for walls."""
-    counted = mission.estimator.error_metrics and mission.sensors.model != "none"
+def start_metrics(far: Clearance | Absent, person: PersonState | Absent, *, counted: bool) -> RunningMetrics:
+    """The running metrics before the first step.
+
+    `far`: the clearance before the first search for walls. `counted`: whether errors of the estimated push are.
+    """
     effort, errors = person if isinstance(person, Absent) else NO_EFFORT, NO_ERRORS if counted else Absent()
     return EMPTY._replace(clearance=far, effort=effort, estimate=errors)
 
@@ -156,13 +158,14 @@ def assemble(mission: Mission) -> AssembledFlight:
     weights, over = mission.allocation.weights, plant.floor.height if mission.ground.effect else None
     given: Any = {"weights": weights, "floor": over, "delayed": bool(delays[2]), "scale": mission.plant.thrust_scale}
     rotors, spinning, thrusts = start_rotors(mission.actuators, mission.faults, vehicle, step, **given)
-    wind, wind_state = start_wind(mission.wind, vehicle, step, chance)
+    wind, wind_state = start_wind(mission.wind, vehicle, step, chance)  # before the sensors: bits hang on the order
     near, hand = near_walls_from(plant.walls), push_kind(mission.pushes, mission.person)
     at_rest = lambda: readings_at_rest(plant, state, grip, near, thrusts, hand)  # noqa: E731
     senses = start_perception(mission, vehicle, state, chance, at_rest, over)
     waypoints = waypoints_from(mission.person, mission.corridor)
     walk = Walk(waypoints, state, mission.initial.euler[2], mission.phases.height)
     person, memory_of_person, tremor_noise = start_person(mission.person, vehicle, step, walk)
+    far, counted = _clearance(plant.walls, near, plant.frame, state), mission.estimator.error_metrics
     mass, floor = vehicle.mass * mission.plant.mass_scale, mission.ground.model != "none"
     limits = crash_limits_from(mission.crash, mission.supervision, mass, floor=floor)
     flight_state = FlightState(
@@ -177,7 +180,7 @@ def assemble(mission: Mission) -> AssembledFlight:
         rotors=spinning,
         readings=senses.readings,
         person=memory_of_person,
-        metrics=start_metrics(mission, _clearance(plant.walls, near, plant.frame, state), memory_of_person),
+        metrics=start_metrics(far, memory_of_person, counted=counted and mission.sensors.model != "none"),
         impulse=Absent() if isinstance(limits.strike, Absent) else 0.0,
         crash=start_crash(limits, state),
         ended=FLIES,

@@ -17,7 +17,7 @@ from tandemlift.simulation.loop.sources import LeafSpan, delayed_spans, leaf_off
 from tandemlift.simulation.loop.step import FlightModel, StepInputs
 from tandemlift.simulation.preparation.loops import LoopWriter
 from tandemlift.simulation.preparation.memory import AT, WORDS, FlightStart
-from tandemlift.simulation.preparation.templates import PythonController, templates_from
+from tandemlift.simulation.preparation.templates import templates_from
 from tandemlift.simulation.preparation.traced_step import TracedStep
 
 CALL = ("contexts", "first", "end", "stop", "actions", "rows", "lanes", "place", "halted")  # words of `fly_blocks`
@@ -39,14 +39,9 @@ class LoopCode:
         self._own = set[str]()
 
     @cached_property
-    def calls_python(self) -> bool:
-        """Whether a controller in plain Python is called in the middle of a step."""
-        return isinstance(self.templates.model.pilot.controller, PythonController)
-
-    @cached_property
     def traced(self) -> TracedStep:
         """The graph of a step."""
-        return TracedStep(self.templates, self.calls_python, fuses=self.fuses)
+        return TracedStep(self.templates, fuses=self.fuses)
 
     def loop(self, lanes: int, going: Callable[[], bool] = always, *, differ: Collection[str] = ()) -> Code:
         """`fly`, the loop over steps, for one flight or for a block of LANES; compiled only while `going()` is true.
@@ -77,7 +72,7 @@ class LoopCode:
 
     def parts(self, *, leaves_body: bool) -> Code:
         """A step in parts: `ask` up to a controller in Python, `decide` up to another body, `complete` to its end."""
-        names = ["ask"] * self.calls_python + ["decide"] * leaves_body + ["complete"]
+        names = ["ask"] * self.templates.calls_python + ["decide"] * leaves_body + ["complete"]
         return self._code("parts", int(leaves_body), names)
 
     def _code(self, kind: str, number: int, names: list[str], going: Callable[[], bool] = always) -> Code:

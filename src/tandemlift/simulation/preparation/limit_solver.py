@@ -5,6 +5,7 @@ The search runs only for the lanes that need it.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from tandemlift.compiler.tracer import Function, Graph, Module, Place, Symbol, symbols, written_out
@@ -67,12 +68,12 @@ class LimitProblem(NamedTuple):
         return [self.beyond, *self.problem, *self.plain, *self.search]
 
 
-def limit_thrusts(owner: Any, pilot: Any, held: Any, output: Any, t: Any) -> Any:
+def limit_thrusts(graph: Graph, trace: Callable[[Any], Any], pilot: Any, held: Any, output: Any, t: Any) -> Any:
     """(`LimitProblem`, a decision within them, the memory after it); `held`: the pilot's memory before.
 
     Args:
-        owner: of the graph; it gives the symbols of an input by `input_of`, those of a value by `numbers`, and the
-            traced form of a law by `trace`.
+        graph: of the step.
+        trace: gives the traced form of a law.
         pilot: its parameters.
         held: its memory before.
         output: with its decision and its memory after it, without limits.
@@ -80,21 +81,18 @@ def limit_thrusts(owner: Any, pilot: Any, held: Any, output: Any, t: Any) -> Any
     """
     how, decision = pilot.allocation, output.decision
     wished = decision.thrusts
-    limits = owner.trace(limits_at)(how, owner.trace(left_of)(pilot.detection, held.detection), t)
-    outside: Any = total(owner.trace(outside_limits)(wished, limits)) > 0.0
-    problem, plain, before = (
-        BoundedProblem(how.rows, how.weights, decision.command.wrench, wished, limits),
-        AllocationState(wished * 0.0, wished),
-        held.allocation,
-    )
+    limits = trace(limits_at)(how, trace(left_of)(pilot.detection, held.detection), t)
+    outside: Any = total(trace(outside_limits)(wished, limits)) > 0.0
+    problem = BoundedProblem(how.rows, how.weights, decision.command.wrench, wished, limits)
+    plain, before = AllocationState(wished * 0.0, wished), held.allocation
     start = AllocationState(where(outside, before.active, plain.active), where(outside, before.thrusts, plain.thrusts))
     search = Search(start, 1.0, 0.0, where(outside, 0.0, 1.0))
-    solver = TracedSolver(written_out(problem), owner.graph.rolls_from)
-    needs = LimitProblem(outside, owner.numbers(problem), owner.numbers(plain), owner.numbers(search), solver)
-    solved = owner.input_of("solved", written_out(plain))
-    wanted = owner.trace(rotor_commands)(how, solved.thrusts, t)
-    commands = owner.trace(with_trials)(pilot.detection, held.detection, wanted, t)
-    return needs, owner.trace(with_thrusts)(decision, commands), owner.trace(with_allocation)(output.memory, solved)
+    solver = TracedSolver(written_out(problem), graph.rolls_from)
+    needs = LimitProblem(outside, symbols(graph, problem), symbols(graph, plain), symbols(graph, search), solver)
+    solved = graph.inputs("solved", written_out(plain))
+    wanted = trace(rotor_commands)(how, solved.thrusts, t)
+    commands = trace(with_trials)(pilot.detection, held.detection, wanted, t)
+    return needs, trace(with_thrusts)(decision, commands), trace(with_allocation)(output.memory, solved)
 
 
 def write_limits(f: Function, needs: LimitProblem, at: int) -> None:

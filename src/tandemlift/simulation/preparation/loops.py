@@ -11,21 +11,13 @@ from collections.abc import Callable
 
 from tandemlift.compiler.tracer import LEAVES, Function, Place, Symbol, double
 from tandemlift.simulation.loop.external_inputs import SPAN
+from tandemlift.simulation.preparation import precompute
 from tandemlift.simulation.preparation.limit_solver import write_limits, write_solver
-from tandemlift.simulation.preparation.precompute import (
-    ScratchValues,
-    steady,
-    write_draw,
-    write_draw_of_part,
-    write_gust,
-    write_push,
-    write_surroundings,
-    write_walls,
-)
 from tandemlift.simulation.preparation.step_end import write_early, write_estimates, write_next_state, write_sample
 from tandemlift.simulation.preparation.step_writer import StepWriter
 from tandemlift.simulation.preparation.traced_step import Symbols
 
+Write = Callable[[Function], None]
 Halves = tuple[Callable[[], None], Callable[[], None]]  # each writes a part of a step: up to its sample, and the rest
 
 
@@ -81,7 +73,7 @@ class LoopWriter(StepWriter):
         """Move the body over the step."""
         if not self.traced.body_in_free_air:
             if self.graph.rolls_from or self.largest:
-                self.store_values(f, self.moved, self.traced.body_in_contact)
+                f.update("%work", self.moved, self.traced.body_in_contact)
             elif f.orders:
                 f.same |= {self.graph.input("moved", i).node: s.node for i, s in enumerate(self.traced.body_in_contact)}
             else:
@@ -95,7 +87,7 @@ class LoopWriter(StepWriter):
             f.store(double(float(name == near)), "%work", self.near * self.lanes, "double")
             f.seldom = name == near
             with f.scope():
-                self.store_values(f, self.moved, values if name == near else values[: self.moved_touches])
+                f.update("%work", self.moved, values if name == near else values[: self.moved_touches])
             f.do(f"br label %{done}")
         f.seldom = False
         f.lines.append(f"{done}:")
@@ -120,18 +112,18 @@ class LoopWriter(StepWriter):
 
     def write_outside(self) -> None:
         """The functions that form a step's inputs from outside."""
-        write_push(self)
+        precompute.write_push(self)
         if self.free_draws:
-            write_draw(self, "draw_noise", self.free_draws)
+            precompute.write_draw(self, "draw_noise", self.free_draws)
         for number, part in enumerate(self.held):
             if part.noise.size:
-                write_draw_of_part(self, f"draw_noise{number}", part)
+                precompute.write_draw_of_part(self, f"draw_noise{number}", part)
         if self.has_gusts:
-            write_gust(self)
+            precompute.write_gust(self)
         if self.templates.has_floor or self.templates.has_person:
-            write_surroundings(self)
+            precompute.write_surroundings(self)
         if self.templates.has_walls:
-            write_walls(self)
+            precompute.write_walls(self)
         if self.traced.limits:
             write_solver(self.module, self.traced.limits.solver, self.lanes)
 
@@ -193,7 +185,7 @@ class LoopWriter(StepWriter):
         with f.when(is_last), f.repeat(self.state_size) as i:
             f.store(f.load(source, i), to, i)
 
-    def _step_in_pieces(self, f: Function, kept: ScratchValues) -> Halves:
+    def _step_in_pieces(self, f: Function, kept: precompute.ScratchValues) -> Halves:
         """Write a step as functions of some `largest` operations each, which are called one after another."""
         x, sampling = self.traced, list[str]()
         end = [*x.next_state, *x.sample]
@@ -214,7 +206,7 @@ class LoopWriter(StepWriter):
 
         return (sample, lambda: self.call(f, last, "i64 %k"))
 
-    def _pieces(self, name: str, kept: ScratchValues, roots: Symbols, later: Symbols) -> list[str]:
+    def _pieces(self, name: str, kept: precompute.ScratchValues, roots: Symbols, later: Symbols) -> list[str]:
         """Compute roots in functions of some `largest` operations each; names of the functions."""
         g, ids = self.graph, [s.node for s in roots]
         nodes = [n for n in g.needed(ids, kept.at) if g.ops[n] not in LEAVES and n not in kept.at]
@@ -222,7 +214,7 @@ class LoopWriter(StepWriter):
         writers = [functools.partial(Function.write, roots=part) for part in parts]
         return [self._piece(f"{name}{i}", write, kept, [*roots, *later]) for i, write in enumerate(writers)]
 
-    def _piece(self, name: str, write: Callable[[Function], None], kept: ScratchValues, later: Symbols) -> str:
+    def _piece(self, name: str, write: Write, kept: precompute.ScratchValues, later: Symbols) -> str:
         """Write a part of a step as a function, which stores what later parts need; its name."""
         f = self.function(f"{name}_part", ", i64 %k")
         kept.bind(f)
@@ -237,7 +229,7 @@ class LoopWriter(StepWriter):
         self.moves_body = not leaves_body
         self.write_outside()
         x = self.traced
-        parts = ["ask"] * x.calls_python + ["decide"] * leaves_body + ["complete"]
+        parts = ["ask"] * self.templates.calls_python + ["decide"] * leaves_body + ["complete"]
         ends = [*x.next_state, *x.sample, *([] if leaves_body else self.body_roots())]
         acts = [*self.limit_roots(), *([*x.body.acting, *x.body.push] if leaves_body else [])]
         if not leaves_body:
@@ -253,11 +245,11 @@ class LoopWriter(StepWriter):
                 kept.bind(f)
                 self.bind_inputs(f, k)
             if part == "ask":
-                self.store_values(f, self.asked, x.asked)
+                f.update("%work", self.asked, x.asked)
             elif part == "decide":
                 self.limit_thrusts(f)
-                self.store_values(f, self.acting, x.body.acting)
-                self.store_values(f, self.push, x.body.push)
+                f.update("%work", self.acting, x.body.acting)
+                f.update("%work", self.push, x.body.push)
             else:
                 self._complete(f, k, leaves_body)
             kept.store_for_later(f, later[part])
@@ -273,10 +265,10 @@ class LoopWriter(StepWriter):
         with f.when(f.op(f"icmp ne i64 {k}, {self.context_word(f, 'steps')}")):
             write_next_state(self, f, k)
 
-    def prepare(self, f: Function, k: str, roots: Symbols) -> ScratchValues:
+    def prepare(self, f: Function, k: str, roots: Symbols) -> precompute.ScratchValues:
         """At the start of a flight or after a change: form the tables for step k and store the constant values."""
-        kept = ScratchValues(self.graph, self.scratch)
-        nodes = steady(self.graph, roots, self.state_size)
+        kept = precompute.ScratchValues(self.graph, self.scratch)
+        nodes = precompute.steady(self.graph, roots, self.state_size)
         f.values(Symbol(self.graph, n, "f") for n, common in nodes.items() if common)
         own = [n for n, common in nodes.items() if not common]
         alike = [n for n in own if f.is_uniform(n)]

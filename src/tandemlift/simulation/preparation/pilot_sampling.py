@@ -43,28 +43,19 @@ class PilotSampler:
     def __init__(
         self, onboard: PilotData, pilot_input: Any, quadrotors: int, *, fuses: bool = True, rolls: bool = True
     ) -> None:
-        self.graph, self.trace = graph_for(quadrotors, rolls=rolls), tracer(fuses)
-        pilot, dt = self.input_of("pilot", onboard), self.graph.input("dt")
+        self.graph, trace = graph_for(quadrotors, rolls=rolls), tracer(fuses)
+        pilot, dt = self.graph.inputs("pilot", onboard), self.graph.input("dt")
         t = pilot.samples * dt
-        decided = PilotSample(
-            *self.trace(decide)(pilot.parameters, pilot.memory, self.input_of("pilot_input", pilot_input), t, dt)
-        )
+        given = self.graph.inputs("pilot_input", pilot_input)
+        decided = PilotSample(*trace(decide)(pilot.parameters, pilot.memory, given, t, dt))
         self.limits = None
         if isinstance(onboard.parameters.allocation, ConstrainedAllocation):
-            self.limits, *within = limit_thrusts(self, pilot.parameters, pilot.memory, decided, t)
+            self.limits, *within = limit_thrusts(self.graph, trace, pilot.parameters, pilot.memory, decided, t)
             decided = PilotSample(*within)
-        self.thrusts = self.numbers(decided.decision.thrusts)
+        self.thrusts = symbols(self.graph, decided.decision.thrusts)
         after = PilotDataState(pilot.samples + 1.0, decided.memory)
         check_layout(pilot.parameters.controller, PilotDataState(onboard.samples, onboard.memory), written_out(after))
-        self.after = self.numbers(after)
-
-    def input_of(self, kind: str, like: Any) -> Any:
-        """A nested value whose numbers are inputs of a kind."""
-        return self.graph.inputs(kind, like)
-
-    def numbers(self, value: Any) -> Any:
-        """The numbers of a nested value."""
-        return symbols(self.graph, value)
+        self.after = symbols(self.graph, after)
 
     def written(self) -> Written:
         """The function `sample`, whose argument is a context of `POINTERS`."""

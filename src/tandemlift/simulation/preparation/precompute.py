@@ -119,10 +119,8 @@ def write_surroundings(step: StepWriter) -> None:
 
 def write_walls(step: StepWriter) -> None:
     """Find the nearest walls of the flights for which they are due."""
-    f, at = (
-        step.function("find_walls", f", {step.vector} %begins"),
-        leaf_offset(step.templates.model, "flight_state", "near").at,
-    )
+    f = step.function("find_walls", f", {step.vector} %begins")
+    at = leaf_offset(step.templates.model, "flight_state", "near").at
     f.read |= {"begins": lambda m: "%begins", "due": lambda m: Place("%work", step.due)}
     is_due, first, more = step.traced.wall_search
     due = f.value(is_due)
@@ -140,10 +138,7 @@ def write_walls(step: StepWriter) -> None:
 
 def _find_legs(step: StepWriter, f: Function) -> None:
     model, lanes = step.templates.model, step.lanes
-    index, leg = (
-        leaf_offset(model, "flight_state", "person", "index").at,
-        leaf_offset(model, "flight_state", "person", "leg").at,
-    )
+    index, leg = (leaf_offset(model, "flight_state", "person", name).at for name in ("index", "leg"))
     legs, last = step.context_word(f, "legs"), f.integer("sub", step.context_word(f, "leg_count"), 1)
     begins = step.begins_span(f, "%k")
     for lane in range(lanes):

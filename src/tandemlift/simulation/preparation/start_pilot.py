@@ -42,14 +42,7 @@ from tandemlift.parts.rotors.detection_table import start_detection
 from tandemlift.parts.rotors.rotor_faults import RotorFaults, known_faults
 from tandemlift.parts.sensors.readings import Readings
 from tandemlift.parts.sensors.sensors_table import steps_of
-from tandemlift.simulation.loop.perception import (
-    Estimators,
-    EstimatorState,
-    HeldEstimates,
-    Sampling,
-    TareAtTime,
-    TareInHover,
-)
+from tandemlift.simulation.loop import perception
 from tandemlift.simulation.loop.sources import NominalVehicle
 
 
@@ -137,7 +130,7 @@ def start_hand_guidance(
 
 def start_estimators(
     mission: Mission, vehicle: Vehicle, state: State, readings: Readings | Absent, floor: float | None
-) -> tuple[Estimators | Absent, EstimatorState | Absent]:
+) -> tuple[perception.Estimators | Absent, perception.EstimatorState | Absent]:
     """The estimators of a mission and their memory at t = 0, for the nominal vehicle; or `Absent`.
 
     `floor`: height z [m] of a floor with ground effect, or None.
@@ -146,7 +139,7 @@ def start_estimators(
         return Absent(), Absent()
     e, s, period = mission.estimator, mission.sensors, steps_of(mission.sensors.interval, mission.mission.step)
     step = mission.mission.step
-    interval, sampling = step * period, Sampling(step * period) if period > 1 else Absent()
+    interval, sampling = step * period, perception.Sampling(step * period) if period > 1 else Absent()
     late = mission.observer.rotor_delay + s.delay
     push, pushed = start_push_estimator(e, s, vehicle, readings.imu, interval, late, floor)
     stopped = each(vehicle.rotor_count)(*[0.0] * vehicle.rotor_count)
@@ -155,7 +148,7 @@ def start_estimators(
     first = push_and_state(push, pushed, observer, navigation, inputs).push
     drag = vehicle.drag
     believed = NominalVehicle(vec3(vehicle.payload_center), vec3(drag.force), vec3(drag.moment))
-    tare = TareInHover() if e.tare == "hover" else TareAtTime()
+    tare = perception.TareInHover() if e.tare == "hover" else perception.TareAtTime()
     contact, no_contact = start_contact_detection(
         mission.contact, vehicle, interval, joints=e.wrench in ("joints", "fused")
     )
@@ -167,7 +160,7 @@ def start_estimators(
         moment_threshold=mission.compliance.yaw.threshold,
         limited=mission.allocation.method == "constrained",
     )
-    known = Estimators(push, observer, believed, tare, contact, confirmation, sampling)
+    known = perception.Estimators(push, observer, believed, tare, contact, confirmation, sampling)
     touching = Absent() if isinstance(no_contact, Absent) else no_contact.contact
-    held = Absent() if isinstance(sampling, Absent) else HeldEstimates(first, state, touching, 0.0)
-    return known, EstimatorState(pushed, navigation, no_contact, unconfirmed, held)
+    held = Absent() if isinstance(sampling, Absent) else perception.HeldEstimates(first, state, touching, 0.0)
+    return known, perception.EstimatorState(pushed, navigation, no_contact, unconfirmed, held)

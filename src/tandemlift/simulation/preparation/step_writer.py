@@ -111,7 +111,7 @@ class StepWriter:
         head = f"internal {result} @{name}({MEMORY}{more}) #1"
         f = Function(self.module, self.graph, self.lanes, head, self.uniform)
         f.lines.append(f"  %dt = load double, ptr {f.at('%c', AT['dt'], 'i64')}, align 8")
-        f.sets.room = self.scratch_place
+        f.sets.room = lambda count: Place("%work", self.scratch.take(f"room_{self.scratch.size}", count))
         f.read = {"fly": lambda i: Place("%flight", i), "dt": lambda i: "%dt"}
         return f
 
@@ -120,10 +120,6 @@ class StepWriter:
         f = Function(self.module, self.graph, self.lanes, f"i64 @{name}(ptr %c) #0")
         given = [f"ptr {self.context_word(f, word)}" for word in ("flight", "work")]
         f.end("i64 " + f.op(f"call i64 @{name}_({', '.join(['ptr %c', *given])})"))
-
-    def scratch_place(self, count: int) -> Place:
-        """Scratch memory for a set of `count` numbers."""
-        return Place("%work", self.scratch.take(f"room_{self.scratch.size}", count))
 
     def call(self, f: Function, name: str, *more: str) -> None:
         """Call another internal function."""
@@ -175,10 +171,6 @@ class StepWriter:
         needs = self.traced.limits
         return self.solving + (len(needs.problem) if needs else 0)
 
-    def store_values(self, f: Function, at: int, values: Symbols) -> None:
-        """Write values to scratch memory."""
-        f.update("%work", at, values)
-
     @property
     def keeps_touches(self) -> bool:
         """Whether the record of touches stays in its place except in steps near floor or walls."""
@@ -192,5 +184,4 @@ class StepWriter:
 
     def limit_roots(self) -> Symbols:
         """The values that the limit solver needs; none where thrusts have no limits."""
-        needs = self.traced.limits
-        return [needs.beyond, *needs.problem, *needs.plain, *needs.search] if needs else []
+        return self.traced.limits.symbols if self.traced.limits else []

@@ -13,18 +13,8 @@ from tandemlift.parts.interaction.person import Person
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
 from tandemlift.parts.mechanics.trajectories import Trajectory
 from tandemlift.parts.rotors.allocation import ConstrainedAllocation
+from tandemlift.simulation.loop import step
 from tandemlift.simulation.loop.log_sample import Sample
-from tandemlift.simulation.loop.step import (
-    Actuation,
-    FlightModel,
-    PilotOutput,
-    StepInputs,
-    actuate,
-    finish_sample,
-    run_pilot,
-    step_body,
-    with_person,
-)
 
 COMMAND = Command(Wrench(0.0, ZERO), ZERO)
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
@@ -46,7 +36,7 @@ class PythonController(NamedTuple):
 
 @control.register(PythonController)
 def _layout_of_command(gains: PythonController, memory: Any, measured: Measured, reference: Reference) -> Any:
-    return Command(Wrench(0.0, ZERO), ZERO), memory
+    return COMMAND, memory
 
 
 class Templates(NamedTuple):
@@ -62,13 +52,18 @@ class Templates(NamedTuple):
         nowhere: the nearest walls before the first search; its numbers are used, not only its layout.
     """
 
-    model: FlightModel
-    given: StepInputs
-    output: PilotOutput
-    acting: Actuation
+    model: step.FlightModel
+    given: step.StepInputs
+    output: step.PilotOutput
+    acting: step.Actuation
     moved: BodyStep
     sample: Sample
     nowhere: NearWalls | Absent
+
+    @property
+    def calls_python(self) -> bool:
+        """Whether a controller in plain Python is called in the middle of a step."""
+        return isinstance(self.model.pilot.controller, PythonController)
 
     @property
     def has_thrust_limits(self) -> bool:
@@ -96,13 +91,13 @@ class Templates(NamedTuple):
         return not isinstance(self.model.delays, Absent)
 
 
-def templates_from(model: FlightModel, given: StepInputs) -> Templates:
+def templates_from(model: step.FlightModel, given: step.StepInputs) -> Templates:
     """The layouts of a flight's steps, from its first."""
     before, outer = model.flight_state, given
-    given = with_person(model, given, 0.0, 0.001)
-    output = run_pilot(model, given, 0.0, 0.001)
-    acting = actuate(model, output.decision.thrusts, given, 0.0)
-    moved = step_body(model.plant, before, acting, given.hand, 0.0, 0.001)
-    _, sample = finish_sample(model, output, acting, moved, given, 0.0, 0.0)
+    given = step.with_person(model, given, 0.0, 0.001)
+    output = step.run_pilot(model, given, 0.0, 0.001)
+    acting = step.actuate(model, output.decision.thrusts, given, 0.0)
+    moved = step.step_body(model.plant, before, acting, given.hand, 0.0, 0.001)
+    _, sample = step.finish_sample(model, output, acting, moved, given, 0.0, 0.0)
     layouts = [zeroed(x) for x in (model, outer, output, acting, moved, sample)]
     return Templates._make([*layouts, before.near])

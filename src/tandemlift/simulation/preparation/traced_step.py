@@ -23,6 +23,7 @@ from tandemlift.parts.controllers import control
 from tandemlift.parts.mechanics.push import push_at, push_moment
 from tandemlift.parts.mechanics.wind import gust_velocity
 from tandemlift.parts.pilot.pilot import control_input, with_command
+from tandemlift.simulation.loop import step
 from tandemlift.simulation.loop.external_inputs import (
     ROWS,
     draw_count,
@@ -31,17 +32,6 @@ from tandemlift.simulation.loop.external_inputs import (
     nearest_walls,
     push_is_active,
     walls_are_due,
-)
-from tandemlift.simulation.loop.step import (
-    PilotOutput,
-    StepInputs,
-    actuate,
-    finish_sample,
-    perceive,
-    run_pilot,
-    step_body,
-    with_caller_thrusts,
-    with_person,
 )
 from tandemlift.simulation.preparation.limit_solver import LimitProblem, limit_thrusts
 from tandemlift.simulation.preparation.templates import COMMAND, Templates
@@ -91,18 +81,15 @@ class TracedStep:
 
     Args:
         templates: the layouts of the values of a step.
-        calls_python: whether a controller in Python is called in the middle of the step.
         fuses: whether a·b + c is rounded once.
         rolls: whether large sets may be loops.
     """
 
-    pilot, end = staticmethod(run_pilot), staticmethod(finish_sample)  # laws of a flight; a vehicle alone has others
+    # laws of a flight; a vehicle alone has others
+    pilot, end = staticmethod(step.run_pilot), staticmethod(step.finish_sample)
 
-    def __init__(
-        self, templates: Templates, calls_python: bool = False, *, fuses: bool = True, rolls: bool = True
-    ) -> None:
-        self.templates, self.calls_python = templates, calls_python
-        self.trace = tracer(fuses)
+    def __init__(self, templates: Templates, *, fuses: bool = True, rolls: bool = True) -> None:
+        self.templates, self.trace = templates, tracer(fuses)
         plant = templates.model.plant
         quadrotors = len(plant.frame.mass)
         if isinstance(getattr(plant.walls, "beam", None), Polyhedron):  # which has large sets
@@ -110,7 +97,7 @@ class TracedStep:
         self.graph = graph_for(quadrotors, rolls=rolls)
         self.model = self.input_of("fly", templates.model)
         self.t, self.dt = self.graph.input("t"), self.graph.input("dt")
-        outer = StepInputs(
+        outer = step.StepInputs(
             self.input_of("hand", templates.given.hand),
             self.input_of("gust", ZERO),
             self.input_of("noise", templates.given.noise),
@@ -118,15 +105,15 @@ class TracedStep:
             self.input_of("external", templates.given.external),
             self.input_of("outside", templates.given.outside),
         )
-        self.given = self.trace(with_person)(self.model, outer, self.t, self.dt)
+        self.given = self.trace(step.with_person)(self.model, outer, self.t, self.dt)
         self.asked: Symbols = []
         now = self.model, self.given, self.t, self.dt
-        output = self._ask_python() if calls_python else self.trace(self.pilot)(*now)
+        output = self._ask_python() if templates.calls_python else self.trace(self.pilot)(*now)
         self.limits: LimitProblem | None = None
         if templates.has_thrust_limits:
             output = self._limit_thrusts(output)
-        output = self.trace(with_caller_thrusts)(output, self.given.external)
-        acting = self.trace(actuate)(self.model, output.decision.thrusts, self.given, self.t)
+        output = self.trace(step.with_caller_thrusts)(output, self.given.external)
+        acting = self.trace(step.actuate)(self.model, output.decision.thrusts, self.given, self.t)
         self.body = BodyInputs(self.numbers(acting), self._mean_push())
         plant = self.model.plant
         self.body_in_contact = self.numbers(self._stepped_body(plant, acting))
@@ -153,23 +140,23 @@ class TracedStep:
         """The numbers of a nested value."""
         return symbols(self.graph, value)
 
-    def _ask_python(self) -> PilotOutput:
+    def _ask_python(self) -> step.PilotOutput:
         f, t, dt = self.model, self.t, self.dt
-        estimates, pilot_input, estimator = self.trace(perceive)(f, self.given, t, dt)
+        estimates, pilot_input, estimator = self.trace(step.perceive)(f, self.given, t, dt)
         memory = f.flight_state.memory
         briefed = self.trace(control_input)(f.pilot, memory, pilot_input, t, dt)
         self.asked = [*self.numbers(briefed.measured), *self.numbers(briefed.guidance.reference)]
         command = self.input_of("answer", COMMAND)
         decision, memory = self.trace(with_command)(f.pilot, memory, briefed, command, memory.controller, t)
-        return PilotOutput(estimates, pilot_input.state.attitude, decision, memory, estimator)
+        return step.PilotOutput(estimates, pilot_input.state.attitude, decision, memory, estimator)
 
-    def _limit_thrusts(self, output: PilotOutput) -> PilotOutput:
+    def _limit_thrusts(self, output: step.PilotOutput) -> step.PilotOutput:
         pilot, memory = self.model.pilot, self.model.flight_state.memory
-        self.limits, decision, memory = limit_thrusts(self, pilot, memory, output, self.t)
+        self.limits, decision, memory = limit_thrusts(self.graph, self.trace, pilot, memory, output, self.t)
         return output._replace(decision=decision, memory=memory)
 
     def _stepped_body(self, plant: CompiledPlant, acting: Any) -> BodyStep:
-        return self.trace(step_body)(plant, self.model.flight_state, acting, self.given.hand, self.t, self.dt)
+        return self.trace(step.step_body)(plant, self.model.flight_state, acting, self.given.hand, self.t, self.dt)
 
     @cached_property
     def may_touch_hull(self) -> Symbols:
@@ -189,21 +176,17 @@ class TracedStep:
 
     def _mean_push(self) -> Symbols:
         hand, attitude = self.given.hand, self.model.flight_state.state.attitude
+        # Simpson's rule, the weights of a Runge-Kutta step
         mean = (hand.start + hand.middle * 4.0 + hand.end) * (1.0 / 6.0)
         return [*self.numbers(mean.force), *self.numbers(self.trace(push_moment)(mean, attitude))]
 
     # values computed before the step
 
-    @property
-    def when(self) -> Symbol:
-        """The time at which a push is evaluated."""
-        return self.graph.input("when")
-
     @cached_property
     def push(self) -> Symbols:
         """A row of the table of pushes at the time `when`."""
         row = self.input_of("push", ROWS.pushes)
-        return self.numbers(self.trace(push_at)(self.templates.given.hand.start, row, self.when))
+        return self.numbers(self.trace(push_at)(self.templates.given.hand.start, row, self.graph.input("when")))
 
     @cached_property
     def push_is_active(self) -> Symbol:
