@@ -188,6 +188,7 @@ def observer_step(
     thrust, moment = expected(k, memory, thrusts)
     linear, angular = rates_of_change(k, pilot_input, Wrench(thrust.value, moment.value))
     f, m = k.force_follower, k.moment_follower
+    # on the ground both errors are 0, so that the model stays at the measured motion
     e, w = (pilot_input.state.velocity - memory.velocity) * active, (pilot_input.state.rates - memory.rates) * active
     acceleration = (memory.acceleration + growth(e, f.bandwidth, f.slope) * (learning * dt)) * active
     turning = (memory.turning + growth(w, m.bandwidth, m.slope) * (learning * dt)) * active
@@ -198,18 +199,12 @@ def observer_step(
     return unmodelled(k, after), after
 
 
-@law
+@law(absent=NONE)
 def unmodelled(k: DisturbanceObserver, m: ObserverState) -> DisturbanceEstimate:
-    """The estimate in a memory."""
+    """The estimate in a memory, that of the last sample."""
     return DisturbanceEstimate(
         m.acceleration * k.mass, apply_inertia(k.inertia, m.turning), m.residual, m.turning_residual
     )
-
-
-@law(absent=NONE)
-def last_known(k: DisturbanceObserver, memory: ObserverState) -> DisturbanceEstimate:
-    """The `DisturbanceEstimate` at the last sample."""
-    return unmodelled(k, memory)
 
 
 UNBOUNDED = 1e18  # a slope that nothing reaches
