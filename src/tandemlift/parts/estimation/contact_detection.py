@@ -180,7 +180,7 @@ def is_over(k: ContactDetector, c: ContactEstimate, quiet_time: Number, s: State
 
 
 @law(absent=0.0)
-def is_explained(m: ContactState) -> Number:
+def shaken(m: ContactState) -> Number:
     """1 in a contact, shortly after it, and while evidence of one begins, else 0; `m`: memory of the detection.
 
     Joints may disagree then, and readings of different times differ.
@@ -206,7 +206,7 @@ def contact_step(
     beam = beam_of(surroundings.walls, k.geometry, s, in_world(s, d.push.x, d.push.y))
     aloft = maximum(surroundings.aloft, where(s.position.z > surroundings.ground + HIGH, surroundings.landing, 0.0))
     free = where(before.part == 0.0, aloft * x.push.armed, 0.0)
-    told = touching_part(k, evidence, d, guards, beam, maximum(x.push.trusted, is_explained(m)))
+    told = touching_part(k, evidence, d, guards, beam, maximum(x.push.trusted, shaken(m)))
     part, y = by_line_of_action(k.whole, told, x.push.point, k, evidence, (guards, beam))
     part = part * free
     seen_time = (m.seen_time + dt) * where(part == 0.0, 0.0, 1.0)
@@ -229,7 +229,7 @@ def contact_step(
 @law(absent="push")
 def explained_push(m: ContactState, push: PushEstimate) -> PushEstimate:
     """The push, trusted although joints disagree while a contact explains it; `m`: memory of the detection."""
-    trusted = maximum(push.trusted, is_explained(m))
+    trusted = maximum(push.trusted, shaken(m))
     return push._replace(trusted=trusted, usable=push.force * (trusted * push.armed))
 
 

@@ -147,15 +147,6 @@ def growth(e: Number, bandwidth: Number, slope: Number) -> Number:
 
 
 @law
-def expected(
-    k: DisturbanceObserver, memory: ObserverState, thrusts: PerRotor
-) -> tuple[LowPassState[Number], LowPassState[Vec3]]:
-    """(the modelled rotors' thrust, moment) after a step under these commands, each with its rate."""
-    u = wrench(k.effect, thrusts)
-    return low_pass_step(k.thrust, memory.thrust, u.thrust), low_pass_step(k.moment, memory.moment, u.moment)
-
-
-@law
 def rates_of_change(k: DisturbanceObserver, pilot_input: PushedState, u: Wrench) -> tuple[Vec3, Vec3]:
     """(acceleration [m/s², world axes], angular acceleration [rad/s², body axes]) without any disturbance."""
     s = pilot_input.state
@@ -185,7 +176,8 @@ def observer_step(
         learning: 1; 0 holds the estimate while feet may touch the floor, whose force is no disturbance.
         dt: since the last sample [s].
     """
-    thrust, moment = expected(k, memory, thrusts)
+    u = wrench(k.effect, thrusts)
+    thrust, moment = low_pass_step(k.thrust, memory.thrust, u.thrust), low_pass_step(k.moment, memory.moment, u.moment)
     linear, angular = rates_of_change(k, pilot_input, Wrench(thrust.value, moment.value))
     f, m = k.force_follower, k.moment_follower
     # on the ground both errors are 0, so that the model stays at the measured motion

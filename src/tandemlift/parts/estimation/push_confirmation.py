@@ -9,7 +9,7 @@ rejected.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -183,7 +183,7 @@ def rotor_model(vehicle: Vehicle, step: float) -> tuple[RotorModel, PerRotor]:
     return model, rotors(*[0.0] * vehicle.rotor_count)
 
 
-def _wind_ratios(vehicle: Vehicle) -> list[Any]:
+def _wind_ratios(vehicle: Vehicle) -> list[Number]:
     """Drag of the payload over that of the quadrotors along each body axis; 0 where the quadrotors have none."""
     beam = array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
     fleet = np.sum([array(q.areas) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)

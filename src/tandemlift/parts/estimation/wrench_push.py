@@ -99,7 +99,7 @@ class PushInputs(NamedTuple):
     """Readings, the last thrusts of the rotors [N], 1 while no floor carries the vehicle, the clock of the tare, dt."""
 
     readings: Readings
-    commands: Any
+    commands: PerRotor | Absent
     airborne: Number
     t: Number
     dt: Number

@@ -217,11 +217,9 @@ def _fault_from(f: SensorFaultTable, step: float) -> SensorFault:
 
 def _steps(f: SensorFaultTable, step: float) -> tuple[float, float]:
     """The first step with a fault, and the first one without it again."""
-
-    def steps(time: float) -> float:
-        return float(round(min(time / step, NEVER)))
-
-    return steps(f.time), NEVER if f.until is None else steps(f.until)
+    until = math.inf if f.until is None else f.until
+    start, end = (float(round(min(time / step, NEVER))) for time in (f.time, until))
+    return start, end
 
 
 def _faults_of_joints(faults: Sequence[SensorFault]) -> tuple[SensorFault, SensorFault]:

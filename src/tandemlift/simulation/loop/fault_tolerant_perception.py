@@ -9,7 +9,7 @@ from tandemlift.core.law import choice, law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import Absent, Quat, Vec3
 from tandemlift.parts.contact.walls import NearWalls
-from tandemlift.parts.estimation.contact_detection import ContactEstimate, KnownSurroundings, is_explained
+from tandemlift.parts.estimation.contact_detection import ContactEstimate, KnownSurroundings, shaken
 from tandemlift.parts.estimation.navigation import centre_of_mass
 from tandemlift.parts.estimation.push_confirmation import refuted_push
 from tandemlift.parts.estimation.push_estimate import PushEstimate
@@ -151,7 +151,7 @@ def _watched(
         k.watchdog, m.watchdog, readings, predicted(k.estimators, m.estimators), dt
     )
     known, estimators = estimate_all(k.estimators, m.estimators, usable_readings, surroundings, commands, t, dt)
-    report = without_blow(report, is_explained(estimators.contact))
+    report = without_blow(report, shaken(estimators.contact))
     push, state = trusted_push(known.push, report), best_state(known.state, usable_readings, report, watchdog.rates)
     checked = CheckedEstimates(push, state, known.vehicle, known.contact, usable_readings, report)
     return checked, WatchedEstimatorsState(watchdog, estimators)

@@ -16,7 +16,7 @@ from tandemlift.parts.estimation.contact_detection import (
     KnownSurroundings,
     contact_step,
     explained_push,
-    is_explained,
+    shaken,
 )
 from tandemlift.parts.estimation.contact_evidence import ContactDetector, PushReading
 from tandemlift.parts.estimation.fused_push import FusedPush, FusedPushState, by_joints
@@ -204,7 +204,7 @@ def _estimated(
     imu = about_center(used.off_center, readings.imu, pushed.angular)
     seen = PushReading(imu, pushed.angular, push)
     contact, contact_memory = contact_step(estimators.contact, memory.contact, used, seen, state, surroundings, dt)
-    sampled, explained = SampledPush(imu, used, pushed), is_explained(contact_memory)
+    sampled, explained = SampledPush(imu, used, pushed), shaken(contact_memory)
     push, confirmation = confirm(
         estimators.confirmation,
         memory.confirmation,
