@@ -168,10 +168,6 @@ def no_noise(model: ChannelModel) -> Drift:
     return ZERO if isinstance(model, (WhiteNoise, AttitudeNoise)) else start_drift(model)
 
 
-def _rows(value: ArrayLike, count: int) -> Array:
-    return np.broadcast_to(array(value), (count, 3))
-
-
 def _sensor_axes(turn: Array) -> Array:
     """Axes (3 × 3, rows) of a sensor rotated by a rotation vector; exactly the body's for a zero vector."""
     return np.array(rotation_from_quaternion(quaternion_from_rotation_vector(vec3(turn)))).T
@@ -196,8 +192,8 @@ def sensor_model(grade: SensorGrade, interval: float, count: int | None = None) 
         interval: time from sample to sample [s].
         count: number of quadrotors; None for a single sensor.
     """
-    A = np.array([_sensor_axes(turn) for turn in _rows(grade.misalignment, count or 1)])
-    bias = _rows(grade.bias, count or 1)
+    turns, bias = (np.broadcast_to(array(value), (count or 1, 3)) for value in (grade.misalignment, grade.bias))
+    A = np.array([_sensor_axes(turn) for turn in turns])
     return SensorModel(
         Mat3(*[vec3(A[0, i]) if count is None else spread(A[:, i]) for i in range(3)]),
         vec3(bias[0]) if count is None else spread(bias),
